@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse around the simulated world: layouts, tracking, names. Imports no rospy."""
