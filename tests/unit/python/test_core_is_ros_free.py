@@ -5,7 +5,9 @@ import pathlib
 import re
 
 PACKAGE = pathlib.Path(__file__).parents[3] / "src" / "kiva_plugin_cpp"
-ROS_INCLUDE = re.compile(r'^\s*#\s*include\s*[<"](ros|tf2?(_\w+)?|\w+_(msgs|srvs)|dynamic_reconfigure)/', re.M)
+ROS_INCLUDE = re.compile(
+    r'^\s*#\s*include\s*[<"](ros|tf2?(_\w+)?|\w+_(msgs|srvs)|dynamic_reconfigure)/', re.M
+)
 
 
 def test_core_includes_no_ros():

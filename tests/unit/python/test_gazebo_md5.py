@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gazebo's clients connect only where the md5 sum of a type is the one they were built with."""
 
+import pytest
+
 import gazebo_msgs.msg
 import gazebo_msgs.srv
-import pytest
 
 # Of gazebo_ros_pkgs 2.9.2, computed with genmsg.
 MESSAGES = {
