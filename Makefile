@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+# What a person types. Each target is one line; what needs more is in scripts/.
+SHELL := /bin/bash
+.SHELLFLAGS := -ec
+.DEFAULT_GOAL := help
+.PHONY: help run demo test build deps bench lint format install clean
+
+# Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
+export PATH := /usr/sbin:/usr/bin:/sbin:/bin
+unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MAKEFLAGS MAKELEVEL
+
+JOBS ?= $(shell nproc)
+PREFIX ?= install
+DEVEL := . devel/setup.bash; exec
+
+help:  ## list the targets
+	@sed -nE 's/^([a-z]+):[^#]*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
+
+run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
+	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
+
+demo: build  ## watch a robot fetch a storage unit
+	@$(DEVEL) rosrun warehouse_sim demo.py $(ARGS)
+
+test: build lint  ## build and run every test; make test ARGS="-L unit" only those
+	@cmake --build build -j$(JOBS) --target tests
+	@scripts/test -j$(JOBS) $(ARGS)
+
+build: deps build/Makefile  ## compile everything but the tests
+	@cmake --build build -j$(JOBS)
+
+build/Makefile:
+	@cmake -B build -DBUILD_TESTS_BY_DEFAULT=OFF
+
+deps:  ## install the Debian packages that are missing
+	@scripts/deps
+
+bench: build  ## run the benchmarks
+	@[ -x bench/run ] || { echo "No benchmark yet: bench/run is missing."; exit; }; $(DEVEL) bench/run $(ARGS)
+
+lint: deps  ## check format and style
+	@scripts/lint
+
+format: deps  ## repair format and style
+	@scripts/lint --fix
+
+install: build  ## install into PREFIX (./install)
+	@cmake --install build --prefix $(PREFIX)
+
+clean:  ## remove what was built
+	@rm -rf build devel
