@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where items lie in their storage units."""
+
+import numpy as np
+
+# Upper faces of the boards of models/storage_unit [m].
+BOARDS = np.array([0.46, 0.81, 1.16, 1.51])
+
+# Items measure 0.20 x 0.15 m; so placed they clear each other, the posts and the board's edge.
+PLACES = np.array([(x, y) for y in (-0.27, -0.09, 0.09, 0.27) for x in (-0.24, 0.0, 0.24)])
+
+CAPACITY = len(BOARDS) * len(PLACES)
+
+
+def spread(items, units):
+    """Lays `items` items on `units` storage units, as evenly as they go.
+
+    Returns the unit of each item, (items,) indices, and its place in that unit's frame,
+    (items, 3) [m]. At most CAPACITY items lie on a unit.
+    """
+    if not items:
+        return np.zeros(0, int), np.zeros((0, 3))
+    unit = np.arange(items) % units
+    layer, board = np.divmod(np.arange(items) // units, len(BOARDS))
+    # 5 and 12 share no divisor: each board's places come once before any comes again, and not
+    # in a row. The other terms only keep units and boards from looking alike.
+    place = (5 * layer + 3 * board + 7 * unit) % len(PLACES)
+    return unit, np.column_stack([PLACES[place], BOARDS[board]])

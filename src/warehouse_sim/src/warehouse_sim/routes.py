@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ways over the grid, and the `/mov` commands that follow them."""
+
+import heapq
+import math
+from collections import deque
+
+STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))
+
+# Stopping, a quarter turn and setting off again take about as long as two cells at full speed.
+TURN_COST = 2.0
+
+
+class NoRouteError(ValueError):
+    """There is no way from start to goal; the message names both."""
+
+
+class Grid:
+    """Grid points a robot may stand on: those of the floor that nothing blocks.
+
+    `floor` is a rectangle min_x … max_y [m]; `blocked` holds grid points (x, y), whole metres.
+    """
+
+    def __init__(self, floor, blocked=()):
+        self.x = range(math.ceil(floor.min_x), math.floor(floor.max_x) + 1)
+        self.y = range(math.ceil(floor.min_y), math.floor(floor.max_y) + 1)
+        self.blocked = {point(p) for p in blocked}
+
+    def free(self, p):
+        return p[0] in self.x and p[1] in self.y and p not in self.blocked
+
+    def neighbours(self, p):
+        """Free grid points one step away."""
+        around = ((p[0] + dx, p[1] + dy) for dx, dy in STEPS)
+        return [q for q in around if self.free(q)]
+
+
+def point(p):
+    """The grid point (int, int) nearest to a position (x, y, …) [m]."""
+    return round(p[0]), round(p[1])
+
+
+def covered(x, y, yaw, length, width):
+    """Grid points whose cells a rectangle reaches into: centre [m], heading [rad], extents [m]."""
+    c, s = abs(math.cos(yaw)), abs(math.sin(yaw))
+    reach_x = (length * c + width * s) / 2 + 0.5 - 1e-9
+    reach_y = (length * s + width * c) / 2 + 0.5 - 1e-9
+    return [(i, j) for i in _between(x, reach_x) for j in _between(y, reach_y)]
+
+
+def _between(centre, reach):
+    return range(math.ceil(centre - reach), math.floor(centre + reach) + 1)
+
+
+def reachable(grid, starts, neighbours=None):
+    """All grid points reached from `starts` (which themselves need not be free)."""
+    neighbours = neighbours or grid.neighbours
+    seen = {point(p) for p in starts}
+    queue = deque(seen)
+    while queue:
+        new = [q for q in neighbours(queue.popleft()) if q not in seen]
+        seen.update(new)
+        queue.extend(new)
+    return seen
+
+
+def route(grid, start, goal):
+    """Grid points from start to goal, both included: short, with few turns.
+
+    Dijkstra (1959) over points and headings. The start may be blocked, for there the robot
+    stands. Raises NoRouteError.
+    """
+    start, goal = point(start), point(goal)
+    queue, came_from = [(0.0, start, None, None)], {}
+    while queue:
+        cost, here, step, before = heapq.heappop(queue)
+        if (here, step) in came_from:
+            continue
+        came_from[here, step] = before
+        if here == goal:
+            return _walk_back(came_from, (here, step))
+        for there in grid.neighbours(here):
+            ahead = (there[0] - here[0], there[1] - here[1])
+            turn = TURN_COST if step not in (None, ahead) else 0.0
+            heapq.heappush(queue, (cost + 1 + turn, there, ahead, (here, step)))
+    raise NoRouteError(f"no way from {start} to {goal}")
+
+
+def _walk_back(came_from, node):
+    points = []
+    while node:
+        points.append(node[0])
+        node = came_from[node]
+    return points[::-1]
+
+
+def corners(points):
+    """The points where a route turns, and its end."""
+    turns = [
+        b
+        for a, b, c in zip(points, points[1:], points[2:])
+        if (b[0] - a[0], b[1] - a[1]) != (c[0] - b[0], c[1] - b[1])
+    ]
+    return turns + points[-1:] if len(points) > 1 else []
+
+
+def goals(points):
+    """The fewest `/mov` goals that follow a route: each goes along x first, then along y."""
+    ends = corners(points)
+    kept, here = [], points[0]
+    for end, after in zip(ends, ends[1:] + [None]):
+        # A leg along x is left to the goal of the leg along y that follows it.
+        if end[1] != here[1] or after is None:
+            kept.append(end)
+        here = end
+    return kept
+
+
+def elbow(start, goal):
+    """The grid points a single `/mov` passes from start to goal, both included."""
+    (x0, y0), (x1, y1) = point(start), point(goal)
+    along_x = [(x, y0) for x in _count(x0, x1)]
+    return along_x + [(x1, y) for y in _count(y0, y1)][1:]
+
+
+def _count(a, b):
+    return range(a, b + 1) if b >= a else range(a, b - 1, -1)

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The floor plan: nothing overlaps, and whatever a robot may want to reach it can."""
+
+import itertools
+import math
+import random
+
+import numpy as np
+import pytest
+
+from warehouse_sim.items import BOARDS, CAPACITY, PLACES, spread
+from warehouse_sim.layout import plan
+from warehouse_sim.request import LIMITS, PRESETS, resolve
+from warehouse_sim.routes import Grid, covered, point, reachable
+
+BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
+
+
+def random_counts(seed):
+    draw = random.Random(seed)
+    shelves = draw.choice([0, 1, 2, 3, 7, 25, 130, 777])
+    items = draw.randint(0, shelves * CAPACITY)
+    return {"robots": draw.choice([0, 1, 2, 5, 33, 210]), "shelves": shelves, "items": items}
+
+
+REQUESTS = {name: resolve(name) for name in PRESETS} | {
+    f"random{seed}": resolve("", **random_counts(seed))
+    for seed in range(40)
+    if any(random_counts(seed).values())
+}
+
+
+@pytest.fixture(scope="module", params=REQUESTS, ids=str)
+def case(request):
+    return REQUESTS[request.param], plan(REQUESTS[request.param])
+
+
+def belt_cells(layout):
+    return [p for belt in layout.belts for p in covered(*belt, *BELT)]
+
+
+def all_cells(layout):
+    """Cells in which something stands or is put down; none may be taken twice."""
+    return [
+        *map(point, layout.robots),
+        *map(point, layout.units),
+        *map(point, layout.drops),
+        *belt_cells(layout),
+    ]
+
+
+def street_steps(layout):
+    """Directed steps along the streets, as {point: [points]}."""
+    steps = {}
+    for street in layout.streets:
+        points = [point(p) for p in street.points]
+        for a, b in itertools.pairwise(points):
+            steps.setdefault(a, []).append(b)
+    return steps
+
+
+def test_counts(case):
+    request, layout = case
+    assert len(layout.robots) == request.robots
+    assert len(layout.units) == request.shelves
+    assert len(layout.item_place) == len(layout.item_unit) == request.items
+    assert len(layout.belts) == len(layout.drops) == request.belts
+
+
+def test_robots_units_and_drop_points_stand_on_the_grid(case):
+    for points in (case[1].robots[:, :2], case[1].units, case[1].drops):
+        assert np.array_equal(points, np.round(points))
+
+
+def test_floor_holds_whole_cells_about_the_origin(case):
+    floor = case[1].floor
+    edges = np.array([floor.min_x, floor.max_x, floor.min_y, floor.max_y])
+    assert np.array_equal((edges - 0.5) % 1, np.zeros(4))
+    assert max(map(abs, floor.centre)) <= 0.5
+
+
+def test_everything_stands_on_the_floor(case):
+    grid = Grid(case[1].floor)
+    assert [p for p in all_cells(case[1]) if not grid.free(p)] == []
+
+
+def test_no_cell_is_taken_twice(case):
+    cells = all_cells(case[1])
+    assert len(set(cells)) == len(cells)
+
+
+def test_streets_are_clear(case):
+    streets = {point(p) for street in case[1].streets for p in street.points}
+    assert streets.isdisjoint(all_cells(case[1]))
+
+
+def test_belts_begin_a_hands_width_beyond_the_drop_points_cell(case):
+    layout = case[1]
+    start = layout.belts[:, 0] - BELT[0] / 2
+    assert start == pytest.approx(layout.drops[:, 0] + 0.5 + 0.1)
+    assert np.array_equal(layout.belts[:, 1], layout.drops[:, 1])
+
+
+def test_parked_robots_face_a_street(case):
+    layout = case[1]
+    streets = {point(p) for street in layout.streets for p in street.points}
+    ahead = [point((x, y + math.copysign(1, yaw))) for x, y, yaw in layout.robots]
+    assert set(ahead) <= streets
+    assert set(np.abs(layout.robots[:, 2])) <= {math.pi / 2}
+
+
+def test_a_robot_without_load_reaches_every_unit_and_drop_point(case):
+    layout = case[1]
+    grid = Grid(layout.floor, belt_cells(layout) + list(layout.robots))
+    wanted = {*map(point, layout.units), *map(point, layout.drops)}
+    for robot in layout.robots[:: max(1, len(layout.robots) // 5)]:
+        assert wanted <= reachable(grid, [robot])
+
+
+def test_a_loaded_robot_reaches_every_drop_point_from_every_unit(case):
+    layout = case[1]
+    blocked = belt_cells(layout) + list(layout.robots) + list(layout.units)
+    grid = Grid(layout.floor, blocked)
+    for drop in layout.drops[:3]:
+        from_drop = reachable(grid, [drop])
+        assert set(map(point, layout.drops)) <= from_drop
+        for unit in layout.units:
+            assert any(q in from_drop for q in grid.neighbours(point(unit)))
+
+
+def test_one_way_streets_lead_everywhere(case):
+    layout = case[1]
+    onward = street_steps(layout)
+    if not onward:
+        return
+    back = {}
+    for a, b in ((a, b) for a, bs in onward.items() for b in bs):
+        back.setdefault(b, []).append(a)
+    first = next(iter(onward))
+    for steps in (onward, back):
+        reached = reachable(None, [first], lambda p, steps=steps: steps.get(p, []))
+        assert reached == onward.keys() | back.keys()
+
+
+def test_neighbouring_streets_are_opposed(case):
+    streets = case[1].streets
+    for axis in (0, 1):
+        ways = [s.direction[axis] for s in streets if s.direction[axis]]
+        pairs = list(itertools.pairwise(ways))
+        # Where the count is odd the outer two can only be opposed if one pair is not.
+        assert sum(a == b for a, b in pairs) <= len(ways) % 2
+
+
+def test_every_drop_point_is_at_a_streets_end(case):
+    ends = {point(e) for street in case[1].streets for e in (street.start, street.end)}
+    assert all(point((x - 1, y)) in ends for x, y in case[1].drops)
+
+
+def test_items_lie_clear_of_each_other_and_the_posts(case):
+    layout = case[1]
+    places = {(u, *np.round(p, 3)) for u, p in zip(layout.item_unit, layout.item_place)}
+    assert len(places) == len(layout.item_place)
+    assert set(layout.item_place[:, 2]) <= set(BOARDS)
+    assert np.all(np.abs(layout.item_place[:, :2]) + (0.10, 0.075) < 0.36)
+
+
+def test_places_on_a_board_are_wider_apart_than_an_item():
+    for a, b in itertools.combinations(PLACES, 2):
+        assert abs(a[0] - b[0]) > 0.20 or abs(a[1] - b[1]) > 0.15
+
+
+def test_items_spread_evenly():
+    unit, _ = spread(100, 24)
+    counts = np.bincount(unit, minlength=24)
+    assert counts.max() - counts.min() <= 1
+
+
+def test_a_full_unit_uses_every_place():
+    _, place = spread(CAPACITY, 1)
+    assert len({tuple(p) for p in place}) == CAPACITY
+
+
+def test_the_largest_warehouse_is_planned():
+    layout = plan(resolve("", **LIMITS))
+    assert len(layout.units) == LIMITS["shelves"]
+    assert max(layout.floor.size) / min(layout.floor.size) < 2
