@@ -3,6 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
+.NOTPARALLEL:
 .PHONY: help run demo test build deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
@@ -11,7 +12,9 @@ unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MA
 
 JOBS ?= $(shell nproc)
 PREFIX ?= install
-DEVEL := . devel/setup.bash; exec
+BUILD = cmake --build build -j$(JOBS) -- --no-print-directory
+# If make is killed, what it started still ends.
+DEVEL := . devel/setup.bash; exec setpriv --pdeathsig TERM
 
 help:  ## list the targets
 	@sed -nE 's/^([a-z]+):[^#]*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
@@ -23,11 +26,11 @@ demo: build  ## watch a robot fetch a storage unit
 	@$(DEVEL) rosrun warehouse_sim demo.py $(ARGS)
 
 test: build lint  ## build and run every test; make test ARGS="-L unit" only those
-	@cmake --build build -j$(JOBS) --target tests
+	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
 
 build: deps build/Makefile  ## compile everything but the tests
-	@cmake --build build -j$(JOBS)
+	@$(BUILD)
 
 build/Makefile:
 	@cmake -B build -DBUILD_TESTS_BY_DEFAULT=OFF
