@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Publishes the objects of one kind: a topic for each, and one for all of them."""
+
+import threading
+
+import numpy as np
+from geometry_msgs.msg import PoseStamped
+from std_msgs.msg import Header
+
+from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
+from warehouse_sim import poses, tracking
+from warehouse_sim.newest import Newest, OnDemand
+
+# Topics that come or go between two looks at what moved; each costs the master half a millisecond.
+BATCH = 200
+
+
+class PoseTopics:
+    """A latched topic `<prefix>/<name>/pose` for each of the first `limit` objects.
+
+    `advertise(topic)` returns something with publish(message) and unregister().
+    """
+
+    def __init__(self, prefix, advertise, limit):
+        self._prefix, self._advertise, self._limit = prefix, advertise, limit
+        self._topics = {}
+
+    def update(self, objects, moved, stamp):
+        """Publishes the poses that `moved` marks. True if topics are still to come or go."""
+        rows = {name: i for i, name in enumerate(objects.names[: self._limit])}
+        gone = [name for name in self._topics if name not in rows][:BATCH]
+        new = [name for name in rows if name not in self._topics][:BATCH]
+        for name in gone:
+            self._topics.pop(name).unregister()
+        for name in new:
+            self._topics[name] = self._advertise(f"{self._prefix}/{name}/pose")
+        known = [objects.names[i] for i in np.flatnonzero(moved[: self._limit])]
+        for name in {*new, *(name for name in known if name in self._topics)}:
+            pose = poses.message(objects.pose[rows[name]])
+            self._topics[name].publish(PoseStamped(Header(0, stamp, "world"), pose))
+        return BATCH in (len(gone), len(new))
+
+
+class ObjectList:
+    """The TrackedObjects message; only what changed since it was last asked for is made anew."""
+
+    def __init__(self):
+        self._lock = threading.Lock()
+        self._objects, self._stamp = tracking.Tracked(), None
+        self._messages, self._stale = [], np.zeros(0, bool)
+
+    def update(self, objects, changed, stamp):
+        with self._lock:
+            if len(changed) != len(self._stale):
+                self._messages = [None] * len(changed)
+                self._stale = np.ones(len(changed), bool)
+            self._objects, self._stale, self._stamp = objects, self._stale | changed, stamp
+
+    def message(self):
+        """None before the first update."""
+        with self._lock:
+            if self._stamp is None:
+                return None
+            for i in np.flatnonzero(self._stale):
+                self._messages[i] = self._objects.message(i)
+            self._stale[:] = False
+            return TrackedObjects(Header(0, self._stamp, "world"), list(self._messages))
+
+
+class Tracker:
+    """Follows one kind of object; `kind` is tracking.items or tracking.storage_units."""
+
+    def __init__(self, kind, pose_topics):
+        self._kind, self._pose_topics = kind, pose_topics
+        self._last, self._list = None, ObjectList()
+        self.message = self._list.message
+
+    def update(self, objects, states):
+        """Takes the newest messages in. Returns whether the list changed, and if work is left."""
+        new, old = self._kind(objects, states), self._last or tracking.Tracked()
+        moved, changed = tracking.moved(old, new), tracking.changed(old, new)
+        differs = self._last is None or changed.any() or len(old.names) != len(new.names)
+        stamp = max(objects.header.stamp, states.header.stamp)
+        self._list.update(new, changed, stamp)
+        self._last = new
+        return bool(differs), self._pose_topics.update(new, moved, stamp)
+
+
+def follow(ros, kind, prefix):
+    """Until shutdown; the body of a tracking node. `ros` is rospy."""
+
+    def advertise(topic):
+        return ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
+
+    limit = ros.get_param("~max_topics", 30000)
+    tracker = Tracker(kind, PoseTopics(prefix, advertise, limit))
+    listing = OnDemand(ros, prefix, TrackedObjects, tracker.message)
+    newest = Newest(
+        ros,
+        objects=("/warehouse/objects", WarehouseObjects),
+        states=("/warehouse/unit_states", UnitStates),
+    )
+    work_left = False
+    while not ros.is_shutdown():
+        if not (newest.wait(0 if work_left else 0.2) or work_left):
+            continue
+        if newest.units_and_objects:
+            differs, work_left = tracker.update(*newest.units_and_objects)
+            if differs:
+                listing.publish()

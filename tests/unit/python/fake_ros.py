@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stands in for rospy where a test needs no master."""
+
+import rospy
+
+
+class Publisher:
+    """Remembers what was published."""
+
+    def __init__(self, topic, kind, subscriber_listener=None, **_):
+        self.topic, self.kind, self.listener = topic, kind, subscriber_listener
+        self.sent, self.listeners, self.open = [], 0, True
+
+    def publish(self, message):
+        assert isinstance(message, self.kind)
+        self.sent.append(message)
+
+    def connect(self):
+        """A subscriber comes."""
+        self.listeners += 1
+        self.listener.peer_subscribe(self.topic, self.publish, self.publish)
+
+    def get_num_connections(self):
+        return self.listeners
+
+    def unregister(self):
+        self.open = False
+
+
+class FakeRos:
+    """Publishers and callbacks by topic; parameters as given."""
+
+    Time = rospy.Time
+
+    def __init__(self, **parameters):
+        self.parameters = {f"~{name}": value for name, value in parameters.items()}
+        self.publishers, self.callbacks = {}, {}
+
+    def get_param(self, name, default):
+        return self.parameters.get(name, default)
+
+    def Publisher(self, topic, kind, **options):  # noqa: N802 (rospy's name)
+        self.publishers[topic] = Publisher(topic, kind, **options)
+        return self.publishers[topic]
+
+    def Subscriber(self, topic, kind, callback, callback_args=None, **_):  # noqa: N802
+        self.callbacks[topic] = lambda message: callback(message, callback_args)
