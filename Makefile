@@ -23,7 +23,7 @@ run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
 
 demo: build  ## watch a robot fetch a storage unit
-	@$(DEVEL) rosrun warehouse_sim demo.py $(ARGS)
+	@$(DEVEL) rosrun warehouse_sim demo $(ARGS)
 
 test: build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests
