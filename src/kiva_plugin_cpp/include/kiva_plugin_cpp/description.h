@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a world is made of, as plain structs: filled from SDF by world_file.h, or by hand, and
+// read once when a model is built. SI units and radians; poses are right-handed, z up (REP 103).
+#pragma once
+
+#include <ignition/math/Pose3.hh>
+#include <ignition/math/Vector3.hh>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/parameters.h"
+
+namespace kiva {
+
+using Pose = ignition::math::Pose3d;
+using Quaternion = ignition::math::Quaterniond;
+using Vector3 = ignition::math::Vector3d;
+
+/// A primitive, centred on its own origin; cylinders and capsules stand along z.
+struct Shape {
+  enum class Kind { kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane };
+  Kind kind = Kind::kBox;
+  Vector3 size{1, 1, 1};    ///< Box: full edge lengths [m]. Ellipsoid: the three radii [m].
+  double radius = 0.5;      ///< Sphere, cylinder, capsule [m].
+  double length = 1.0;      ///< Cylinder; capsule without its caps [m].
+  Vector3 normal{0, 0, 1};  ///< Plane: unit normal in its own frame.
+  double plane_size[2] = {100, 100};  ///< Plane: extent along x and y of its own frame [m].
+};
+
+/// A shape that touches.
+struct Collision {
+  std::string name;
+  Pose pose_in_link;
+  Shape shape;
+  double friction = 1.0;     ///< Coulomb coefficient; that of a contact is the product of both.
+  double restitution = 0.0;  ///< 0 = no bounce, 1 = all of it.
+};
+
+/// A shape that is only seen.
+struct Visual {
+  std::string name;
+  Pose pose_in_link;
+  Shape shape;
+  double rgba[4] = {0.7, 0.7, 0.7, 1.0};  ///< Each in 0…1.
+};
+
+struct Link {
+  std::string name;  ///< Links of a nested model are named `nested::link`.
+  Pose pose_in_model;
+  double mass = 1.0;                   ///< [kg], > 0.
+  Pose inertial_pose_in_link;          ///< Centre of mass, turned to the principal axes.
+  Vector3 principal_moments{1, 1, 1};  ///< About that centre, along those axes [kg m²].
+  bool gravity = true;
+  std::vector<Collision> collisions;
+  std::vector<Visual> visuals;
+};
+
+struct Joint {
+  enum class Kind { kFixed, kRevolute, kContinuous, kPrismatic };
+  std::string name;
+  Kind kind = Kind::kFixed;
+  std::string parent;  ///< A link's name, or "world".
+  std::string child;
+  Vector3 anchor_in_model;         ///< Where the joint sits with all joints at zero.
+  Vector3 axis_in_model{0, 0, 1};  ///< Unit vector with all joints at zero.
+  double lower = -1e16;            ///< [rad] or [m].
+  double upper = 1e16;             ///< [rad] or [m].
+  double max_effort = -1;          ///< [Nm] or [N]; negative = unlimited.
+  double max_velocity = -1;        ///< [rad/s] or [m/s]; negative = unlimited.
+  double damping = 0;              ///< [Nm s/rad] or [N s/m].
+  double friction = 0;             ///< Dry friction [Nm] or [N].
+};
+
+/// A `<plugin>` element of a model or a world.
+struct PluginDescription {
+  std::string name;
+  std::string filename;
+  Parameters parameters;
+};
+
+/// What a model is, wherever it stands and whatever it is called.
+struct ModelDescription {
+  bool is_static = false;
+  std::vector<Link> links;  ///< The first is the canonical link.
+  std::vector<Joint> joints;
+  std::vector<PluginDescription> plugins;
+  std::vector<std::string> nested_models;  ///< Names of the models inside, `a::b` for deeper ones.
+
+  const Link* findLink(const std::string& name) const {
+    for (const Link& link : links) {
+      if (link.name == name) return &link;
+    }
+    return nullptr;
+  }
+};
+
+/// A model with a name and a place. Instances of one file share their description.
+struct ModelInstance {
+  std::string name;
+  Pose pose;  ///< In world.
+  std::shared_ptr<const ModelDescription> description;
+};
+
+struct WorldDescription {
+  std::string name = "default";
+  Vector3 gravity{0, 0, -9.81};   ///< [m/s²]
+  double step_size = 0.001;       ///< [s], > 0.
+  double real_time_factor = 1.0;  ///< Simulated seconds a wall second; 0 = as fast as it goes.
+  std::vector<ModelInstance> models;
+  std::vector<PluginDescription> plugins;
+};
+
+}  // namespace kiva

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The Kiva robots as arrays: entry i of every array belongs to robot i. Indices are dense and
+// change when a robot is deleted; ids (the number in `kiva<id>`) do not.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/profile.h"
+
+namespace kiva {
+
+/// Values as in warehouse_msgs/KivaStatus.
+enum class Status : std::uint8_t { kIdle = 0, kBusy = 1, kBlocked = 2 };
+enum class State : std::uint8_t {
+  kIdle = 0,
+  kMovingX = 1,
+  kMovingY = 2,
+  kRotating = 3,
+  kLifting = 4,
+  kBlocked = 5
+};
+
+/// How a robot's drive is modelled.
+enum class Drive : std::uint8_t {
+  kTraction,  ///< Planar chassis, two wheel speeds, Coulomb friction at the wheels.
+  kJointed    ///< Wheel joints and floor contacts in Bullet.
+};
+
+struct DriveParameters {
+  Drive drive = Drive::kTraction;
+  double speed = 1.5;         ///< [m/s], > 0.
+  double acceleration = 1.0;  ///< [m/s²]; 0 = speed changes at once, grip and motors unlimited.
+  double emergency_deceleration = 2.5;  ///< [m/s²], when a normal stop would come too late.
+  double wheel_radius = 0.1;            ///< [m]
+  double wheel_separation = 0.52;       ///< Between the wheels' centres [m].
+  double wheel_inertia = 0.03;          ///< Of one wheel with its motor, about its axle [kg m²].
+  double motor_torque = 90.0;           ///< Limit of one motor at its wheel [Nm].
+  double friction = 0.8;                ///< Coulomb coefficient between wheel and floor.
+  double drive_wheel_load = 0.8;  ///< Share of the weight on the driven wheels; casters: the rest.
+  double quarter_turn_time = 0.625;  ///< For 90° from rest to rest [s]; 0 = at once.
+};
+
+struct LiftParameters {
+  bool fitted = false;
+  double height = 0.10;     ///< Stroke of the tower [m].
+  double time = 2.2;        ///< For the whole stroke [s]; 0 = at once.
+  double max_load = 450.0;  ///< [kg]
+  double proximity = 0.1;   ///< Largest distance between the centres of robot and unit [m].
+};
+
+struct LaserParameters {
+  bool fitted = false;
+  int rays = 121;
+  double min_angle = -1.0471975511965976;  ///< [rad], 0 = ahead, counterclockwise.
+  double max_angle = 1.0471975511965976;   ///< [rad]
+  double min_range = 0.01;                 ///< [m]
+  double max_range = 5.0;                  ///< [m]
+  double rate = 10.0;                      ///< [Hz] of simulated time.
+  double x = 0.38;                         ///< Of the sensor, in the chassis frame [m].
+  double z = 0.2;                          ///< Above the floor [m].
+};
+
+/// One thing a robot does at a time; a command is a row of them.
+struct Leg {
+  enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
+  Kind kind = Kind::kTurn;
+  double x = 0;                    ///< Drive: where it ends, in world [m].
+  double y = 0;                    ///< Drive [m].
+  double yaw = 0;                  ///< Turn, drive: heading in world, unwrapped [rad].
+  bool reverse = false;            ///< Drive: backwards, against the heading.
+  bool on_grid = true;             ///< Drive: along a grid line.
+  int unit = -1;                   ///< Raise, lower: index of the storage unit.
+  State state = State::kRotating;  ///< What the robot reports meanwhile.
+};
+
+/// What is asked once and read seldom.
+struct Robot {
+  std::string name;
+  int id = 0;
+  int model = -1;               ///< Index in the world's models.
+  double mass = 145;            ///< Without load [kg].
+  double inertia = 12;          ///< About z through the centre, without load [kg m²].
+  double half_length = 0.38;    ///< Of the chassis, along its x axis [m].
+  double half_width = 0.32;     ///< [m]
+  double height = 0.40;         ///< Of its highest point above the floor, tower down [m].
+  double load_mass = 0;         ///< [kg]
+  double load_inertia = 0;      ///< About z through the robot's centre [kg m²].
+  double load_half_length = 0;  ///< Of what it carries, along the chassis' x axis [m].
+  double load_half_width = 0;   ///< [m]
+  DriveParameters drive;
+  LiftParameters lift;
+  LaserParameters laser;
+  bool has_motion = false;
+  bool has_rotation = false;
+  std::deque<Leg> legs;  ///< Those of the current command, the first under way.
+  bool leg_started = false;
+  Profile profile;           ///< Of the current leg: [m] along the heading, [rad], or [m] of tower.
+  double goal = 0;           ///< Where the profile is to end.
+  double deceleration = 1;   ///< With which it is to end.
+  double overdue = 0;        ///< Since the profile ended without the robot being there [s].
+  bool look_now = false;     ///< A leg begins: look ahead before it drives off.
+  double seen_distance = 0;  ///< What the laser saw last on this leg [m], 0 = nothing yet,
+  double seen_from = 0;      ///< from where on the leg [m],
+  int seen_model = -1;       ///< and what it was.
+  bool stopping = false;     ///< The command is ending in BLOCKED, as soon as the robot stands.
+  bool halting = false;      ///< The same, with locked wheels.
+  std::string blocked_by;    ///< A model's name, or empty.
+  std::string blocked_reason;  ///< Why, for a person.
+};
+
+/// Positions in world [m, rad], velocities in world [m/s, rad/s] unless said otherwise.
+struct Fleet {
+  std::vector<double> x, y, yaw;  ///< Yaw is unwrapped: it counts full turns.
+  std::vector<double> vx, vy, yaw_rate;
+  std::vector<double> wheel_speed[2];   ///< Left, right [rad/s].
+  std::vector<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
+  std::vector<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
+  std::vector<double> tower;            ///< Height of the tower above its rest [m].
+  std::vector<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
+  std::vector<Status> status;
+  std::vector<State> state;
+  std::vector<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
+  std::vector<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
+  std::vector<std::uint64_t> look_again;  ///< Step at which something could have come near.
+  std::vector<Robot> robots;
+
+  int size() const { return static_cast<int>(robots.size()); }
+  /// Index of the robot with that id, -1 if there is none.
+  int find(int id) const {
+    return id > 0 && id < static_cast<int>(index_of_id.size()) ? index_of_id[id] : -1;
+  }
+
+  std::vector<std::int32_t> index_of_id;  ///< -1 where no robot has that id.
+
+  /// Appends a robot at rest and returns its index.
+  int add(Robot robot, double x, double y, double yaw);
+  /// Removes robot `i`; the last one takes its index.
+  void remove(int i);
+};
+
+constexpr int kMaxKivaId = 1000000;
+
+}  // namespace kiva

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace kiva {
+
+/// A description that can't be built; the message names file, entity, field and what was expected.
+class DescriptionError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The parameters of one plugin: the text of each child element of its SDF `<plugin>`.
+///
+/// Nested elements are reached by a path, `pose/x`. A getter checks type and range at once; what
+/// nobody asked for is found by `rejectUnread`, so that a misspelt parameter is an error.
+class Parameters {
+ public:
+  Parameters() = default;
+  /// `where` is put before every error, as `model 'kiva', plugin 'motion'`.
+  explicit Parameters(std::string where) : where_(std::move(where)) {}
+
+  void set(const std::string& key, const std::string& text) { values_[key] = text; }
+  bool has(const std::string& key) const { return values_.count(key) != 0; }
+  const std::map<std::string, std::string>& values() const { return values_; }
+  const std::string& where() const { return where_; }
+
+  /// The number at `key`, or `fallback`. Throws DescriptionError unless lower <= it <= upper.
+  double number(const std::string& key, double fallback, double lower, double upper) const;
+  /// The same for a whole number.
+  int whole(const std::string& key, int fallback, int lower, int upper) const;
+  std::string text(const std::string& key, const std::string& fallback) const;
+
+  /// Throws DescriptionError if a key was never asked for, and lists those that were.
+  void rejectUnread() const;
+
+ private:
+  const std::string* find(const std::string& key) const;
+
+  std::string where_;
+  std::map<std::string, std::string> values_;
+  mutable std::set<std::string> read_;
+};
+
+}  // namespace kiva

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A user's own plugin: derive one class from Plugin in a library, register it, and name the
+// library's file in an SDF `<plugin filename="lib….so">` of a model or a world:
+//
+//   #include <ignition/plugin/Register.hh>
+//   class Mine : public kiva::Plugin { … };
+//   IGNITION_ADD_PLUGIN(Mine, kiva::Plugin)
+//
+// Libraries are searched in the folders of KIVA_PLUGIN_PATH, then where the dynamic linker looks.
+#pragma once
+
+#include <string>
+
+#include "kiva_plugin_cpp/parameters.h"
+
+namespace kiva {
+
+class World;
+
+/// What a plugin wants goes into beforeStep, what it sees comes from afterStep.
+class Plugin {
+ public:
+  virtual ~Plugin() = default;
+
+  /// Once, when its model stands in the world. `model` is that model's name, empty for a plugin of
+  /// the world. Throw to refuse the model; keys of `parameters` that nobody read refuse it too.
+  virtual void load(World& world, const std::string& model, const Parameters& parameters) = 0;
+
+  /// Before each physics step of `dt` seconds: command, apply forces.
+  virtual void beforeStep(World& /*world*/, double /*dt*/) {}
+
+  /// After it: observe.
+  virtual void afterStep(const World& /*world*/, double /*dt*/) {}
+};
+
+}  // namespace kiva

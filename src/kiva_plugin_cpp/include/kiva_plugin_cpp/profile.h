@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace kiva {
+
+/// A reference that goes to a target with limited speed and acceleration and stands there.
+///
+/// The target and the deceleration may change at any step, so that a robot can be told to stop
+/// earlier than planned. Positions and speeds are of one axis, in [m, m/s] or [rad, rad/s].
+struct Profile {
+  double position = 0;
+  double speed = 0;
+
+  /// One step of `dt` towards `target`. `acceleration` 0: at full speed at once, and at rest at
+  /// once. `deceleration` is what the end of the run is planned with.
+  void advance(double target, double top_speed, double acceleration, double deceleration,
+               double dt) {
+    const double distance = std::abs(target - position);
+    const double sign = target < position ? -1 : 1;
+    double next = top_speed;
+    if (acceleration > 0) {
+      next = std::min(next, sign * speed + acceleration * dt);
+      next = std::min(next, std::max(stoppingSpeed(distance, deceleration, dt),
+                                     sign * speed - deceleration * dt));
+    }
+    next = std::clamp(next, 0.0, distance / dt);
+    speed = sign * next;
+    position += speed * dt;
+    if (distance <= next * dt) position = target;
+  }
+
+  bool reached(double target) const { return position == target; }
+
+  /// The highest speed now from which steps of constant deceleration end on `distance`:
+  /// v²/(2a) + v·dt/2 = distance, the sum of the steps' lengths.
+  static double stoppingSpeed(double distance, double deceleration, double dt) {
+    const double half = 0.5 * deceleration * dt;
+    return -half + std::sqrt(half * half + 2 * deceleration * distance);
+  }
+};
+
+}  // namespace kiva

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The warehouse world: Bullet bodies, the fleet, storage units and items, stepped in lockstep.
+//
+//   kiva::World world(kiva::loadWorld("worlds/empty.sdf", {"worlds/models"}));
+//   world.spawn(...); world.post(...); world.step();
+//
+// One thread at a time; nothing here knows of ROS, wall time or logging.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/command.h"
+#include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/fleet.h"
+
+namespace kiva {
+
+/// What a model is to the warehouse; told by its name (`kiva1`, `storage_unit1`, `item1`,
+/// `conveyor_belt1`) and, for robots, by the motion plugin.
+enum class ModelKind : std::uint8_t { kRobot, kStorageUnit, kItem, kBelt, kFloor, kOther };
+
+struct Twist {
+  Vector3 linear;   ///< [m/s], in world.
+  Vector3 angular;  ///< [rad/s], in world.
+};
+
+struct EntityState {
+  Pose pose;  ///< In world.
+  Twist twist;
+};
+
+/// A storage unit: stands on the floor, or on the tower of its carrier.
+struct StorageUnit {
+  std::string name;
+  int id = 0;
+  int model = -1;
+  double mass = 0;       ///< With its items [kg].
+  int carrier = -1;      ///< Index of the robot that carries it, -1 = none.
+  int claimed_by = -1;   ///< Index of the robot that is about to, -1 = none.
+  Pose pose_on_carrier;  ///< In the carrier's tower frame, while it is carried.
+};
+
+/// An item: fixed to its storage unit, or a body of its own where no unit was when it came.
+struct Item {
+  std::string name;
+  int id = 0;
+  int model = -1;
+  int unit = -1;  ///< Index of its storage unit, -1 = none.
+  Pose pose_in_unit;
+  double mass = 0;  ///< [kg]
+};
+
+/// The floor that robots may stand on: a rectangle along the axes of `world` [m].
+struct Floor {
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+};
+
+/// One robot's status at the moment when it changed.
+struct StatusChange {
+  double time = 0;
+  int kiva_id = 0;
+  Status status = Status::kIdle;
+  State state = State::kIdle;
+  int shelf_id = 0;  ///< 0 = none.
+  double x = 0, y = 0, yaw = 0;
+};
+
+struct WorldOptions {
+  std::uint64_t seed = 1;      ///< Of everything random.
+  std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
+};
+
+class World {
+ public:
+  /// Builds every model and plugin. Throws DescriptionError.
+  explicit World(const WorldDescription& description, const WorldOptions& options = {});
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  // --- time
+  void step();
+  double time() const;  ///< Simulated [s]: steps() * stepSize() since the last reset of time.
+  std::uint64_t steps() const;
+  double stepSize() const;         ///< [s]
+  const Vector3& gravity() const;  ///< [m/s²]
+  const std::string& name() const;
+  /// Everything back to where it was spawned, at rest, tower down, without commands; units and
+  /// items too. Time goes back to 0 as well if `time_too`.
+  void reset(bool time_too);
+
+  // --- commands
+  /// Queued; answered by an ACCEPTED or REFUSED event at the next step.
+  void post(const Command& command);
+
+  // --- models
+  /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already
+  /// exists"), a plugin is unknown or a parameter is wrong. Never half a model.
+  void spawn(const ModelInstance& instance);
+  /// All of them, or none: what was already spawned is removed again before the error goes on.
+  void spawn(const std::vector<ModelInstance>& instances);
+  /// A carried unit is put down if its carrier goes; a unit's items go with their unit.
+  /// Returns false if there is no such model.
+  bool remove(const std::string& name);
+  bool has(const std::string& name) const;
+  /// In the order in which they came.
+  std::vector<std::string> modelNames() const;
+  ModelKind kind(const std::string& name) const;
+  /// Counts up whenever a model comes or goes.
+  std::uint64_t modelsRevision() const;
+  /// Nothing if there is no such model. `link` empty: the model itself (its canonical link's
+  /// twist).
+  std::optional<EntityState> state(const std::string& model, const std::string& link = "") const;
+  std::shared_ptr<const ModelDescription> description(const std::string& model) const;
+  /// Moves a model and everything fixed to it, at that velocity. Returns false if there is no such
+  /// model.
+  bool setState(const std::string& model, const EntityState& state);
+  /// All models at once, in the order of modelNames().
+  void states(std::vector<EntityState>* out) const;
+  /// For the next step only. Returns false if there is no such link or it does not move.
+  bool applyWrench(const std::string& model, const std::string& link, const Vector3& force,
+                   const Vector3& torque);
+
+  // --- the warehouse
+  const Fleet& fleet() const;
+  const std::vector<StorageUnit>& storageUnits() const;
+  const std::vector<Item>& items() const;
+  Pose storageUnitPose(int unit) const;  ///< In world.
+  Pose itemPose(int item) const;         ///< In world.
+  Pose basePose(int robot) const;        ///< Of the chassis on the floor, in world.
+  /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
+  std::uint64_t unitsRevision() const;
+  const Floor& floor() const;
+  double gridSpacing() const;  ///< [m]
+
+  // --- sensing
+  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117).
+  void scan(int robot, std::vector<float>* ranges) const;
+  /// Whether robot's scan is due at this step; scans are staggered over the fleet.
+  bool scanDue(int robot) const;
+  /// Distance [m] from a point in world, level, in the direction `yaw`, to the first body that
+  /// stands on the floor; +inf = none within `range`.
+  double rayCast(const Vector3& from, double yaw, double range) const;
+
+  // --- what happened since the last call
+  std::vector<Event> takeEvents();
+  std::vector<StatusChange> takeStatusChanges();
+
+  /// The parts, for the plugins that come with the world; see src/core/parts.h.
+  struct Parts;
+  Parts& parts() { return *parts_; }
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace kiva

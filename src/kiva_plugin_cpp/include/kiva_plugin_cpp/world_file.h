@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// SDF (1.x) to description, checked whole before anything is built from it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+/// Where `model://name` is looked up: folders that hold `name/model.config`, first match wins.
+using ModelPaths = std::vector<std::string>;
+
+/// A world read from the file at `path`.
+/// Throws DescriptionError that names file, line where libsdformat knows it, entity and cause.
+/// `warnings`, if given, receives what was left out or looks wrong without being an error.
+WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
+                           std::vector<std::string>* warnings = nullptr);
+
+/// The same from SDF text; `where` stands in for the file's name in errors.
+WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
+                            const std::string& where, std::vector<std::string>* warnings = nullptr);
+
+/// The models of a spawn request: `<sdf><model>`, or `<sdf><world>` with one or more models or
+/// includes, each with the name and pose that the document gives it. Throws DescriptionError.
+/// Equal texts share their descriptions through a cache, so that a thousand equal robots are
+/// parsed once.
+std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
+                                       const std::string& where,
+                                       std::vector<std::string>* warnings = nullptr);
+
+}  // namespace kiva

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "collisions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kApart = 0.0005;  // [m]
+constexpr double kForget = 0.1;    // [s]: a contact that returns within is the same one
+
+bool isHandled(const Model& model) {
+  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
+}
+
+/// The robot that is in that contact: the model itself, or who carries it. -1 = none.
+int robotIn(const Parts& parts, const Model& model) {
+  if (model.kind == ModelKind::kRobot) return model.index;
+  if (model.kind == ModelKind::kStorageUnit) return parts.units[model.index].carrier;
+  return -1;
+}
+
+bool isCollision(const Parts& parts, const Contact& contact) {
+  const Model& a = *parts.models[contact.model_a];
+  const Model& b = *parts.models[contact.model_b];
+  if (a.kind == ModelKind::kFloor || b.kind == ModelKind::kFloor) return false;
+  if (!isHandled(a) && !isHandled(b)) return false;
+  const int robot_a = robotIn(parts, a);
+  return robot_a < 0 || robot_a != robotIn(parts, b);
+}
+
+bool areApart(const Parts& parts, const TouchingPair& pair) {
+  for (const Outline& a : parts.models[pair.model_a]->outlines) {
+    for (const Outline& b : parts.models[pair.model_b]->outlines) {
+      const Footprint& fa = parts.obstacles[a.handle];
+      const Footprint& fb = parts.obstacles[b.handle];
+      const bool level = fa.z_min <= fb.z_max && fb.z_min <= fa.z_max;
+      if (level && gap(fa, fb) < kApart) return false;
+    }
+  }
+  return true;
+}
+
+void halt(Parts& parts, const Model& model, const Model& other) {
+  const int robot = robotIn(parts, model);
+  if (robot >= 0) haltRobot(parts, robot, other.name, "collision with " + other.name);
+}
+
+void begin(Parts& parts, const Contact& contact) {
+  Model* a = parts.models[contact.model_a].get();
+  Model* b = parts.models[contact.model_b].get();
+  if (robotIn(parts, *a) < 0) std::swap(a, b);
+  parts.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name);
+  halt(parts, *a, *b);
+  halt(parts, *b, *a);
+}
+
+void touch(Parts& parts, const Contact& contact) {
+  for (int slot : {contact.model_a, contact.model_b}) {
+    Model& model = *parts.models[slot];
+    if (model.kind == ModelKind::kStorageUnit && parts.units[model.index].carrier < 0) {
+      model.disturbed = true;
+    }
+  }
+  for (TouchingPair& pair : parts.touching) {
+    if (pair.model_a != contact.model_a || pair.model_b != contact.model_b) continue;
+    pair.last_step = parts.total_steps;
+    return;
+  }
+  parts.touching.push_back({contact.model_a, contact.model_b, parts.total_steps});
+  begin(parts, contact);
+}
+
+}  // namespace
+
+void reportCollisions(Parts& parts) {
+  if (parts.engaged.empty() && parts.touching.empty()) return;
+  parts.physics.contacts(&parts.contacts);
+  for (const Contact& contact : parts.contacts) {
+    if (isCollision(parts, contact)) touch(parts, contact);
+  }
+  const auto keep = static_cast<std::uint64_t>(std::ceil(kForget / parts.dt));
+  const auto over = [&](const TouchingPair& pair) {
+    return pair.last_step + keep < parts.total_steps && areApart(parts, pair);
+  };
+  parts.touching.erase(std::remove_if(parts.touching.begin(), parts.touching.end(), over),
+                       parts.touching.end());
+}
+
+void forgetContacts(Parts& parts, int slot) {
+  const auto has = [slot](const TouchingPair& pair) {
+    return pair.model_a == slot || pair.model_b == slot;
+  };
+  parts.touching.erase(std::remove_if(parts.touching.begin(), parts.touching.end(), has),
+                       parts.touching.end());
+}
+
+}  // namespace kiva

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "parts.h"
+
+namespace kiva {
+
+/// Reports each contact that should not be once, when it begins, and stops the robots in it.
+void reportCollisions(Parts& parts);
+/// Forgets a model that is going.
+void forgetContacts(Parts& parts, int slot);
+
+}  // namespace kiva

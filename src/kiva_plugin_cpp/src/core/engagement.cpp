@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engagement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands.h"
+#include "jointed.h"
+#include "load.h"
+#include "models.h"
+#include "traction.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kReach = 1.0;        // [m] around a robot in which to look
+constexpr double kNear = 0.006;       // [m]: nearer than this, Bullet decides
+constexpr double kLinger = 0.05;      // [s] in Bullet after the last one was near
+constexpr double kCornerSpeed = 3.2;  // [m/s] of a chassis' corner in the fastest turn
+constexpr double kStill = 1e-3;       // [m/s]: a unit slower than that may leave Bullet
+constexpr double kTilt = 1 - 5e-5;    // cosine: a unit more upright stands on its legs
+
+std::uint64_t lingerSteps(const Parts& parts) {
+  return static_cast<std::uint64_t>(std::ceil(kLinger / parts.dt));
+}
+
+bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
+
+bool canEngage(const Model& model) {
+  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
+}
+
+ModelBodies buildRobot(const Parts& parts, int robot) {
+  const Robot& r = parts.fleet.robots[robot];
+  if (isJointed(r)) return buildJointed(parts, robot);
+  return buildPlanar(parts, robot);
+}
+
+/// A standing unit with the mass of its items.
+ModelBodies buildUnit(const Parts& parts, const Model& model) {
+  const StorageUnit& unit = parts.units[model.index];
+  ModelDescription loaded = *model.description;
+  double own = 0;
+  for (const Link& link : loaded.links) own += link.mass;
+  for (Link& link : loaded.links) {
+    link.mass *= unit.mass / own;
+    link.principal_moments *= unit.mass / own;
+  }
+  ModelBodies bodies = parts.physics.build(loaded, model.pose, unit.model, kDynamicGroup, ~0);
+  for (LinkBody& link : bodies.links) link.body->setActivationState(ISLAND_SLEEPING);
+  return bodies;
+}
+
+/// The robot's footprints, its load's among them.
+template <typename Visit>
+void forOwnFootprints(const Parts& parts, int robot, Visit visit) {
+  for (const Outline& o : parts.modelOf(robot).outlines) visit(parts.obstacles[o.handle]);
+  const int unit = parts.fleet.unit[robot];
+  if (unit < 0) return;
+  for (const Outline& o : parts.models[parts.units[unit].model]->outlines) {
+    visit(parts.obstacles[o.handle]);
+  }
+}
+
+void engageOther(Parts& parts, int slot) {
+  Model& other = *parts.models[slot];
+  if (!canEngage(other)) return;
+  if (other.kind == ModelKind::kStorageUnit && parts.units[other.index].carrier >= 0) {
+    engage(parts, parts.modelOf(parts.units[other.index].carrier));
+  } else {
+    engage(parts, other);
+  }
+}
+
+/// Engages what is near the footprint; returns the least gap to anything foreign, at most kReach.
+double inspect(Parts& parts, const Footprint& own, double near, std::vector<int>* close) {
+  double least = kReach;
+  const double radius = own.kind == Footprint::Kind::kBox ? std::hypot(own.hx, own.hy) : own.hx;
+  parts.obstacles.near(own.x, own.y, radius + kReach, [&](const Footprint& other) {
+    if (other.model == own.model || (own.group >= 0 && other.group == own.group)) return;
+    if (other.z_min > own.z_max || other.z_max < own.z_min) return;
+    const double distance = gap(own, other);
+    least = std::min(least, distance);
+    if (distance < near) close->push_back(other.model);
+  });
+  return least;
+}
+
+void lookAround(Parts& parts, int robot) {
+  Fleet& f = parts.fleet;
+  const double closing = 2 * (f.robots[robot].drive.speed + kCornerSpeed);  // [m/s]
+  const double near = kNear + closing * parts.dt;
+  double least = kReach;
+  std::vector<int> close;
+  forOwnFootprints(parts, robot, [&](const Footprint& own) {
+    least = std::min(least, inspect(parts, own, near, &close));
+  });
+  if (!close.empty()) engage(parts, parts.modelOf(robot));
+  for (int slot : close) engageOther(parts, slot);
+  const double free_steps = (least - near) / (closing * parts.dt);
+  f.look_again[robot] = parts.total_steps + static_cast<std::uint64_t>(std::max(0.0, free_steps));
+}
+
+bool isMoving(const Parts& parts, int robot) {
+  return !parts.fleet.robots[robot].legs.empty() || !atRest(parts.fleet, robot);
+}
+
+/// A body that moves by itself: what it could hit enters Bullet too.
+void lookAroundBody(Parts& parts, Model& model) {
+  double fastest = 0;
+  bool awake = false;
+  for (const LinkBody& link : model.bodies.links) {
+    awake = awake || link.body->isActive();
+    fastest = std::max(fastest, link.body->getLinearVelocity().length());
+  }
+  if (!awake) return;
+  std::vector<int> close;
+  for (const Outline& outline : model.outlines) {
+    inspect(parts, parts.obstacles[outline.handle], 2 * kNear + 4 * fastest * parts.dt, &close);
+  }
+  for (int slot : close) engageOther(parts, slot);
+}
+
+bool mayLeave(const Parts& parts, const Model& model) {
+  if (model.kind == ModelKind::kRobot) return !isJointed(parts.fleet.robots[model.index]);
+  const btRigidBody& body = *model.bodies.links.front().body;
+  const double up = body.getWorldTransform().getBasis().getColumn(2).z();
+  return !model.disturbed || (up > kTilt && body.getLinearVelocity().length() < kStill &&
+                              body.getAngularVelocity().length() < kStill);
+}
+
+/// Takes over where Bullet left the unit, upright on its legs.
+void settleUnit(Parts& parts, Model& model) {
+  if (model.disturbed) {
+    const Pose pose = unitPose(parts, model.index);
+    model.pose = Pose(pose.X(), pose.Y(), 0, 0, 0, pose.Rot().Yaw());
+    ++parts.units_revision;
+  }
+  model.disturbed = false;
+}
+
+void releaseIdle(Parts& parts) {
+  for (std::size_t k = 0; k < parts.engaged.size();) {
+    Model& model = *parts.models[parts.engaged[k]];
+    if (model.engaged_until < parts.total_steps && mayLeave(parts, model)) {
+      disengage(parts, model);  // removes entry k
+    } else {
+      ++k;
+    }
+  }
+}
+
+void pullPlanar(Parts& parts, int robot) {
+  Fleet& f = parts.fleet;
+  const btRigidBody& body = *parts.modelOf(robot).bodies.links.front().body;
+  const btVector3& at = body.getWorldTransform().getOrigin();
+  const btVector3 ahead = body.getWorldTransform().getBasis().getColumn(0);
+  f.x[robot] = at.x();
+  f.y[robot] = at.y();
+  f.yaw[robot] += wrapAngle(std::atan2(ahead.y(), ahead.x()) - f.yaw[robot]);
+  f.vx[robot] = body.getLinearVelocity().x();
+  f.vy[robot] = body.getLinearVelocity().y();
+  f.yaw_rate[robot] = body.getAngularVelocity().z();
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * parts.dt;
+  }
+}
+
+void moveRobotOutlines(Parts& parts, int robot) {
+  updateOutlines(parts, parts.modelOf(robot));
+  const int unit = parts.fleet.unit[robot];
+  if (unit < 0) return;
+  updateOutlines(parts, *parts.models[parts.units[unit].model]);
+  ++parts.units_revision;
+}
+
+/// A robot that stands without a command is left alone until it gets one, or is hit.
+void letRest(Fleet& f, int robot) {
+  if (!f.robots[robot].legs.empty() || f.engaged[robot] || !atRest(f, robot)) return;
+  f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
+  f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
+  f.awake[robot] = f.tower[robot] > 0 && f.unit[robot] < 0;  // an empty tower still comes down
+}
+
+void pullBodies(Parts& parts) {
+  for (int slot : parts.bodies) {
+    Model& model = *parts.models[slot];
+    const bool awake = std::any_of(model.bodies.links.begin(), model.bodies.links.end(),
+                                   [](const LinkBody& l) { return l.body->isActive(); });
+    if (!awake) continue;
+    updateOutlines(parts, model);
+    if (model.kind == ModelKind::kItem) ++parts.units_revision;
+  }
+  for (int slot : parts.engaged) {
+    Model& model = *parts.models[slot];
+    if (model.kind != ModelKind::kStorageUnit || !model.disturbed) continue;
+    updateOutlines(parts, model);
+    ++parts.units_revision;
+  }
+}
+
+}  // namespace
+
+ModelBodies buildPlanar(const Parts& parts, int robot) {
+  const Robot& r = parts.fleet.robots[robot];
+  const Model& model = parts.modelOf(robot);
+  Link link;
+  link.mass = r.mass + r.load_mass;
+  const double inertia = r.inertia + r.load_inertia;
+  link.principal_moments.Set(inertia, inertia, inertia);
+  link.gravity = false;
+  ModelDescription planar;
+  planar.links.push_back(link);
+  ModelBodies bodies =
+      parts.physics.build(planar, basePose(parts, robot), r.model, kRobotGroup, ~kFloorGroup);
+  LinkBody& body = bodies.links.front();
+  const btTransform base = toBullet(basePose(parts, robot)).inverse();
+  const auto add = [&](const Model& part_of, int slot) {
+    for (std::size_t i = 0; i < part_of.description->links.size(); ++i) {
+      const btTransform at = base * toBullet(linkPose(parts, part_of, static_cast<int>(i)));
+      for (const Collision& collision : part_of.description->links[i].collisions) {
+        body.shape.add(collision, at * toBullet(collision.pose_in_link), slot);
+      }
+    }
+  };
+  add(model, r.model);
+  const int unit = parts.fleet.unit[robot];
+  if (unit >= 0) add(*parts.models[parts.units[unit].model], parts.units[unit].model);
+  body.body->setLinearFactor({1, 1, 0});
+  body.body->setAngularFactor({0, 0, 1});
+  body.body->setActivationState(DISABLE_DEACTIVATION);
+  return bodies;
+}
+
+void engage(Parts& parts, Model& model) {
+  model.engaged_until = parts.total_steps + lingerSteps(parts);
+  if (model.in_physics) return;
+  const int slot = parts.slot_of_name.at(model.name);
+  if (model.kind == ModelKind::kRobot) {
+    model.bodies = buildRobot(parts, model.index);
+    parts.fleet.engaged[model.index] = 1;
+    parts.fleet.awake[model.index] = 1;
+  } else {
+    model.bodies = buildUnit(parts, model);
+  }
+  parts.physics.insert(model.bodies);
+  model.in_physics = true;
+  parts.engaged.push_back(slot);
+}
+
+void disengage(Parts& parts, Model& model) {
+  const int slot = parts.slot_of_name.at(model.name);
+  if (model.kind == ModelKind::kStorageUnit) settleUnit(parts, model);
+  parts.physics.remove(model.bodies);
+  model.bodies = ModelBodies();
+  model.in_physics = false;
+  if (model.kind == ModelKind::kRobot) parts.fleet.engaged[model.index] = 0;
+  parts.engaged.erase(std::remove(parts.engaged.begin(), parts.engaged.end(), slot),
+                      parts.engaged.end());
+  updateOutlines(parts, model);
+}
+
+void rebuildBody(Parts& parts, int robot) {
+  Model& model = parts.modelOf(robot);
+  if (!model.in_physics) return;
+  disengage(parts, model);
+  engage(parts, model);
+}
+
+void updateEngagement(Parts& parts) {
+  const Fleet& f = parts.fleet;
+  for (int i = 0; i < f.size(); ++i) {
+    if (f.awake[i] && f.look_again[i] <= parts.total_steps && isMoving(parts, i)) {
+      lookAround(parts, i);
+    }
+  }
+  for (int slot : parts.bodies) lookAroundBody(parts, *parts.models[slot]);
+  const std::vector<int> engaged = parts.engaged;  // it grows meanwhile
+  for (int slot : engaged) {
+    Model& model = *parts.models[slot];
+    if (model.kind == ModelKind::kStorageUnit && model.disturbed) lookAroundBody(parts, model);
+  }
+  releaseIdle(parts);
+}
+
+void drive(Parts& parts) {
+  Fleet& f = parts.fleet;
+  for (int i = 0; i < f.size(); ++i) {
+    if (!f.awake[i]) continue;
+    if (isJointed(f.robots[i])) {
+      driveJointed(parts, i);
+      continue;
+    }
+    applyTraction(f, i, parts.gravityDown(), parts.dt);
+    if (!f.engaged[i]) continue;
+    btRigidBody& body = *parts.modelOf(i).bodies.links.front().body;
+    body.setLinearVelocity({f.vx[i], f.vy[i], 0});
+    body.setAngularVelocity({0, 0, f.yaw_rate[i]});
+  }
+}
+
+void settle(Parts& parts) {
+  Fleet& f = parts.fleet;
+  for (int i = 0; i < f.size(); ++i) {
+    if (!f.awake[i]) continue;
+    if (isJointed(f.robots[i])) {
+      readJointed(parts, i);
+    } else if (f.engaged[i]) {
+      pullPlanar(parts, i);
+    } else {
+      integrate(f, i, parts.dt);
+    }
+    moveRobotOutlines(parts, i);
+    letRest(f, i);
+  }
+  pullBodies(parts);
+}
+
+}  // namespace kiva

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiva_plugin_cpp/description.h"
+#include "obstacles.h"
+
+namespace kiva {
+
+/// A box along the axes [m].
+struct Bounds {
+  Vector3 min{1e300, 1e300, 1e300};
+  Vector3 max{-1e300, -1e300, -1e300};
+  void add(const Bounds& other) {
+    min.Min(other.min);
+    max.Max(other.max);
+  }
+  bool empty() const { return min.X() > max.X(); }
+};
+
+/// Of a primitive at that pose; a plane has its own extent and no height.
+Bounds bounds(const Shape& shape, const Pose& pose);
+/// Of all the collisions of a model in its own frame, joints at zero.
+Bounds bounds(const ModelDescription& description);
+
+/// What a primitive at that pose in world covers on the floor. Not for planes.
+Footprint makeFootprint(const Shape& shape, const Pose& pose);
+
+}  // namespace kiva

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "parts.h"
+
+namespace kiva {
+
+/// Adds one model with all it needs, or throws DescriptionError and leaves nothing of it.
+void spawnModel(Parts& parts, const ModelInstance& instance);
+void removeModel(Parts& parts, int slot);
+/// Puts a model there with that velocity, as a hand would.
+void placeModel(Parts& parts, int slot, const EntityState& state);
+/// Back to where it was spawned, at rest.
+void resetModel(Parts& parts, int slot);
+EntityState modelState(const Parts& parts, const Model& model);
+std::optional<EntityState> linkState(const Parts& parts, const Model& model,
+                                     const std::string& link);
+/// Slots in order of arrival.
+std::vector<int> slotsInOrder(const Parts& parts);
+
+/// Writes the footprints of a model anew, from where its links are now.
+void updateOutlines(Parts& parts, Model& model);
+/// Links' poses without bodies: those of a standing model at `pose`.
+Pose linkPose(const Parts& parts, const Model& model, int link);
+
+}  // namespace kiva

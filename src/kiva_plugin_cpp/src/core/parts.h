@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The state of a world in one place. The modules beside this file are functions over it:
+//   models      spawn, remove, read, set, reset
+//   engagement  who is stepped by Bullet and who in arrays
+//   commands    what robots are asked for, and what becomes of it
+//   load        storage units and items: carried, put down, where they are
+//   sensing     scans, and what lies ahead
+//   collisions  contacts that should not be
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "kiva_plugin_cpp/plugin.h"
+#include "kiva_plugin_cpp/world.h"
+#include "obstacles.h"
+#include "physics.h"
+
+namespace kiva {
+
+class FleetPlugin;
+
+/// One footprint of a model, and the shape it comes from.
+struct Outline {
+  int link = 0;
+  Pose pose_in_link;
+  Shape shape;
+  int handle = -1;  ///< In Obstacles.
+};
+
+struct Model {
+  std::string name;
+  ModelKind kind = ModelKind::kOther;
+  std::shared_ptr<const ModelDescription> description;
+  std::uint64_t serial = 0;  ///< Order of arrival.
+  Pose spawn_pose;           ///< In world.
+  Pose pose;                 ///< In world; of a model that has no body now.
+  int index = -1;            ///< In the fleet, the storage units or the items, by kind.
+  ModelBodies bodies;
+  bool in_physics = false;          ///< Its bodies are in Bullet now.
+  std::uint64_t engaged_until = 0;  ///< Step up to which something near keeps it in Bullet.
+  bool disturbed = false;           ///< Touched since it was engaged.
+  std::vector<Outline> outlines;
+  std::vector<std::shared_ptr<Plugin>> plugins;
+
+  bool isStatic() const { return description->is_static; }
+};
+
+/// Two models in contact.
+struct TouchingPair {
+  int model_a = -1, model_b = -1;
+  std::uint64_t last_step = 0;
+};
+
+struct World::Parts {
+  explicit Parts(const WorldDescription& description, const WorldOptions& options);
+  ~Parts();
+
+  World* world = nullptr;
+  std::string name;
+  Vector3 gravity;
+  WorldOptions options;
+  double dt = 0.001;              // [s]
+  double grid_spacing = 1;        // [m]
+  std::uint64_t steps = 0;        // since the last reset of time
+  std::uint64_t total_steps = 0;  // ever; what schedules count by
+
+  Physics physics;
+  Obstacles obstacles;
+  Fleet fleet;
+  std::vector<StorageUnit> units;
+  std::vector<Item> items;
+  std::unordered_map<int, int> unit_of_id;
+
+  std::vector<std::unique_ptr<Model>> models;  // by slot; null where one was removed
+  std::vector<int> free_slots;
+  std::unordered_map<std::string, int> slot_of_name;
+  std::uint64_t next_serial = 0;
+  std::uint64_t models_revision = 0;
+  std::uint64_t units_revision = 0;
+  std::vector<int> bodies;               // slots of models with bodies of their own that can move
+  std::vector<int> models_with_plugins;  // slots
+  std::vector<int> engaged;              // slots of robots and units that are in Bullet now
+  Floor floor;
+
+  std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;
+  std::vector<std::shared_ptr<Plugin>> world_plugins;
+
+  std::deque<Command> commands;
+  std::vector<Event> events;
+  std::vector<StatusChange> status_changes;
+  std::vector<TouchingPair> touching;
+  std::vector<Contact> contacts;  // scratch
+
+  double time() const { return static_cast<double>(steps) * dt; }
+  double gravityDown() const { return -gravity.Z(); }
+  Model& modelOf(int robot) { return *models[fleet.robots[robot].model]; }
+  const Model& modelOf(int robot) const { return *models[fleet.robots[robot].model]; }
+  Model* find(const std::string& model) const {
+    const auto at = slot_of_name.find(model);
+    return at == slot_of_name.end() ? nullptr : models[at->second].get();
+  }
+
+  void report(Event::Kind kind, const std::string& model, const std::string& other,
+              const std::string& text);
+  /// Sets what the robot reports, and records it if it is new.
+  void setStatus(int robot, Status status, State state);
+};
+
+using Parts = World::Parts;
+
+}  // namespace kiva

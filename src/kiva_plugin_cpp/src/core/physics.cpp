@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "ray.h"
+
+namespace kiva {
+namespace {
+
+// GJK works on a core shape and rounds its edges by this margin; contacts stay exact to less than
+// half of it.
+constexpr double kMargin = 0.0005;  // [m]
+
+std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
+  auto box = std::make_unique<btBoxShape>(toBullet(shape.size * 0.5));
+  box->setMargin(kMargin);
+  // With its faces known, two boxes get a whole contact patch at once instead of a point a step.
+  box->initializePolyhedralFeatures();
+  return box;
+}
+
+std::unique_ptr<btCollisionShape> makeCylinder(const Shape& shape) {
+  const btVector3 half(shape.radius, shape.radius, shape.length / 2);
+  auto cylinder = std::make_unique<btCylinderShapeZ>(half);
+  cylinder->setMargin(kMargin);
+  return cylinder;
+}
+
+std::unique_ptr<btCollisionShape> makeEllipsoid(const Shape& shape) {
+  const btVector3 centre(0, 0, 0);
+  const btScalar unit = 1;
+  auto ellipsoid = std::make_unique<btMultiSphereShape>(&centre, &unit, 1);
+  ellipsoid->setLocalScaling(toBullet(shape.size));
+  return ellipsoid;
+}
+
+std::unique_ptr<btCollisionShape> makeShape(const Shape& shape) {
+  switch (shape.kind) {
+    case Shape::Kind::kBox:
+      return makeBox(shape);
+    case Shape::Kind::kSphere:
+      return std::make_unique<btSphereShape>(shape.radius);
+    case Shape::Kind::kCylinder:
+      return makeCylinder(shape);
+    case Shape::Kind::kCapsule:
+      return std::make_unique<btCapsuleShapeZ>(shape.radius, shape.length);
+    case Shape::Kind::kEllipsoid:
+      return makeEllipsoid(shape);
+    case Shape::Kind::kPlane:
+      return std::make_unique<btStaticPlaneShape>(toBullet(shape.normal), 0);
+  }
+  return nullptr;
+}
+
+bool isPlane(const Collision& collision) { return collision.shape.kind == Shape::Kind::kPlane; }
+
+std::unique_ptr<BodyPart> makePart(const Collision& collision, int model) {
+  auto part = std::make_unique<BodyPart>();
+  part->shape = makeShape(collision.shape);
+  part->shape->setUserPointer(part.get());
+  part->model = model;
+  part->friction = collision.friction;
+  part->restitution = collision.restitution;
+  return part;
+}
+
+/// What the bodies of one model share.
+struct BodyContext {
+  bool is_static;
+  btTransform model_pose;
+  int model;
+  int group, mask;
+};
+
+LinkBody finishBody(LinkBody body, const Link& link, const BodyContext& context,
+                    btCollisionShape* shape) {
+  const bool moves = !context.is_static;
+  btRigidBody::btRigidBodyConstructionInfo info(
+      moves ? link.mass : 0, nullptr, shape,
+      moves ? toBullet(link.principal_moments) : btVector3(0, 0, 0));
+  body.group = context.group;
+  body.mask = context.mask;
+  body.body = std::make_unique<btRigidBody>(info);
+  body.body->setUserIndex(context.model);
+  body.body->setCollisionFlags(body.body->getCollisionFlags() |
+                               btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+  if (!link.gravity) body.body->setFlags(body.body->getFlags() | BT_DISABLE_WORLD_GRAVITY);
+  body.place(context.model_pose * toBullet(link.pose_in_model));
+  return body;
+}
+
+LinkBody makePlaneBody(const Link& link, int index, const Collision& plane,
+                       const BodyContext& context) {
+  LinkBody out;
+  out.link = index;
+  out.mass_frame = toBullet(plane.pose_in_link);
+  out.plane = makePart(plane, context.model);
+  btCollisionShape* shape = out.plane->shape.get();
+  return finishBody(std::move(out), link, context, shape);
+}
+
+LinkBody makeBody(const Link& link, int index, const BodyContext& context) {
+  LinkBody out;
+  out.link = index;
+  out.mass_frame =
+      context.is_static ? btTransform::getIdentity() : toBullet(link.inertial_pose_in_link);
+  const btTransform in_body = out.mass_frame.inverse();
+  for (const Collision& collision : link.collisions) {
+    if (isPlane(collision)) continue;
+    out.shape.add(collision, in_body * toBullet(collision.pose_in_link), context.model);
+  }
+  btCollisionShape* shape = out.shape.compound.get();
+  return finishBody(std::move(out), link, context, shape);
+}
+
+/// Joint frame: origin at the anchor, `along` (0 = x, 2 = z) on the axis; in world.
+btTransform jointFrame(const Joint& joint, const btTransform& model, int along) {
+  const btVector3 axis = toBullet(joint.axis_in_model).normalized();
+  btVector3 u, v;
+  btPlaneSpace1(axis, u, v);
+  const btMatrix3x3 basis =
+      along == 0
+          ? btMatrix3x3(axis.x(), u.x(), v.x(), axis.y(), u.y(), v.y(), axis.z(), u.z(), v.z())
+          : btMatrix3x3(u.x(), v.x(), axis.x(), u.y(), v.y(), axis.y(), u.z(), v.z(), axis.z());
+  return model * btTransform(basis, toBullet(joint.anchor_in_model));
+}
+
+btRigidBody& fixedBody() { return btTypedConstraint::getFixedBody(); }
+
+struct JointEnds {
+  btRigidBody& parent;
+  btRigidBody& child;
+};
+
+std::unique_ptr<btTypedConstraint> makeHinge(const Joint& joint, const JointEnds& ends,
+                                             const btTransform& model) {
+  const btTransform frame = jointFrame(joint, model, 2);
+  auto hinge = std::make_unique<btHingeConstraint>(
+      ends.parent, ends.child, ends.parent.getWorldTransform().inverse() * frame,
+      ends.child.getWorldTransform().inverse() * frame);
+  // Bullet counts a hinge's angle from parent to child the other way round.
+  if (joint.kind == Joint::Kind::kRevolute && joint.upper - joint.lower < 2 * SIMD_PI) {
+    hinge->setLimit(joint.lower, joint.upper);
+  }
+  return hinge;
+}
+
+std::unique_ptr<btTypedConstraint> makeSlider(const Joint& joint, const JointEnds& ends,
+                                              const btTransform& model) {
+  const btTransform frame = jointFrame(joint, model, 0);
+  auto slider = std::make_unique<btSliderConstraint>(
+      ends.parent, ends.child, ends.parent.getWorldTransform().inverse() * frame,
+      ends.child.getWorldTransform().inverse() * frame, true);
+  slider->setLowerLinLimit(joint.lower);
+  slider->setUpperLinLimit(joint.upper);
+  slider->setLowerAngLimit(0);
+  slider->setUpperAngLimit(0);
+  return slider;
+}
+
+std::unique_ptr<btTypedConstraint> makeJoint(const Joint& joint, const JointEnds& ends,
+                                             const btTransform& model) {
+  if (joint.kind == Joint::Kind::kPrismatic) return makeSlider(joint, ends, model);
+  if (joint.kind != Joint::Kind::kFixed) return makeHinge(joint, ends, model);
+  const btTransform frame = ends.child.getWorldTransform();
+  return std::make_unique<btFixedConstraint>(ends.parent, ends.child,
+                                             ends.parent.getWorldTransform().inverse() * frame,
+                                             btTransform::getIdentity());
+}
+
+btRigidBody& bodyOf(const ModelDescription& description, ModelBodies& bodies,
+                    const std::string& link) {
+  for (std::size_t i = 0; i < description.links.size(); ++i) {
+    if (description.links[i].name == link) return *bodies.links[i].body;
+  }
+  return fixedBody();  // "world"
+}
+
+const BodyPart* partOf(const btCollisionShape* shape) {
+  return static_cast<const BodyPart*>(shape->getUserPointer());
+}
+
+int modelOfPart(const btCollisionObject* object, int part) {
+  const btCollisionShape* shape = object->getCollisionShape();
+  if (shape->isCompound() && part >= 0) {
+    const auto* compound = static_cast<const btCompoundShape*>(shape);
+    if (part < compound->getNumChildShapes()) return partOf(compound->getChildShape(part))->model;
+  }
+  return object->getUserIndex();
+}
+
+/// Gives a new contact the friction and restitution of the two parts that touch.
+bool combineMaterials(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
+                      const btCollisionObjectWrapper* b, int, int) {
+  const BodyPart* part_a = partOf(a->getCollisionShape());
+  const BodyPart* part_b = partOf(b->getCollisionShape());
+  if (part_a && part_b) {
+    point.m_combinedFriction = part_a->friction * part_b->friction;
+    point.m_combinedRestitution = part_a->restitution * part_b->restitution;
+  }
+  return true;
+}
+
+}  // namespace
+
+btVector3 toBullet(const Vector3& v) { return {v.X(), v.Y(), v.Z()}; }
+Vector3 fromBullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+btTransform toBullet(const Pose& pose) {
+  const Quaternion& q = pose.Rot();
+  return btTransform(btQuaternion(q.X(), q.Y(), q.Z(), q.W()), toBullet(pose.Pos()));
+}
+
+Pose fromBullet(const btTransform& transform) {
+  const btQuaternion q = transform.getRotation();
+  return Pose(fromBullet(transform.getOrigin()), Quaternion(q.w(), q.x(), q.y(), q.z()));
+}
+
+void BodyShape::add(const Collision& collision, const btTransform& pose, int model) {
+  parts.push_back(makePart(collision, model));
+  compound->addChildShape(pose, parts.back()->shape.get());
+}
+
+void LinkBody::place(const btTransform& link_pose) {
+  const btTransform pose = link_pose * mass_frame;
+  body->setWorldTransform(pose);
+  body->setInterpolationWorldTransform(pose);
+  body->updateInertiaTensor();
+}
+
+btVector3 LinkBody::velocityAtOrigin() const {
+  const btVector3 arm = linkPose().getOrigin() - body->getWorldTransform().getOrigin();
+  return body->getVelocityInLocalPoint(arm);
+}
+
+Physics::Physics(const Vector3& gravity)
+    : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+  gContactAddedCallback = combineMaterials;
+  world_.setGravity(toBullet(gravity));
+  world_.setForceUpdateAllAabbs(false);
+  // A fixed distance at which contacts are foreseen; the relative one would be less than a thin
+  // leg's way in a step, and bodies would sink in before they touch.
+  dispatcher_.setDispatcherFlags(
+      dispatcher_.getDispatcherFlags() &
+      ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
+  // Bullet's box-box detector knows touching boxes only; GJK foresees contacts.
+  dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
+                                          configuration_.getCollisionAlgorithmCreateFunc(
+                                              BOX_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE));
+  world_.getSolverInfo().m_numIterations = 50;
+}
+
+Physics::~Physics() = default;
+
+ModelBodies Physics::build(const ModelDescription& description, const Pose& pose, int model,
+                           int group, int mask) const {
+  ModelBodies out;
+  const BodyContext context{description.is_static, toBullet(pose), model, group, mask};
+  for (std::size_t i = 0; i < description.links.size(); ++i) {
+    const Link& link = description.links[i];
+    out.links.push_back(makeBody(link, static_cast<int>(i), context));
+    for (const Collision& collision : link.collisions) {
+      if (!isPlane(collision)) continue;
+      out.planes.push_back(makePlaneBody(link, static_cast<int>(i), collision, context));
+    }
+  }
+  if (description.is_static) return out;
+  for (const Joint& joint : description.joints) {
+    const JointEnds ends{bodyOf(description, out, joint.parent),
+                         bodyOf(description, out, joint.child)};
+    out.joints.push_back(makeJoint(joint, ends, toBullet(pose)));
+  }
+  return out;
+}
+
+void Physics::insert(ModelBodies& bodies) {
+  for (auto* list : {&bodies.links, &bodies.planes}) {
+    for (LinkBody& link : *list) world_.addRigidBody(link.body.get(), link.group, link.mask);
+  }
+  for (auto& joint : bodies.joints) world_.addConstraint(joint.get(), true);
+}
+
+void Physics::remove(ModelBodies& bodies) {
+  for (auto& joint : bodies.joints) world_.removeConstraint(joint.get());
+  for (auto* list : {&bodies.links, &bodies.planes}) {
+    for (LinkBody& link : *list) world_.removeRigidBody(link.body.get());
+  }
+}
+
+bool Physics::anyAwake() const {
+  const auto& bodies = world_.getNonStaticRigidBodies();
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->isActive()) return true;
+  }
+  return false;
+}
+
+void Physics::step(double dt) {
+  if (!anyAwake()) return;
+  world_.stepSimulation(dt, 0);
+}
+
+void Physics::contacts(std::vector<Contact>* out) const {
+  out->clear();
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold* manifold =
+        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+    for (int p = 0; p < manifold->getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold->getContactPoint(p);
+      if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue;
+      int a = modelOfPart(manifold->getBody0(), point.m_index0);
+      int b = modelOfPart(manifold->getBody1(), point.m_index1);
+      if (a == b) continue;
+      if (a > b) std::swap(a, b);
+      const bool known = std::any_of(out->begin(), out->end(), [a, b](const Contact& c) {
+        return c.model_a == a && c.model_b == b;
+      });
+      if (!known) out->push_back({a, b});
+    }
+  }
+}
+
+double Physics::cast(const Vector3& from, const Vector3& direction, double range) const {
+  const btVector3 start = toBullet(from), end = toBullet(from + direction * range);
+  btCollisionWorld::ClosestRayResultCallback hit(start, end);
+  world_.rayTest(start, end, hit);
+  return hit.hasHit() ? hit.m_closestHitFraction * range : std::numeric_limits<double>::infinity();
+}
+
+double castBody(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
+                double range) {
+  const btTransform start(btQuaternion::getIdentity(), toBullet(from));
+  const btTransform end(btQuaternion::getIdentity(), toBullet(from + direction * range));
+  btCollisionWorld::ClosestRayResultCallback hit(start.getOrigin(), end.getOrigin());
+  btCollisionWorld::rayTestSingle(start, end, const_cast<btCollisionObject*>(&body),
+                                  body.getCollisionShape(), body.getWorldTransform(), hit);
+  return hit.hasHit() ? hit.m_closestHitFraction * range : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace kiva

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bullet, wrapped: descriptions become bodies and joints, and the bodies' contacts become pairs.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+btTransform toBullet(const Pose& pose);
+btVector3 toBullet(const Vector3& v);
+Pose fromBullet(const btTransform& transform);
+Vector3 fromBullet(const btVector3& v);
+
+/// Who touches whom: collision filter groups.
+enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
+
+/// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
+/// friction a body.
+struct BodyPart {
+  std::unique_ptr<btCollisionShape> shape;
+  int model = -1;
+  double friction = 1;
+  double restitution = 0;
+};
+
+/// A Bullet shape with the parts it is made of.
+struct BodyShape {
+  std::unique_ptr<btCompoundShape> compound = std::make_unique<btCompoundShape>();
+  std::vector<std::unique_ptr<BodyPart>> parts;
+
+  /// Adds a collision's shape at `pose` in the compound, for `model`.
+  void add(const Collision& collision, const btTransform& pose, int model);
+};
+
+/// A rigid body for one link. Bullet's body frame is the centre of mass along the principal axes.
+struct LinkBody {
+  BodyShape shape;
+  std::unique_ptr<BodyPart> plane;  ///< Instead of `shape`: an unbounded plane.
+  std::unique_ptr<btRigidBody> body;
+  btTransform mass_frame;  ///< Centre of mass in the link.
+  int link = 0;
+  int group = kDynamicGroup, mask = ~0;
+
+  btTransform linkPose() const { return body->getWorldTransform() * mass_frame.inverse(); }
+  void place(const btTransform& link_pose);
+  /// Velocity of the link's origin, in world.
+  btVector3 velocityAtOrigin() const;
+};
+
+struct ModelBodies {
+  std::vector<LinkBody> links;   ///< One a link, in the description's order.
+  std::vector<LinkBody> planes;  ///< The links' unbounded planes; always static.
+  std::vector<std::unique_ptr<btTypedConstraint>> joints;
+};
+
+struct Contact {
+  int model_a = -1, model_b = -1;
+};
+
+class Physics {
+ public:
+  explicit Physics(const Vector3& gravity);
+  ~Physics();
+
+  /// Bodies of all links and joints, at `pose`, not yet in the world; `model` marks them.
+  ModelBodies build(const ModelDescription& description, const Pose& pose, int model, int group,
+                    int mask) const;
+  void insert(ModelBodies& bodies);
+  void remove(ModelBodies& bodies);
+
+  /// One step; costs nothing where no body is awake.
+  void step(double dt);
+  /// Pairs of models that touch now, each once, the lower index first.
+  void contacts(std::vector<Contact>* out) const;
+  /// First body on a ray, as a fraction of `range`; +inf = none.
+  double cast(const Vector3& from, const Vector3& direction, double range) const;
+
+ private:
+  bool anyAwake() const;
+
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_;
+};
+
+}  // namespace kiva

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiva_plugin_cpp/description.h"
+
+class btCollisionObject;
+
+namespace kiva {
+
+/// Distance [m] along the unit vector `direction` at which a ray meets that one body, +inf = not
+/// within `range`.
+double castBody(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
+                double range);
+
+}  // namespace kiva

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "parts.h"
+
+namespace kiva {
+
+void castScan(const Parts& parts, int robot, std::vector<RayHit>* hits);
+
+/// The nearest obstacle in the corridor that the robot would sweep, as its laser sees it.
+struct Ahead {
+  double distance = 0;  ///< From the robot's centre, along its heading [m]; +inf = free.
+  int model = -1;
+};
+Ahead lookAhead(const Parts& parts, int robot);
+
+/// Whether the robot, standing or turning at (x, y), would touch anything.
+bool isFree(const Parts& parts, int robot, double x, double y);
+/// Whether that model stops this robot: a unit stops only a loaded one, or one that carries it.
+bool blocks(const Parts& parts, int robot, int model);
+
+}  // namespace kiva

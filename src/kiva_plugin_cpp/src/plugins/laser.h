@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fleet_plugin.h"
+
+namespace kiva {
+
+/// Looks ahead while the robot drives, and stops it before what is in its way.
+class LaserPlugin : public FleetPlugin {
+ public:
+  const char* filename() const override { return "libkiva_laser.so"; }
+  void configure(Robot& robot, const Parameters& parameters) const override;
+  void afterStep(Parts& parts) override;
+};
+
+/// Whether the robot's laser turns in a scan at this step. The fleet's scans are spread over the
+/// period.
+bool isScanDue(const Parts& parts, int robot);
+
+}  // namespace kiva

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lift.h"
+
+#include <cmath>
+
+#include "../core/commands.h"
+#include "../core/engagement.h"
+#include "../core/load.h"
+
+namespace kiva {
+namespace {
+
+/// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
+/// lift.time: half of it at 4·height/time², half at minus that.
+void moveTower(Parts& parts, int i, double height) {
+  Robot& r = parts.fleet.robots[i];
+  const double time = r.lift.time;
+  const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
+  const double top = time == 0 ? r.lift.height / parts.dt : 2 * r.lift.height / time;
+  r.profile.advance(height, top, acceleration, acceleration, parts.dt);
+  parts.fleet.tower[i] = r.profile.position;
+}
+
+void start(Parts& parts, int i) {
+  Robot& r = parts.fleet.robots[i];
+  r.leg_started = true;
+  r.profile = {parts.fleet.tower[i], 0};
+  const Leg& leg = r.legs.front();
+  if (leg.kind != Leg::Kind::kRaise || leg.unit < 0) return;
+  const StorageUnit& unit = parts.units[leg.unit];
+  if (unitDistance(parts, i, leg.unit) > r.lift.proximity) {
+    markBlocked(parts, i, unit.name, unit.name + " is no longer above it");
+  } else if (unit.carrier >= 0) {
+    markBlocked(parts, i, unit.name, unit.name + " is carried by another robot");
+  }
+}
+
+/// The tower comes down without a unit, then the command ends in BLOCKED.
+void abandon(Parts& parts, int i) {
+  if (!parts.fleet.robots[i].stopping) markBlocked(parts, i, "", "the storage unit was deleted");
+  moveTower(parts, i, 0);
+  if (parts.fleet.tower[i] == 0) endBlocked(parts, i);
+}
+
+void raiseLeg(Parts& parts, int i, int unit) {
+  Robot& r = parts.fleet.robots[i];
+  if (unit < 0 || r.stopping) return abandon(parts, i);
+  moveTower(parts, i, r.lift.height);
+  if (parts.fleet.unit[i] < 0 && parts.fleet.tower[i] >= towerGap(parts, i, unit)) {
+    takeUp(parts, i, unit);
+  }
+  if (!r.profile.reached(r.lift.height)) return;
+  rebuildBody(parts, i);  // its load is higher than when it was taken up
+  parts.report(Event::Kind::kLifted, r.name, parts.units[unit].name, "");
+  finishLeg(parts, i);
+}
+
+void lowerLeg(Parts& parts, int i, int unit) {
+  if (unit < 0) return abandon(parts, i);
+  moveTower(parts, i, 0);
+  if (parts.fleet.unit[i] == unit && unitPose(parts, unit).Z() <= 0) {
+    putDown(parts, i);
+    parts.report(Event::Kind::kDropped, parts.fleet.robots[i].name, parts.units[unit].name, "");
+  }
+  if (parts.fleet.tower[i] == 0) finishLeg(parts, i);
+}
+
+void liftLeg(Parts& parts, int i) {
+  const Leg leg = parts.fleet.robots[i].legs.front();
+  if (!parts.fleet.robots[i].leg_started) start(parts, i);
+  if (leg.kind == Leg::Kind::kRaise) raiseLeg(parts, i, leg.unit);
+  if (leg.kind == Leg::Kind::kLower) lowerLeg(parts, i, leg.unit);
+}
+
+/// A tower whose unit was deleted comes down by itself.
+void lowerEmptyTower(Parts& parts, int i) {
+  Robot& r = parts.fleet.robots[i];
+  if (r.profile.position != parts.fleet.tower[i]) r.profile = {parts.fleet.tower[i], 0};
+  moveTower(parts, i, 0);
+}
+
+}  // namespace
+
+void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
+  LiftParameters& lift = robot.lift;
+  lift.fitted = true;
+  lift.height = p.number("height", lift.height, 0.001, 10);
+  lift.time = p.number("time", lift.time, 0, 1000);
+  lift.max_load = p.number("max_load", lift.max_load, 0, 1e6);
+  lift.proximity = p.number("proximity", lift.proximity, 0, 10);
+}
+
+void LiftPlugin::beforeStep(Parts& parts) {
+  const Fleet& f = parts.fleet;
+  for (int i = 0; i < f.size(); ++i) {
+    if (!f.awake[i]) continue;
+    if (!f.robots[i].legs.empty()) {
+      const Leg::Kind kind = f.robots[i].legs.front().kind;
+      if (kind == Leg::Kind::kRaise || kind == Leg::Kind::kLower) liftLeg(parts, i);
+    } else if (f.tower[i] > 0 && f.unit[i] < 0) {
+      lowerEmptyTower(parts, i);
+    }
+  }
+}
+
+}  // namespace kiva

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion.h"
+
+#include <cmath>
+#include <string>
+
+#include "../core/commands.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kAlongGain = 10;      // [1/s] speed for distance lagged
+constexpr double kHeadingGain = 8;     // [1/s] yaw rate for heading error
+constexpr double kLineGain = 8;        // [1/m²] yaw rate for distance off the line and speed
+constexpr double kArrived = 1e-5;      // [m]
+constexpr double kStanding = 1e-3;     // [m/s, rad/s]
+constexpr double kStuck = 0.15;        // [m] behind the profile
+constexpr double kOverdue = 2.0;       // [s]
+constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
+
+struct OnLine {
+  double along;   // of the leg's end, negative before it [m]
+  double across;  // left of the line [m]
+  double speed;   // along the line [m/s]
+};
+
+OnLine onLine(const Fleet& f, int i, const Leg& leg) {
+  const double c = std::cos(leg.yaw), s = std::sin(leg.yaw);
+  const double dx = f.x[i] - leg.x, dy = f.y[i] - leg.y;
+  return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
+}
+
+void start(Robot& robot, const OnLine& at) {
+  robot.leg_started = true;
+  robot.profile = {at.along, at.speed};
+  robot.goal = 0;
+  robot.deceleration = robot.drive.acceleration;
+  robot.overdue = 0;
+  robot.look_now = true;
+  robot.seen_model = -1;
+  robot.seen_distance = 0;
+}
+
+bool arrived(const Fleet& f, int i, const OnLine& at) {
+  const Robot& r = f.robots[i];
+  return r.profile.reached(r.goal) && std::abs(at.along - r.goal) < kArrived &&
+         std::abs(at.speed) < kStanding && std::abs(f.yaw_rate[i]) < kStanding;
+}
+
+/// Ends a leg that the wheels can't drive, as against a wall that no laser saw.
+bool giveUp(Parts& parts, int i, const OnLine& at) {
+  Robot& r = parts.fleet.robots[i];
+  if (r.profile.reached(r.goal)) r.overdue += parts.dt;
+  const double lag = std::abs(r.profile.position - at.along);
+  if (lag < kStuck && r.overdue < kOverdue) return false;
+  haltRobot(parts, i, "", "is stuck: its wheels turn or stall without getting it on");
+  return true;
+}
+
+void driveLeg(Parts& parts, int i) {
+  Fleet& f = parts.fleet;
+  Robot& r = f.robots[i];
+  if (halting(parts, i)) return;
+  const Leg leg = r.legs.front();
+  const OnLine at = onLine(f, i, leg);
+  if (!r.leg_started) {
+    start(r, at);
+    setWheels(f, i, 0, 0);
+    return;  // the laser looks first
+  }
+  if (arrived(f, i, at)) {
+    setWheels(f, i, 0, 0);
+    return finishLeg(parts, i);
+  }
+  if (giveUp(parts, i, at)) return;
+  const double lag = r.profile.position - at.along;
+  const double top = leg.on_grid ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
+  r.profile.advance(r.goal, top, r.drive.acceleration, r.deceleration, parts.dt);
+  const double heading = f.yaw[i] - leg.yaw;
+  setWheels(f, i, r.profile.speed + kAlongGain * lag,
+            -kHeadingGain * heading - kLineGain * at.speed * at.across);
+}
+
+}  // namespace
+
+void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
+  DriveParameters& d = robot.drive;
+  const std::string drive = p.text("drive", "traction");
+  if (drive != "traction" && drive != "jointed") {
+    throw DescriptionError(p.where() + ": <drive> is '" + drive +
+                           "'; traction or jointed was expected");
+  }
+  d.drive = drive == "jointed" ? Drive::kJointed : Drive::kTraction;
+  d.speed = p.number("speed", d.speed, 0.01, 10);
+  d.acceleration = p.number("acceleration", d.acceleration, 0, 100);
+  d.emergency_deceleration = std::max(
+      d.acceleration, p.number("emergency_deceleration", d.emergency_deceleration, 0.01, 100));
+  d.wheel_radius = p.number("wheel_radius", d.wheel_radius, 0.005, 1);
+  d.wheel_separation = p.number("wheel_separation", d.wheel_separation, 0.01, 10);
+  d.wheel_inertia = p.number("wheel_inertia", d.wheel_inertia, 1e-6, 100);
+  d.motor_torque = p.number("motor_torque", d.motor_torque, 0, 1e5);
+  d.friction = p.number("friction", d.friction, 0, 10);
+  d.drive_wheel_load = p.number("drive_wheel_load", d.drive_wheel_load, 0.01, 1);
+  robot.has_motion = true;
+}
+
+void MotionPlugin::beforeStep(Parts& parts) {
+  const Fleet& f = parts.fleet;
+  for (int i = 0; i < f.size(); ++i) {
+    if (!f.awake[i] || f.robots[i].legs.empty()) continue;
+    if (f.robots[i].legs.front().kind == Leg::Kind::kDrive) driveLeg(parts, i);
+  }
+}
+
+void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
+  const DriveParameters& d = f.robots[i].drive;
+  const double turn = yaw_rate * d.wheel_separation / 2;
+  f.wheel_target[0][i] = (speed - turn) / d.wheel_radius;
+  f.wheel_target[1][i] = (speed + turn) / d.wheel_radius;
+}
+
+bool halting(Parts& parts, int i) {
+  Fleet& f = parts.fleet;
+  if (!f.robots[i].halting) return false;
+  setWheels(f, i, 0, 0);
+  const bool stands =
+      std::hypot(f.vx[i], f.vy[i]) < kStanding && std::abs(f.yaw_rate[i]) < kStanding;
+  if (stands) endBlocked(parts, i);
+  return true;
+}
+
+}  // namespace kiva

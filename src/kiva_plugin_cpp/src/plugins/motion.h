@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fleet_plugin.h"
+
+namespace kiva {
+
+/// Drives straight legs: a trapezoid of speed along the line, the wheels steering back onto it.
+class MotionPlugin : public FleetPlugin {
+ public:
+  const char* filename() const override { return "libkiva_motion.so"; }
+  void configure(Robot& robot, const Parameters& parameters) const override;
+  void beforeStep(Parts& parts) override;
+};
+
+/// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
+void setWheels(Fleet& fleet, int i, double speed, double yaw_rate);
+
+/// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
+/// it is.
+bool halting(Parts& parts, int i);
+
+}  // namespace kiva

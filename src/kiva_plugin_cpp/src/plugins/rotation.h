@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fleet_plugin.h"
+
+namespace kiva {
+
+/// Turns in place: a triangle of yaw rate, no steeper than motors and floor can hold.
+class RotationPlugin : public FleetPlugin {
+ public:
+  const char* filename() const override { return "libkiva_rotation.so"; }
+  void configure(Robot& robot, const Parameters& parameters) const override;
+  void beforeStep(Parts& parts) override;
+};
+
+}  // namespace kiva
