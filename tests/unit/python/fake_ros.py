@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stands in for rospy where a test needs no master."""
 
+from types import SimpleNamespace
+
 import rospy
 
 
@@ -30,7 +32,7 @@ class Publisher:
 class FakeRos:
     """Publishers and callbacks by topic; parameters as given."""
 
-    Time = rospy.Time
+    Time = SimpleNamespace(now=lambda: rospy.Time(42))
 
     def __init__(self, **parameters):
         self.parameters = {f"~{name}": value for name, value in parameters.items()}

@@ -43,6 +43,13 @@ def yaw(pose):
     return np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
+def planar_of(messages):
+    """(x, y, yaw) of each geometry_msgs/Pose."""
+    pairs = [(p.position, p.orientation) for p in messages]
+    out = rows([(at.x, at.y, at.z, q.x, q.y, q.z, q.w) for at, q in pairs])
+    return np.column_stack([out[:, :2], yaw(out)])
+
+
 def message(row):
     """geometry_msgs/Pose of one row."""
     x, y, z, qx, qy, qz, qw = row.tolist()

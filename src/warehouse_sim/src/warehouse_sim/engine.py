@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The running world as its services offer it: models come and go, physics pauses."""
+
+from contextlib import contextmanager
+
+from std_srvs.srv import Empty
+
+from gazebo_msgs.srv import DeleteModel, GetPhysicsProperties, GetWorldProperties, SpawnModel
+from warehouse_sim import poses
+
+WAIT = 30.0  # for the world to come up [s, wall]
+
+
+class EngineError(RuntimeError):
+    """The world refused something; the message is its own, with the model's name before it."""
+
+
+class Engine:
+    """One client of the world. Its connections persist, so one thread at a time; close it after.
+
+    `ros` is rospy, or what stands in for it in a test.
+    """
+
+    def __init__(self, ros):
+        self._ros, self._proxies = ros, {}
+
+    def __enter__(self):
+        try:
+            self._ros.wait_for_service("/gazebo/spawn_sdf_model", WAIT)
+        except self._ros.ROSException as error:
+            raise EngineError(f"the world does not answer: {error}") from error
+        return self
+
+    def __exit__(self, *_):
+        for proxy in self._proxies.values():
+            proxy.close()
+
+    def _call(self, service, kind, *args):
+        if service not in self._proxies:
+            name = f"/gazebo/{service}"
+            self._proxies[service] = self._ros.ServiceProxy(name, kind, persistent=True)
+        try:
+            return self._proxies[service](*args)
+        except self._ros.ServiceException as error:
+            raise EngineError(f"{service}: {error}") from error
+
+    def names(self):
+        """All models that stand in the world."""
+        return self._call("get_world_properties", GetWorldProperties).model_names
+
+    def spawn(self, name, xml, pose):
+        """Puts a model there: SDF text, and a pose row as in poses.py. Raises EngineError."""
+        frame = poses.message(pose)
+        answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", frame, "world")
+        if not answer.success:
+            raise EngineError(f"{name}: {answer.status_message}")
+
+    def delete(self, name):
+        """Takes a model away. Raises EngineError."""
+        answer = self._call("delete_model", DeleteModel, name)
+        if not answer.success:
+            raise EngineError(f"{name}: {answer.status_message}")
+
+    @contextmanager
+    def paused(self):
+        """Physics stands still within, and goes on afterwards if it did before."""
+        ran = not self._call("get_physics_properties", GetPhysicsProperties).pause
+        self._call("pause_physics", Empty)
+        try:
+            yield
+        finally:
+            if ran:
+                self._call("unpause_physics", Empty)

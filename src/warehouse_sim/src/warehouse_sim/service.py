@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Answers requests for a warehouse."""
+
+import threading
+
+from std_msgs.msg import Header
+
+from gazebo_msgs.msg import ModelStates
+from warehouse_msgs.srv import CreateWarehouseResponse
+from warehouse_sim import hints, models, poses, survey
+from warehouse_sim.creation import Creation
+from warehouse_sim.engine import Engine, EngineError
+from warehouse_sim.layout import plan
+from warehouse_sim.request import RequestError, resolve
+
+# While this stands, what stands in the world is half a warehouse.
+BUILDING = "/warehouse/building"
+GREETED = "~greeted"
+
+PATIENCE = 5.0  # [s, wall]
+
+
+class WarehouseService:
+    """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation."""
+
+    def __init__(self, ros, tell):
+        self._ros, self._tell, self._lock = ros, tell, threading.Lock()
+
+    def handle(self, request):
+        """CreateWarehouse: a refused request changes nothing."""
+        try:
+            message = self.create(
+                request.warehouse_name,
+                request.warehouse_id,
+                (request.robots, request.items, request.shelves),
+            )
+            success = True
+        except (RequestError, EngineError) as error:
+            message, success = str(error), False
+        header = Header(stamp=self._ros.Time.now(), frame_id="world")
+        return CreateWarehouseResponse(header, success, message)
+
+    def create(self, name, number=0, counts=(0, 0, 0)):
+        """Returns what stands then. Raises RequestError, EngineError."""
+        wanted = resolve(name, *counts)
+        layout = plan(wanted)
+        with self._lock, Engine(self._ros) as engine:
+            self._ros.set_param(BUILDING, name)
+            try:
+                Creation(engine, self._tell).replace(layout)
+                self._ros.set_param("/warehouse/name", name)
+                self._ros.set_param("/warehouse/id", number)
+            finally:
+                self._ros.delete_param(BUILDING)
+        width, length = layout.floor.size
+        title = f"{name}: " if name else ""
+        return f"{title}{wanted} on a {width:g} × {length:g} m floor"
+
+    def start(self, size):
+        """Finds the warehouse as it stands; builds the preset `size` where none does.
+
+        What a node that died has left half-built is built anew.
+        """
+        with Engine(self._ros) as engine:
+            standing = {models.kind_and_number(n)[0] for n in engine.names()} - {None}
+        if self._ros.has_param(BUILDING) or (size and not standing):
+            self._greet(self.create(size or "empty"))
+        elif not self._ros.has_param(GREETED):
+            self._greet()
+
+    def _greet(self, title=""):
+        """Tells what stands there and what to try; nothing if the world does not tell."""
+        try:
+            states = self._ros.wait_for_message("/gazebo/model_states", ModelStates, PATIENCE)
+        except self._ros.ROSException:
+            return  # It is paused.
+        found = survey.of_models(states.name, poses.planar_of(states.pose))
+        title = title or f"{self._ros.get_param('/warehouse/name', 'world')}: {found}"
+        self._tell(hints.greeting(title, hints.commands(found)))
+        self._ros.set_param(GREETED, True)

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What stands in the world, told by the names and poses of its models."""
+
+from dataclasses import dataclass, field
+
+from warehouse_sim import models, routes
+
+BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
+
+
+@dataclass
+class Survey:
+    """Poses (x, y, yaw) in world [m, rad] by number; `others` by name."""
+
+    kiva: dict = field(default_factory=dict)
+    storage_unit: dict = field(default_factory=dict)
+    item: dict = field(default_factory=dict)
+    conveyor_belt: dict = field(default_factory=dict)
+    others: dict = field(default_factory=dict)
+
+    def __str__(self):
+        nouns = {"kiva": "robot", "storage_unit": "storage unit", "item": "item"}
+        nouns |= {"conveyor_belt": "conveyor belt", "others": "other model"}
+        counts = ((len(getattr(self, kind)), noun) for kind, noun in nouns.items())
+        parts = [f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in counts if n]
+        return ", ".join(parts) or "an empty floor"
+
+    def obstacles(self):
+        """Grid points that no robot may pass, with a load or without, but for those of robots."""
+        belts = [p for pose in self.conveyor_belt.values() for p in routes.covered(*pose, *BELT)]
+        # How large the others are is not known; a person and a wall's end reach this far.
+        others = [p for x, y, _ in self.others.values() for p in routes.covered(x, y, 0, 1, 1)]
+        return {*belts, *others}
+
+
+def of_models(names, planar_poses):
+    """A Survey of models by name and (x, y, yaw); the floor is left out."""
+    survey = Survey()
+    for name, pose in zip(names, planar_poses):
+        kind, number = models.kind_and_number(name)
+        if kind:
+            getattr(survey, kind)[number] = pose
+        elif name != models.FLOOR:
+            survey.others[name] = pose
+    return survey

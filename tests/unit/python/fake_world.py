@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A world that only keeps names and poses, behind the services of the real one."""
+
+from types import SimpleNamespace
+
+import rospy
+from fake_ros import FakeRos
+from geometry_msgs.msg import Pose
+
+from gazebo_msgs.msg import ModelStates
+from warehouse_sim import models
+
+
+class FakeWorld(FakeRos):
+    """A stand-in for rospy with a world behind it, which refuses to spawn the model `refuses`."""
+
+    ROSException, ServiceException = rospy.ROSException, rospy.ServiceException
+
+    def __init__(self, standing=(), refuses=None, paused=False):
+        super().__init__()
+        self.standing = dict.fromkeys(standing, Pose())
+        self.refuses, self.pause = refuses, paused
+        self.spawned_while_running = []
+
+    def set_param(self, name, value):
+        self.parameters[name] = value
+
+    def has_param(self, name):
+        return name in self.parameters
+
+    def delete_param(self, name):
+        del self.parameters[name]
+
+    def wait_for_service(self, name, timeout):
+        pass
+
+    def wait_for_message(self, topic, kind, timeout):
+        return ModelStates(list(self.standing), list(self.standing.values()), [])
+
+    def ServiceProxy(self, name, kind, persistent):  # noqa: N802 (rospy's name)
+        call = getattr(self, name.removeprefix("/gazebo/"))
+        return _Proxy(call)
+
+    def get_world_properties(self):
+        return SimpleNamespace(model_names=list(self.standing))
+
+    def get_physics_properties(self):
+        return SimpleNamespace(pause=self.pause)
+
+    def pause_physics(self):
+        self.pause = True
+
+    def unpause_physics(self):
+        self.pause = False
+
+    def spawn_sdf_model(self, name, xml, namespace, pose, frame):
+        if name in self.standing:
+            return _answer("SpawnModel: Failure - entity already exists.")
+        if name == self.refuses:
+            return _answer("bad model")
+        if not self.pause:
+            self.spawned_while_running.append(name)
+        self.standing[name] = pose
+        return _answer()
+
+    def delete_model(self, name):
+        if name not in self.standing:
+            return _answer("DeleteModel: model does not exist")
+        del self.standing[name]
+        if models.kind_and_number(name)[0] == "storage_unit":
+            self.standing = {
+                n: p for n, p in self.standing.items() if models.kind_and_number(n)[0] != "item"
+            }
+        return _answer()
+
+
+class _Proxy:
+    def __init__(self, call):
+        self._call = call
+
+    def __call__(self, *args):
+        return self._call(*args)
+
+    def close(self):
+        self._call = None
+
+
+def _answer(error=""):
+    return SimpleNamespace(success=not error, status_message=error)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Building a warehouse in place of another: all of it, or none."""
+
+import re
+
+import pytest
+from fake_world import FakeWorld
+
+from warehouse_msgs.srv import CreateWarehouseRequest
+from warehouse_sim import creation
+from warehouse_sim.engine import Engine, EngineError
+from warehouse_sim.layout import plan
+from warehouse_sim.models import FLOOR, kind_and_number, of_layout
+from warehouse_sim.request import PRESETS
+from warehouse_sim.service import BUILDING, WarehouseService
+
+
+def service(world, told=None):
+    return WarehouseService(world, [].append if told is None else told.append)
+
+
+def ask(world, name="", **counts):
+    return service(world).handle(CreateWarehouseRequest(warehouse_name=name, **counts))
+
+
+def counts(world):
+    kinds = [kind_and_number(name)[0] for name in world.standing]
+    return {kind: kinds.count(kind) for kind in kinds}
+
+
+def test_small_stands():
+    world = FakeWorld()
+    answer = ask(world, "small", warehouse_id=7)
+    assert answer.success
+    assert answer.message == (
+        "small: 4 robots, 24 storage units, 96 items, 2 conveyor belts on a 12 × 10 m floor"
+    )
+    assert counts(world) == {
+        None: 1,
+        "kiva": 4,
+        "storage_unit": 24,
+        "item": 96,
+        "conveyor_belt": 2,
+    }
+    assert world.parameters["/warehouse/name"] == "small"
+    assert world.parameters["/warehouse/id"] == 7
+
+
+def test_items_are_spawned_within_their_units():
+    world = FakeWorld()
+    ask(world, shelves=3, items=12)
+    at = world.standing["storage_unit2"].position
+    item = world.standing["item2"].position
+    assert abs(item.x - at.x) < 0.3
+    assert abs(item.y - at.y) < 0.3
+    assert item.z == 0.46
+
+
+def test_models_of_one_kind_share_their_text():
+    texts = {model.xml for model in of_layout(plan(PRESETS["small"]))}
+    assert len(texts) == 5
+
+
+def test_a_warehouse_takes_the_place_of_the_last():
+    world = FakeWorld(standing=["kiva9", "storage_unit1", "item1", "item77", "conveyor_belt3"])
+    others = ["person1", "kiva_statue", "item1_label"]
+    world.standing |= dict.fromkeys([FLOOR, *others])
+    ask(world, robots=1)
+    assert set(world.standing) == {FLOOR, "kiva1", "conveyor_belt1", *others}
+
+
+@pytest.mark.parametrize("counts", [{}, {"robots": -1}, {"robots": 1, "items": 5}])
+def test_a_refused_request_changes_nothing(counts):
+    world = FakeWorld(standing=["kiva9", "storage_unit1", "item1"])
+    before = dict(world.standing)
+    answer = ask(world, "nowhere", **counts)
+    assert not answer.success
+    assert answer.message
+    assert world.standing == before
+    assert world.parameters == {}
+
+
+def test_half_a_warehouse_is_taken_away_again():
+    world = FakeWorld(standing=["kiva9", "person1"], refuses="item5")
+    answer = ask(world, shelves=2, items=9, robots=2)
+    assert not answer.success
+    assert answer.message == "item5: bad model; the half-made warehouse was taken away"
+    assert set(world.standing) == {FLOOR, "person1"}
+
+
+@pytest.mark.parametrize("paused", [True, False])
+@pytest.mark.parametrize("refuses", [None, "kiva2"])
+def test_physics_stands_still_meanwhile_and_only_then(paused, refuses):
+    world = FakeWorld(paused=paused, refuses=refuses)
+    ask(world, robots=3)
+    assert world.pause == paused
+    assert world.spawned_while_running == []
+
+
+def test_builds_at_the_start():
+    world, told = FakeWorld(standing=[FLOOR]), []
+    service(world, told).start("small")
+    assert counts(world)["kiva"] == 4
+    assert "small: 4 robots" in told[-1]
+    assert len(re.findall("rostopic pub -1", told[-1])) == 3
+
+
+def test_a_respawned_node_finds_the_warehouse_as_it_stands():
+    world, told = FakeWorld(standing=[FLOOR]), []
+    service(world).start("small")
+    del world.standing["item3"]
+    before = dict(world.standing)
+    service(world, told).start("small")
+    assert world.standing == before
+    assert told == []
+
+
+def test_what_a_dead_node_left_half_built_is_built_anew():
+    world = FakeWorld(standing=["storage_unit1"])
+    world.set_param(BUILDING, "small")
+    service(world).start("small")
+    assert counts(world)["storage_unit"] == 24
+    assert not world.has_param(BUILDING)
+
+
+def test_without_a_size_nothing_is_built():
+    world = FakeWorld(standing=[FLOOR])
+    service(world).start("")
+    assert set(world.standing) == {FLOOR}
+
+
+def test_long_work_tells_how_far_it_is():
+    told, times = [], iter(range(10000))
+    with Engine(FakeWorld()) as engine:
+        creation.Creation(engine, told.append, clock=lambda: next(times)).replace(
+            plan(PRESETS["small"])
+        )
+    assert told[0] == "built 2 of 127 models"
+    assert len(told) > 5
+
+
+def test_a_world_that_does_not_answer():
+    world = FakeWorld()
+
+    def fail(*_):
+        raise world.ROSException("timeout exceeded")
+
+    world.wait_for_service = fail
+    answer = ask(world, "small")
+    assert not answer.success
+    assert "does not answer: timeout exceeded" in answer.message
+
+
+def test_a_world_that_dies_midway():
+    world = FakeWorld()
+
+    def fail(*_):
+        raise world.ServiceException("connection closed")
+
+    world.spawn_sdf_model = fail
+    answer = ask(world, "small")
+    assert not answer.success
+    assert "spawn_sdf_model: connection closed" in answer.message
+
+
+def test_engine_names_what_can_not_be_deleted():
+    with Engine(FakeWorld()) as engine, pytest.raises(EngineError, match="kiva1: .*not exist"):
+        engine.delete("kiva1")
