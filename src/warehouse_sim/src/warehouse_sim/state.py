@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse at a glance: one message with every robot's status and every unit's carrier."""
+
+from geometry_msgs.msg import Pose2D
+from std_msgs.msg import Header
+
+from warehouse_msgs.msg import (
+    FleetState,
+    KivaStatus,
+    Lift,
+    MoveAlong,
+    MoveTo,
+    Rotate,
+    UnitStates,
+    WarehouseObjects,
+    WarehouseState,
+)
+from warehouse_sim import tracking
+from warehouse_sim.newest import Newest, OnDemand
+
+COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
+PERIOD = 1.0  # [s, simulated]
+
+
+def statuses(fleet):
+    """KivaStatus of every robot in a FleetState."""
+    header = Header(stamp=fleet.stamp, frame_id="world")
+    poses = map(Pose2D, fleet.x, fleet.y, fleet.yaw)
+    columns = (fleet.kiva_id, fleet.status, fleet.state, fleet.shelf_id, poses)
+    return [KivaStatus(header, *robot) for robot in zip(*columns)]
+
+
+def glance(fleet, objects, states):
+    """A WarehouseState without name and id; `fleet` is None until robots have reported."""
+    units = tracking.storage_units(objects, states)
+    stamp = max([states.header.stamp] + ([fleet.stamp] if fleet else []))
+    return WarehouseState(
+        header=Header(stamp=stamp, frame_id="world"),
+        robots=len(objects.kiva_id),
+        items=len(objects.items),
+        shelves=len(objects.storage_units),
+        belts=len(objects.belts),
+        kivas=statuses(fleet) if fleet else [],
+        storage_units=[units.message(i) for i in range(len(units.names))],
+    )
+
+
+class Board:
+    """Publishes /warehouse/state. `ros` is rospy."""
+
+    def __init__(self, ros):
+        self._ros, self._shown, self._next = ros, None, None
+        self._newest = Newest(
+            ros,
+            fleet=("/warehouse/fleet", FleetState),
+            objects=("/warehouse/objects", WarehouseObjects),
+            states=("/warehouse/unit_states", UnitStates),
+        )
+        self._topic = OnDemand(ros, "/warehouse/state", WarehouseState, self.message)
+
+    def message(self):
+        """The newest WarehouseState, or None if nothing is known yet."""
+        if not self._newest.units_and_objects:
+            return None
+        out = glance(self._newest["fleet"], *self._newest.units_and_objects)
+        out.warehouse_name, out.warehouse_id = self._name()
+        return out
+
+    def _name(self):
+        number = self._ros.get_param("/warehouse/id", 0)
+        return str(self._ros.get_param("/warehouse/name", "")), number
+
+    def turn(self, patience=1.0):
+        """Waits for news, at most `patience` wall seconds, and publishes them where it is time."""
+        news = self._newest.wait(patience)
+        now, fit = self._ros.Time.now().to_sec(), self._newest.units_and_objects
+        if not fit:
+            return
+        # The name is asked for when little happens; it comes last when a warehouse is built.
+        shown = (fit[0].revision, None if news else self._name())
+        due = self._next is None or not self._next - PERIOD <= now < self._next
+        if due or self._differs(shown):
+            self._topic.publish()
+            self._shown, self._next = (shown[0], self._name()), now + PERIOD
+
+    def _differs(self, shown):
+        revision, name = shown
+        return revision != self._shown[0] or name not in (None, self._shown[1])
+
+
+def follow(ros):
+    """Until shutdown; the body of create_warehouse_topics."""
+    for topic, kind in COMMANDS.items():
+        ros.Publisher(topic, kind, queue_size=10)
+    board = Board(ros)
+    while not ros.is_shutdown():
+        board.turn()
