@@ -116,6 +116,7 @@ void takeUp(Parts& parts, int robot, int unit) {
   loadRobot(parts, robot, unit);
   rebuildBody(parts, robot);
   updateOutlines(parts, model);
+  parts.setStatus(robot, parts.fleet.status[robot], parts.fleet.state[robot]);
   ++parts.units_revision;
 }
 
@@ -130,6 +131,7 @@ void putDown(Parts& parts, int robot) {
   unloadRobot(parts.fleet.robots[robot]);
   rebuildBody(parts, robot);
   updateOutlines(parts, model);
+  parts.setStatus(robot, parts.fleet.status[robot], parts.fleet.state[robot]);
   ++parts.units_revision;
 }
 

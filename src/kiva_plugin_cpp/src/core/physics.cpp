@@ -14,8 +14,24 @@ namespace {
 // half of it.
 constexpr double kMargin = 0.0005;  // [m]
 
+// Bullet's own distance at which contacts are foreseen.
+constexpr double kForesight = 0.02;  // [m]
+
+/// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
+/// boxes, and a fast body would sink in before its parts are looked at.
+template <typename Base>
+class Foreseeing : public Base {
+ public:
+  using Base::Base;
+  void getAabb(const btTransform& pose, btVector3& min, btVector3& max) const override {
+    Base::getAabb(pose, min, max);
+    min -= btVector3(kForesight, kForesight, kForesight);
+    max += btVector3(kForesight, kForesight, kForesight);
+  }
+};
+
 std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
-  auto box = std::make_unique<btBoxShape>(toBullet(shape.size * 0.5));
+  auto box = std::make_unique<Foreseeing<btBoxShape>>(toBullet(shape.size * 0.5));
   box->setMargin(kMargin);
   // With its faces known, two boxes get a whole contact patch at once instead of a point a step.
   box->initializePolyhedralFeatures();
@@ -24,7 +40,7 @@ std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
 
 std::unique_ptr<btCollisionShape> makeCylinder(const Shape& shape) {
   const btVector3 half(shape.radius, shape.radius, shape.length / 2);
-  auto cylinder = std::make_unique<btCylinderShapeZ>(half);
+  auto cylinder = std::make_unique<Foreseeing<btCylinderShapeZ>>(half);
   cylinder->setMargin(kMargin);
   return cylinder;
 }
@@ -32,7 +48,7 @@ std::unique_ptr<btCollisionShape> makeCylinder(const Shape& shape) {
 std::unique_ptr<btCollisionShape> makeEllipsoid(const Shape& shape) {
   const btVector3 centre(0, 0, 0);
   const btScalar unit = 1;
-  auto ellipsoid = std::make_unique<btMultiSphereShape>(&centre, &unit, 1);
+  auto ellipsoid = std::make_unique<Foreseeing<btMultiSphereShape>>(&centre, &unit, 1);
   ellipsoid->setLocalScaling(toBullet(shape.size));
   return ellipsoid;
 }
@@ -42,11 +58,11 @@ std::unique_ptr<btCollisionShape> makeShape(const Shape& shape) {
     case Shape::Kind::kBox:
       return makeBox(shape);
     case Shape::Kind::kSphere:
-      return std::make_unique<btSphereShape>(shape.radius);
+      return std::make_unique<Foreseeing<btSphereShape>>(shape.radius);
     case Shape::Kind::kCylinder:
       return makeCylinder(shape);
     case Shape::Kind::kCapsule:
-      return std::make_unique<btCapsuleShapeZ>(shape.radius, shape.length);
+      return std::make_unique<Foreseeing<btCapsuleShapeZ>>(shape.radius, shape.length);
     case Shape::Kind::kEllipsoid:
       return makeEllipsoid(shape);
     case Shape::Kind::kPlane:

@@ -33,37 +33,70 @@ Vehicle vehicle(const Robot& robot, double gravity) {
           ideal ? kUnlimited : drive.friction * mass * gravity * drive.drive_wheel_load / 2};
 }
 
-/// Motor torques [Nm] that bring rolling wheels to their targets within the step, if the limits
-/// allow. Rolling without slip couples the wheels through the chassis:
-/// torque = [[a, c], [c, a]] · wheel acceleration.
-void motorTorques(const Vehicle& v, const double speed[2], const double target[2], double dt,
-                  double torque[2]) {
-  const double r2 = v.radius * v.radius;
-  const double turn = v.inertia / (4 * v.half_gap * v.half_gap);
-  const double a = v.wheel_inertia + r2 * (v.mass / 4 + turn);
-  const double c = r2 * (v.mass / 4 - turn);
-  const double left = (target[0] - speed[0]) / dt, right = (target[1] - speed[1]) / dt;
-  torque[0] = std::clamp(a * left + c * right, -v.torque, v.torque);
-  torque[1] = std::clamp(c * left + a * right, -v.torque, v.torque);
+/// One wheel within a step. A motor holds its wheel at the target as long as its torque suffices;
+/// then it gives what it has, and the wheel's speed is found with the floor's.
+struct Wheel {
+  double speed = 0;        // at the beginning of the step [rad/s]
+  double target = 0;       // [rad/s]
+  bool saturated = false;  // the motor is at its limit
+  double motor = 0;        // impulse of a saturated motor [Nm s]
+  double floor_speed = 0;  // of the chassis over the floor at this wheel [m/s]
+  double friction = 0;     // impulse of the floor on the wheel, forward [N s]
+};
+
+double slipWithoutFriction(const Vehicle& v, const Wheel& wheel) {
+  const double spin = wheel.saturated ? wheel.speed + wheel.motor / v.wheel_inertia : wheel.target;
+  return wheel.floor_speed - v.radius * spin;
 }
 
-/// Friction impulses [N s] of the floor on the wheels, forward, that end the slip of both wheels
-/// [m/s] within the step; each at most `limit`. Two unknowns: what one wheel can't hold, the other
-/// is solved for again.
-void frictionImpulses(const Vehicle& v, const double slip[2], double limit, double impulse[2]) {
-  const double own =
-      1 / v.mass + v.half_gap * v.half_gap / v.inertia + v.radius * v.radius / v.wheel_inertia;
-  const double other = 1 / v.mass - v.half_gap * v.half_gap / v.inertia;
-  const double determinant = own * own - other * other;
-  impulse[0] = (-own * slip[0] + other * slip[1]) / determinant;
-  impulse[1] = (-own * slip[1] + other * slip[0]) / determinant;
-  for (int wheel = 0; wheel < 2; ++wheel) {
-    if (std::abs(impulse[wheel]) <= limit) continue;
-    impulse[wheel] = std::copysign(limit, impulse[wheel]);
-    const int rest = 1 - wheel;
-    impulse[rest] = std::clamp(-(slip[rest] + other * impulse[wheel]) / own, -limit, limit);
+/// Friction impulses that end the slip of both wheels within the step, each at most `limit`
+/// (Coulomb): a linear complementarity problem of two unknowns, solved by cases. A saturated
+/// wheel's own inertia takes part; that of one held by its motor does not.
+void solveFriction(const Vehicle& v, double limit, Wheel wheels[2]) {
+  const double turn = v.half_gap * v.half_gap / v.inertia;
+  const double coupled = 1 / v.mass - turn;
+  double own[2], slip[2];
+  for (int i = 0; i < 2; ++i) {
+    own[i] = 1 / v.mass + turn + (wheels[i].saturated ? v.radius * v.radius / v.wheel_inertia : 0);
+    slip[i] = slipWithoutFriction(v, wheels[i]);
+  }
+  const double determinant = own[0] * own[1] - coupled * coupled;
+  for (int i = 0; i < 2; ++i) {
+    wheels[i].friction = (-own[1 - i] * slip[i] + coupled * slip[1 - i]) / determinant;
+  }
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(wheels[i].friction) <= limit) continue;
+    wheels[i].friction = std::copysign(limit, wheels[i].friction);
+    Wheel& rest = wheels[1 - i];  // is solved for again
+    rest.friction =
+        std::clamp(-(slip[1 - i] + coupled * wheels[i].friction) / own[1 - i], -limit, limit);
     return;
   }
+}
+
+/// Impulse that the motor needs to have the wheel at its target after the step [Nm s].
+double neededMotor(const Vehicle& v, const Wheel& wheel) {
+  return v.wheel_inertia * (wheel.target - wheel.speed) + v.radius * wheel.friction;
+}
+
+/// Finds which motors are at their limits, and the floor's friction with it.
+void solveWheels(const Vehicle& v, double friction_limit, double motor_limit, Wheel wheels[2]) {
+  for (int round = 0; round < 3; ++round) {
+    solveFriction(v, friction_limit, wheels);
+    bool changed = false;
+    for (int i = 0; i < 2; ++i) {
+      const double needed = neededMotor(v, wheels[i]);
+      if (wheels[i].saturated || std::abs(needed) <= motor_limit) continue;
+      wheels[i].saturated = changed = true;
+      wheels[i].motor = std::copysign(motor_limit, needed);
+    }
+    if (!changed) return;
+  }
+}
+
+double speedAfter(const Vehicle& v, const Wheel& wheel) {
+  if (!wheel.saturated) return wheel.target;
+  return wheel.speed + (wheel.motor - v.radius * wheel.friction) / v.wheel_inertia;
 }
 
 }  // namespace
@@ -74,9 +107,6 @@ void applyTraction(Fleet& fleet, int i, double gravity, double dt) {
   double forward = c * fleet.vx[i] + s * fleet.vy[i];
   double sideways = -s * fleet.vx[i] + c * fleet.vy[i];
   double turn = fleet.yaw_rate[i];
-  double speed[2] = {fleet.wheel_speed[0][i], fleet.wheel_speed[1][i]};
-  const double target[2] = {fleet.wheel_target[0][i], fleet.wheel_target[1][i]};
-
   // Sideways both wheels grip the floor as one: they share the axle.
   const double grip = v.grip * dt;
   const double hold = std::clamp(-v.mass * sideways, -2 * grip, 2 * grip);
@@ -85,21 +115,18 @@ void applyTraction(Fleet& fleet, int i, double gravity, double dt) {
   const double limit =
       grip == kUnlimited ? kUnlimited : std::sqrt(std::max(0.0, grip * grip - hold * hold / 4));
 
-  double torque[2];
-  motorTorques(v, speed, target, dt, torque);
-  double slip[2];
-  for (int wheel = 0; wheel < 2; ++wheel) {
-    speed[wheel] += torque[wheel] * dt / v.wheel_inertia;
-    const double over_floor = forward + (wheel == 0 ? -1 : 1) * turn * v.half_gap;
-    slip[wheel] = over_floor - v.radius * speed[wheel];
+  Wheel wheels[2];
+  for (int side = 0; side < 2; ++side) {
+    wheels[side].speed = fleet.wheel_speed[side][i];
+    wheels[side].target = fleet.wheel_target[side][i];
+    wheels[side].floor_speed = forward + (side == 0 ? -1 : 1) * turn * v.half_gap;
   }
-  double impulse[2];
-  frictionImpulses(v, slip, limit, impulse);
-  forward += (impulse[0] + impulse[1]) / v.mass;
-  turn += (impulse[1] - impulse[0]) * v.half_gap / v.inertia;
+  solveWheels(v, limit, v.torque * dt, wheels);
+  forward += (wheels[0].friction + wheels[1].friction) / v.mass;
+  turn += (wheels[1].friction - wheels[0].friction) * v.half_gap / v.inertia;
 
-  for (int wheel = 0; wheel < 2; ++wheel) {
-    fleet.wheel_speed[wheel][i] = speed[wheel] - impulse[wheel] * v.radius / v.wheel_inertia;
+  for (int side = 0; side < 2; ++side) {
+    fleet.wheel_speed[side][i] = speedAfter(v, wheels[side]);
   }
   fleet.vx[i] = c * forward - s * sideways;
   fleet.vy[i] = s * forward + c * sideways;

@@ -73,10 +73,16 @@ void World::Parts::report(Event::Kind kind, const std::string& model, const std:
 }
 
 void World::Parts::setStatus(int robot, Status status, State state) {
+  Robot& r = fleet.robots[robot];
+  const int shelf = shelfId(*this, robot);
+  if (fleet.status[robot] == status && fleet.state[robot] == state && r.reported_shelf == shelf) {
+    return;
+  }
   fleet.status[robot] = status;
   fleet.state[robot] = state;
-  status_changes.push_back({time(), fleet.robots[robot].id, status, state, shelfId(*this, robot),
-                            fleet.x[robot], fleet.y[robot], fleet.yaw[robot]});
+  r.reported_shelf = shelf;
+  status_changes.push_back(
+      {time(), r.id, status, state, shelf, fleet.x[robot], fleet.y[robot], fleet.yaw[robot]});
 }
 
 World::World(const WorldDescription& description, const WorldOptions& options)

@@ -30,11 +30,14 @@ double approachSpeed(const Robot& r, const Ahead& ahead, double along, double be
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
 
+/// From the robot's centre to the front of it and its load [m].
+double reach(const Robot& r) { return std::max(r.half_length, r.load_half_length); }
+
 /// How far along the leg the robot may go: a grid point before the cell of what is ahead, or, off
 /// the grid, a little before it.
 double farthestStop(const Parts& parts, const Robot& r, double obstacle) {
   if (!r.legs.front().on_grid) {
-    return obstacle - std::max(r.half_length, r.load_half_length) - kClearance;
+    return obstacle - reach(r) - kClearance;
   }
   const double cell = parts.grid_spacing;
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
@@ -67,12 +70,16 @@ void guard(Parts& parts, int i) {
   if (ahead.model < 0) return;
 
   const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
-  const double comes = approach * scan_time + approach * approach / (2 * usual);
-  const double stop = farthestStop(parts, r, along + ahead.distance - comes);
-  if (stop >= r.goal - kSoon) return;  // it ends before, anyway
+  // Until the other one has seen this robot too, it comes on.
+  const double comes = 2 * approach * scan_time + approach * approach / (2 * usual);
+  const double obstacle = along + ahead.distance - comes;
+  const double stop = farthestStop(parts, r, obstacle);
+  if (stop >= r.goal - kSoon) return;                                    // it ends before, anyway
+  if (r.stopping && r.goal + reach(r) + kClearance <= obstacle) return;  // it will be in time
   const double speed = std::abs(r.profile.speed);
   const double braking = speed * speed / (2 * usual) + speed * scan_time;
-  if (!r.stopping && stop - r.profile.position > braking + kSoon) return;  // there is time
+  const double next_stop = farthestStop(parts, r, obstacle - approach * scan_time);
+  if (!r.stopping && next_stop - r.profile.position > braking + kSoon) return;  // there is time
   const std::string& name = parts.models[ahead.model]->name;
   markBlocked(parts, i, name, name + " is in the way");
   planStop(r, stop, parts.dt);

@@ -12,8 +12,6 @@ namespace {
 constexpr double kAlongGain = 10;      // [1/s] speed for distance lagged
 constexpr double kHeadingGain = 8;     // [1/s] yaw rate for heading error
 constexpr double kLineGain = 8;        // [1/m²] yaw rate for distance off the line and speed
-constexpr double kArrived = 1e-5;      // [m]
-constexpr double kStanding = 1e-3;     // [m/s, rad/s]
 constexpr double kStuck = 0.15;        // [m] behind the profile
 constexpr double kOverdue = 2.0;       // [s]
 constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
@@ -43,8 +41,8 @@ void start(Robot& robot, const OnLine& at) {
 
 bool arrived(const Fleet& f, int i, const OnLine& at) {
   const Robot& r = f.robots[i];
-  return r.profile.reached(r.goal) && std::abs(at.along - r.goal) < kArrived &&
-         std::abs(at.speed) < kStanding && std::abs(f.yaw_rate[i]) < kStanding;
+  return r.profile.reached(r.goal) && std::abs(at.along - r.goal) < tolerance(r).distance &&
+         stands(f, i);
 }
 
 /// Ends a leg that the wheels can't drive, as against a wall that no laser saw.
@@ -119,13 +117,22 @@ void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
   f.wheel_target[1][i] = (speed + turn) / d.wheel_radius;
 }
 
+const Tolerance& tolerance(const Robot& robot) {
+  // A jointed robot is shaken a little by its contacts with the floor.
+  static const Tolerance traction{1e-5, 1e-6, 1e-3}, jointed{3e-4, 6e-5, 5e-3};
+  return robot.drive.drive == Drive::kJointed ? jointed : traction;
+}
+
+bool stands(const Fleet& f, int i) {
+  const double still = tolerance(f.robots[i]).speed;
+  return std::hypot(f.vx[i], f.vy[i]) < still && std::abs(f.yaw_rate[i]) < still;
+}
+
 bool halting(Parts& parts, int i) {
   Fleet& f = parts.fleet;
   if (!f.robots[i].halting) return false;
   setWheels(f, i, 0, 0);
-  const bool stands =
-      std::hypot(f.vx[i], f.vy[i]) < kStanding && std::abs(f.yaw_rate[i]) < kStanding;
-  if (stands) endBlocked(parts, i);
+  if (stands(f, i)) endBlocked(parts, i);
   return true;
 }
 

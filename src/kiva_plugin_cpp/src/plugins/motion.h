@@ -16,6 +16,15 @@ class MotionPlugin : public FleetPlugin {
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
 void setWheels(Fleet& fleet, int i, double speed, double yaw_rate);
 
+/// How near is there, and how slow is standing.
+struct Tolerance {
+  double distance;  ///< [m]
+  double angle;     ///< [rad]
+  double speed;     ///< [m/s, rad/s]
+};
+const Tolerance& tolerance(const Robot& robot);
+bool stands(const Fleet& fleet, int i);
+
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
 /// it is.
 bool halting(Parts& parts, int i);

@@ -11,12 +11,10 @@
 namespace kiva {
 namespace {
 
-constexpr double kGain = 20;        // [1/s] yaw rate for angle lagged
-constexpr double kArrived = 1e-6;   // [rad], a hundredth of what a turn may be off
-constexpr double kStanding = 1e-3;  // [rad/s]
-constexpr double kStuck = 0.3;      // [rad] behind the profile
-constexpr double kOverdue = 2.0;    // [s]
-constexpr double kReserve = 0.9;    // of the possible acceleration, so that errors can be mended
+constexpr double kGain = 20;      // [1/s] yaw rate for angle lagged
+constexpr double kStuck = 0.3;    // [rad] behind the profile
+constexpr double kOverdue = 2.0;  // [s]
+constexpr double kReserve = 0.9;  // of the possible acceleration, so that errors can be mended
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that.
 double turnAcceleration(const Robot& robot, double gravity) {
@@ -44,7 +42,7 @@ void turnLeg(Parts& parts, int i) {
   }
   const double lag = r.profile.position - f.yaw[i];
   const bool ended = r.profile.reached(r.goal);
-  if (ended && std::abs(lag) < kArrived && std::abs(f.yaw_rate[i]) < kStanding) {
+  if (ended && std::abs(lag) < tolerance(r).angle && stands(f, i)) {
     setWheels(f, i, 0, 0);
     return finishLeg(parts, i);
   }

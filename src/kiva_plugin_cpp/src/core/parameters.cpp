@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiva_plugin_cpp/parameters.h"
+
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace kiva {
+namespace {
+
+constexpr const char* kBlanks = " \t\r\n";
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// The whole of `text` as a number; independent of the locale, unlike strtod.
+template <typename Number>
+std::optional<Number> parse(const std::string& text) {
+  const char* const begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  Number value{};
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+template <typename Number>
+std::string range(Number lower, Number upper) {
+  std::ostringstream out;
+  const bool open = upper >= std::numeric_limits<Number>::max();
+  if (open) {
+    out << "from " << lower << " upwards";
+  } else {
+    out << "from " << lower << " to " << upper;
+  }
+  return out.str();
+}
+
+template <typename Number>
+Number readNumber(const Parameters& parameters, const std::string& key, const std::string& given,
+                  const char* what, Number lower, Number upper) {
+  const auto value = parse<Number>(trimmed(given));
+  // Written so that NaN, which compares with nothing, is refused too.
+  if (value && *value >= lower && *value <= upper) return *value;
+  const std::string where = parameters.where().empty() ? "" : parameters.where() + ": ";
+  throw DescriptionError(where + "parameter '" + key + "' is '" + trimmed(given) + "', expected " +
+                         what + " " + range(lower, upper));
+}
+
+template <typename Keys>
+std::string listed(const Keys& keys) {
+  std::string list;
+  for (const std::string& key : keys) list += (list.empty() ? "'" : ", '") + key + "'";
+  return list;
+}
+
+}  // namespace
+
+double Parameters::number(const std::string& key, double fallback, double lower,
+                          double upper) const {
+  const std::string* given = find(key);
+  return given ? readNumber(*this, key, *given, "a number", lower, upper) : fallback;
+}
+
+int Parameters::whole(const std::string& key, int fallback, int lower, int upper) const {
+  const std::string* given = find(key);
+  return given ? readNumber(*this, key, *given, "a whole number", lower, upper) : fallback;
+}
+
+std::string Parameters::text(const std::string& key, const std::string& fallback) const {
+  const std::string* given = find(key);
+  return given ? trimmed(*given) : fallback;
+}
+
+void Parameters::rejectUnread() const {
+  std::set<std::string> unread;
+  for (const auto& [key, text] : values_) {
+    if (read_.count(key) == 0) unread.insert(key);
+  }
+  if (unread.empty()) return;
+  const std::string where = where_.empty() ? "" : where_ + ": ";
+  const std::string known = read_.empty() ? "it takes none" : "it takes " + listed(read_);
+  throw DescriptionError(where + "unknown parameter " + listed(unread) + "; " + known);
+}
+
+const std::string* Parameters::find(const std::string& key) const {
+  read_.insert(key);
+  const auto found = values_.find(key);
+  return found == values_.end() ? nullptr : &found->second;
+}
+
+}  // namespace kiva

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong in an SDF document, with its address, from libsdformat's lists and from our own
+// checks alike.
+#pragma once
+
+#include <exception>
+#include <mutex>
+#include <sdf/Element.hh>
+#include <sdf/Error.hh>
+#include <sdf/Types.hh>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace kiva {
+
+/// An error in a document whose name is not known yet; `describe` adds it.
+class SdfError : public std::exception {
+ public:
+  explicit SdfError(sdf::Error error) : error_(std::move(error)), text_(error_.Message()) {}
+  const sdf::Error& error() const { return error_; }
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  sdf::Error error_;
+  std::string text_;
+};
+
+/// A message at the file, line and entity of `element`.
+sdf::Error noteAt(const sdf::ElementConstPtr& element, const std::string& message);
+[[noreturn]] void failAt(const sdf::ElementConstPtr& element, const std::string& message);
+
+/// `file:line: model 'm', link 'l': message`; `where` is put for the file of a document that was
+/// given as text.
+std::string describe(const sdf::Error& error, const std::string& where);
+
+/// Sorts what libsdformat reported: appends the harmless to `warnings` and throws SdfError for the
+/// first of the rest, with the cause that libsdformat only printed.
+void throwErrors(const sdf::Errors& errors, const std::string& printed, sdf::Errors* warnings);
+
+/// While it lives, no other thread uses libsdformat through this library, and what libsdformat
+/// prints on its console goes into a string.
+class ConsoleCapture {
+ public:
+  ConsoleCapture();
+  ~ConsoleCapture();
+  ConsoleCapture(const ConsoleCapture&) = delete;
+  ConsoleCapture& operator=(const ConsoleCapture&) = delete;
+  std::string text() const { return printed_.str(); }
+
+ private:
+  static std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_;
+  std::ostringstream printed_;
+  std::ostream* before_;
+};
+
+}  // namespace kiva

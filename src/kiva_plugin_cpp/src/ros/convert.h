@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Between ROS messages and the world's structs: here and nowhere else.
+#pragma once
+
+#include <gazebo_msgs/ModelState.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Vector3.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
+#include <std_msgs/Header.h>
+#include <warehouse_msgs/Event.h>
+#include <warehouse_msgs/FleetState.h>
+#include <warehouse_msgs/KivaStatus.h>
+#include <warehouse_msgs/Lift.h>
+#include <warehouse_msgs/MoveAlong.h>
+#include <warehouse_msgs/MoveTo.h>
+#include <warehouse_msgs/Rotate.h>
+#include <warehouse_msgs/UnitStates.h>
+#include <warehouse_msgs/WarehouseObjects.h>
+
+#include <string>
+
+#include "kiva_plugin_cpp/world.h"
+#include "snapshot.h"
+
+namespace kiva_ros {
+
+// --- world to message
+std_msgs::Header header(double time, const std::string& frame);
+geometry_msgs::Vector3 toMessage(const kiva::Vector3& vector);
+geometry_msgs::Pose toMessage(const kiva::Pose& pose);
+geometry_msgs::Twist toMessage(const kiva::Twist& twist);
+geometry_msgs::Transform toTransform(const kiva::Pose& pose);
+warehouse_msgs::Event toMessage(const kiva::Event& event);
+warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status);
+sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser);
+nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
+
+/// What a robot's status is now.
+kiva::StatusChange statusOf(const kiva::World& world, int robot);
+warehouse_msgs::FleetState fleetState(const kiva::World& world);
+warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world);
+warehouse_msgs::UnitStates unitStates(const kiva::World& world);
+
+// --- message to world
+/// A quaternion of zeros is identity, as clients expect. Throws std::invalid_argument if a number
+/// is not finite.
+kiva::Pose fromMessage(const geometry_msgs::Pose& pose);
+kiva::Twist fromMessage(const geometry_msgs::Twist& twist);
+kiva::EntityState fromMessage(const gazebo_msgs::ModelState& state);
+kiva::Command fromMessage(const warehouse_msgs::MoveTo& message);
+kiva::Command fromMessage(const warehouse_msgs::MoveAlong& message, kiva::Command::Kind axis);
+kiva::Command fromMessage(const warehouse_msgs::Rotate& message);
+kiva::Command fromMessage(const warehouse_msgs::Lift& message);
+
+}  // namespace kiva_ros

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the step thread hands to the publisher: copies, so that neither waits for the other.
+#pragma once
+
+#include <warehouse_msgs/FleetState.h>
+#include <warehouse_msgs/UnitStates.h>
+#include <warehouse_msgs/WarehouseObjects.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/world.h"
+
+namespace kiva_ros {
+
+/// What the topics of one robot need to know about it.
+struct RosterEntry {
+  int id = 0;
+  kiva::LaserParameters laser;
+  kiva::Pose left_wheel, right_wheel, tower;  ///< In base_link, with all joints at zero.
+};
+using Roster = std::vector<RosterEntry>;
+
+struct Scan {
+  int kiva_id = 0;
+  double time = 0;  ///< Simulated [s].
+  std::vector<float> ranges;
+};
+
+struct RobotPose {
+  int kiva_id = 0;
+  kiva::Pose base;                    ///< In world.
+  kiva::Twist twist;                  ///< In base_link.
+  double wheel_angle[2] = {0, 0};     ///< Left, right [rad].
+  double tower = 0;                   ///< Above its rest [m].
+};
+
+struct ModelStates {
+  std::shared_ptr<const std::vector<std::string>> names;  ///< The same object while none changes.
+  std::vector<kiva::EntityState> states;
+};
+
+/// One moment of the world; only what is due.
+struct Snapshot {
+  double time = 0;  ///< Simulated [s].
+
+  // Owed: each reaches the publisher.
+  bool clock_owed = false;
+  std::vector<kiva::Event> events;
+  std::optional<Roster> roster;                ///< All robots, after some came or went.
+  std::vector<kiva::StatusChange> statuses;
+  std::optional<warehouse_msgs::WarehouseObjects> objects;
+  std::optional<warehouse_msgs::UnitStates> units;
+
+  // Periodic: the next one is as good.
+  bool clock = false;
+  std::optional<warehouse_msgs::FleetState> fleet;
+  std::optional<ModelStates> models;
+  std::vector<Scan> scans;
+  std::vector<RobotPose> odometry;
+  std::vector<RobotPose> transforms;
+
+  bool hasOwed() const {
+    return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units;
+  }
+  bool hasPeriodic() const {
+    return clock || fleet || models || !scans.empty() || !odometry.empty() || !transforms.empty();
+  }
+  void dropPeriodic() {
+    clock = false;
+    fleet.reset();
+    models.reset();
+    scans.clear();
+    odometry.clear();
+    transforms.clear();
+  }
+};
+
+}  // namespace kiva_ros
