@@ -58,7 +58,8 @@ Printed sortPrinted(const std::string& printed) {
 /// `Error=XML_ERROR_MISMATCHED_ELEMENT ErrorID=14 (0xe) Line number=3: XMLElement name=link` →
 /// line 3, "the XML is ill-formed: mismatched element (XMLElement name=link)".
 bool readXmlError(const std::string& printed, sdf::Error* error) {
-  static const std::regex kError(R"(XML_(ERROR_)?(\w+) ErrorID=\S+ \S+ Line number=(\d+)(: (.*))?)");
+  static const std::regex kError(
+      R"(XML_(ERROR_)?(\w+) ErrorID=\S+ \S+ Line number=(\d+)(: (.*))?)");
   std::smatch match;
   if (!std::regex_search(printed, match, kError)) return false;
   std::string cause = match[2];
@@ -87,11 +88,10 @@ bool isEcho(const sdf::Error& error) {
 }
 
 sdf::Error withMessage(const sdf::Error& error, const std::string& message) {
-  sdf::Error copy(error);
   sdf::Error renamed(error.Code(), message);
-  if (copy.FilePath()) renamed.SetFilePath(*copy.FilePath());
-  if (copy.LineNumber()) renamed.SetLineNumber(*copy.LineNumber());
-  if (copy.XmlPath()) renamed.SetXmlPath(*copy.XmlPath());
+  if (error.FilePath()) renamed.SetFilePath(*error.FilePath());
+  if (error.LineNumber()) renamed.SetLineNumber(*error.LineNumber());
+  if (error.XmlPath()) renamed.SetXmlPath(*error.XmlPath());
   return renamed;
 }
 
@@ -153,8 +153,6 @@ ConsoleCapture::ConsoleCapture() : lock_(mutex_) {
   stream.SetStream(&printed_);
 }
 
-ConsoleCapture::~ConsoleCapture() {
-  sdf::Console::Instance()->GetMsgStream().SetStream(before_);
-}
+ConsoleCapture::~ConsoleCapture() { sdf::Console::Instance()->GetMsgStream().SetStream(before_); }
 
 }  // namespace kiva

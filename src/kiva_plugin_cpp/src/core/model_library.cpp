@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/model_library.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sdf/Model.hh>
+#include <sstream>
+
+#include "core/bounded_cache.h"
+#include "core/sdf_errors.h"
+#include "core/sdf_models.h"
+#include "core/sdf_parser.h"
+
+namespace kiva {
+namespace {
+
+void addFilename(const std::string& file, ModelDescription* description) {
+  for (PluginDescription& plugin : description->plugins) {
+    Parameters located(file + ": " + plugin.parameters.where());
+    for (const auto& [key, text] : plugin.parameters.values()) located.set(key, text);
+    plugin.parameters = std::move(located);
+  }
+}
+
+void readModel(const sdf::Model& model, const std::string& file, sdf::Errors* warnings,
+               LibraryModel* result) {
+  result->name = model.Name();
+  result->pose = resolved(model.SemanticPose(), model.Element());
+  result->placement = model.RawPose().Inverse() * result->pose;
+  auto description = std::make_shared<ModelDescription>(describeModel(model, warnings));
+  addFilename(file, description.get());
+  result->description = std::move(description);
+}
+
+LibraryModel readFile(const std::string& folder, const std::string& file,
+                      const ModelPaths& model_paths) {
+  LibraryModel result;
+  SdfDocument document = parseSdf(readText(file), model_paths);
+  if (const sdf::Model* model = document.root->Model()) {
+    readModel(*model, file, &document.warnings, &result);
+  }
+  for (const sdf::Error& warning : document.warnings) {
+    result.warnings.push_back(describe(warning, file));
+  }
+  document.files.push_back(file);
+  document.files.push_back(folder + "/model.config");
+  result.stamps = FileStamps(document.files);
+  return result;
+}
+
+LibraryModel read(const std::string& folder, const ModelPaths& model_paths) {
+  std::string file = folder + "/model.config";
+  try {
+    file = modelFile(folder);
+    return readFile(folder, file, model_paths);
+  } catch (const SdfError& error) {
+    throw DescriptionError(describe(error.error(), file));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
+                                                 const ModelPaths& model_paths) {
+  static BoundedCache<LibraryModel> cache(256);
+  // Models inside may be found elsewhere with other paths.
+  std::string key = folder;
+  for (const std::string& path : model_paths) key += '\n' + path;
+  auto model = cache.find(key);
+  if (model && model->stamps.areCurrent()) return model;
+  model = std::make_shared<const LibraryModel>(read(folder, model_paths));
+  cache.put(key, model);
+  return model;
+}
+
+std::string readText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    const char* const cause = file ? "is a folder" : std::strerror(errno);
+    throw DescriptionError(path + ": can't read this file: " + cause);
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace kiva

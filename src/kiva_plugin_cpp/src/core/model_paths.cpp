@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/model_paths.h"
+
+#include <filesystem>
+
+namespace kiva {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kScheme[] = "model://";
+constexpr std::size_t kSchemeLength = sizeof(kScheme) - 1;
+
+bool isModel(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path / "model.config", ignored) || fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+bool isModelUri(const std::string& uri) { return uri.compare(0, kSchemeLength, kScheme) == 0; }
+
+std::string findModel(const std::string& uri, const ModelPaths& paths) {
+  if (!isModelUri(uri) || uri.size() == kSchemeLength) return "";
+  for (const std::string& folder : paths) {
+    const fs::path path = fs::path(folder) / uri.substr(kSchemeLength);
+    if (isModel(path)) return path.string();
+  }
+  return "";
+}
+
+std::string modelNotFound(const std::string& uri, const ModelPaths& paths) {
+  std::string folders;
+  for (const std::string& folder : paths) folders += (folders.empty() ? "" : ", ") + folder;
+  return "found no model for '" + uri +
+         "'; expected a folder of that name with a model.config in " +
+         (folders.empty() ? "the model paths, which are empty" : folders);
+}
+
+}  // namespace kiva

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace kiva {
+
+/// Whether `uri` is looked up in the model paths: `model://name` or `model://name/file`.
+bool isModelUri(const std::string& uri);
+
+/// The folder, or the file, that `uri` names; empty if there is none.
+std::string findModel(const std::string& uri, const ModelPaths& paths);
+
+/// What to tell a person who asked for a model that is in none of the folders.
+std::string modelNotFound(const std::string& uri, const ModelPaths& paths);
+
+}  // namespace kiva

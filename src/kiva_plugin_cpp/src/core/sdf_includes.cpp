@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sdf_includes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include "core/model_paths.h"
+#include "core/tag_scanner.h"
+
+namespace kiva {
+namespace {
+
+using Path = std::vector<std::string_view>;
+
+constexpr const char* kBlanks = " \t\r\n";
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
+}
+
+std::optional<Pose> parsePose(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  double v[6];
+  for (double& value : v) {
+    if (!(in >> value) || !std::isfinite(value)) return std::nullopt;
+  }
+  if (!(in >> std::ws).eof()) return std::nullopt;
+  return Pose(v[0], v[1], v[2], v[3], v[4], v[5]);
+}
+
+std::optional<bool> parseFlag(const std::string& text) {
+  if (text == "true" || text == "1") return true;
+  if (text == "false" || text == "0") return false;
+  return std::nullopt;
+}
+
+/// Names that mean something else in SDF are left to libsdformat's rules.
+bool isPlainName(const std::string& name) {
+  return !name.empty() && name != "world" && name.find("::") == std::string::npos &&
+         name.compare(0, 2, "__") != 0;
+}
+
+/// One child of an include; false if it is more than we understand.
+bool setField(const std::string& field, const std::string& text, Include* include) {
+  if (field == "uri") {
+    include->uri = text;
+    return isModelUri(text);
+  }
+  if (field == "name") {
+    include->name = text;
+    return isPlainName(text);
+  }
+  if (field == "pose") return (include->pose = parsePose(text)).has_value();
+  if (field == "static") return (include->is_static = parseFlag(text)).has_value();
+  return false;
+}
+
+/// From the scanner's `<include>` to its `</include>`.
+std::optional<Include> readInclude(std::string_view xml, TagScanner* scanner) {
+  Include include;
+  std::set<std::string_view> fields;
+  if (scanner->closes || !trimmed(scanner->attributes).empty()) return std::nullopt;
+  while (scanner->next()) {
+    if (!scanner->opens) {
+      if (scanner->name != "include" || include.uri.empty()) return std::nullopt;
+      return include;
+    }
+    const std::string_view field = scanner->name;
+    const std::size_t begin = scanner->end;
+    const bool is_leaf = !scanner->closes && trimmed(scanner->attributes).empty() &&
+                         scanner->next() && !scanner->opens && scanner->name == field;
+    if (!is_leaf || !fields.insert(field).second) return std::nullopt;
+    const std::string_view text = xml.substr(begin, scanner->begin - begin);
+    // Comments and entities inside a text.
+    if (text.find_first_of("<&") != std::string_view::npos) return std::nullopt;
+    if (!setField(std::string(field), trimmed(text), &include)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// A part of the world that is placed by another one's name, perhaps an include's. Deeper down,
+/// names are those of the model around.
+bool refersToOthers(const Path& path, std::string_view attributes) {
+  constexpr std::size_t kPoseOfModel = 4;  // sdf, world, model, pose.
+  return path.size() <= kPoseOfModel && (attributes.find("relative_to") != std::string_view::npos ||
+                                         attributes.find("attached_to") != std::string_view::npos);
+}
+
+bool isTop(const Path& path) { return path == Path{"sdf"} || path == Path{"sdf", "world"}; }
+
+/// Follows the elements and collects what is taken out.
+class Splitter {
+ public:
+  explicit Splitter(const std::string& xml) : xml_(xml), scanner_(xml_) {}
+
+  /// Nothing if the text had better stay whole.
+  std::optional<SplitText> split() {
+    while (scanner_.next()) {
+      if (scanner_.opens && !open()) return std::nullopt;
+      if (scanner_.closes && !close()) return std::nullopt;
+    }
+    if (!path_.empty()) return std::nullopt;
+    keepUpTo(xml_.size());
+    return std::move(result_);
+  }
+
+ private:
+  bool open() {
+    const bool is_top = isTop(path_);
+    path_.push_back(scanner_.name);
+    if (refersToOthers(path_, scanner_.attributes)) return false;
+    if (is_top && (scanner_.name == "model" || scanner_.name == "include")) {
+      if (scanner_.name == "model" || !take()) result_.order.push_back(SplitText::kOfRest);
+    }
+    return true;
+  }
+
+  bool close() {
+    if (path_.empty() || path_.back() != scanner_.name) return false;
+    path_.pop_back();
+    return true;
+  }
+
+  /// Takes the include that the scanner stands at, which then stands at its end.
+  bool take() {
+    TagScanner ahead = scanner_;
+    auto include = readInclude(xml_, &ahead);
+    if (!include) return false;
+    keepUpTo(scanner_.begin);
+    include->line = line_;
+    result_.order.push_back(static_cast<int>(result_.includes.size()));
+    result_.includes.push_back(std::move(*include));
+    const auto taken = xml_.substr(scanner_.begin, ahead.end - scanner_.begin);
+    const auto lines = std::count(taken.begin(), taken.end(), '\n');
+    result_.rest.append(lines, '\n');
+    line_ += static_cast<int>(lines);
+    kept_ = ahead.end;
+    scanner_ = ahead;
+    return true;
+  }
+
+  void keepUpTo(std::size_t position) {
+    const auto text = xml_.substr(kept_, position - kept_);
+    line_ += static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+    result_.rest.append(text);
+  }
+
+  std::string_view xml_;
+  TagScanner scanner_;
+  Path path_;
+  SplitText result_;
+  std::size_t kept_ = 0;  ///< Up to here the text is in `rest`, or taken out.
+  int line_ = 1;          ///< Of `kept_`.
+};
+
+}  // namespace
+
+SplitText takeIncludes(const std::string& xml) {
+  if (auto split = Splitter(xml).split()) return std::move(*split);
+  return {xml, {}, {}};
+}
+
+}  // namespace kiva

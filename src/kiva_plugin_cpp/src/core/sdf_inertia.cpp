@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sdf_inertia.h"
+
+#include <cmath>
+
+#include "core/sdf_errors.h"
+
+namespace kiva {
+namespace {
+
+using ignition::math::MassMatrix3d;
+
+void checkMass(const sdf::ElementPtr& inertial) {
+  const double mass = inertial->Get<double>("mass", 1.0).first;
+  if (std::isfinite(mass) && mass > 0) return;
+  failAt(inertial->FindElement("mass"),
+         "expected a mass above 0 kg, found " + inertial->Get<std::string>("mass"));
+}
+
+/// A body's moments are positive, and none exceeds the sum of the other two.
+bool isPossible(const MassMatrix3d& inertia) {
+  return inertia.DiagonalMoments().IsFinite() && inertia.OffDiagonalMoments().IsFinite() &&
+         inertia.IsPositive() && inertia.IsValid();
+}
+
+void checkMoments(const sdf::ElementPtr& inertial) {
+  const sdf::ElementPtr inertia = inertial->FindElement("inertia");
+  if (!inertia) return;
+  const auto moment = [&](const char* name, double fallback) {
+    return inertia->Get<double>(name, fallback).first;
+  };
+  const MassMatrix3d matrix(inertial->Get<double>("mass", 1.0).first,
+                            {moment("ixx", 1), moment("iyy", 1), moment("izz", 1)},
+                            {moment("ixy", 0), moment("ixz", 0), moment("iyz", 0)});
+  if (isPossible(matrix)) return;
+  failAt(inertia,
+         "no body has this inertia; expected finite principal moments above 0 kg m², none larger "
+         "than the sum of the other two");
+}
+
+}  // namespace
+
+void checkInertias(const sdf::ElementPtr& element) {
+  if (element->GetName() == "inertial") {
+    checkMass(element);
+    checkMoments(element);
+  }
+  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
+    checkInertias(child);
+  }
+}
+
+void setInertia(const ignition::math::Inertiald& inertial, Link* link) {
+  const MassMatrix3d& matrix = inertial.MassMatrix();
+  link->mass = matrix.Mass();
+  link->principal_moments = matrix.PrincipalMoments();
+  const Pose axes(Vector3::Zero, matrix.PrincipalAxesOffset());
+  link->inertial_pose_in_link = inertial.Pose() * axes;
+}
+
+}  // namespace kiva

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sdf_links.h"
+
+#include <sdf/Collision.hh>
+#include <sdf/Visual.hh>
+
+#include "core/sdf_errors.h"
+#include "core/sdf_inertia.h"
+#include "core/sdf_models.h"
+#include "core/sdf_shapes.h"
+
+namespace kiva {
+namespace {
+
+void addCollision(const sdf::Collision& from, Link* link, sdf::Errors* warnings) {
+  const auto shape = readShape(from.Element());
+  if (!shape) return;
+  Collision collision;
+  collision.name = from.Name();
+  collision.pose_in_link = resolved(from.SemanticPose(), from.Element());
+  collision.shape = *shape;
+  readSurface(from.Element(), &collision, warnings);
+  link->collisions.push_back(collision);
+}
+
+void addVisual(const sdf::Visual& from, Link* link) {
+  const auto shape = readShape(from.Element());
+  if (!shape) return;
+  Visual visual;
+  visual.name = from.Name();
+  visual.pose_in_link = resolved(from.SemanticPose(), from.Element());
+  visual.shape = *shape;
+  readMaterial(from.Element(), &visual);
+  link->visuals.push_back(visual);
+}
+
+void warnOfSensors(const sdf::ElementPtr& link, sdf::Errors* warnings) {
+  auto sensor = link->FindElement("sensor");
+  for (; sensor; sensor = sensor->GetNextElement("sensor")) {
+    warnings->push_back(noteAt(sensor, "sensors are left out; robots scan by the plugin 'laser'"));
+  }
+}
+
+}  // namespace
+
+Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnings) {
+  Link link;
+  link.name = scope.prefix + from.Name();
+  link.pose_in_model = scope.pose * resolved(from.SemanticPose(), from.Element(), "__model__");
+  link.gravity = from.Element()->Get<bool>("gravity", true).first;
+  setInertia(from.Inertial(), &link);
+  for (uint64_t i = 0; i < from.CollisionCount(); ++i) {
+    addCollision(*from.CollisionByIndex(i), &link, warnings);
+  }
+  for (uint64_t i = 0; i < from.VisualCount(); ++i) addVisual(*from.VisualByIndex(i), &link);
+  warnOfSensors(from.Element(), warnings);
+  return link;
+}
+
+}  // namespace kiva

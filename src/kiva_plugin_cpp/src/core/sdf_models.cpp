@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sdf_models.h"
+
+#include <algorithm>
+
+#include "core/sdf_errors.h"
+#include "core/sdf_links.h"
+
+namespace kiva {
+namespace {
+
+/// Text of `element` and of all below it; a name that comes again is `name[2]`, `name[3]`, …, so
+/// that no value is lost.
+void addParameters(const sdf::ElementPtr& element, const std::string& path,
+                   Parameters* parameters) {
+  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
+    const std::string base = path + child->GetName();
+    std::string key = base;
+    for (int count = 2; parameters->has(key); ++count) {
+      key = base + "[" + std::to_string(count) + "]";
+    }
+    if (child->GetFirstElement()) {
+      addParameters(child, key + "/", parameters);
+    } else {
+      parameters->set(key, child->GetValue() ? child->GetValue()->GetAsString() : "");
+    }
+  }
+}
+
+/// The parts of `model`, then those of the models inside it.
+void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* description,
+              sdf::Errors* warnings) {
+  for (uint64_t i = 0; i < model.LinkCount(); ++i) {
+    description->links.push_back(describeLink(*model.LinkByIndex(i), scope, warnings));
+  }
+  for (uint64_t i = 0; i < model.JointCount(); ++i) {
+    description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
+  }
+  for (auto& plugin : readPlugins(model.Element(), "model '" + model.Name() + "'")) {
+    description->plugins.push_back(std::move(plugin));
+  }
+  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
+    const sdf::Model& nested = *model.ModelByIndex(i);
+    if (nested.Static() && !description->is_static) {
+      failAt(nested.Element(), "a static model in one that moves is not supported");
+    }
+    const std::string name = scope.prefix + nested.Name();
+    description->nested_models.push_back(name);
+    const Pose pose = scope.pose * resolved(nested.SemanticPose(), nested.Element(), "__model__");
+    addModel(nested, {name + "::", pose}, description, warnings);
+  }
+}
+
+/// Puts the link that stands for the whole model first, the others as they came.
+void putFirst(const std::string& canonical, std::vector<Link>* links) {
+  const auto is_canonical = [&](const Link& link) { return link.name == canonical; };
+  std::stable_partition(links->begin(), links->end(), is_canonical);
+}
+
+}  // namespace
+
+ModelDescription describeModel(const sdf::Model& model, sdf::Errors* warnings) {
+  ModelDescription description;
+  description.is_static = model.Static();
+  addModel(model, {}, &description, warnings);
+  putFirst(model.CanonicalLinkAndRelativeName().second, &description.links);
+  return description;
+}
+
+std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
+                                           const std::string& owner) {
+  std::vector<PluginDescription> plugins;
+  auto child = element->FindElement("plugin");
+  for (; child; child = child->GetNextElement("plugin")) {
+    PluginDescription plugin;
+    plugin.name = child->Get<std::string>("name");
+    plugin.filename = child->Get<std::string>("filename");
+    plugin.parameters = Parameters(owner + ", plugin '" + plugin.name + "'");
+    addParameters(child, "", &plugin.parameters);
+    plugins.push_back(std::move(plugin));
+  }
+  return plugins;
+}
+
+Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,
+              const std::string& to) {
+  Pose result;
+  const sdf::Errors errors = pose.Resolve(result, to);
+  if (!errors.empty()) failAt(element, errors.front().Message());
+  return result;
+}
+
+}  // namespace kiva

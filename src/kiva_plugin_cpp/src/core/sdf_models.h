@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// libsdformat's models → our descriptions.
+#pragma once
+
+#include <sdf/Element.hh>
+#include <sdf/Model.hh>
+#include <sdf/SemanticPose.hh>
+#include <sdf/Types.hh>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+/// With nested models flattened. Throws SdfError.
+ModelDescription describeModel(const sdf::Model& model, sdf::Errors* warnings);
+
+/// The `<plugin>` elements of a model or a world; `owner` as in `model 'kiva'`.
+std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
+                                           const std::string& owner);
+
+/// `pose` in the frame of what holds `element`, or in the frame `to`. Throws SdfError.
+Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,
+              const std::string& to = "");
+
+}  // namespace kiva

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <sdf/Root.hh>
+#include <sdf/Types.hh>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace kiva {
+
+/// A text after libsdformat: free of errors that libsdformat can see.
+struct SdfDocument {
+  std::unique_ptr<sdf::Root> root;
+  sdf::Errors warnings;
+  std::vector<std::string> files;  ///< Those of the models that the text includes.
+};
+
+/// Throws SdfError. Thread-safe, though one call waits for another.
+SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths);
+
+/// The SDF file of the model in `folder`, as its model.config has it. Throws SdfError.
+std::string modelFile(const std::string& folder);
+
+}  // namespace kiva

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiva_plugin_cpp/world_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sdf/Actor.hh>
+#include <sdf/Model.hh>
+#include <sdf/Physics.hh>
+#include <sdf/World.hh>
+#include <set>
+
+#include "core/bounded_cache.h"
+#include "core/model_library.h"
+#include "core/model_paths.h"
+#include "core/sdf_errors.h"
+#include "core/sdf_includes.h"
+#include "core/sdf_models.h"
+#include "core/sdf_parser.h"
+
+namespace kiva {
+namespace {
+
+/// What libsdformat's part of a text came to.
+struct ParsedText {
+  bool is_world = false;
+  WorldDescription world;
+  sdf::Errors warnings;
+  FileStamps stamps;
+};
+
+ModelInstance instantiate(const sdf::Model& model, sdf::Errors* warnings) {
+  ModelInstance instance;
+  instance.name = model.Name();
+  instance.pose = resolved(model.SemanticPose(), model.Element());
+  instance.description = std::make_shared<ModelDescription>(describeModel(model, warnings));
+  return instance;
+}
+
+void setPhysics(const sdf::World& from, WorldDescription* world) {
+  world->gravity = from.Gravity();
+  if (!world->gravity.IsFinite()) failAt(from.Element(), "expected a finite gravity");
+  const sdf::Physics* physics = from.PhysicsDefault();
+  if (!physics) return;
+  world->step_size = physics->MaxStepSize();
+  world->real_time_factor = physics->RealTimeFactor();
+  if (!std::isfinite(world->step_size) || world->step_size <= 0) {
+    failAt(physics->Element(), "expected a max_step_size above 0 s");
+  }
+  if (!std::isfinite(world->real_time_factor) || world->real_time_factor < 0) {
+    failAt(physics->Element(), "expected a real_time_factor of 0 or above");
+  }
+}
+
+void describeWorld(const sdf::World& from, WorldDescription* world, sdf::Errors* warnings) {
+  world->name = from.Name();
+  setPhysics(from, world);
+  world->plugins = readPlugins(from.Element(), "world '" + from.Name() + "'");
+  for (uint64_t i = 0; i < from.ModelCount(); ++i) {
+    world->models.push_back(instantiate(*from.ModelByIndex(i), warnings));
+  }
+  for (uint64_t i = 0; i < from.ActorCount(); ++i) {
+    warnings->push_back(noteAt(from.ActorByIndex(i)->Element(), "actors are left out"));
+  }
+}
+
+ParsedText parseRest(const std::string& text, const ModelPaths& model_paths) {
+  SdfDocument document = parseSdf(text, model_paths);
+  const sdf::Root& root = *document.root;
+  ParsedText parsed;
+  parsed.is_world = root.WorldCount() > 0;
+  if (root.WorldCount() > 1) failAt(root.Element(), "expected one <world>, found several");
+  if (parsed.is_world) {
+    describeWorld(*root.WorldByIndex(0), &parsed.world, &document.warnings);
+  } else if (root.Model()) {
+    parsed.world.models.push_back(instantiate(*root.Model(), &document.warnings));
+  }
+  parsed.warnings = std::move(document.warnings);
+  parsed.stamps = FileStamps(document.files);
+  return parsed;
+}
+
+/// A thousand requests for the same model, or for models of a library by an include each, differ in
+/// nothing that libsdformat sees.
+std::shared_ptr<const ParsedText> cachedRest(const std::string& text,
+                                             const ModelPaths& model_paths) {
+  static BoundedCache<ParsedText> cache(256);
+  std::string key = text;
+  for (const std::string& path : model_paths) key += '\n' + path;
+  auto parsed = cache.find(key);
+  if (parsed && parsed->stamps.areCurrent()) return parsed;
+  parsed = std::make_shared<const ParsedText>(parseRest(text, model_paths));
+  cache.put(key, parsed);
+  return parsed;
+}
+
+/// One reading of one text: knows what the text is called and collects its warnings, each once.
+class Reading {
+ public:
+  Reading(const ModelPaths& model_paths, const std::string& where,
+          std::vector<std::string>* warnings)
+      : model_paths_(model_paths), where_(where), warnings_(warnings) {}
+
+  template <typename Parse>
+  WorldDescription world(const std::string& xml, Parse parse) {
+    const SplitText split = takeIncludes(xml);
+    std::shared_ptr<const ParsedText> parsed;
+    try {
+      parsed = parse(split.rest, model_paths_);
+    } catch (const SdfError& error) {
+      throw DescriptionError(describe(error.error(), where_));
+    }
+    for (const sdf::Error& warning : parsed->warnings) warn(describe(warning, where_));
+    is_world = parsed->is_world;
+    WorldDescription world = parsed->world;
+    world.models = merge(split, std::move(world.models));
+    checkNames(world.models);
+    return world;
+  }
+
+  bool is_world = false;
+
+ private:
+  void warn(const std::string& text) {
+    if (warnings_ && warned_.insert(text).second) warnings_->push_back(text);
+  }
+
+  /// In the order of the text.
+  std::vector<ModelInstance> merge(const SplitText& split, std::vector<ModelInstance> rest) {
+    if (split.includes.empty()) return rest;
+    std::vector<ModelInstance> models;
+    models.reserve(split.includes.size() + rest.size());
+    auto of_rest = rest.begin();
+    for (const int index : split.order) {
+      if (index != SplitText::kOfRest) {
+        addInclude(split.includes[index], &models);
+      } else if (of_rest != rest.end()) {
+        models.push_back(std::move(*of_rest++));
+      }
+    }
+    std::move(of_rest, rest.end(), std::back_inserter(models));
+    return models;
+  }
+
+  void addInclude(const Include& include, std::vector<ModelInstance>* models) {
+    const std::string at = where_ + ":" + std::to_string(include.line) + ": include: ";
+    auto [found, is_new] = folders_.try_emplace(include.uri);
+    if (is_new) found->second = find(include.uri, at);
+    const LibraryModel& model = *found->second;
+    if (!model.description) {
+      warn(at + "'" + include.uri + "' holds no model and is left out");
+      return;
+    }
+    models->push_back(instance(include, model));
+  }
+
+  std::shared_ptr<const LibraryModel> find(const std::string& uri, const std::string& at) {
+    const std::string folder = findModel(uri, model_paths_);
+    if (folder.empty()) throw DescriptionError(at + modelNotFound(uri, model_paths_));
+    auto model = libraryModel(folder, model_paths_);
+    for (const std::string& warning : model->warnings) warn(warning);
+    return model;
+  }
+
+  static ModelInstance instance(const Include& include, const LibraryModel& model) {
+    ModelInstance result{model.name, model.pose, model.description};
+    if (!include.name.empty()) result.name = include.name;
+    if (include.pose) result.pose = *include.pose * model.placement;
+    if (include.is_static && *include.is_static != model.description->is_static) {
+      auto changed = std::make_shared<ModelDescription>(*model.description);
+      changed->is_static = *include.is_static;
+      result.description = std::move(changed);
+    }
+    return result;
+  }
+
+  void checkNames(const std::vector<ModelInstance>& models) const {
+    std::set<std::string> names;
+    for (const ModelInstance& model : models) {
+      if (names.insert(model.name).second) continue;
+      throw DescriptionError(where_ + ": two models are called '" + model.name +
+                             "'; expected every name once");
+    }
+  }
+
+  const ModelPaths& model_paths_;
+  const std::string& where_;
+  std::vector<std::string>* warnings_;
+  std::set<std::string> warned_;
+  std::map<std::string, std::shared_ptr<const LibraryModel>> folders_;
+};
+
+}  // namespace
+
+WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
+                           std::vector<std::string>* warnings) {
+  return parseWorld(readText(path), model_paths, path, warnings);
+}
+
+WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
+                            const std::string& where, std::vector<std::string>* warnings) {
+  Reading reading(model_paths, where, warnings);
+  WorldDescription world = reading.world(xml, [](const std::string& text, const ModelPaths& paths) {
+    return std::make_shared<const ParsedText>(parseRest(text, paths));
+  });
+  if (!reading.is_world) throw DescriptionError(where + ": expected a <world> in <sdf>");
+  return world;
+}
+
+std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
+                                       const std::string& where,
+                                       std::vector<std::string>* warnings) {
+  Reading reading(model_paths, where, warnings);
+  WorldDescription world = reading.world(xml, cachedRest);
+  if (world.models.empty()) throw DescriptionError(where + ": expected a <model> in <sdf>");
+  return std::move(world.models);
+}
+
+}  // namespace kiva
