@@ -46,4 +46,5 @@ class FakeRos:
         return self.publishers[topic]
 
     def Subscriber(self, topic, kind, callback, callback_args=None, **_):  # noqa: N802
-        self.callbacks[topic] = lambda message: callback(message, callback_args)
+        args = () if callback_args is None else (callback_args,)
+        self.callbacks[topic] = lambda message: callback(message, *args)

@@ -33,7 +33,7 @@ def test_small_stands():
     answer = ask(world, "small", warehouse_id=7)
     assert answer.success
     assert answer.message == (
-        "small: 4 robots, 24 storage units, 96 items, 2 conveyor belts on a 12 × 10 m floor"
+        "small: 4 robots, 24 storage units, 96 items, 2 conveyor belts on a 12 x 10 m floor"
     )
     assert counts(world) == {
         None: 1,
@@ -44,6 +44,7 @@ def test_small_stands():
     }
     assert world.parameters["/warehouse/name"] == "small"
     assert world.parameters["/warehouse/id"] == 7
+    assert world.parameters["/warehouse/floor"] == [-5.5, 6.5, -4.5, 5.5]
 
 
 def test_items_are_spawned_within_their_units():
@@ -86,6 +87,8 @@ def test_half_a_warehouse_is_taken_away_again():
     assert not answer.success
     assert answer.message == "item5: bad model; the half-made warehouse was taken away"
     assert set(world.standing) == {FLOOR, "person1"}
+    assert world.parameters["/warehouse/name"] == ""
+    assert not world.has_param(BUILDING)
 
 
 @pytest.mark.parametrize("paused", [True, False])
@@ -121,6 +124,14 @@ def test_what_a_dead_node_left_half_built_is_built_anew():
     service(world).start("small")
     assert counts(world)["storage_unit"] == 24
     assert not world.has_param(BUILDING)
+
+
+def test_a_node_that_dies_while_building_leaves_word_of_it():
+    world = FakeWorld()
+    world.spawn_sdf_model = None
+    with pytest.raises(TypeError):
+        ask(world, "small")
+    assert world.has_param(BUILDING)
 
 
 def test_without_a_size_nothing_is_built():

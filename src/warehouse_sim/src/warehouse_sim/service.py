@@ -2,6 +2,7 @@
 """Answers requests for a warehouse."""
 
 import threading
+from dataclasses import astuple
 
 from std_msgs.msg import Header
 
@@ -48,13 +49,19 @@ class WarehouseService:
             self._ros.set_param(BUILDING, name)
             try:
                 Creation(engine, self._tell).replace(layout)
-                self._ros.set_param("/warehouse/name", name)
-                self._ros.set_param("/warehouse/id", number)
-            finally:
-                self._ros.delete_param(BUILDING)
+                self._remember(name, number, layout.floor)
+            except EngineError:
+                self._remember("", 0, layout.floor)
+                raise
         width, length = layout.floor.size
         title = f"{name}: " if name else ""
-        return f"{title}{wanted} on a {width:g} × {length:g} m floor"
+        return f"{title}{wanted} on a {width:g} x {length:g} m floor"
+
+    def _remember(self, name, number, floor):
+        self._ros.set_param("/warehouse/name", name)
+        self._ros.set_param("/warehouse/id", number)
+        self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
+        self._ros.delete_param(BUILDING)
 
     def start(self, size):
         """Finds the warehouse as it stands; builds the preset `size` where none does.

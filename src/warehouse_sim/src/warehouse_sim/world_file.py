@@ -13,7 +13,7 @@ class WorldFileError(ValueError):
 
 
 def find(world, worlds, cwd=None):
-    """The file that `world` means: a path, or a name in the folder `worlds`. WorldFileError if none.
+    """The file that `world` means: a path, or a name in the folder `worlds`. Or WorldFileError.
 
     A relative path is looked up from `cwd`: PWD by default, because roslaunch starts its nodes in
     another folder than the one in which a person typed.

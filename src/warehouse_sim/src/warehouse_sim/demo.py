@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The demonstration: two robots fetch two storage units at once, then meet head on.
+
+Played over topics alone. What shall come true is checked against the events and the tracked poses.
+"""
+
+import math
+
+from gazebo_msgs.msg import ModelStates
+from warehouse_msgs.msg import Event, Lift, TrackedObjects
+from warehouse_sim import poses, survey
+from warehouse_sim.director import command
+from warehouse_sim.layout import Floor
+from warehouse_sim.missions import Map, meeting, two_missions
+from warehouse_sim.newest import Newest
+from warehouse_sim.routes import goals, route
+
+TOLERANCE = 0.05  # between where something shall be and where it is [m]
+ON_UNIT = 0.6  # an item is no further from its unit's centre [m]
+
+
+class DemoError(RuntimeError):
+    """Something that shall come true did not; the message says what."""
+
+
+class Demo:
+    """`ros` is rospy, `director` a director.Director; `tell(text)` reaches who watches."""
+
+    def __init__(self, ros, director, tell):
+        self._ros, self._director, self._tell = ros, director, tell
+        self._found, self.cast, self.failed = None, (), []
+        self._newest = Newest(
+            ros,
+            models=("/gazebo/model_states", ModelStates),
+            units=("/storage_units", TrackedObjects),
+            items=("/items", TrackedObjects),
+        )
+
+    def play(self):
+        """All acts. Raises NoRouteError, DeadlineError, DemoError where it can't go on."""
+        self._look()
+        missions = two_missions(self._map())
+        self.cast = [mission.kiva for mission in missions]
+        for kiva in self.cast:
+            self._director.watch(kiva)
+        self._fetch(missions)
+        self._meet(self._line_up())
+        for kind, name in ((Event.REFUSED, "refused"), (Event.COLLISION, "a collision")):
+            self._expect(f"nothing was {name}", not self._models(kind))
+
+    # --- the acts
+
+    def _fetch(self, missions):
+        self._tell("\nEach robot brings a storage unit to a conveyor belt, both at once.\n")
+        self._director.play({m.kiva: self._fetching(m) for m in missions})
+        for mission in missions:
+            self._check_delivered(mission)
+
+    def _fetching(self, mission):
+        kiva, unit = mission.kiva, mission.unit
+        yield from _drive(kiva, mission.to_unit)
+        yield from _do(command("/lift", kiva, status=Lift.CARRY, shelf_id=unit))
+        yield from _drive(kiva, mission.to_drop)
+        yield from _do(command("/lift", kiva, status=Lift.DROP, shelf_id=unit))
+        # Out beneath the unit, by the way it came in.
+        yield from _drive(kiva, [mission.to_drop[-1], mission.out])
+
+    def _line_up(self):
+        """Brings both to the ends of an aisle; returns where each wants to go then."""
+        self._tell("\nThey line up at the two ends of an aisle.\n")
+        chart, (a, b) = self._map(), self.cast
+        aisles = chart.grid(self.cast, also=chart.units.values())
+        end_a, end_b = meeting(aisles, chart.robots[a], chart.robots[b])
+        self._director.play({a: _drive(a, route(chart.grid([a]), chart.robots[a], end_a))})
+        after = chart.grid(self.cast, also=[end_a])
+        self._director.play({b: _drive(b, route(after, chart.robots[b], end_b))})
+        return {a: end_b, b: end_a}
+
+    def _meet(self, wanted):
+        self._tell("\nEach sets off for the other's place. Who is blocked finds another way.\n")
+        self._director.play({kiva: _try(kiva, goal) for kiva, goal in wanted.items()})
+        blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
+        self._expect("meeting head on, one of them was blocked at least", blocked)
+        for kiva, goal in wanted.items():
+            chart = self._map()
+            way = route(chart.grid([kiva]), chart.robots[kiva], goal)
+            self._director.play({kiva: _drive(kiva, way)})
+            arrived = math.dist(self._robot(kiva), goal) < TOLERANCE
+            self._expect(f"kiva{kiva} reached ({goal[0]}, {goal[1]}) all the same", arrived)
+
+    # --- what is there
+
+    def _look(self):
+        """Where everything stands; the nodes that tell it must be there."""
+        names = ("models", "units", "items")
+        if not self._director.until(lambda: all(self._newest[name] for name in names)):
+            missing = ", ".join(name for name in names if not self._newest[name])
+            raise DemoError(f"nobody tells where the {missing} are; is a warehouse running?")
+        models = self._newest["models"]
+        self._found = survey.of_models(models.name, poses.planar_of(models.pose))
+
+    def _map(self):
+        """As it is now: the cast by their statuses, the units by their tracked poses."""
+        self._found.kiva |= {kiva: self._robot(kiva) for kiva in self.cast}
+        tracked = of_tracked(self._newest["units"])
+        self._found.storage_unit = tracked.storage_unit
+        bounds = self._ros.get_param("/warehouse/floor", None)
+        return Map(self._found, Floor(*bounds) if bounds else None)
+
+    def _robot(self, kiva):
+        pose = self._director.status(kiva).pose
+        return pose.x, pose.y
+
+    def _models(self, kind):
+        """Who had such an event."""
+        return {event.model for event in self._director.events if event.kind == kind}
+
+    # --- what shall have come true
+
+    def _check_delivered(self, mission):
+        name, belt = f"storage_unit{mission.unit}", f"conveyor_belt{mission.belt}"
+        for kind, word in ((Event.LIFTED, "lifted"), (Event.DROPPED, "dropped")):
+            self._expect(f"kiva{mission.kiva} {word} {name}", self._happened(kind, mission, name))
+        stands = self._director.until(lambda: self._stands(name, mission.to_drop[-1]))
+        self._expect(f"{name} stands before {belt}, on the floor, with its items", stands)
+        left = math.dist(self._robot(mission.kiva), mission.out) < TOLERANCE
+        self._expect(f"kiva{mission.kiva} left it there", left)
+
+    def _happened(self, kind, mission, name):
+        wanted = (kind, f"kiva{mission.kiva}", name)
+        return any((e.kind, e.model, e.other) == wanted for e in self._director.events)
+
+    def _stands(self, name, at):
+        unit = next((o for o in self._newest["units"].objects if o.name == name), None)
+        items = [o for o in self._newest["items"].objects if o.storage_unit == name]
+        if unit is None or unit.carrier or abs(unit.pose.position.z) > TOLERANCE:
+            return False
+        with_it = all(_away(item, at) < ON_UNIT for item in items)
+        return _away(unit, at) < TOLERANCE and with_it
+
+    def _expect(self, text, true):
+        self._tell(f"  {'ok    ' if true else 'FAILED'}  {text}")
+        if not true:
+            self.failed.append(text)
+
+
+def of_tracked(message):
+    """A Survey of the objects in a TrackedObjects message."""
+    objects = message.objects
+    return survey.of_models([o.name for o in objects], poses.planar_of(o.pose for o in objects))
+
+
+def _away(tracked, at):
+    return math.dist((tracked.pose.position.x, tracked.pose.position.y), at)
+
+
+def _drive(kiva, points):
+    """A script: along a route, point by point. Raises DemoError if anything stops the robot."""
+    for x, y in goals(points):
+        yield from _do(command("/mov", kiva, x=x, y=y))
+
+
+def _do(wanted):
+    event = yield wanted
+    if event.kind != Event.DONE:
+        raise DemoError(f"{event.model}: {wanted} was not done: {event.text}")
+
+
+def _try(kiva, goal):
+    """A script: straight to the goal, as far as it goes."""
+    yield command("/mov", kiva, x=goal[0], y=goal[1])
