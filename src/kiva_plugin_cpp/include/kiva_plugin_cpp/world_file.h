@@ -24,7 +24,8 @@ WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_path
                             const std::string& where, std::vector<std::string>* warnings = nullptr);
 
 /// The models of a spawn request: `<sdf><model>`, or `<sdf><world>` with one or more models or
-/// includes, each with the name and pose that the document gives it. Throws DescriptionError.
+/// includes, or a URDF `<robot>`, each with the name and pose that the document gives it.
+/// Throws DescriptionError.
 /// Equal texts share their descriptions through a cache, so that a thousand equal robots are
 /// parsed once.
 std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,

@@ -16,22 +16,13 @@
 namespace kiva {
 namespace {
 
-void addFilename(const std::string& file, ModelDescription* description) {
-  for (PluginDescription& plugin : description->plugins) {
-    Parameters located(file + ": " + plugin.parameters.where());
-    for (const auto& [key, text] : plugin.parameters.values()) located.set(key, text);
-    plugin.parameters = std::move(located);
-  }
-}
-
 void readModel(const sdf::Model& model, const std::string& file, sdf::Errors* warnings,
                LibraryModel* result) {
   result->name = model.Name();
   result->pose = resolved(model.SemanticPose(), model.Element());
   result->placement = model.RawPose().Inverse() * result->pose;
-  auto description = std::make_shared<ModelDescription>(describeModel(model, warnings));
-  addFilename(file, description.get());
-  result->description = std::move(description);
+  result->description =
+      std::make_shared<const ModelDescription>(describeModel(model, file, warnings));
 }
 
 LibraryModel readFile(const std::string& folder, const std::string& file,

@@ -5,13 +5,12 @@
 #include <regex>
 #include <sdf/Console.hh>
 
+#include "core/sdf_format.h"
+
 namespace kiva {
 namespace {
 
 using ErrorCode = sdf::ErrorCode;
-
-/// What libsdformat calls the file of a document that came as text.
-constexpr const char* kText = "<data-string>";
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -87,32 +86,42 @@ bool isEcho(const sdf::Error& error) {
          contains(error.Message(), "Unable to parse sdf element");
 }
 
-sdf::Error withMessage(const sdf::Error& error, const std::string& message) {
-  sdf::Error renamed(error.Code(), message);
+/// What the user can use of libsdformat's wording.
+std::string plain(std::string message) {
+  static const std::regex kTail(R"(\. (Copying\[|Using the first).*)");
+  static const std::regex kValue(R"(.*Unable to set value \[(.*?) ?\] ?for key ?\[(.*)\])");
+  static const std::regex kVersion(R"(Unable to convert from SDF version (\S+) to (\S+))");
+  message = std::regex_replace(message, kTail, "");
+  message = std::regex_replace(message, kVersion, "SDF version $1 is unknown; expected 1.0 to $2");
+  message = std::regex_replace(message, kValue, "'$1' is no value for <$2>");
+  message.erase(message.find_last_not_of(" .\n") + 1);
+  return message;
+}
+
+/// `error` with the cause that was only printed, and what would have been right in its place.
+sdf::Error withCause(const sdf::Error& error, const std::string& printed) {
+  std::string cause = plain(printed);
+  const bool is_wrong_type = contains(cause, "no value for") || contains(cause, "boolean");
+  const std::string expected = expectedValue(error.XmlPath().value_or(""));
+  if (is_wrong_type && !expected.empty()) cause += "; expected " + expected;
+  sdf::Error renamed(error.Code(), cause);
   if (error.FilePath()) renamed.SetFilePath(*error.FilePath());
   if (error.LineNumber()) renamed.SetLineNumber(*error.LineNumber());
   if (error.XmlPath()) renamed.SetXmlPath(*error.XmlPath());
   return renamed;
 }
 
-/// What the user can use of libsdformat's wording.
-std::string plain(std::string message) {
-  static const std::regex kCopying(R"(\. Copying\[.*)");
-  static const std::regex kPrelude(R"(^(Unknown error|Invalid argument)\. )");
-  message = std::regex_replace(message, kCopying, "");
-  message = std::regex_replace(message, kPrelude, "");
-  message.erase(message.find_last_not_of(" \n") + 1);
-  return message;
-}
-
 }  // namespace
 
 sdf::Error noteAt(const sdf::ElementConstPtr& element, const std::string& message) {
   sdf::Error error(ErrorCode::ELEMENT_INVALID, message);
-  if (!element) return error;
-  error.SetXmlPath(element->XmlPath());
-  if (!element->FilePath().empty()) error.SetFilePath(element->FilePath());
-  if (element->LineNumber()) error.SetLineNumber(*element->LineNumber());
+  sdf::ElementConstPtr known = element;
+  // What libsdformat added by itself has no place in the text.
+  while (known && known->XmlPath().empty()) known = known->GetParent();
+  if (!known) return error;
+  error.SetXmlPath(known->XmlPath());
+  if (!known->FilePath().empty()) error.SetFilePath(known->FilePath());
+  if (known->LineNumber()) error.SetLineNumber(*known->LineNumber());
   return error;
 }
 
@@ -120,12 +129,18 @@ void failAt(const sdf::ElementConstPtr& element, const std::string& message) {
   throw SdfError(noteAt(element, message));
 }
 
-std::string describe(const sdf::Error& error, const std::string& where) {
-  const std::string file = error.FilePath().value_or(kText);
-  std::string text = file == kText || file.empty() ? where : file;
-  if (error.LineNumber()) text += ":" + std::to_string(*error.LineNumber());
+std::string address(const sdf::Error& error, const std::string& where) {
+  std::string text = error.FilePath().value_or("");
+  // libsdformat's names for a document that came as text: <data-string>, <urdf-string>.
+  if (text.empty() || text[0] == '<') text = where;
+  const int line = error.LineNumber().value_or(0);
+  if (line > 0 && !text.empty()) text += ":" + std::to_string(line);
   const std::string what = entity(error.XmlPath().value_or(""));
-  return text + ": " + (what.empty() ? "" : what + ": ") + plain(error.Message());
+  return text + (text.empty() || what.empty() ? "" : ": ") + what;
+}
+
+std::string describe(const sdf::Error& error, const std::string& where) {
+  return address(error, where) + ": " + plain(error.Message());
 }
 
 void throwErrors(const sdf::Errors& errors, const std::string& printed, sdf::Errors* warnings) {
@@ -136,7 +151,7 @@ void throwErrors(const sdf::Errors& errors, const std::string& printed, sdf::Err
     if (isHarmless(error)) {
       warnings->push_back(error);
     } else if (isEcho(error) && !sorted.errors.empty()) {
-      throw SdfError(withMessage(error, sorted.errors));
+      throw SdfError(withCause(error, sorted.errors));
     } else {
       throw SdfError(error);
     }

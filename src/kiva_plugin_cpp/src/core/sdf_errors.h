@@ -31,8 +31,10 @@ class SdfError : public std::exception {
 sdf::Error noteAt(const sdf::ElementConstPtr& element, const std::string& message);
 [[noreturn]] void failAt(const sdf::ElementConstPtr& element, const std::string& message);
 
-/// `file:line: model 'm', link 'l': message`; `where` is put for the file of a document that was
-/// given as text.
+/// `file:line: model 'm', link 'l'`; `where` is put for the file of a document that was given as
+/// text. If that is empty, the entity alone.
+std::string address(const sdf::Error& error, const std::string& where);
+/// The address and the message.
 std::string describe(const sdf::Error& error, const std::string& where);
 
 /// Sorts what libsdformat reported: appends the harmless to `warnings` and throws SdfError for the

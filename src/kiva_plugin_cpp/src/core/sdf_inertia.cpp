@@ -20,7 +20,7 @@ void checkMass(const sdf::ElementPtr& inertial) {
 /// A body's moments are positive, and none exceeds the sum of the other two.
 bool isPossible(const MassMatrix3d& inertia) {
   return inertia.DiagonalMoments().IsFinite() && inertia.OffDiagonalMoments().IsFinite() &&
-         inertia.IsPositive() && inertia.IsValid();
+         inertia.PrincipalMoments().Min() > 0 && inertia.IsValid();
 }
 
 void checkMoments(const sdf::ElementPtr& inertial) {
@@ -40,14 +40,9 @@ void checkMoments(const sdf::ElementPtr& inertial) {
 
 }  // namespace
 
-void checkInertias(const sdf::ElementPtr& element) {
-  if (element->GetName() == "inertial") {
-    checkMass(element);
-    checkMoments(element);
-  }
-  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
-    checkInertias(child);
-  }
+void checkInertial(const sdf::ElementPtr& inertial) {
+  checkMass(inertial);
+  checkMoments(inertial);
 }
 
 void setInertia(const ignition::math::Inertiald& inertial, Link* link) {

@@ -8,9 +8,8 @@
 
 namespace kiva {
 
-/// Throws SdfError at the first link below `element` whose mass is not positive or whose inertia no
-/// body can have.
-void checkInertias(const sdf::ElementPtr& element);
+/// Throws SdfError if the mass in an `<inertial>` is not positive or no body can have its inertia.
+void checkInertial(const sdf::ElementPtr& inertial);
 
 /// Into mass, principal moments and axes of `link`.
 void setInertia(const ignition::math::Inertiald& inertial, Link* link);

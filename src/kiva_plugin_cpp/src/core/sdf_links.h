@@ -12,6 +12,7 @@ namespace kiva {
 
 /// Where a nested model's parts go in the one that is flattened.
 struct Scope {
+  std::string where;   ///< What the document is called.
   std::string prefix;  ///< `nested::`, empty for the outermost model.
   Pose pose;           ///< Of the nested model, in the outermost one.
 };

@@ -36,7 +36,7 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
   for (uint64_t i = 0; i < model.JointCount(); ++i) {
     description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
   }
-  for (auto& plugin : readPlugins(model.Element(), "model '" + model.Name() + "'")) {
+  for (auto& plugin : readPlugins(model.Element(), scope.where)) {
     description->plugins.push_back(std::move(plugin));
   }
   for (uint64_t i = 0; i < model.ModelCount(); ++i) {
@@ -47,7 +47,7 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
     const std::string name = scope.prefix + nested.Name();
     description->nested_models.push_back(name);
     const Pose pose = scope.pose * resolved(nested.SemanticPose(), nested.Element(), "__model__");
-    addModel(nested, {name + "::", pose}, description, warnings);
+    addModel(nested, {scope.where, name + "::", pose}, description, warnings);
   }
 }
 
@@ -59,23 +59,24 @@ void putFirst(const std::string& canonical, std::vector<Link>* links) {
 
 }  // namespace
 
-ModelDescription describeModel(const sdf::Model& model, sdf::Errors* warnings) {
+ModelDescription describeModel(const sdf::Model& model, const std::string& where,
+                               sdf::Errors* warnings) {
   ModelDescription description;
   description.is_static = model.Static();
-  addModel(model, {}, &description, warnings);
+  addModel(model, {where, "", Pose::Zero}, &description, warnings);
   putFirst(model.CanonicalLinkAndRelativeName().second, &description.links);
   return description;
 }
 
 std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
-                                           const std::string& owner) {
+                                           const std::string& where) {
   std::vector<PluginDescription> plugins;
   auto child = element->FindElement("plugin");
   for (; child; child = child->GetNextElement("plugin")) {
     PluginDescription plugin;
     plugin.name = child->Get<std::string>("name");
     plugin.filename = child->Get<std::string>("filename");
-    plugin.parameters = Parameters(owner + ", plugin '" + plugin.name + "'");
+    plugin.parameters = Parameters(address(noteAt(child, ""), where));
     addParameters(child, "", &plugin.parameters);
     plugins.push_back(std::move(plugin));
   }

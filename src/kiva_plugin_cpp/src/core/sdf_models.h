@@ -14,12 +14,14 @@
 
 namespace kiva {
 
-/// With nested models flattened. Throws SdfError.
-ModelDescription describeModel(const sdf::Model& model, sdf::Errors* warnings);
+/// With nested models flattened. `where` is what errors of the plugins' parameters call the
+/// document, empty for one that has no name of its own. Throws SdfError.
+ModelDescription describeModel(const sdf::Model& model, const std::string& where,
+                               sdf::Errors* warnings);
 
-/// The `<plugin>` elements of a model or a world; `owner` as in `model 'kiva'`.
+/// The `<plugin>` elements of a model or a world.
 std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
-                                           const std::string& owner);
+                                           const std::string& where);
 
 /// `pose` in the frame of what holds `element`, or in the frame `to`. Throws SdfError.
 Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,

@@ -3,27 +3,16 @@
 
 #include <filesystem>
 #include <sdf/ParserConfig.hh>
-#include <sdf/SDFImpl.hh>
 #include <sdf/parser.hh>
 
 #include "core/model_paths.h"
+#include "core/sdf_checks.h"
 #include "core/sdf_errors.h"
-#include "core/sdf_inertia.h"
+#include "core/sdf_format.h"
+#include "core/tag_scanner.h"
 
 namespace kiva {
 namespace {
-
-/// An empty document. Building the description of SDF takes 30 ms, copying it half of that.
-sdf::SDFPtr emptyDocument() {
-  static const sdf::SDFPtr kDescription = [] {
-    auto description = std::make_shared<sdf::SDF>();
-    sdf::init(description);
-    return description;
-  }();
-  auto document = std::make_shared<sdf::SDF>();
-  document->Root(kDescription->Root()->Clone());
-  return document;
-}
 
 /// Follows what libsdformat includes.
 class ModelFinder {
@@ -61,10 +50,23 @@ sdf::ParserConfig parserConfig(ModelFinder* finder) {
   return config;
 }
 
-/// The names of what stands at the top of a text that is no SDF.
-[[noreturn]] void failAtRoot() {
+std::string rootOf(const std::string& text) {
+  TagScanner scanner(text);
+  return scanner.next() ? std::string(scanner.name) : "";
+}
+
+[[noreturn]] void failAtRoot(const std::string& root) {
+  const std::string found = root == "sdf" ? "no version" : "<" + root + ">";
   throw SdfError(sdf::Error(sdf::ErrorCode::ELEMENT_MISSING,
-                            "expected <sdf version=\"…\"> as the root element"));
+                            "expected <sdf version=\"…\"> as the root element, found " + found));
+}
+
+/// SDF goes into an element: given a whole document, libsdformat takes SDF that fails for a URDF
+/// and tells the terminal so.
+bool readInto(const sdf::SDFPtr& document, const std::string& text, bool is_urdf,
+              const sdf::ParserConfig& config, sdf::Errors* errors) {
+  return is_urdf ? sdf::readString(text, config, document, *errors)
+                 : sdf::readString(text, config, document->Root(), *errors);
 }
 
 void addCause(sdf::Errors* errors, const ModelFinder& finder, const ModelPaths& paths) {
@@ -85,14 +87,12 @@ SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   const sdf::SDFPtr document = emptyDocument();
   sdf::Errors errors;
   SdfDocument parsed;
-  // Into an element: given a whole document, libsdformat takes what fails for a URDF and tells the
-  // terminal so.
-  const bool read = sdf::readString(text, config, document->Root(), errors);
+  const std::string root = rootOf(text);
+  const bool read = readInto(document, text, root == "robot", config, &errors);
   addCause(&errors, finder, model_paths);
   throwErrors(errors, console.text(), &parsed.warnings);
-  if (!read) failAtRoot();
-  // Before libsdformat does, whose error has no address.
-  checkInertias(document->Root());
+  if (!read) failAtRoot(root);
+  checkElements(document->Root());
   parsed.root = std::make_unique<sdf::Root>();
   throwErrors(parsed.root->Load(document, config), "", &parsed.warnings);
   parsed.files = std::move(finder.files);

@@ -7,6 +7,7 @@
 #include <ignition/math/Vector2.hh>
 #include <limits>
 
+#include "core/sdf_checks.h"
 #include "core/sdf_errors.h"
 
 namespace kiva {
@@ -16,7 +17,7 @@ using ignition::math::Color;
 using Vector2 = ignition::math::Vector2d;
 
 sdf::ElementPtr required(const sdf::ElementPtr& parent, const std::string& name) {
-  const sdf::ElementPtr child = parent->FindElement(name);
+  const sdf::ElementPtr child = givenChild(parent, name);
   if (!child) failAt(parent, "expected <" + name + "> in <" + parent->GetName() + ">");
   return child;
 }
@@ -142,7 +143,7 @@ void readMaterial(const sdf::ElementPtr& element, Visual* visual) {
   for (const char* name : {"diffuse", "ambient"}) {
     if (!material || !material->HasElement(name)) continue;
     Color colour = material->Get<Color>(name);  // Its operator[] is not const.
-    for (const int i : {0, 1, 2, 3}) visual->rgba[i] = colour[i];
+    for (const int i : {0, 1, 2, 3}) visual->rgba[i] = std::clamp<double>(colour[i], 0, 1);
     break;
   }
   visual->rgba[3] *= 1 - element->Get<double>("transparency", 0.0).first;

@@ -29,11 +29,12 @@ struct ParsedText {
   FileStamps stamps;
 };
 
-ModelInstance instantiate(const sdf::Model& model, sdf::Errors* warnings) {
+ModelInstance instantiate(const sdf::Model& model, const std::string& where,
+                          sdf::Errors* warnings) {
   ModelInstance instance;
   instance.name = model.Name();
   instance.pose = resolved(model.SemanticPose(), model.Element());
-  instance.description = std::make_shared<ModelDescription>(describeModel(model, warnings));
+  instance.description = std::make_shared<ModelDescription>(describeModel(model, where, warnings));
   return instance;
 }
 
@@ -52,28 +53,30 @@ void setPhysics(const sdf::World& from, WorldDescription* world) {
   }
 }
 
-void describeWorld(const sdf::World& from, WorldDescription* world, sdf::Errors* warnings) {
+void describeWorld(const sdf::World& from, const std::string& where, WorldDescription* world,
+                   sdf::Errors* warnings) {
   world->name = from.Name();
   setPhysics(from, world);
-  world->plugins = readPlugins(from.Element(), "world '" + from.Name() + "'");
+  world->plugins = readPlugins(from.Element(), where);
   for (uint64_t i = 0; i < from.ModelCount(); ++i) {
-    world->models.push_back(instantiate(*from.ModelByIndex(i), warnings));
+    world->models.push_back(instantiate(*from.ModelByIndex(i), where, warnings));
   }
   for (uint64_t i = 0; i < from.ActorCount(); ++i) {
     warnings->push_back(noteAt(from.ActorByIndex(i)->Element(), "actors are left out"));
   }
 }
 
-ParsedText parseRest(const std::string& text, const ModelPaths& model_paths) {
+ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
+                     const std::string& where) {
   SdfDocument document = parseSdf(text, model_paths);
   const sdf::Root& root = *document.root;
   ParsedText parsed;
   parsed.is_world = root.WorldCount() > 0;
   if (root.WorldCount() > 1) failAt(root.Element(), "expected one <world>, found several");
   if (parsed.is_world) {
-    describeWorld(*root.WorldByIndex(0), &parsed.world, &document.warnings);
+    describeWorld(*root.WorldByIndex(0), where, &parsed.world, &document.warnings);
   } else if (root.Model()) {
-    parsed.world.models.push_back(instantiate(*root.Model(), &document.warnings));
+    parsed.world.models.push_back(instantiate(*root.Model(), where, &document.warnings));
   }
   parsed.warnings = std::move(document.warnings);
   parsed.stamps = FileStamps(document.files);
@@ -89,7 +92,7 @@ std::shared_ptr<const ParsedText> cachedRest(const std::string& text,
   for (const std::string& path : model_paths) key += '\n' + path;
   auto parsed = cache.find(key);
   if (parsed && parsed->stamps.areCurrent()) return parsed;
-  parsed = std::make_shared<const ParsedText>(parseRest(text, model_paths));
+  parsed = std::make_shared<const ParsedText>(parseRest(text, model_paths, ""));
   cache.put(key, parsed);
   return parsed;
 }
@@ -101,24 +104,19 @@ class Reading {
           std::vector<std::string>* warnings)
       : model_paths_(model_paths), where_(where), warnings_(warnings) {}
 
+  /// `parse` is given the text without its includes. Throws DescriptionError.
   template <typename Parse>
-  WorldDescription world(const std::string& xml, Parse parse) {
+  ParsedText read(const std::string& xml, Parse parse) {
     const SplitText split = takeIncludes(xml);
-    std::shared_ptr<const ParsedText> parsed;
     try {
-      parsed = parse(split.rest, model_paths_);
+      ParsedText parsed = *parse(split.rest);
+      for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
+      parsed.world.models = merge(split, std::move(parsed.world.models));
+      return parsed;
     } catch (const SdfError& error) {
       throw DescriptionError(describe(error.error(), where_));
     }
-    for (const sdf::Error& warning : parsed->warnings) warn(describe(warning, where_));
-    is_world = parsed->is_world;
-    WorldDescription world = parsed->world;
-    world.models = merge(split, std::move(world.models));
-    checkNames(world.models);
-    return world;
   }
-
-  bool is_world = false;
 
  private:
   void warn(const std::string& text) {
@@ -128,6 +126,7 @@ class Reading {
   /// In the order of the text.
   std::vector<ModelInstance> merge(const SplitText& split, std::vector<ModelInstance> rest) {
     if (split.includes.empty()) return rest;
+    for (const ModelInstance& model : rest) names_.insert(model.name);
     std::vector<ModelInstance> models;
     models.reserve(split.includes.size() + rest.size());
     auto of_rest = rest.begin();
@@ -143,23 +142,32 @@ class Reading {
   }
 
   void addInclude(const Include& include, std::vector<ModelInstance>* models) {
-    const std::string at = where_ + ":" + std::to_string(include.line) + ": include: ";
-    auto [found, is_new] = folders_.try_emplace(include.uri);
-    if (is_new) found->second = find(include.uri, at);
-    const LibraryModel& model = *found->second;
+    const LibraryModel& model = library(include);
     if (!model.description) {
-      warn(at + "'" + include.uri + "' holds no model and is left out");
+      warn(at(include) + "'" + include.uri + "' holds no model and is left out");
       return;
     }
     models->push_back(instance(include, model));
+    if (names_.insert(models->back().name).second) return;
+    throw DescriptionError(at(include) + "the name '" + models->back().name +
+                           "' is taken; expected every <model> in <world> to have a name of its "
+                           "own");
   }
 
-  std::shared_ptr<const LibraryModel> find(const std::string& uri, const std::string& at) {
-    const std::string folder = findModel(uri, model_paths_);
-    if (folder.empty()) throw DescriptionError(at + modelNotFound(uri, model_paths_));
-    auto model = libraryModel(folder, model_paths_);
-    for (const std::string& warning : model->warnings) warn(warning);
-    return model;
+  /// Looked up once for each reading: five thousand shelves are one model.
+  const LibraryModel& library(const Include& include) {
+    auto [found, is_new] = models_.try_emplace(include.uri);
+    if (!is_new) return *found->second;
+    const std::string folder = findModel(include.uri, model_paths_);
+    if (folder.empty())
+      throw DescriptionError(at(include) + modelNotFound(include.uri, model_paths_));
+    found->second = libraryModel(folder, model_paths_);
+    for (const std::string& warning : found->second->warnings) warn(warning);
+    return *found->second;
+  }
+
+  std::string at(const Include& include) const {
+    return where_ + ":" + std::to_string(include.line) + ": include: ";
   }
 
   static ModelInstance instance(const Include& include, const LibraryModel& model) {
@@ -174,20 +182,12 @@ class Reading {
     return result;
   }
 
-  void checkNames(const std::vector<ModelInstance>& models) const {
-    std::set<std::string> names;
-    for (const ModelInstance& model : models) {
-      if (names.insert(model.name).second) continue;
-      throw DescriptionError(where_ + ": two models are called '" + model.name +
-                             "'; expected every name once");
-    }
-  }
-
   const ModelPaths& model_paths_;
   const std::string& where_;
   std::vector<std::string>* warnings_;
   std::set<std::string> warned_;
-  std::map<std::string, std::shared_ptr<const LibraryModel>> folders_;
+  std::set<std::string> names_;
+  std::map<std::string, std::shared_ptr<const LibraryModel>> models_;
 };
 
 }  // namespace
@@ -199,21 +199,21 @@ WorldDescription loadWorld(const std::string& path, const ModelPaths& model_path
 
 WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
                             const std::string& where, std::vector<std::string>* warnings) {
-  Reading reading(model_paths, where, warnings);
-  WorldDescription world = reading.world(xml, [](const std::string& text, const ModelPaths& paths) {
-    return std::make_shared<const ParsedText>(parseRest(text, paths));
+  ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
+    return std::make_shared<const ParsedText>(parseRest(rest, model_paths, where));
   });
-  if (!reading.is_world) throw DescriptionError(where + ": expected a <world> in <sdf>");
-  return world;
+  if (!parsed.is_world) throw DescriptionError(where + ": expected a <world> in <sdf>");
+  return std::move(parsed.world);
 }
 
 std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
                                        const std::string& where,
                                        std::vector<std::string>* warnings) {
-  Reading reading(model_paths, where, warnings);
-  WorldDescription world = reading.world(xml, cachedRest);
-  if (world.models.empty()) throw DescriptionError(where + ": expected a <model> in <sdf>");
-  return std::move(world.models);
+  ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
+    return cachedRest(rest, model_paths);
+  });
+  if (parsed.world.models.empty()) throw DescriptionError(where + ": expected a <model> in <sdf>");
+  return std::move(parsed.world.models);
 }
 
 }  // namespace kiva
