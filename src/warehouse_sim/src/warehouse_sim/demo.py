@@ -16,6 +16,7 @@ from warehouse_sim.newest import Newest
 from warehouse_sim.routes import goals, route
 
 TOLERANCE = 0.05  # between where something shall be and where it is [m]
+PATIENCE = 60.0  # with a warehouse being built [s, wall]
 ON_UNIT = 0.6  # an item is no further from its unit's centre [m]
 
 
@@ -91,13 +92,22 @@ class Demo:
     # --- what is there
 
     def _look(self):
-        """Where everything stands; the nodes that tell it must be there."""
-        names = ("models", "units", "items")
-        if not self._director.until(lambda: all(self._newest[name] for name in names)):
-            missing = ", ".join(name for name in names if not self._newest[name])
-            raise DemoError(f"nobody tells where the {missing} are; is a warehouse running?")
-        models = self._newest["models"]
+        """Where everything stands, once it does: the service comes when its warehouse is built."""
+        try:
+            self._ros.wait_for_service("/warehouse/create_warehouse_models", PATIENCE)
+        except self._ros.ROSException as error:
+            raise DemoError("no warehouse is running") from error
+        if not self._director.until(self._told, PATIENCE):
+            raise DemoError("the tracking nodes don't tell where storage units and items are")
+
+    def _told(self):
+        """Whether the tracking nodes know of all that stands."""
+        models, units, items = (self._newest[name] for name in ("models", "units", "items"))
+        if not (models and units and items):
+            return False
         self._found = survey.of_models(models.name, poses.planar_of(models.pose))
+        known = (len(units.objects), len(items.objects))
+        return known == (len(self._found.storage_unit), len(self._found.item))
 
     def _map(self):
         """As it is now: the cast by their statuses, the units by their tracked poses."""

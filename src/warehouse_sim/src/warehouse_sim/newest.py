@@ -47,11 +47,12 @@ class OnDemand:
     """A latched topic whose message is made only where somebody reads it.
 
     It is sent to all on publish(), and a newcomer gets the newest at once. `make()` returns the
-    message, or None as long as there is nothing to tell.
+    message, or None as long as there is nothing to tell. Where publish() shall send less than all
+    that a newcomer needs, `news()` returns that.
     """
 
-    def __init__(self, ros, topic, kind, make):
-        self._make, self._lock = make, threading.Lock()
+    def __init__(self, ros, topic, kind, make, news=None):
+        self._make, self._news, self._lock = make, news or make, threading.Lock()
         self._publisher = None
         self._publisher = ros.Publisher(
             topic, kind, subscriber_listener=self, latch=True, queue_size=1
@@ -61,18 +62,18 @@ class OnDemand:
 
     def publish(self):
         if self._publisher.get_num_connections():
-            self._send()
+            self._send(self._news)
 
     def peer_subscribe(self, _topic, _publish, _publish_to_newcomer):
         """Called by rospy, just before it sends what is latched."""
         if self._publisher:
-            self._send()
+            self._send(self._make)
 
     def peer_unsubscribe(self, _topic, _connections):
         """Called by rospy."""
 
-    def _send(self):
+    def _send(self, make):
         with self._lock:
-            message = self._make()
+            message = make()
             if message is not None:
                 self._publisher.publish(message)
