@@ -14,6 +14,9 @@ struct Profile {
   double position = 0;
   double speed = 0;
 
+  /// What is left of a way when rounding errors are all that is left of it.
+  static constexpr double kThere = 1e-12;
+
   /// One step of `dt` towards `target`. `acceleration` 0: at full speed at once, and at rest at
   /// once. `deceleration` is what the end of the run is planned with.
   void advance(double target, double top_speed, double acceleration, double deceleration,
@@ -29,7 +32,7 @@ struct Profile {
     next = std::clamp(next, 0.0, distance / dt);
     speed = sign * next;
     position += speed * dt;
-    if (distance <= next * dt) position = target;
+    if (distance <= std::max(next * dt, kThere)) position = target;
   }
 
   bool reached(double target) const { return position == target; }

@@ -12,7 +12,7 @@ namespace {
 
 // GJK works on a core shape and rounds its edges by this margin; contacts stay exact to less than
 // half of it.
-constexpr double kMargin = 0.0005;  // [m]
+constexpr double kMargin = 0.0002;  // [m]
 
 // Bullet's own distance at which contacts are foreseen.
 constexpr double kForesight = 0.02;  // [m]
@@ -33,7 +33,6 @@ class Foreseeing : public Base {
 std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
   auto box = std::make_unique<Foreseeing<btBoxShape>>(toBullet(shape.size * 0.5));
   box->setMargin(kMargin);
-  // With its faces known, two boxes get a whole contact patch at once instead of a point a step.
   box->initializePolyhedralFeatures();
   return box;
 }
@@ -262,10 +261,7 @@ Physics::Physics(const Vector3& gravity)
   dispatcher_.setDispatcherFlags(
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
-  // Bullet's box-box detector knows touching boxes only; GJK foresees contacts.
-  dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE,
-                                          configuration_.getCollisionAlgorithmCreateFunc(
-                                              BOX_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE));
+  dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
   world_.getSolverInfo().m_numIterations = 50;
 }
 

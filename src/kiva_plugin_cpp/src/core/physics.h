@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "box_contacts.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
@@ -84,6 +85,7 @@ class Physics {
  private:
   bool anyAwake() const;
 
+  BoxBoxContacts::Creator box_contacts_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;

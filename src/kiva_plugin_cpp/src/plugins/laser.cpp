@@ -58,29 +58,63 @@ void planStop(Robot& r, double stop, double dt) {
   r.goal = needed <= hardest ? std::max(stop, r.profile.position) : r.profile.position + shortest;
 }
 
-void guard(Parts& parts, int i) {
-  Robot& r = parts.fleet.robots[i];
-  const double scan_time = static_cast<double>(period(parts, r)) * parts.dt;
+/// What one look tells: places along the leg [m], speeds [m/s].
+struct View {
+  double obstacle;   // where it is now
+  double approach;   // how fast it comes by itself
+  double speed;      // of this robot
+  double scan_time;  // until the next look [s]
+  int model;
+};
+
+View look(const Parts& parts, Robot& r, int i) {
   const double along = alongLeg(parts.fleet, i);
   const Ahead ahead = lookAhead(parts, i);
-  const double approach = approachSpeed(r, ahead, along, scan_time);
+  View view;
+  view.scan_time = static_cast<double>(period(parts, r)) * parts.dt;
+  view.obstacle = along + ahead.distance;
+  view.approach = approachSpeed(r, ahead, along, view.scan_time);
+  view.speed = std::abs(r.profile.speed);
+  view.model = ahead.model;
   r.seen_distance = ahead.model < 0 ? 0 : ahead.distance;
   r.seen_from = along;
   r.seen_model = ahead.model;
-  if (ahead.model < 0) return;
+  return view;
+}
 
+/// Where the robot has to plan its stop now, if it has to; else its goal.
+double firstStop(const Parts& parts, const Robot& r, const View& view) {
   const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
-  // Until the other one has seen this robot too, it comes on.
-  const double comes = 2 * approach * scan_time + approach * approach / (2 * usual);
-  const double obstacle = along + ahead.distance - comes;
-  const double stop = farthestStop(parts, r, obstacle);
-  if (stop >= r.goal - kSoon) return;                                    // it ends before, anyway
-  if (r.stopping && r.goal + reach(r) + kClearance <= obstacle) return;  // it will be in time
-  const double speed = std::abs(r.profile.speed);
-  const double braking = speed * speed / (2 * usual) + speed * scan_time;
-  const double next_stop = farthestStop(parts, r, obstacle - approach * scan_time);
-  if (!r.stopping && next_stop - r.profile.position > braking + kSoon) return;  // there is time
-  const std::string& name = parts.models[ahead.model]->name;
+  // The other one comes on until it has seen this robot too, then brakes as this one does.
+  const double comes =
+      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
+  const double expected = view.obstacle - comes;
+  const double stop = farthestStop(parts, r, expected);
+  if (stop >= r.goal - kSoon) return r.goal;  // the way ends before, anyway
+  const double next = farthestStop(parts, r, expected - view.approach * view.scan_time);
+  const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
+  return next - r.profile.position > braking + kSoon ? r.goal : stop;  // while there is time
+}
+
+/// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
+/// by now, or even two hard stops would hardly do.
+double revisedStop(const Parts& parts, const Robot& r, const View& view) {
+  const double hardest = r.drive.emergency_deceleration;
+  const double gap = view.obstacle - r.profile.position - reach(r);
+  const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
+                        (view.speed + view.approach) * view.scan_time + kClearance;
+  if (view.speed > 0 && gap < needed) return r.profile.position;
+  if (r.goal + reach(r) + kClearance <= view.obstacle) return r.goal;
+  return std::min(r.goal, farthestStop(parts, r, view.obstacle));
+}
+
+void guard(Parts& parts, int i) {
+  Robot& r = parts.fleet.robots[i];
+  const View view = look(parts, r, i);
+  if (view.model < 0) return;
+  const double stop = r.stopping ? revisedStop(parts, r, view) : firstStop(parts, r, view);
+  if (stop == r.goal) return;
+  const std::string& name = parts.models[view.model]->name;
   markBlocked(parts, i, name, name + " is in the way");
   planStop(r, stop, parts.dt);
 }
