@@ -1,0 +1,660 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// SDF in, real values out. What is refused is in world_file_errors_test.cpp.
+#include "kiva_plugin_cpp/world_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <ignition/math/Matrix3.hh>
+#include <thread>
+
+namespace kiva {
+namespace {
+
+namespace fs = std::filesystem;
+using Matrix3 = ignition::math::Matrix3d;
+
+const ModelPaths kPaths{std::string(WORLDS_DIR) + "/models"};
+
+std::string sdf(const std::string& inside) { return "<sdf version='1.9'>" + inside + "</sdf>"; }
+
+std::string worldOf(const std::string& inside) {
+  return sdf("<world name='w'>" + inside + "</world>");
+}
+
+std::string include(const std::string& model, const std::string& inside) {
+  return "<include><uri>model://" + model + "</uri>" + inside + "</include>";
+}
+
+WorldDescription world(const std::string& inside) {
+  return parseWorld(worldOf(inside), kPaths, "text");
+}
+
+ModelDescription model(const std::string& inside) {
+  const auto models = parseModels(sdf("<model name='m'>" + inside + "</model>"), kPaths, "text");
+  return *models.at(0).description;
+}
+
+Link link(const std::string& inside) {
+  return model("<link name='l'>" + inside + "</link>").links.at(0);
+}
+
+Collision collision(const std::string& geometry, const std::string& rest = "") {
+  return link("<collision name='c'><geometry>" + geometry + "</geometry>" + rest + "</collision>")
+      .collisions.at(0);
+}
+
+Joint joint(const std::string& type, const std::string& inside,
+            const std::string& child_pose = "0 0 0 0 0 0") {
+  return model("<link name='a'/><link name='b'><pose>" + child_pose +
+               "</pose></link><joint name='j' type='" + type +
+               "'><parent>a</parent><child>b</child>" + inside + "</joint>")
+      .joints.at(0);
+}
+
+void expectNear(const Vector3& actual, const Vector3& expected) {
+  EXPECT_NEAR(actual.Distance(expected), 0, 1e-12) << actual << " instead of " << expected;
+}
+
+void expectNear(const Pose& actual, const Pose& expected) {
+  expectNear(actual.Pos(), expected.Pos());
+  EXPECT_NEAR(std::abs(actual.Rot().Dot(expected.Rot())), 1, 1e-12)
+      << actual << " instead of " << expected;
+}
+
+// --- shapes
+
+TEST(Shapes, BoxHasItsEdges) {
+  const Shape shape = collision("<box><size>1 2 3</size></box>").shape;
+  EXPECT_EQ(shape.kind, Shape::Kind::kBox);
+  EXPECT_EQ(shape.size, Vector3(1, 2, 3));
+}
+
+TEST(Shapes, RoundOnesHaveRadiusAndLength) {
+  const Shape sphere = collision("<sphere><radius>0.25</radius></sphere>").shape;
+  EXPECT_EQ(sphere.kind, Shape::Kind::kSphere);
+  EXPECT_EQ(sphere.radius, 0.25);
+  const std::string size = "<radius>0.5</radius><length>3</length>";
+  for (const auto& [name, kind] : {std::pair{"cylinder", Shape::Kind::kCylinder},
+                                   std::pair{"capsule", Shape::Kind::kCapsule}}) {
+    const std::string tag(name);
+    const Shape shape = collision("<" + tag + ">" + size + "</" + tag + ">").shape;
+    EXPECT_EQ(shape.kind, kind);
+    EXPECT_EQ(shape.radius, 0.5);
+    EXPECT_EQ(shape.length, 3);
+  }
+}
+
+TEST(Shapes, EllipsoidHasItsRadii) {
+  const Shape shape = collision("<ellipsoid><radii>1 2 3</radii></ellipsoid>").shape;
+  EXPECT_EQ(shape.kind, Shape::Kind::kEllipsoid);
+  EXPECT_EQ(shape.size, Vector3(1, 2, 3));
+}
+
+TEST(Shapes, PlaneHasAUnitNormalAndASize) {
+  const Shape shape = collision("<plane><normal>0 3 4</normal><size>20 30</size></plane>").shape;
+  EXPECT_EQ(shape.kind, Shape::Kind::kPlane);
+  expectNear(shape.normal, {0, 0.6, 0.8});
+  EXPECT_EQ(shape.plane_size[0], 20);
+  EXPECT_EQ(shape.plane_size[1], 30);
+}
+
+TEST(Shapes, EmptyOnesAreNone) {
+  EXPECT_TRUE(
+      link("<collision name='c'><geometry><empty/></geometry></collision>").collisions.empty());
+}
+
+TEST(Shapes, StandWhereTheirPoseSays) {
+  const Collision c =
+      collision("<sphere><radius>1</radius></sphere>", "<pose>1 2 3 0 0 1.5</pose>");
+  EXPECT_EQ(c.name, "c");
+  expectNear(c.pose_in_link, Pose(1, 2, 3, 0, 0, 1.5));
+}
+
+const std::string kBall = "<sphere><radius>1</radius></sphere>";
+
+std::string surface(const std::string& inside) { return "<surface>" + inside + "</surface>"; }
+
+TEST(Surface, HasFrictionOneAndNoBounceByDefault) {
+  const Collision c = collision(kBall);
+  EXPECT_EQ(c.friction, 1);
+  EXPECT_EQ(c.restitution, 0);
+}
+
+TEST(Surface, TakesFrictionOfOdeBeforeBullet) {
+  const std::string ode = "<ode><mu>0.3</mu></ode>";
+  const std::string bullet = "<bullet><friction>0.4</friction></bullet>";
+  const auto friction = [](const std::string& of) {
+    return collision(kBall, surface("<friction>" + of + "</friction>")).friction;
+  };
+  EXPECT_EQ(friction(ode), 0.3);
+  EXPECT_EQ(friction(bullet), 0.4);
+  EXPECT_EQ(friction(bullet + ode), 0.3);
+  EXPECT_EQ(friction("<ode><mu>0</mu></ode>"), 0);
+}
+
+TEST(Surface, TakesRestitution) {
+  const std::string bounce =
+      "<bounce><restitution_coefficient>0.5</restitution_coefficient></bounce>";
+  EXPECT_EQ(collision(kBall, surface(bounce)).restitution, 0.5);
+}
+
+Visual visual(const std::string& inside) {
+  return link("<visual name='v'><geometry>" + kBall + "</geometry>" + inside + "</visual>")
+      .visuals.at(0);
+}
+
+TEST(Visuals, AreDiffuseElseAmbientElseGrey) {
+  const auto expectColour = [](const Visual& v, double r, double g, double b, double a) {
+    EXPECT_NEAR(v.rgba[0], r, 1e-6);
+    EXPECT_NEAR(v.rgba[1], g, 1e-6);
+    EXPECT_NEAR(v.rgba[2], b, 1e-6);
+    EXPECT_NEAR(v.rgba[3], a, 1e-6);
+  };
+  const std::string diffuse = "<diffuse>0.1 0.2 0.3 0.5</diffuse>";
+  const std::string ambient = "<ambient>0.4 0.5 0.6 1</ambient>";
+  expectColour(visual(""), 0.7, 0.7, 0.7, 1);
+  expectColour(visual("<material>" + ambient + "</material>"), 0.4, 0.5, 0.6, 1);
+  expectColour(visual("<material>" + ambient + diffuse + "</material>"), 0.1, 0.2, 0.3, 0.5);
+  expectColour(visual("<transparency>0.75</transparency>"), 0.7, 0.7, 0.7, 0.25);
+}
+
+// --- links
+
+TEST(Links, WeighOneKilogramByDefault) {
+  const Link l = link("");
+  EXPECT_EQ(l.mass, 1);
+  expectNear(l.principal_moments, {1, 1, 1});
+  EXPECT_TRUE(l.gravity);
+}
+
+TEST(Links, KeepDiagonalInertiaInItsAxes) {
+  const Link l = link(
+      "<inertial><pose>1 2 3 0 0 0.5</pose><mass>7</mass><inertia><ixx>3</ixx><iyy>2</iyy>"
+      "<izz>4</izz></inertia></inertial>");
+  EXPECT_EQ(l.mass, 7);
+  expectNear(l.principal_moments, {3, 2, 4});
+  expectNear(l.inertial_pose_in_link, Pose(1, 2, 3, 0, 0, 0.5));
+}
+
+TEST(Links, TurnInertiaToItsPrincipalAxes) {
+  const Matrix3 inertia(3, 0.4, -0.2, 0.4, 4, 0.3, -0.2, 0.3, 5);
+  const Link l = link(
+      "<inertial><mass>7</mass><inertia><ixx>3</ixx><ixy>0.4</ixy><ixz>-0.2</ixz><iyy>4</iyy>"
+      "<iyz>0.3</iyz><izz>5</izz></inertia></inertial>");
+  const Matrix3 axes(l.inertial_pose_in_link.Rot());
+  const Vector3& m = l.principal_moments;
+  const Matrix3 again = axes * Matrix3(m.X(), 0, 0, 0, m.Y(), 0, 0, 0, m.Z()) * axes.Transposed();
+  EXPECT_TRUE(again.Equal(inertia, 1e-5)) << again;
+}
+
+TEST(Links, MayBeFreeOfGravity) { EXPECT_FALSE(link("<gravity>false</gravity>").gravity); }
+
+TEST(Links, StandRelativeToFrames) {
+  const ModelDescription m = model(
+      "<frame name='f'><pose>1 0 0 0 0 1.5707963267948966</pose></frame>"
+      "<link name='a'><pose relative_to='f'>2 0 0 0 0 0</pose></link>"
+      "<link name='b'><pose relative_to='a'>0 0 3 0 0 0</pose></link>");
+  expectNear(m.links[0].pose_in_model, Pose(1, 2, 0, 0, 0, M_PI / 2));
+  expectNear(m.links[1].pose_in_model, Pose(1, 2, 3, 0, 0, M_PI / 2));
+}
+
+TEST(Models, PutTheCanonicalLinkFirst) {
+  const auto models = parseModels(
+      sdf("<model name='m' canonical_link='b'><link name='a'/><link name='b'/><link name='c'/>"
+          "</model>"),
+      kPaths, "text");
+  const auto& links = models[0].description->links;
+  EXPECT_EQ(links[0].name, "b");
+  EXPECT_EQ(links[1].name, "a");
+  EXPECT_EQ(links[2].name, "c");
+}
+
+TEST(Models, AreStaticWhereTheySaySo) {
+  EXPECT_TRUE(model("<static>true</static><link name='l'/>").is_static);
+  EXPECT_FALSE(model("<link name='l'/>").is_static);
+}
+
+// --- joints
+
+TEST(Joints, HaveTheirKinds) {
+  const std::string axis = "<axis><xyz>0 0 1</xyz></axis>";
+  EXPECT_EQ(joint("fixed", "").kind, Joint::Kind::kFixed);
+  EXPECT_EQ(joint("revolute", axis).kind, Joint::Kind::kRevolute);
+  EXPECT_EQ(joint("continuous", axis).kind, Joint::Kind::kContinuous);
+  EXPECT_EQ(joint("prismatic", axis).kind, Joint::Kind::kPrismatic);
+}
+
+TEST(Joints, AreUnlimitedByDefault) {
+  const Joint j = joint("revolute", "<axis><xyz>0 0 1</xyz></axis>");
+  EXPECT_EQ(j.lower, -1e16);
+  EXPECT_EQ(j.upper, 1e16);
+  EXPECT_LT(j.max_effort, 0);
+  EXPECT_LT(j.max_velocity, 0);
+  EXPECT_EQ(j.damping, 0);
+  EXPECT_EQ(j.friction, 0);
+}
+
+TEST(Joints, TakeLimitsAndDynamics) {
+  const Joint j = joint(
+      "prismatic",
+      "<axis><xyz>0 0 2</xyz><limit><lower>-0.5</lower><upper>0.25</upper><effort>100</effort>"
+      "<velocity>3</velocity></limit><dynamics><damping>4</damping><friction>5</friction>"
+      "</dynamics></axis>");
+  EXPECT_EQ(j.parent, "a");
+  EXPECT_EQ(j.child, "b");
+  expectNear(j.axis_in_model, {0, 0, 1});
+  EXPECT_EQ(j.lower, -0.5);
+  EXPECT_EQ(j.upper, 0.25);
+  EXPECT_EQ(j.max_effort, 100);
+  EXPECT_EQ(j.max_velocity, 3);
+  EXPECT_EQ(j.damping, 4);
+  EXPECT_EQ(j.friction, 5);
+}
+
+TEST(Joints, SitInTheirChildUnlessPlaced) {
+  const std::string turned = "1 2 3 0 0 1.5707963267948966";
+  const Joint j = joint("continuous", "<axis><xyz>1 0 0</xyz></axis>", turned);
+  expectNear(j.anchor_in_model, {1, 2, 3});
+  expectNear(j.axis_in_model, {0, 1, 0});
+  const Joint placed =
+      joint("continuous", "<pose relative_to='a'>0 0 5 0 0 0</pose><axis><xyz>1 0 0</xyz></axis>",
+            turned);
+  expectNear(placed.anchor_in_model, {0, 0, 5});
+  expectNear(placed.axis_in_model, {1, 0, 0});
+}
+
+TEST(Joints, TurnAnAxisThatIsExpressedElsewhere) {
+  const Joint j = joint("revolute", "<axis><xyz expressed_in='__model__'>1 0 0</xyz></axis>",
+                        "1 2 3 0 0 1.5707963267948966");
+  expectNear(j.axis_in_model, {1, 0, 0});
+}
+
+TEST(Joints, MayHoldOnToTheWorld) {
+  const Joint j = model(
+                      "<link name='l'/><joint name='j' type='fixed'><parent>world</parent>"
+                      "<child>l</child></joint>")
+                      .joints.at(0);
+  EXPECT_EQ(j.parent, "world");
+  EXPECT_EQ(j.child, "l");
+}
+
+// --- models in models
+
+const std::string kNested =
+    "<link name='base'/>"
+    "<model name='arm'><pose>1 0 0 0 0 1.5707963267948966</pose>"
+    "<link name='upper'><pose>1 0 0 0 0 0</pose></link>"
+    "<model name='hand'><pose>2 0 0 0 0 0</pose><link name='palm'/>"
+    "<plugin name='grip' filename='libgrip.so'/></model>"
+    "<joint name='wrist' type='revolute'><parent>upper</parent><child>hand::palm</child>"
+    "<axis><xyz>1 0 0</xyz></axis></joint></model>"
+    "<joint name='shoulder' type='fixed'><parent>base</parent><child>arm::upper</child></joint>";
+
+TEST(NestedModels, AreFlattened) {
+  const ModelDescription m = model(kNested);
+  ASSERT_EQ(m.links.size(), 3u);
+  EXPECT_EQ(m.nested_models, (std::vector<std::string>{"arm", "arm::hand"}));
+  ASSERT_TRUE(m.findLink("arm::hand::palm"));
+  expectNear(m.findLink("arm::upper")->pose_in_model, Pose(1, 1, 0, 0, 0, M_PI / 2));
+  expectNear(m.findLink("arm::hand::palm")->pose_in_model, Pose(1, 2, 0, 0, 0, M_PI / 2));
+  EXPECT_EQ(m.plugins.at(0).name, "grip");
+}
+
+TEST(NestedModels, KeepTheirJoints) {
+  const ModelDescription m = model(kNested);
+  ASSERT_EQ(m.joints.size(), 2u);
+  EXPECT_EQ(m.joints[0].name, "shoulder");
+  EXPECT_EQ(m.joints[0].child, "arm::upper");
+  EXPECT_EQ(m.joints[1].name, "arm::wrist");
+  EXPECT_EQ(m.joints[1].parent, "arm::upper");
+  EXPECT_EQ(m.joints[1].child, "arm::hand::palm");
+  expectNear(m.joints[1].anchor_in_model, {1, 2, 0});
+  expectNear(m.joints[1].axis_in_model, {0, 1, 0});
+}
+
+TEST(NestedModels, MayBeIncluded) {
+  const ModelDescription m =
+      model("<link name='l'/>" + include("item", "<name>box</name><pose>0 0 2 0 0 0</pose>"));
+  ASSERT_TRUE(m.findLink("box::body"));
+  expectNear(m.findLink("box::body")->pose_in_model, Pose(0, 0, 2, 0, 0, 0));
+  EXPECT_EQ(m.findLink("box::body")->mass, 1.5);
+}
+
+TEST(NestedModels, MayBeMerged) {
+  const ModelDescription m =
+      model("<link name='l'/><include merge='true'><uri>model://item</uri></include>");
+  EXPECT_TRUE(m.findLink("body"));
+  EXPECT_TRUE(m.nested_models.empty());
+}
+
+// --- worlds
+
+TEST(Worlds, HaveSdfsDefaults) {
+  const WorldDescription w = world("");
+  EXPECT_EQ(w.name, "w");
+  expectNear(w.gravity, {0, 0, -9.8});
+  EXPECT_EQ(w.step_size, 0.001);
+  EXPECT_EQ(w.real_time_factor, 1);
+  EXPECT_TRUE(w.models.empty());
+  EXPECT_TRUE(w.plugins.empty());
+}
+
+TEST(Worlds, TakeGravityStepAndPlugins) {
+  const WorldDescription w = world(
+      "<gravity>0 1 -3</gravity><physics name='p' type='bullet'><max_step_size>0.002"
+      "</max_step_size><real_time_factor>0</real_time_factor></physics>"
+      "<plugin name='grid' filename='libkiva_grid.so'><spacing>1.5</spacing></plugin>");
+  expectNear(w.gravity, {0, 1, -3});
+  EXPECT_EQ(w.step_size, 0.002);
+  EXPECT_EQ(w.real_time_factor, 0);
+  ASSERT_EQ(w.plugins.size(), 1u);
+  EXPECT_EQ(w.plugins[0].filename, "libkiva_grid.so");
+  EXPECT_EQ(w.plugins[0].parameters.number("spacing", 0, 0, 9), 1.5);
+}
+
+TEST(Worlds, PlaceModelsRelativeToFramesAndEachOther) {
+  const WorldDescription w = world(
+      "<frame name='f'><pose>1 0 0 0 0 1.5707963267948966</pose></frame>"
+      "<model name='m'><pose relative_to='f'>2 0 0 0 0 0</pose><link name='l'/></model>" +
+      include("item", "<name>i</name><pose relative_to='m'>0 0 1 0 0 0</pose>"));
+  expectNear(w.models.at(0).pose, Pose(1, 2, 0, 0, 0, M_PI / 2));
+  expectNear(w.models.at(1).pose, Pose(1, 2, 1, 0, 0, M_PI / 2));
+}
+
+TEST(Plugins, KeepNestedRepeatedAndEmptyParameters) {
+  const auto models = parseModels(
+      sdf("<model name='m'><link name='l'/>\n<plugin name='p' filename='libp.so'><a> 1 </a>"
+          "<b><c>2</c><d><e>3</e></d></b><a>4</a><f/></plugin></model>"),
+      kPaths, "text");
+  const Parameters& p = models[0].description->plugins.at(0).parameters;
+  const std::map<std::string, std::string> expected = {
+      {"a", "1"}, {"a[2]", "4"}, {"b/c", "2"}, {"b/d/e", "3"}, {"f", ""}};
+  EXPECT_EQ(p.values(), expected);
+  EXPECT_EQ(p.where(), "model 'm', plugin 'p'");
+}
+
+TEST(Plugins, KnowTheirFile) {
+  const auto models =
+      parseWorld(worldOf(include("kiva", "<name>kiva1</name>")), kPaths, "w").models;
+  for (const PluginDescription& plugin : models[0].description->plugins) {
+    const std::string& where = plugin.parameters.where();
+    EXPECT_EQ(where.find(kPaths[0] + "/kiva/model.sdf:"), 0u) << where;
+    EXPECT_NE(where.find("model 'kiva', plugin '" + plugin.name + "'"), std::string::npos) << where;
+  }
+}
+
+// --- includes
+
+TEST(Includes, TakeNameAndPoseAndShareTheirDescription) {
+  const auto models = world(include("item", "<name>i1</name><pose>1 2 3 0 0 0.5</pose>") +
+                            include("item", "<name>i2</name>"))
+                          .models;
+  ASSERT_EQ(models.size(), 2u);
+  EXPECT_EQ(models[0].name, "i1");
+  expectNear(models[0].pose, Pose(1, 2, 3, 0, 0, 0.5));
+  EXPECT_EQ(models[1].name, "i2");
+  expectNear(models[1].pose, Pose::Zero);
+  EXPECT_EQ(models[0].description, models[1].description);
+}
+
+TEST(Includes, AreCalledLikeTheirModelUnlessNamed) {
+  EXPECT_EQ(world(include("item", "")).models.at(0).name, "item");
+}
+
+TEST(Includes, MayChangeWhetherAModelIsStatic) {
+  const auto models = world(include("item", "<name>i1</name><static>true</static>") +
+                            include("item", "<name>i2</name>"))
+                          .models;
+  EXPECT_TRUE(models[0].description->is_static);
+  EXPECT_FALSE(models[1].description->is_static);
+}
+
+TEST(Includes, KeepTheOrderOfTheText) {
+  const std::string inlined = "<model name='b'><link name='l'/></model>";
+  const std::string special = "<plugin name='p' filename='libp.so'/>";
+  const auto models =
+      world(include("item", "<name>a</name>") + inlined +
+            include("item", "<name>c</name>" + special) + include("item", "<name>d</name>") +
+            "<model name='e'><link name='l'/></model>")
+          .models;
+  std::string names;
+  for (const ModelInstance& m : models) names += m.name;
+  EXPECT_EQ(names, "abcde");
+  EXPECT_EQ(models[2].description->plugins.at(0).filename, "libp.so");
+}
+
+TEST(Includes, InCommentsAreNone) {
+  EXPECT_TRUE(world("<!-- " + include("item", "") + " -->").models.empty());
+}
+
+TEST(Includes, MayHoldCommentsAndEntities) {
+  const auto models = world(include("item", "<!-- x --><name>i1</name>") +
+                            include("item", "<name>a&amp;b</name><!-- <name>c</name> -->"))
+                          .models;
+  EXPECT_EQ(models.at(0).name, "i1");
+  EXPECT_EQ(models.at(1).name, "a&b");
+}
+
+/// A folder of models that goes when the test ends.
+class ModelFolder {
+ public:
+  ModelFolder() : path_(fs::temp_directory_path() / ("models_" + std::to_string(getpid()))) {}
+  ~ModelFolder() { fs::remove_all(path_); }
+  ModelPaths paths() const { return {path_.string()}; }
+
+  void write(const std::string& name, const std::string& content) const {
+    fs::create_directories(path_ / name);
+    std::ofstream(path_ / name / "model.config")
+        << "<model><name>" << name << "</name><sdf version='1.9'>model.sdf</sdf></model>";
+    std::ofstream(path_ / name / "model.sdf") << sdf(content);
+  }
+
+ private:
+  fs::path path_;
+};
+
+TEST(Includes, KeepTheModelsOwnPoseUnlessGivenOne) {
+  const ModelFolder folder;
+  folder.write("m", "<model name='m'><pose>0 0 7 0 0 0</pose><link name='l'/></model>");
+  const auto models = parseModels(worldOf(include("m", "<name>a</name>") +
+                                          include("m", "<name>b</name><pose>1 0 0 0 0 0</pose>")),
+                                  folder.paths(), "text");
+  expectNear(models.at(0).pose, Pose(0, 0, 7, 0, 0, 0));
+  expectNear(models.at(1).pose, Pose(1, 0, 0, 0, 0, 0));
+}
+
+TEST(Includes, PlaceTheModelByItsPlacementFrame) {
+  const ModelFolder folder;
+  folder.write("m",
+               "<model name='m' placement_frame='top'><link name='l'/><frame name='top'>"
+               "<pose>0 0 2 0 0 0</pose></frame></model>");
+  const auto models = parseModels(worldOf(include("m", "<name>a</name><pose>1 0 0 0 0 0</pose>")),
+                                  folder.paths(), "text");
+  expectNear(models.at(0).pose, Pose(1, 0, -2, 0, 0, 0));
+}
+
+TEST(Includes, OfWhatIsNoModelAreLeftOutWithAWarning) {
+  const ModelFolder folder;
+  folder.write("sun", "<light name='sun' type='directional'/>");
+  std::vector<std::string> warnings;
+  const auto w = parseWorld(worldOf("\n" + include("sun", "")), folder.paths(), "text", &warnings);
+  EXPECT_TRUE(w.models.empty());
+  EXPECT_EQ(warnings, std::vector<std::string>{
+                          "text:2: include: 'model://sun' holds no model and is left out"});
+}
+
+/// Our reading of plain includes against libsdformat's: a frame on a robot makes it take all.
+TEST(Includes, ComeOutAsLibsdformatHasThem) {
+  const std::string body = include("kiva", "<name>kiva1</name><pose>1 2 0 0 0 0.5</pose>") +
+                           include("storage_unit", "<name>storage_unit1</name>");
+  const std::string frame = "<frame name='f' attached_to='kiva1'/>";
+  const auto ours = world(body).models;
+  const auto theirs = world(body + frame).models;
+  ASSERT_EQ(ours.size(), theirs.size());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    EXPECT_EQ(ours[i].name, theirs[i].name);
+    expectNear(ours[i].pose, theirs[i].pose);
+    const ModelDescription& a = *ours[i].description;
+    const ModelDescription& b = *theirs[i].description;
+    ASSERT_EQ(a.links.size(), b.links.size());
+    for (std::size_t k = 0; k < a.links.size(); ++k) {
+      EXPECT_EQ(a.links[k].name, b.links[k].name);
+      expectNear(a.links[k].pose_in_model, b.links[k].pose_in_model);
+      EXPECT_EQ(a.links[k].collisions.size(), b.links[k].collisions.size());
+    }
+    EXPECT_EQ(a.joints.size(), b.joints.size());
+    EXPECT_EQ(a.plugins.size(), b.plugins.size());
+  }
+}
+
+TEST(Includes, OfFiveThousandShelvesCostNoMoreThanOne) {
+  std::string body;
+  for (int i = 0; i < 5000; ++i) {
+    body += include("storage_unit", "<name>storage_unit" + std::to_string(i) + "</name><pose>" +
+                                        std::to_string(i) + " 0 0 0 0 0</pose>");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto models = world(body).models;
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  ASSERT_EQ(models.size(), 5000u);
+  EXPECT_EQ(models[4999].pose.Pos().X(), 4999);
+  EXPECT_EQ(models[0].description, models[4999].description);
+  EXPECT_LT(took.count(), 5.0);  // Takes 0.05 s; libsdformat alone needs minutes.
+}
+
+// --- requests
+
+TEST(Requests, MayBeAModelAWorldABareIncludeOrUrdf) {
+  const auto names = [](const std::string& xml) {
+    std::string list;
+    for (const ModelInstance& m : parseModels(xml, kPaths, "text")) list += m.name + " ";
+    return list;
+  };
+  const std::string m = "<model name='m'><link name='l'/></model>";
+  EXPECT_EQ(names(sdf(m)), "m ");
+  EXPECT_EQ(names(worldOf(m + include("item", ""))), "m item ");
+  EXPECT_EQ(names(sdf(include("item", ""))), "item ");
+  EXPECT_EQ(names("<robot name='r'><link name='l'><inertial><mass value='2'/><inertia ixx='1' "
+                  "iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>"),
+            "r ");
+}
+
+TEST(Requests, MayBeOfAnOlderSdf) {
+  const auto models = parseModels(
+      "<sdf version='1.4'><model name='m'><pose>1 0 0 0 0 0</pose><link name='l'/></model></sdf>",
+      kPaths, "text");
+  expectNear(models.at(0).pose, Pose(1, 0, 0, 0, 0, 0));
+}
+
+TEST(Requests, OfEqualTextShareTheirDescription) {
+  const std::string xml = sdf("<model name='shared'><link name='l'/></model>");
+  const auto first = parseModels(xml, kPaths, "a")[0].description;
+  EXPECT_EQ(parseModels(xml, kPaths, "b")[0].description, first);
+  EXPECT_NE(parseModels(xml + " ", kPaths, "c")[0].description, first);
+}
+
+TEST(Requests, ByTheThousandAreCheap) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < 25000; ++i) {
+    const std::string name = "item" + std::to_string(i);
+    const auto models =
+        parseModels(worldOf(include("item", "<name>" + name + "</name>")), kPaths, name);
+    ASSERT_EQ(models.at(0).name, name);
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(took.count(), 10.0);  // Takes 0.3 s; libsdformat alone needs 20 minutes.
+}
+
+TEST(Requests, SeeAModelThatWasEdited) {
+  const ModelFolder folder;
+  const auto mass = [&](const std::string& xml) {
+    return parseModels(xml, folder.paths(), "text").at(0).description->links.back().mass;
+  };
+  const auto write = [&](const std::string& mass) {
+    folder.write("m", "<model name='m'><link name='l'><inertial><mass>" + mass +
+                          "</mass></inertial></link></model>");
+  };
+  const std::string plain = worldOf(include("m", ""));
+  const std::string nested =
+      sdf("<model name='n'><link name='l'/>" + include("m", "") + "</model>");
+  write("2");
+  EXPECT_EQ(mass(plain), 2);
+  EXPECT_EQ(mass(nested), 2);
+  write("30");
+  EXPECT_EQ(mass(plain), 30);
+  EXPECT_EQ(mass(nested), 30);
+}
+
+TEST(Requests, LookInTheirOwnPaths) {
+  const ModelFolder folder;
+  folder.write("item", "<model name='another'><link name='l'/></model>");
+  const std::string xml = worldOf(include("item", ""));
+  EXPECT_EQ(parseModels(xml, kPaths, "text").at(0).name, "item");
+  EXPECT_EQ(parseModels(xml, folder.paths(), "text").at(0).name, "another");
+}
+
+TEST(Requests, MayComeFromSeveralThreads) {
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([t] {
+      for (int i = 0; i < 5; ++i) {
+        const std::string name = "m" + std::to_string(t * 5 + i);
+        const auto models = parseModels(
+            worldOf("<model name='" + name + "'><link name='l'/></model>" + include("wall", "")),
+            kPaths, name);
+        EXPECT_EQ(models.at(0).name, name);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+}
+
+// --- warnings
+
+TEST(Warnings, NameWhatIsLeftOutOnceEach) {
+  const std::string text = worldOf(
+      "\n<actor name='a'><skin><filename>a.dae</filename></skin></actor>"
+      "\n<model name='m'><strange/><link name='l'>"
+      "\n<sensor name='s' type='imu'/><collision name='c'><geometry>" +
+      kBall +
+      "</geometry>"
+      "\n<surface><friction><ode><mu>1</mu><mu2>2</mu2></ode></friction></surface></collision>"
+      "</link></model>");
+  std::vector<std::string> warnings;
+  testing::internal::CaptureStderr();
+  parseWorld(text, kPaths, "text", &warnings);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  std::sort(warnings.begin(), warnings.end());
+  const std::string m = "world 'w', model 'm', ";
+  EXPECT_EQ(warnings, (std::vector<std::string>{
+                          "text:2: world 'w', actor 'a': actors are left out",
+                          "text:3: " + m +
+                              "strange: XML Element[strange], child of element[model], not "
+                              "defined in SDF",
+                          "text:4: " + m +
+                              "link 'l', sensor 's': sensors are left out; robots scan by the "
+                              "plugin 'laser'",
+                          "text:5: " + m +
+                              "link 'l', collision 'c', surface/friction/ode: mu2 is left out: "
+                              "friction is the same in every direction",
+                      }));
+}
+
+TEST(Warnings, ComeAgainFromTheCache) {
+  const std::string xml = sdf("<model name='odd'><strange/><link name='l'/></model>");
+  std::vector<std::string> first, second;
+  parseModels(xml, kPaths, "a", &first);
+  parseModels(xml, kPaths, "b", &second);
+  ASSERT_EQ(first.size(), 1u);
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0], "b" + first[0].substr(1));
+}
+
+}  // namespace
+}  // namespace kiva
