@@ -189,7 +189,7 @@ TEST(Kiva, BringsItsPlugins) {
 }
 
 TEST(StorageUnit, LetsARobotPassAndTurnBetweenItsLegs) {
-  const Link& shelf = model("storage_unit").links.at(0);
+  const Link shelf = model("storage_unit").links.at(0);
   EXPECT_EQ(shelf.mass, 60);
   EXPECT_EQ(shelf.collisions.size(), 5u);
   for (const Collision& leg : shelf.collisions) {
