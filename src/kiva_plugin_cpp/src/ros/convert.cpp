@@ -115,9 +115,10 @@ warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status) {
   return out;
 }
 
-sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser) {
+sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser,
+                                 double time) {
   sensor_msgs::LaserScan out;
-  out.header = header(scan.time, robotName(scan.kiva_id) + "/laser");
+  out.header = header(time, robotName(scan.kiva_id) + "/laser");
   out.angle_min = static_cast<float>(laser.min_angle);
   out.angle_max = static_cast<float>(laser.max_angle);
   const int gaps = std::max(laser.rays - 1, 1);

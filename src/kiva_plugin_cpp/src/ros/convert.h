@@ -36,7 +36,7 @@ geometry_msgs::Twist toMessage(const kiva::Twist& twist);
 geometry_msgs::Transform toTransform(const kiva::Pose& pose);
 warehouse_msgs::Event toMessage(const kiva::Event& event);
 warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status);
-sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser);
+sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser, double time);
 nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
 
 /// What a robot's status is now.

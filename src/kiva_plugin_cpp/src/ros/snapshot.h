@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the step thread hands to the publisher: copies, so that neither waits for the other.
+// What the step thread hands to the broadcaster: copies, so that neither waits for the other.
 #pragma once
 
 #include <warehouse_msgs/FleetState.h>
@@ -26,16 +26,15 @@ using Roster = std::vector<RosterEntry>;
 
 struct Scan {
   int kiva_id = 0;
-  double time = 0;  ///< Simulated [s].
   std::vector<float> ranges;
 };
 
 struct RobotPose {
   int kiva_id = 0;
-  kiva::Pose base;                    ///< In world.
-  kiva::Twist twist;                  ///< In base_link.
-  double wheel_angle[2] = {0, 0};     ///< Left, right [rad].
-  double tower = 0;                   ///< Above its rest [m].
+  kiva::Pose base;                 ///< In world.
+  kiva::Twist twist;               ///< In base_link.
+  double wheel_angle[2] = {0, 0};  ///< Left, right [rad].
+  double tower = 0;                ///< Above its rest [m].
 };
 
 struct ModelStates {
@@ -47,10 +46,10 @@ struct ModelStates {
 struct Snapshot {
   double time = 0;  ///< Simulated [s].
 
-  // Owed: each reaches the publisher.
+  // Owed: each reaches the broadcaster.
   bool clock_owed = false;
   std::vector<kiva::Event> events;
-  std::optional<Roster> roster;                ///< All robots, after some came or went.
+  std::optional<Roster> roster;  ///< All robots, after some came or went.
   std::vector<kiva::StatusChange> statuses;
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+namespace kiva_ros {
+
+/// Refuses a request with the status text that clients know.
+struct Refusal : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Fills a response with what `body` returns, the status text, or with what it throws: a failure
+/// is a reply that names its cause, never a call that fails.
+template <typename Response, typename Body>
+bool answer(const std::string& service, Response& response, Body body) {
+  try {
+    response.status_message = body();
+    response.success = true;
+  } catch (const Refusal& refusal) {
+    response.success = false;
+    response.status_message = refusal.what();
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.status_message = service + ": Failure - " + error.what();
+  }
+  return true;
+}
+
+}  // namespace kiva_ros

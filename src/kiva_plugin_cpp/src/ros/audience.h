@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Who listens: counted as subscribers come and go, so that the step thread never has to ask
+// roscpp, which takes a lock and walks a list for every answer.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace kiva_ros {
+
+class Audience {
+ public:
+  enum class Topic { kFleet, kModelStates, kTransforms };
+  enum class RobotTopic { kScan, kOdometry };
+
+  /// Called, in any thread, when a listener came.
+  void onArrival(std::function<void()> call) { on_arrival_ = std::move(call); }
+  /// Whether a listener came since the last call.
+  bool takeArrival() { return arrived_.exchange(false); }
+
+  bool listensTo(Topic topic) const { return counts_[static_cast<int>(topic)] > 0; }
+  /// Counts up whenever the ids that listenedRobots returns may have changed.
+  std::uint64_t robotsRevision() const { return robots_revision_; }
+  /// Ids of the robots with a listener to that topic, ascending.
+  std::vector<int> listenedRobots(RobotTopic topic) const;
+
+  void count(Topic topic, int change);
+  void count(RobotTopic topic, int kiva_id, int change);
+  /// A robot went, and its topics with it.
+  void forget(int kiva_id);
+
+ private:
+  void noteArrival(int change);
+
+  std::function<void()> on_arrival_;
+  std::atomic<bool> arrived_{false};
+  std::atomic<int> counts_[3] = {};
+  std::atomic<std::uint64_t> robots_revision_{0};
+  mutable std::mutex mutex_;
+  std::map<int, int> listeners_[2];  ///< By robot's id; guarded by mutex_.
+};
+
+/// Advertises a topic whose listeners are counted: `count` is called with +1 or -1.
+template <typename Message>
+ros::Publisher advertiseCounted(ros::NodeHandle& node, const std::string& topic, int queue_size,
+                                const std::function<void(int)>& count) {
+  return node.advertise<Message>(
+      topic, queue_size, [count](const ros::SingleSubscriberPublisher&) { count(+1); },
+      [count](const ros::SingleSubscriberPublisher&) { count(-1); });
+}
+
+}  // namespace kiva_ros

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "broadcaster.h"
+
+#include <rosgraph_msgs/Clock.h>
+
+#include "convert.h"
+
+namespace kiva_ros {
+namespace {
+
+constexpr int kClockQueue = 10;
+constexpr int kEventQueue = 100000;  // ten seconds of ten thousand commands, each answered
+constexpr int kStreamQueue = 10;
+
+/// Latched, so that who comes while time stands still learns it too.
+constexpr bool kLatched = true;
+
+}  // namespace
+
+Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience& audience,
+                         Outbox& outbox)
+    : outbox_(outbox),
+      robots_(root, audience),
+      transforms_(root, audience),
+      clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kClockQueue, kLatched)),
+      events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
+      objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
+                                                                kLatched)),
+      units_(root.advertise<warehouse_msgs::UnitStates>("/warehouse/unit_states", kStreamQueue,
+                                                        kLatched)) {
+  fleet_ = advertiseCounted<warehouse_msgs::FleetState>(
+      root, "/warehouse/fleet", kStreamQueue,
+      [&audience](int change) { audience.count(Audience::Topic::kFleet, change); });
+  const auto count_models = [&audience](int change) {
+    audience.count(Audience::Topic::kModelStates, change);
+  };
+  model_states_ =
+      advertiseCounted<gazebo_msgs::ModelStates>(root, "/model_states", kStreamQueue, count_models);
+  gazebo_model_states_ =
+      advertiseCounted<gazebo_msgs::ModelStates>(node, "model_states", kStreamQueue, count_models);
+  thread_ = std::thread([this] {
+    while (const auto snapshot = outbox_.pop()) publish(*snapshot);
+  });
+}
+
+Broadcaster::~Broadcaster() {
+  outbox_.close();
+  thread_.join();
+}
+
+void Broadcaster::publish(const Snapshot& s) {
+  if (s.clock || s.clock_owed) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = ros::Time(s.time);
+    clock_.publish(clock);
+  }
+  if (s.roster) {
+    robots_.update(*s.roster);
+    transforms_.update(*s.roster);
+  }
+  for (const kiva::Event& event : s.events) publishEvent(event);
+  for (const kiva::StatusChange& status : s.statuses) robots_.publish(status);
+  for (const Scan& scan : s.scans) robots_.publish(scan, s.time);
+  for (const RobotPose& robot : s.odometry) robots_.publishOdometry(robot, s.time);
+  if (!s.transforms.empty()) transforms_.publish(s.transforms, s.time);
+  if (s.objects) objects_.publish(*s.objects);
+  if (s.units) units_.publish(*s.units);
+  if (s.fleet) fleet_.publish(*s.fleet);
+  if (s.models) publishModels(*s.models);
+}
+
+void Broadcaster::publishEvent(const kiva::Event& event) {
+  events_.publish(toMessage(event));
+  if (event.kind == kiva::Event::Kind::kCollision) {
+    ROS_WARN("%s and %s collided. %s", event.model.c_str(), event.other.c_str(),
+             event.text.c_str());
+  } else if (event.kind == kiva::Event::Kind::kRefused) {
+    ROS_DEBUG("%s: refused: %s", event.model.c_str(), event.text.c_str());
+  }
+}
+
+void Broadcaster::publishModels(const ModelStates& models) {
+  if (names_ != models.names) {
+    names_ = models.names;
+    models_.name = *names_;
+  }
+  models_.pose.clear();
+  models_.twist.clear();
+  for (const kiva::EntityState& state : models.states) {
+    models_.pose.push_back(toMessage(state.pose));
+    models_.twist.push_back(toMessage(state.twist));
+  }
+  model_states_.publish(models_);
+  gazebo_model_states_.publish(models_);
+}
+
+}  // namespace kiva_ros

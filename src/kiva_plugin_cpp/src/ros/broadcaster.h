@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gazebo_msgs/ModelStates.h>
+#include <ros/ros.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "audience.h"
+#include "outbox.h"
+#include "robot_topics.h"
+#include "transforms.h"
+
+namespace kiva_ros {
+
+/// The one thread that publishes what the step thread saw: serialisation and sockets are the
+/// second core's.
+class Broadcaster {
+ public:
+  /// `node`: the node's private names.
+  Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience& audience, Outbox& outbox);
+  ~Broadcaster();
+
+ private:
+  void publish(const Snapshot& snapshot);
+  void publishEvent(const kiva::Event& event);
+  void publishModels(const ModelStates& models);
+
+  Outbox& outbox_;
+  RobotTopics robots_;
+  Transforms transforms_;
+  ros::Publisher clock_, events_, fleet_, objects_, units_, model_states_, gazebo_model_states_;
+  std::shared_ptr<const std::vector<std::string>> names_;  ///< Those in models_.
+  gazebo_msgs::ModelStates models_;                        ///< Kept, since its names seldom change.
+  std::thread thread_;
+};
+
+}  // namespace kiva_ros

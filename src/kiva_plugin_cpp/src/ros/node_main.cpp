@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The node /gazebo: a warehouse world behind Gazebo's ROS 1 names.
+#include <ros/ros.h>
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include "audience.h"
+#include "broadcaster.h"
+#include "commands.h"
+#include "engine.h"
+#include "kiva_plugin_cpp/world.h"
+#include "kiva_plugin_cpp/world_file.h"
+#include "outbox.h"
+#include "reporter.h"
+#include "settings.h"
+#include "simulation_services.h"
+#include "spawn_services.h"
+#include "state_services.h"
+
+namespace {
+
+using namespace kiva_ros;
+
+constexpr int kCallbackThreads = 4;  // each may wait for the step thread
+
+kiva::WorldDescription load(const Settings& settings) {
+  std::vector<std::string> warnings;
+  const auto out = kiva::loadWorld(settings.world_file, settings.model_paths, &warnings);
+  for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
+  return out;
+}
+
+void announce(const kiva::World& world, const Settings& settings, double rtf) {
+  ROS_INFO("World '%s' from %s: %d robots, %zu storage units, %zu items; steps of %g s, %s",
+           world.name().c_str(), settings.world_file.c_str(), world.fleet().size(),
+           world.storageUnits().size(), world.items().size(), world.stepSize(),
+           rtf > 0 ? ("real-time factor " + std::to_string(rtf)).c_str() : "as fast as it goes");
+}
+
+int run(ros::NodeHandle& root, ros::NodeHandle& node) {
+  if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
+  const Settings settings = readSettings(node);
+  const kiva::WorldDescription description = load(settings);
+  kiva::World world(description, settings.world);
+  const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
+
+  Audience audience;
+  Outbox outbox;
+  Reporter reporter(world, settings.rates, audience, outbox);
+  Engine engine(world, reporter, rtf);
+  audience.onArrival([&engine] { engine.post([](kiva::World&) {}); });
+  Broadcaster broadcaster(root, node, audience, outbox);
+  Commands commands(root, engine);
+  SimulationServices simulation_services(node, engine);
+  StateServices state_services(root, node, engine);
+  SpawnServices spawn_services(node, engine, settings.model_paths);
+
+  announce(world, settings, rtf);
+  engine.start();
+  ros::AsyncSpinner spinner(kCallbackThreads);
+  spinner.start();
+  ros::waitForShutdown();
+  spinner.stop();
+  engine.stop();
+  return engine.failed() ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "gazebo");
+  ros::NodeHandle root, node("~");
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // roscpp sees to SIGINT alone
+  try {
+    return run(root, node);
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+}

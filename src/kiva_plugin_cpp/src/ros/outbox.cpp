@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "outbox.h"
+
+#include <utility>
+
+namespace kiva_ros {
+
+void Outbox::push(Snapshot snapshot) {
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (waiting_.size() >= kMostPeriodic) snapshot.dropPeriodic();
+    if (!snapshot.hasOwed() && !snapshot.hasPeriodic()) return;
+    drained_.wait(lock, [this] { return closed_ || waiting_.size() < kMostWaiting; });
+    if (closed_) return;
+    waiting_.push_back(std::move(snapshot));
+  }
+  filled_.notify_one();
+}
+
+std::optional<Snapshot> Outbox::pop() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  filled_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
+  if (waiting_.empty()) return std::nullopt;
+  Snapshot first = std::move(waiting_.front());
+  waiting_.pop_front();
+  lock.unlock();
+  drained_.notify_one();
+  return first;
+}
+
+void Outbox::close() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    closed_ = true;
+  }
+  filled_.notify_all();
+  drained_.notify_all();
+}
+
+}  // namespace kiva_ros

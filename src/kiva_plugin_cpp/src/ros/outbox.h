@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "snapshot.h"
+
+namespace kiva_ros {
+
+/// Snapshots on their way from the step thread to the broadcaster, in order and in bounded memory:
+/// where the broadcaster lags, what is periodic is dropped, and the step thread waits before
+/// anything owed is.
+class Outbox {
+ public:
+  void push(Snapshot snapshot);
+  /// Blocks until there is one. Nothing once closed and empty.
+  std::optional<Snapshot> pop();
+  /// Lets both sides go; what is pushed from now on is dropped.
+  void close();
+
+ private:
+  static constexpr std::size_t kMostPeriodic = 32;
+  static constexpr std::size_t kMostWaiting = 4096;
+
+  std::mutex mutex_;
+  std::condition_variable filled_, drained_;
+  std::deque<Snapshot> waiting_;
+  bool closed_ = false;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reporter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "convert.h"
+
+namespace kiva_ros {
+namespace {
+
+constexpr double kFleetRate = 10;    // [Hz]
+constexpr double kRobotsRate = 20;   // [Hz], odometry and transforms
+constexpr int kHeartbeatSlots = 10;  // a second: each robot has its own, so that load is level
+constexpr auto kPictureInterval = std::chrono::milliseconds(100);
+
+std::uint64_t stepsPer(double rate, double step_size) {
+  if (rate <= 0) return 1;
+  return static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * step_size))));
+}
+
+kiva::Pose poseOfLink(const kiva::ModelDescription& model, const char* link) {
+  const kiva::Link* found = model.findLink(link);
+  return found ? found->pose_in_model : kiva::Pose();
+}
+
+Roster rosterOf(const kiva::World& world) {
+  Roster out;
+  for (const kiva::Robot& robot : world.fleet().robots) {
+    const auto model = world.description(robot.name);
+    out.push_back({robot.id, robot.laser, poseOfLink(*model, "left_wheel"),
+                   poseOfLink(*model, "right_wheel"), poseOfLink(*model, "tower")});
+  }
+  return out;
+}
+
+RobotPose poseOf(const kiva::World& world, int i) {
+  const kiva::Fleet& f = world.fleet();
+  RobotPose out;
+  out.kiva_id = f.robots[i].id;
+  out.base = world.basePose(i);
+  out.twist.linear = out.base.Rot().RotateVectorReverse({f.vx[i], f.vy[i], 0});
+  out.twist.angular = {0, 0, f.yaw_rate[i]};
+  for (int wheel = 0; wheel < 2; ++wheel) out.wheel_angle[wheel] = f.wheel_angle[wheel][i];
+  out.tower = f.tower[i];
+  return out;
+}
+
+}  // namespace
+
+Reporter::Reporter(const kiva::World& world, const Rates& rates, Audience& audience, Outbox& outbox)
+    : audience_(audience),
+      outbox_(outbox),
+      clock_every_(stepsPer(rates.clock, world.stepSize())),
+      models_every_(stepsPer(rates.model_states, world.stepSize())),
+      fleet_every_(stepsPer(kFleetRate, world.stepSize())),
+      robots_every_(stepsPer(kRobotsRate, world.stepSize())),
+      heartbeat_every_(stepsPer(kHeartbeatSlots, world.stepSize())) {}
+
+void Reporter::afterStep(kiva::World& world) {
+  Snapshot out;
+  out.time = world.time();
+  addNews(world, &out);
+  addPeriodic(world, &out);
+  addPictures(world, &out);
+  last_steps_ = world.steps();
+  send(std::move(out));
+}
+
+void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
+  Snapshot out;
+  out.time = world.time();
+  addNews(world, &out);
+  const bool at_rest = paused || world.steps() < last_steps_;  // or after a reset
+  // Where time stands still or jumped, nobody should have to wait for a step to learn of it.
+  if (at_rest && world.steps() != told_steps_) {
+    out.clock_owed = true;
+    told_steps_ = world.steps();
+  }
+  if (moved && at_rest) addStatuses(world, &out);
+  const bool arrival = audience_.takeArrival();
+  if ((moved && at_rest) || (arrival && paused)) {
+    updateListened();
+    addFleet(world, &out);
+    addRobots(world, &out);
+  }
+  addPictures(world, &out);
+  last_steps_ = world.steps();
+  send(std::move(out));
+}
+
+void Reporter::send(Snapshot snapshot) {
+  if (snapshot.hasOwed() || snapshot.hasPeriodic()) outbox_.push(std::move(snapshot));
+}
+
+void Reporter::addNews(kiva::World& world, Snapshot* out) {
+  out->events = world.takeEvents();
+  out->statuses = world.takeStatusChanges();
+  for (const kiva::Event& event : out->events) {
+    if (!isAboutRobot(world, event)) continue;
+    out->roster = rosterOf(world);
+    robots_.clear();
+    for (const kiva::Robot& robot : world.fleet().robots) robots_.insert(robot.name);
+    addStatuses(world, out);
+    return;
+  }
+}
+
+/// Whether a robot came or went.
+bool Reporter::isAboutRobot(const kiva::World& world, const kiva::Event& event) const {
+  if (event.kind == kiva::Event::Kind::kDeleted) return robots_.count(event.model) != 0;
+  return event.kind == kiva::Event::Kind::kSpawned &&
+         world.kind(event.model) == kiva::ModelKind::kRobot;
+}
+
+void Reporter::addStatuses(const kiva::World& world, Snapshot* out) const {
+  for (int i = 0; i < world.fleet().size(); ++i) out->statuses.push_back(statusOf(world, i));
+}
+
+void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) const {
+  const auto slot = world.steps() / heartbeat_every_ % kHeartbeatSlots;
+  const auto& robots = world.fleet().robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (robots[i].id % kHeartbeatSlots != static_cast<int>(slot)) continue;
+    out->statuses.push_back(statusOf(world, static_cast<int>(i)));
+  }
+}
+
+void Reporter::addPeriodic(const kiva::World& world, Snapshot* out) {
+  const std::uint64_t steps = world.steps();
+  updateListened();
+  out->clock = steps % clock_every_ == 0;
+  if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
+  if (steps % fleet_every_ == 0) addFleet(world, out);
+  if (steps % robots_every_ == 0) addRobots(world, out);
+  if (steps % models_every_ == 0) addModelStates(world, out);
+  if (!scan_ids_.empty()) addScans(world, out);
+}
+
+void Reporter::updateListened() {
+  const std::uint64_t revision = audience_.robotsRevision();
+  if (revision == listened_revision_) return;
+  listened_revision_ = revision;
+  scan_ids_ = audience_.listenedRobots(Audience::RobotTopic::kScan);
+  odometry_ids_ = audience_.listenedRobots(Audience::RobotTopic::kOdometry);
+}
+
+void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
+  if (audience_.listensTo(Audience::Topic::kFleet)) out->fleet = fleetState(world);
+}
+
+void Reporter::addRobots(const kiva::World& world, Snapshot* out) const {
+  const kiva::Fleet& fleet = world.fleet();
+  for (int id : odometry_ids_) {
+    if (const int i = fleet.find(id); i >= 0) out->odometry.push_back(poseOf(world, i));
+  }
+  if (!audience_.listensTo(Audience::Topic::kTransforms)) return;
+  for (int i = 0; i < fleet.size(); ++i) out->transforms.push_back(poseOf(world, i));
+}
+
+void Reporter::addScans(const kiva::World& world, Snapshot* out) const {
+  for (int id : scan_ids_) {
+    const int i = world.fleet().find(id);
+    if (i < 0 || !world.scanDue(i)) continue;
+    out->scans.push_back({id, {}});
+    world.scan(i, &out->scans.back().ranges);
+  }
+}
+
+void Reporter::addModelStates(const kiva::World& world, Snapshot* out) {
+  if (!audience_.listensTo(Audience::Topic::kModelStates)) return;
+  if (names_revision_ != world.modelsRevision()) {
+    names_ = std::make_shared<const std::vector<std::string>>(world.modelNames());
+    names_revision_ = world.modelsRevision();
+  }
+  out->models.emplace();
+  out->models->names = names_;
+  world.states(&out->models->states);
+}
+
+void Reporter::addPictures(const kiva::World& world, Snapshot* out) {
+  const bool models = world.modelsRevision() != objects_revision_;
+  next_due_ = WallClock::time_point::max();
+  if (!models && world.unitsRevision() == units_revision_) return;
+  const auto now = WallClock::now();
+  if (now < pictured_ + kPictureInterval) {
+    next_due_ = pictured_ + kPictureInterval;
+    return;
+  }
+  // Together, since the second is read by the order of the first.
+  if (models) out->objects = warehouseObjects(world);
+  out->units = unitStates(world);
+  objects_revision_ = world.modelsRevision();
+  units_revision_ = world.unitsRevision();
+  pictured_ = now;
+}
+
+}  // namespace kiva_ros

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "audience.h"
+#include "kiva_plugin_cpp/world.h"
+#include "outbox.h"
+#include "pacer.h"
+
+namespace kiva_ros {
+
+/// On the step thread: sees what is due to be told, copies it and hands it to the outbox.
+///
+/// Rates are of simulated time and counted in steps; only the two latched pictures of what stands
+/// where are throttled by the wall clock, since models come and go while time stands still.
+class Reporter {
+ public:
+  struct Rates {
+    double clock = 100;        ///< [Hz], 0 = every step.
+    double model_states = 50;  ///< [Hz], 0 = every step.
+  };
+
+  Reporter(const kiva::World& world, const Rates& rates, Audience& audience, Outbox& outbox);
+
+  void afterStep(kiva::World& world);
+  /// After requests were served between steps. `moved`: models may stand elsewhere than before.
+  void afterRequests(kiva::World& world, bool paused, bool moved);
+  /// When afterRequests should be called even if there was no request.
+  WallClock::time_point nextDue() const { return next_due_; }
+
+ private:
+  void send(Snapshot snapshot);
+  void addNews(kiva::World& world, Snapshot* out);
+  bool isAboutRobot(const kiva::World& world, const kiva::Event& event) const;
+  void addStatuses(const kiva::World& world, Snapshot* out) const;
+  void addHeartbeats(const kiva::World& world, Snapshot* out) const;
+  void addPeriodic(const kiva::World& world, Snapshot* out);
+  void updateListened();
+  void addFleet(const kiva::World& world, Snapshot* out) const;
+  void addRobots(const kiva::World& world, Snapshot* out) const;
+  void addScans(const kiva::World& world, Snapshot* out) const;
+  void addModelStates(const kiva::World& world, Snapshot* out);
+  void addPictures(const kiva::World& world, Snapshot* out);
+
+  static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
+
+  Audience& audience_;
+  Outbox& outbox_;
+  std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_,
+      heartbeat_every_;  // steps
+
+  std::uint64_t told_steps_ = kNever;  ///< Of the last clock that was owed.
+  std::uint64_t last_steps_ = kNever;
+  std::set<std::string> robots_;                           ///< Names of those in the last roster.
+  std::shared_ptr<const std::vector<std::string>> names_;  ///< All models',
+  std::uint64_t names_revision_ = kNever;                  ///< at that revision.
+
+  std::vector<int> scan_ids_, odometry_ids_;  ///< Robots somebody listens to,
+  std::uint64_t listened_revision_ = kNever;  ///< at that revision of the audience.
+
+  std::uint64_t objects_revision_ = kNever, units_revision_ = kNever;  ///< Last told.
+  WallClock::time_point pictured_, next_due_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include <map>
+
+#include "audience.h"
+#include "snapshot.h"
+
+namespace kiva_ros {
+
+/// The topics of each robot: they come and go with it.
+class RobotTopics {
+ public:
+  RobotTopics(ros::NodeHandle& node, Audience& audience) : node_(node), audience_(audience) {}
+
+  void update(const Roster& roster);
+  void publish(const kiva::StatusChange& status);
+  void publish(const Scan& scan, double time);
+  void publishOdometry(const RobotPose& robot, double time);
+
+ private:
+  struct Topics {
+    kiva::LaserParameters laser;
+    ros::Publisher status, scan, odometry;
+  };
+
+  Topics advertise(const RosterEntry& robot);
+  void advertiseScan(const RosterEntry& robot, Topics* topics);
+
+  ros::NodeHandle& node_;
+  Audience& audience_;
+  std::map<int, Topics> robots_;  ///< By id.
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "settings.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+namespace kiva_ros {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<std::string>;
+
+[[noreturn]] void refuse(const ros::NodeHandle& node, const std::string& name,
+                         const XmlRpc::XmlRpcValue& value, const std::string& expected) {
+  std::ostringstream message;
+  message << "parameter " << node.resolveName(name) << " is ";
+  value.write(message);
+  throw std::runtime_error(message.str() + ": " + expected + " was expected");
+}
+
+double number(const ros::NodeHandle& node, const std::string& name, double fallback, double least,
+              const std::string& expected) {
+  XmlRpc::XmlRpcValue value;
+  if (!node.getParam(name, value)) return fallback;
+  double out = NAN;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) out = static_cast<int>(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) out = static_cast<double>(value);
+  const bool is_default = out == fallback;
+  if (!is_default && !(std::isfinite(out) && out >= least)) refuse(node, name, value, expected);
+  return out;
+}
+
+std::uint64_t seed(const ros::NodeHandle& node, const std::string& name) {
+  const std::string expected = "a whole number, 0 or more,";
+  const double out = number(node, name, 1, 0, expected);
+  if (out != std::floor(out) || out > 9e15) refuse(node, name, XmlRpc::XmlRpcValue(out), expected);
+  return static_cast<std::uint64_t>(out);
+}
+
+std::string text(const ros::NodeHandle& node, const std::string& name,
+                 const std::string& fallback) {
+  XmlRpc::XmlRpcValue value;
+  if (!node.getParam(name, value)) return fallback;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString) refuse(node, name, value, "text");
+  return value;
+}
+
+std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string& name) {
+  const std::string drive = text(node, name, "");
+  if (drive.empty()) return std::nullopt;
+  if (drive == "traction") return kiva::Drive::kTraction;
+  if (drive == "jointed") return kiva::Drive::kJointed;
+  refuse(node, name, XmlRpc::XmlRpcValue(drive), "traction, jointed or nothing");
+}
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+Paths split(const std::string& list) {
+  Paths out;
+  std::istringstream folders(list);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!folder.empty()) out.push_back(folder);
+  }
+  return out;
+}
+
+/// Where the worlds of package warehouse_sim are: in the source tree, or where it was installed.
+std::string packagedWorlds() {
+  for (const fs::path folder : split(environment("ROS_PACKAGE_PATH"))) {
+    for (const char* package : {"warehouse_sim", "src/warehouse_sim"}) {
+      const fs::path worlds = folder / package / "worlds";
+      if (fs::is_directory(worlds)) return worlds.string();
+    }
+  }
+  return "";
+}
+
+/// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.
+std::string findWorld(const std::string& world, const Paths& folders) {
+  const std::string name = world.empty() ? "empty" : world;
+  std::vector<fs::path> tried;
+  if (!world.empty()) tried.push_back(fs::path(environment("PWD")) / name);
+  for (const fs::path folder : folders) {
+    tried.push_back(folder / name);
+    tried.push_back(folder / (name + ".sdf"));
+  }
+  std::string list;
+  for (const fs::path& path : tried) {
+    if (fs::is_regular_file(path)) return path.string();
+    list += (list.empty() ? "" : ", ") + path.string();
+  }
+  throw std::runtime_error("there is no world '" + name + "'; tried " +
+                           (list.empty() ? "nothing: no folder of worlds is known" : list));
+}
+
+}  // namespace
+
+Settings readSettings(const ros::NodeHandle& node) {
+  Settings out;
+  const std::string worlds = packagedWorlds();
+  const std::string world = text(node, "world", "");
+  out.world_file = findWorld(world, split(text(node, "world_paths", worlds)));
+  const std::string models = worlds.empty() ? "" : worlds + "/models";
+  out.model_paths =
+      split(text(node, "model_paths", models) + ":" + environment("GAZEBO_MODEL_PATH"));
+  out.rtf = number(node, "rtf", -1, 0,
+                   "a factor above 0, 0 (as fast as it goes) or -1 (the world file's)");
+  out.world.seed = seed(node, "seed");
+  out.world.drive = drive(node, "drive");
+  const std::string rate = "a rate above 0 in Hz, or 0 (every step)";
+  out.rates.clock = number(node, "pub_clock_frequency", out.rates.clock, 0, rate);
+  out.rates.model_states = number(node, "model_states_frequency", out.rates.model_states, 0, rate);
+  return out;
+}
+
+}  // namespace kiva_ros

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+
+#include "kiva_plugin_cpp/world.h"
+#include "kiva_plugin_cpp/world_file.h"
+#include "reporter.h"
+
+namespace kiva_ros {
+
+/// What the node's private parameters say, each checked.
+///
+///   ~world                   SDF file: its path, or its name in a world folder, with or without
+///                            .sdf; empty: an empty floor
+///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
+///   ~model_paths             folders of models, a:b; default: the same package's. Those that
+///                            GAZEBO_MODEL_PATH lists are searched after them
+///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; -1 (default):
+///                            what the world file says
+///   ~seed                    of everything random, default 1
+///   ~drive                   traction or jointed; empty (default): what the robots' files say
+///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
+///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
+struct Settings {
+  std::string world_file;
+  kiva::ModelPaths model_paths;
+  double rtf = -1;
+  kiva::WorldOptions world;
+  Reporter::Rates rates;
+};
+
+/// Throws std::runtime_error that names the parameter, its value and what was expected.
+Settings readSettings(const ros::NodeHandle& node);
+
+}  // namespace kiva_ros

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulation_services.h"
+
+#include <boost/function.hpp>
+
+#include "answer.h"
+#include "convert.h"
+
+namespace kiva_ros {
+
+SimulationServices::SimulationServices(ros::NodeHandle& node, Engine& engine) : engine_(engine) {
+  const auto reset = [&engine](bool time_too) {
+    engine.move([time_too](kiva::World& world) { world.reset(time_too); });
+  };
+  advertise(node, "pause_physics", [&engine] { engine.pause(true); });
+  advertise(node, "unpause_physics", [&engine] { engine.pause(false); });
+  advertise(node, "reset_simulation", [reset] { reset(true); });
+  advertise(node, "reset_world", [reset] { reset(false); });
+  servers_.push_back(
+      node.advertiseService("get_world_properties", &SimulationServices::getWorld, this));
+  servers_.push_back(
+      node.advertiseService("get_physics_properties", &SimulationServices::getPhysics, this));
+}
+
+void SimulationServices::advertise(ros::NodeHandle& node, const std::string& name,
+                                   std::function<void()> act) {
+  using std_srvs::Empty;
+  const boost::function<bool(Empty::Request&, Empty::Response&)> serve =
+      [name, act](Empty::Request&, Empty::Response&) {
+        try {
+          act();
+          return true;
+        } catch (const std::exception& error) {  // Empty has no room for a status
+          ROS_ERROR("%s: %s", name.c_str(), error.what());
+          return false;
+        }
+      };
+  servers_.push_back(node.advertiseService<Empty::Request, Empty::Response>(name, serve));
+}
+
+bool SimulationServices::getWorld(gazebo_msgs::GetWorldProperties::Request&,
+                                  gazebo_msgs::GetWorldProperties::Response& response) {
+  return answer("GetWorldProperties", response, [&] {
+    engine_.run([&](kiva::World& world) {
+      response.sim_time = world.time();
+      response.model_names = world.modelNames();
+    });
+    response.rendering_enabled = false;
+    return "GetWorldProperties: got properties";
+  });
+}
+
+/// The settings of ODE have no meaning here and stay zero.
+bool SimulationServices::getPhysics(gazebo_msgs::GetPhysicsProperties::Request&,
+                                    gazebo_msgs::GetPhysicsProperties::Response& response) {
+  return answer("GetPhysicsProperties", response, [&] {
+    engine_.run([&](kiva::World& world) {
+      response.time_step = world.stepSize();
+      response.gravity = toMessage(world.gravity());
+    });
+    response.pause = engine_.paused();
+    response.max_update_rate = engine_.targetFactor() / response.time_step;
+    return "GetPhysicsProperties: got properties";
+  });
+}
+
+}  // namespace kiva_ros

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "transforms.h"
+
+#include <tf2_msgs/TFMessage.h>
+
+#include <string>
+
+#include "convert.h"
+
+namespace kiva_ros {
+namespace {
+
+constexpr int kQueue = 100;
+
+geometry_msgs::TransformStamped transform(double time, const std::string& parent,
+                                          const std::string& child, const kiva::Pose& pose) {
+  geometry_msgs::TransformStamped out;
+  out.header = header(time, parent);
+  out.child_frame_id = child;
+  out.transform = toTransform(pose);
+  return out;
+}
+
+kiva::Pose laserPose(const kiva::LaserParameters& laser) { return {laser.x, 0, laser.z, 0, 0, 0}; }
+
+/// A wheel turned about its axle, which lies along y.
+kiva::Pose turned(const kiva::Pose& wheel, double angle) {
+  return {wheel.Pos(), kiva::Quaternion(0, angle, 0) * wheel.Rot()};
+}
+
+kiva::Pose raised(const kiva::Pose& tower, double height) {
+  return {tower.Pos() + kiva::Vector3(0, 0, height), tower.Rot()};
+}
+
+}  // namespace
+
+Transforms::Transforms(ros::NodeHandle& node, Audience& audience)
+    : moving_(advertiseCounted<tf2_msgs::TFMessage>(
+          node, "/tf", kQueue,
+          [&audience](int change) { audience.count(Audience::Topic::kTransforms, change); })),
+      fixed_(node.advertise<tf2_msgs::TFMessage>("/tf_static", kQueue, true)) {}
+
+void Transforms::update(const Roster& roster) {
+  roster_.clear();
+  tf2_msgs::TFMessage out;
+  for (const RosterEntry& robot : roster) {
+    roster_[robot.id] = robot;
+    if (!robot.laser.fitted) continue;
+    const std::string name = "kiva" + std::to_string(robot.id);
+    out.transforms.push_back(
+        transform(0, name + "/base_link", name + "/laser", laserPose(robot.laser)));
+  }
+  fixed_.publish(out);
+}
+
+void Transforms::publish(const std::vector<RobotPose>& robots, double time) {
+  tf2_msgs::TFMessage out;
+  for (const RobotPose& robot : robots) {
+    const auto at = roster_.find(robot.kiva_id);
+    if (at == roster_.end()) continue;
+    const RosterEntry& fixed = at->second;
+    const std::string name = "kiva" + std::to_string(robot.kiva_id);
+    const std::string base = name + "/base_link";
+    out.transforms.push_back(transform(time, "world", base, robot.base));
+    out.transforms.push_back(transform(time, base, name + "/left_wheel",
+                                       turned(fixed.left_wheel, robot.wheel_angle[0])));
+    out.transforms.push_back(transform(time, base, name + "/right_wheel",
+                                       turned(fixed.right_wheel, robot.wheel_angle[1])));
+    out.transforms.push_back(
+        transform(time, base, name + "/tower", raised(fixed.tower, robot.tower)));
+  }
+  if (!out.transforms.empty()) moving_.publish(out);
+}
+
+}  // namespace kiva_ros
