@@ -70,6 +70,11 @@ def test_ways_are_apart_where_the_shortest_would_cross():
     assert solved > 10
 
 
+def test_loaded_robots_do_not_come_side_by_side(chart):
+    a, b = two_missions(chart)
+    assert min(math.dist(p, q) for p in a.to_drop for q in b.to_drop) > 1.13
+
+
 def test_steps_go_from_cell_to_cell(chart):
     for mission in two_missions(chart):
         for way in (mission.to_unit, mission.to_drop):

@@ -97,7 +97,12 @@ def two_missions(chart):
 def _apart(a, b):
     """Whether two missions have nothing in common."""
     differ = a.kiva != b.kiva and a.unit != b.unit and a.belt != b.belt
-    return differ and a.cells.isdisjoint(b.cells)
+    # Two units that turn side by side touch: half their diagonals make 1.13 m.
+    return differ and a.cells.isdisjoint(b.cells) and _beside(a.to_drop).isdisjoint(b.to_drop)
+
+
+def _beside(points):
+    return {(x + dx, y + dy) for x, y in points for dx, dy in STEPS}
 
 
 def _all_missions(chart):
