@@ -15,7 +15,9 @@ constexpr double kHalfPi = M_PI / 2;
 constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
 constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
 constexpr double kGoalTolerance = 0.001;       // [m]: for numbers that clients computed
-constexpr double kRecoverReach = 2.0;          // in cells
+constexpr int kRecoverCells = 2;               // around a robot that looks for a free grid point
+constexpr double kRoomStep = 0.1;              // [m]: in which it looks for room to turn
+constexpr double kRoomReach = 1.5;             // [m]
 
 struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -56,16 +58,15 @@ bool isOnFloor(const Parts& parts, const Point& p) {
          p.y + half <= floor.max_y;
 }
 
-/// The free grid point nearest to where the robot is. Throws Refusal if there is none near.
-Point nearestFree(const Parts& parts, int robot) {
-  const double x = parts.fleet.x[robot], y = parts.fleet.y[robot], cell = parts.grid_spacing;
-  const int reach = static_cast<int>(kRecoverReach);
+/// The free grid point nearest to a place. Throws Refusal if there is none near.
+Point nearestFree(const Parts& parts, int robot, const Point& from) {
   Point best;
   double least = 1e9;
-  for (int i = -reach; i <= reach; ++i) {
-    for (int j = -reach; j <= reach; ++j) {
-      const Point p{nearestGrid(parts, x) + i * cell, nearestGrid(parts, y) + j * cell};
-      const double distance = std::hypot(p.x - x, p.y - y);
+  for (int i = -kRecoverCells; i <= kRecoverCells; ++i) {
+    for (int j = -kRecoverCells; j <= kRecoverCells; ++j) {
+      const Point p{nearestGrid(parts, from.x) + i * parts.grid_spacing,
+                    nearestGrid(parts, from.y) + j * parts.grid_spacing};
+      const double distance = std::hypot(p.x - from.x, p.y - from.y);
       if (distance >= least || !isOnFloor(parts, p) || !isFree(parts, robot, p.x, p.y)) continue;
       least = distance;
       best = p;
@@ -73,6 +74,21 @@ Point nearestFree(const Parts& parts, int robot) {
   }
   if (least > 1e8) throw Refusal("it is off the grid and no free grid point is near");
   return best;
+}
+
+/// The nearest place straight ahead or behind where the robot has room to turn; here, if it has
+/// room here or nowhere.
+Point roomToTurn(const Parts& parts, int robot) {
+  const Fleet& f = parts.fleet;
+  const Point here{f.x[robot], f.y[robot]};
+  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  for (int step = 0; step * kRoomStep <= kRoomReach; ++step) {
+    for (double way : {step * kRoomStep, -step * kRoomStep}) {
+      const Point p{here.x + c * way, here.y + s * way};
+      if (isFree(parts, robot, p.x, p.y)) return p;
+    }
+  }
+  return here;
 }
 
 /// Plans the way of one robot, leg by leg; knows where each leg will leave it.
@@ -86,7 +102,7 @@ class Planner {
     const Fleet& f = parts.fleet;
     const double off = std::hypot(f.x[robot] - at_.x, f.y[robot] - at_.y);
     if (off > kOnGrid) {
-      recover(nearestFree(parts, robot));
+      recover();
     } else if (std::abs(f.yaw[robot] - yaw_) > kSquare) {
       turnTo(yaw_);
     }
@@ -136,23 +152,35 @@ class Planner {
     return leg;
   }
 
-  /// Straight to a grid point from wherever it was pushed, by the smaller turn: forward or back.
-  void recover(const Point& to) {
+  /// Back to the grid from wherever it was pushed: out to where there is room to turn, then
+  /// straight to a grid point, by the smaller turn, forwards or backwards.
+  void recover() {
     const Fleet& f = parts_.fleet;
-    const double dx = to.x - f.x[robot_], dy = to.y - f.y[robot_];
-    const double towards = headingNear(f.yaw[robot_], std::atan2(dy, dx));
-    const bool reverse = std::abs(towards - f.yaw[robot_]) > kHalfPi;
-    const double heading = reverse ? headingNear(f.yaw[robot_], std::atan2(-dy, -dx)) : towards;
-    const double square = std::round(heading / kHalfPi) * kHalfPi;
-    at_ = to;
-    if (std::abs(heading - f.yaw[robot_]) > kSquare) turnTo(heading);
+    const Point here{f.x[robot_], f.y[robot_]}, room = roomToTurn(parts_, robot_);
+    const Point to = nearestFree(parts_, robot_, room);
+    yaw_ = f.yaw[robot_];
+    driveOff(here, room);
+    driveOff(room, to);
+    const double square = std::round(yaw_ / kHalfPi) * kHalfPi;
+    if (std::abs(square - yaw_) > kSquare) turnTo(square);
+    yaw_ = square;
+  }
+
+  /// Straight from one place to another, off the grid.
+  void driveOff(const Point& from, const Point& to) {
+    const double dx = to.x - from.x, dy = to.y - from.y;
+    if (std::hypot(dx, dy) < kOnGrid) return;
+    const double ahead = headingNear(yaw_, std::atan2(dy, dx));
+    const double back = headingNear(yaw_, std::atan2(-dy, -dx));
+    const bool reverse = std::abs(back - yaw_) < std::abs(ahead - yaw_);
+    const double heading = reverse ? back : ahead;
+    if (std::abs(heading - yaw_) > kSquare) turnTo(heading);
     yaw_ = heading;
+    at_ = to;
     Leg leg = makeDrive(std::abs(dx) > std::abs(dy) ? State::kMovingX : State::kMovingY);
     leg.reverse = reverse;
     leg.on_grid = false;
     legs_.push_back(leg);
-    if (std::abs(square - heading) > kSquare) turnTo(square);
-    yaw_ = square;
   }
 
   const Parts& parts_;
@@ -242,6 +270,7 @@ void checkCarry(const Parts& parts, int robot, int unit) {
     throw Refusal(format("%s is %.3f m away; %g m at the most is close enough", u.name.c_str(),
                          distance, lift.proximity));
   }
+  if (!standsUpright(parts, unit)) throw Refusal(u.name + " does not stand upright on the floor");
   if (u.mass > lift.max_load) {
     throw Refusal(format("%s weighs %g kg, more than the %g kg it can carry", u.name.c_str(),
                          u.mass, lift.max_load));
