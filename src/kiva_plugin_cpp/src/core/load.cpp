@@ -12,6 +12,8 @@ namespace kiva {
 namespace {
 
 constexpr double kAboveFloor = 0.05;  // [m]: what is lower is a leg's foot, not an underside
+constexpr double kOnFloor = 0.005;    // [m]
+constexpr double kUpright = 0.9999;   // cosine of a tilt of 0.8°
 
 double inertiaAboutOrigin(const Parts& parts, int unit) {
   const Model& model = *parts.models[parts.units[unit].model];
@@ -47,11 +49,6 @@ void loadRobot(Parts& parts, int robot, int unit) {
   }
   r.load_half_length = std::max(box.max.X(), -box.min.X());
   r.load_half_width = std::max(box.max.Y(), -box.min.Y());
-}
-
-void unloadRobot(Robot& robot) {
-  robot.load_mass = robot.load_inertia = 0;
-  robot.load_half_length = robot.load_half_width = 0;
 }
 
 }  // namespace
@@ -107,9 +104,9 @@ double unitDistance(const Parts& parts, int robot, int unit) {
 void takeUp(Parts& parts, int robot, int unit) {
   StorageUnit& u = parts.units[unit];
   Model& model = *parts.models[u.model];
-  const Pose pose = unitPose(parts, unit);
   if (model.in_physics) disengage(parts, model);
-  u.pose_on_carrier = towerPose(parts, robot).Inverse() * pose;
+  u.pose_on_carrier = towerPose(parts, robot).Inverse() * unitPose(parts, unit);
+  u.pose_on_carrier.Pos().Z() = -underside(parts, unit);  // however far the tower went in a step
   u.carrier = robot;
   u.claimed_by = -1;
   parts.fleet.unit[robot] = unit;
@@ -127,12 +124,24 @@ void putDown(Parts& parts, int robot) {
   const Pose pose = unitPose(parts, unit);
   model.pose = Pose(pose.X(), pose.Y(), 0, 0, 0, pose.Rot().Yaw());
   u.carrier = -1;
-  parts.fleet.unit[robot] = -1;
-  unloadRobot(parts.fleet.robots[robot]);
-  rebuildBody(parts, robot);
+  unload(parts, robot);
   updateOutlines(parts, model);
-  parts.setStatus(robot, parts.fleet.status[robot], parts.fleet.state[robot]);
   ++parts.units_revision;
+}
+
+void unload(Parts& parts, int robot) {
+  Fleet& f = parts.fleet;
+  Robot& r = f.robots[robot];
+  f.unit[robot] = -1;
+  r.load_mass = r.load_inertia = r.load_half_length = r.load_half_width = 0;
+  f.awake[robot] = 1;  // its tower may have to come down
+  rebuildBody(parts, robot);
+  parts.setStatus(robot, f.status[robot], f.state[robot]);
+}
+
+bool standsUpright(const Parts& parts, int unit) {
+  const Pose pose = unitPose(parts, unit);
+  return std::abs(pose.Z()) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
 }
 
 int unitAt(const Parts& parts, const Vector3& point) {

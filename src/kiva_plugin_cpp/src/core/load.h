@@ -21,6 +21,10 @@ double unitDistance(const Parts& parts, int robot, int unit);
 void takeUp(Parts& parts, int robot, int unit);
 /// The unit stands on the floor again, upright beneath where it was.
 void putDown(Parts& parts, int robot);
+/// The robot is without its unit from now on, whatever becomes of that.
+void unload(Parts& parts, int robot);
+/// Whether the unit stands on its legs, as a robot needs it to.
+bool standsUpright(const Parts& parts, int unit);
 
 /// The storage unit whose shelves hold that point, -1 = none.
 int unitAt(const Parts& parts, const Vector3& point);

@@ -214,12 +214,7 @@ void dropOutlines(Parts& parts, Model& model) {
 /// Takes entry `index` out of the units; the last one takes its place.
 void dropUnit(Parts& parts, int index) {
   const StorageUnit& unit = parts.units[index];
-  if (unit.carrier >= 0) {
-    parts.fleet.unit[unit.carrier] = -1;
-    parts.fleet.robots[unit.carrier].load_mass = 0;
-    parts.fleet.robots[unit.carrier].load_inertia = 0;
-    rebuildBody(parts, unit.carrier);
-  }
+  if (unit.carrier >= 0) unload(parts, unit.carrier);
   parts.unit_of_id.erase(unit.id);
   const int last = static_cast<int>(parts.units.size()) - 1;
   if (index != last) {

@@ -25,26 +25,32 @@ void start(Parts& parts, int i) {
   Robot& r = parts.fleet.robots[i];
   r.leg_started = true;
   r.profile = {parts.fleet.tower[i], 0};
-  const Leg& leg = r.legs.front();
-  if (leg.kind != Leg::Kind::kRaise || leg.unit < 0) return;
+}
+
+/// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
+void checkUnit(Parts& parts, int i, const Leg& leg) {
+  if (leg.unit < 0) return markBlocked(parts, i, "", "the storage unit was deleted");
+  if (parts.fleet.unit[i] == leg.unit) return;
   const StorageUnit& unit = parts.units[leg.unit];
-  if (unitDistance(parts, i, leg.unit) > r.lift.proximity) {
-    markBlocked(parts, i, unit.name, unit.name + " is no longer above it");
-  } else if (unit.carrier >= 0) {
+  const bool above = unitDistance(parts, i, leg.unit) <= parts.fleet.robots[i].lift.proximity &&
+                     standsUpright(parts, leg.unit);
+  if (leg.kind == Leg::Kind::kRaise && unit.carrier >= 0) {
     markBlocked(parts, i, unit.name, unit.name + " is carried by another robot");
+  } else if (leg.kind == Leg::Kind::kRaise && !above) {
+    markBlocked(parts, i, unit.name, unit.name + " is no longer above it");
+  } else if (leg.kind == Leg::Kind::kLower && parts.fleet.tower[i] > towerGap(parts, i, leg.unit)) {
+    markBlocked(parts, i, unit.name, unit.name + " was taken off it");
   }
 }
 
 /// The tower comes down without a unit, then the command ends in BLOCKED.
 void abandon(Parts& parts, int i) {
-  if (!parts.fleet.robots[i].stopping) markBlocked(parts, i, "", "the storage unit was deleted");
   moveTower(parts, i, 0);
   if (parts.fleet.tower[i] == 0) endBlocked(parts, i);
 }
 
 void raiseLeg(Parts& parts, int i, int unit) {
   Robot& r = parts.fleet.robots[i];
-  if (unit < 0 || r.stopping) return abandon(parts, i);
   moveTower(parts, i, r.lift.height);
   if (parts.fleet.unit[i] < 0 && parts.fleet.tower[i] >= towerGap(parts, i, unit)) {
     takeUp(parts, i, unit);
@@ -56,7 +62,6 @@ void raiseLeg(Parts& parts, int i, int unit) {
 }
 
 void lowerLeg(Parts& parts, int i, int unit) {
-  if (unit < 0) return abandon(parts, i);
   moveTower(parts, i, 0);
   if (parts.fleet.unit[i] == unit && unitPose(parts, unit).Z() <= 0) {
     putDown(parts, i);
@@ -68,6 +73,8 @@ void lowerLeg(Parts& parts, int i, int unit) {
 void liftLeg(Parts& parts, int i) {
   const Leg leg = parts.fleet.robots[i].legs.front();
   if (!parts.fleet.robots[i].leg_started) start(parts, i);
+  checkUnit(parts, i, leg);
+  if (parts.fleet.robots[i].stopping) return abandon(parts, i);
   if (leg.kind == Leg::Kind::kRaise) raiseLeg(parts, i, leg.unit);
   if (leg.kind == Leg::Kind::kLower) lowerLeg(parts, i, leg.unit);
 }
