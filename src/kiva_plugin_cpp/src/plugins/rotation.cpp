@@ -16,12 +16,13 @@ constexpr double kStuck = 0.3;    // [rad] behind the profile
 constexpr double kOverdue = 2.0;  // [s]
 constexpr double kReserve = 0.9;  // of the possible acceleration, so that errors can be mended
 
-/// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that.
+/// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
+/// motors and floor can. 0 = at once, where they are without limit.
 double turnAcceleration(const Robot& robot, double gravity) {
-  const double time = robot.drive.quarter_turn_time;
-  if (time == 0) return 0;
-  const double wanted = 2 * M_PI / (time * time);
-  return std::min(wanted, kReserve * turningLimit(robot, gravity));
+  const double time = robot.drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
+  const double acceleration =
+      std::min(2 * M_PI / (time * time), kReserve * turningLimit(robot, gravity));
+  return std::isinf(acceleration) ? 0 : acceleration;
 }
 
 double turnSpeed(const Robot& robot, double dt) {
