@@ -76,6 +76,11 @@ inline std::string without(std::string text, const std::string& first, const std
   return text.erase(begin, text.find(last, begin) + last.size() - begin);
 }
 
+/// For EXPECT_PRED2, which prints both.
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// SDF of a model of worlds/models: "kiva", "storage_unit", "item", "conveyor_belt", "wall",
 /// "person".
 inline std::string modelText(const std::string& kind) {
