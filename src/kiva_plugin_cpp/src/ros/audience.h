@@ -19,7 +19,7 @@ namespace kiva_ros {
 class Audience {
  public:
   enum class Topic { kFleet, kModelStates, kTransforms };
-  enum class RobotTopic { kScan, kOdometry };
+  enum class RobotTopic { kStatus, kScan, kOdometry };
 
   /// Called, in any thread, when a listener came.
   void onArrival(std::function<void()> call) { on_arrival_ = std::move(call); }
@@ -45,16 +45,16 @@ class Audience {
   std::atomic<int> counts_[3] = {};
   std::atomic<std::uint64_t> robots_revision_{0};
   mutable std::mutex mutex_;
-  std::map<int, int> listeners_[2];  ///< By robot's id; guarded by mutex_.
+  std::map<int, int> listeners_[3];  ///< By robot's id; guarded by mutex_.
 };
 
 /// Advertises a topic whose listeners are counted: `count` is called with +1 or -1.
 template <typename Message>
 ros::Publisher advertiseCounted(ros::NodeHandle& node, const std::string& topic, int queue_size,
-                                const std::function<void(int)>& count) {
+                                const std::function<void(int)>& count, bool latched = false) {
   return node.advertise<Message>(
       topic, queue_size, [count](const ros::SingleSubscriberPublisher&) { count(+1); },
-      [count](const ros::SingleSubscriberPublisher&) { count(-1); });
+      [count](const ros::SingleSubscriberPublisher&) { count(-1); }, ros::VoidConstPtr(), latched);
 }
 
 }  // namespace kiva_ros

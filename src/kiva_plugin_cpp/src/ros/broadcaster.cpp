@@ -72,8 +72,7 @@ void Broadcaster::publish(const Snapshot& s) {
 void Broadcaster::publishEvent(const kiva::Event& event) {
   events_.publish(toMessage(event));
   if (event.kind == kiva::Event::Kind::kCollision) {
-    ROS_WARN("%s and %s collided. %s", event.model.c_str(), event.other.c_str(),
-             event.text.c_str());
+    ROS_WARN("Collision: %s", event.text.c_str());
   } else if (event.kind == kiva::Event::Kind::kRefused) {
     ROS_DEBUG("%s: refused: %s", event.model.c_str(), event.text.c_str());
   }

@@ -3,6 +3,7 @@
 // The node /gazebo: a warehouse world behind Gazebo's ROS 1 names.
 #include <ros/ros.h>
 
+#include <chrono>
 #include <csignal>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ namespace {
 using namespace kiva_ros;
 
 constexpr int kCallbackThreads = 4;  // each may wait for the step thread
+// Simulated time may fly; a client that gets a thousand clocks a second does little else.
+constexpr auto kClockGap = std::chrono::milliseconds(4);
 
 kiva::WorldDescription load(const Settings& settings) {
   std::vector<std::string> warnings;
@@ -47,9 +50,12 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   kiva::World world(description, settings.world);
   const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
 
+  Reporter::Rates rates = settings.rates;
+  if (rtf == 0) rates.clock_gap = kClockGap;
+
   Audience audience;
   Outbox outbox;
-  Reporter reporter(world, settings.rates, audience, outbox);
+  Reporter reporter(world, rates, audience, outbox);
   Engine engine(world, reporter, rtf);
   audience.onArrival([&engine] { engine.post([](kiva::World&) {}); });
   Broadcaster broadcaster(root, node, audience, outbox);

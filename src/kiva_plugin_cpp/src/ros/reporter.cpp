@@ -10,10 +10,10 @@
 namespace kiva_ros {
 namespace {
 
-constexpr double kFleetRate = 10;    // [Hz]
-constexpr double kRobotsRate = 20;   // [Hz], odometry and transforms
-constexpr int kHeartbeatSlots = 10;  // a second: each robot has its own, so that load is level
+constexpr double kFleetRate = 10;   // [Hz]
+constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
 constexpr auto kPictureInterval = std::chrono::milliseconds(100);
+constexpr auto kUnheardInterval = std::chrono::milliseconds(400);
 
 std::uint64_t stepsPer(double rate, double step_size) {
   if (rate <= 0) return 1;
@@ -52,6 +52,7 @@ RobotPose poseOf(const kiva::World& world, int i) {
 Reporter::Reporter(const kiva::World& world, const Rates& rates, Audience& audience, Outbox& outbox)
     : audience_(audience),
       outbox_(outbox),
+      clock_gap_(rates.clock_gap),
       clock_every_(stepsPer(rates.clock, world.stepSize())),
       models_every_(stepsPer(rates.model_states, world.stepSize())),
       fleet_every_(stepsPer(kFleetRate, world.stepSize())),
@@ -118,19 +119,35 @@ void Reporter::addStatuses(const kiva::World& world, Snapshot* out) const {
   for (int i = 0; i < world.fleet().size(); ++i) out->statuses.push_back(statusOf(world, i));
 }
 
-void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) const {
-  const auto slot = world.steps() / heartbeat_every_ % kHeartbeatSlots;
-  const auto& robots = world.fleet().robots;
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (robots[i].id % kHeartbeatSlots != static_cast<int>(slot)) continue;
-    out->statuses.push_back(statusOf(world, static_cast<int>(i)));
+void Reporter::addClock(const kiva::World& world, Snapshot* out) {
+  if (world.steps() % clock_every_ != 0) return;
+  if (clock_gap_.count() > 0) {
+    const auto now = WallClock::now();
+    if (now < clocked_ + clock_gap_) return;
+    clocked_ = now;
+  }
+  out->clock = true;
+}
+
+/// Of every robot once a simulated second. Where that is often by the wall clock, those that
+/// nobody listens to only refresh what is latched.
+void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
+  const int slot = static_cast<int>(world.steps() / heartbeat_every_ % kHeartbeatSlots);
+  const auto now = WallClock::now();
+  const bool all = now >= heard_[slot] + kUnheardInterval;
+  if (all) heard_[slot] = now;
+  for (int i = 0; i < world.fleet().size(); ++i) {
+    const int id = world.fleet().robots[i].id;
+    if (id % kHeartbeatSlots != slot) continue;
+    if (!all && !std::binary_search(status_ids_.begin(), status_ids_.end(), id)) continue;
+    out->statuses.push_back(statusOf(world, i));
   }
 }
 
 void Reporter::addPeriodic(const kiva::World& world, Snapshot* out) {
   const std::uint64_t steps = world.steps();
   updateListened();
-  out->clock = steps % clock_every_ == 0;
+  addClock(world, out);
   if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
   if (steps % fleet_every_ == 0) addFleet(world, out);
   if (steps % robots_every_ == 0) addRobots(world, out);
@@ -142,6 +159,7 @@ void Reporter::updateListened() {
   const std::uint64_t revision = audience_.robotsRevision();
   if (revision == listened_revision_) return;
   listened_revision_ = revision;
+  status_ids_ = audience_.listenedRobots(Audience::RobotTopic::kStatus);
   scan_ids_ = audience_.listenedRobots(Audience::RobotTopic::kScan);
   odometry_ids_ = audience_.listenedRobots(Audience::RobotTopic::kOdometry);
 }

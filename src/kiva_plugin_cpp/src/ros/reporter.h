@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -22,8 +23,9 @@ namespace kiva_ros {
 class Reporter {
  public:
   struct Rates {
-    double clock = 100;        ///< [Hz], 0 = every step.
-    double model_states = 50;  ///< [Hz], 0 = every step.
+    double clock = 100;                ///< [Hz], 0 = every step.
+    double model_states = 50;          ///< [Hz], 0 = every step.
+    WallClock::duration clock_gap{0};  ///< Least wall time between two clocks.
   };
 
   Reporter(const kiva::World& world, const Rates& rates, Audience& audience, Outbox& outbox);
@@ -39,7 +41,8 @@ class Reporter {
   void addNews(kiva::World& world, Snapshot* out);
   bool isAboutRobot(const kiva::World& world, const kiva::Event& event) const;
   void addStatuses(const kiva::World& world, Snapshot* out) const;
-  void addHeartbeats(const kiva::World& world, Snapshot* out) const;
+  void addClock(const kiva::World& world, Snapshot* out);
+  void addHeartbeats(const kiva::World& world, Snapshot* out);
   void addPeriodic(const kiva::World& world, Snapshot* out);
   void updateListened();
   void addFleet(const kiva::World& world, Snapshot* out) const;
@@ -52,17 +55,21 @@ class Reporter {
 
   Audience& audience_;
   Outbox& outbox_;
+  const WallClock::duration clock_gap_;
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_,
       heartbeat_every_;  // steps
 
   std::uint64_t told_steps_ = kNever;  ///< Of the last clock that was owed.
+  WallClock::time_point clocked_;
   std::uint64_t last_steps_ = kNever;
   std::set<std::string> robots_;                           ///< Names of those in the last roster.
   std::shared_ptr<const std::vector<std::string>> names_;  ///< All models',
   std::uint64_t names_revision_ = kNever;                  ///< at that revision.
 
-  std::vector<int> scan_ids_, odometry_ids_;  ///< Robots somebody listens to,
-  std::uint64_t listened_revision_ = kNever;  ///< at that revision of the audience.
+  static constexpr int kHeartbeatSlots = 10;  ///< Each robot has one, so that load is level.
+  std::array<WallClock::time_point, kHeartbeatSlots> heard_;
+  std::vector<int> status_ids_, scan_ids_, odometry_ids_;  ///< Robots somebody listens to,
+  std::uint64_t listened_revision_ = kNever;               ///< at that revision of the audience.
 
   std::uint64_t objects_revision_ = kNever, units_revision_ = kNever;  ///< Last told.
   WallClock::time_point pictured_, next_due_;

@@ -19,10 +19,12 @@ void RobotTopics::update(const Roster& roster) {
   std::set<int> ids;
   for (const RosterEntry& robot : roster) {
     ids.insert(robot.id);
-    const auto [at, is_new] = robots_.try_emplace(robot.id);
-    if (is_new) at->second = advertise(robot);
-    if (at->second.laser.fitted != robot.laser.fitted) advertiseScan(robot, &at->second);
-    at->second.laser = robot.laser;
+    const auto at = robots_.find(robot.id);
+    if (at == robots_.end()) {
+      robots_.emplace(robot.id, advertise(robot));
+    } else {
+      at->second.laser = robot.laser;
+    }
   }
   for (auto at = robots_.begin(); at != robots_.end();) {
     if (ids.count(at->first)) {
@@ -35,27 +37,25 @@ void RobotTopics::update(const Roster& roster) {
   }
 }
 
-RobotTopics::Topics RobotTopics::advertise(const RosterEntry& robot) {
-  const std::string prefix = "/kiva" + std::to_string(robot.id);
-  Topics out;
-  out.laser = robot.laser;
-  out.status = node_.advertise<warehouse_msgs::KivaStatus>(prefix + "/status", kStatusQueue, true);
-  out.odometry = advertiseCounted<nav_msgs::Odometry>(
-      node_, prefix + "/odom", kStreamQueue, [this, id = robot.id](int change) {
-        audience_.count(Audience::RobotTopic::kOdometry, id, change);
-      });
-  advertiseScan(robot, &out);
-  return out;
+template <typename Message>
+ros::Publisher RobotTopics::advertise(int kiva_id, const char* topic, Audience::RobotTopic kind,
+                                      int queue_size, bool latched) {
+  const auto count = [this, kind, kiva_id](int change) { audience_.count(kind, kiva_id, change); };
+  const std::string name = "/kiva" + std::to_string(kiva_id) + "/" + topic;
+  return advertiseCounted<Message>(node_, name, queue_size, count, latched);
 }
 
-void RobotTopics::advertiseScan(const RosterEntry& robot, Topics* topics) {
-  topics->scan.shutdown();
-  if (!robot.laser.fitted) return;
-  const std::string topic = "/kiva" + std::to_string(robot.id) + "/chassis/laser/scan";
-  topics->scan = advertiseCounted<sensor_msgs::LaserScan>(
-      node_, topic, kStreamQueue, [this, id = robot.id](int change) {
-        audience_.count(Audience::RobotTopic::kScan, id, change);
-      });
+RobotTopics::Topics RobotTopics::advertise(const RosterEntry& robot) {
+  using Kind = Audience::RobotTopic;
+  Topics out;
+  out.laser = robot.laser;
+  out.status =
+      advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true);
+  out.odometry = advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue);
+  if (!robot.laser.fitted) return out;
+  out.scan =
+      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue);
+  return out;
 }
 
 void RobotTopics::publish(const kiva::StatusChange& status) {

@@ -27,7 +27,9 @@ class RobotTopics {
   };
 
   Topics advertise(const RosterEntry& robot);
-  void advertiseScan(const RosterEntry& robot, Topics* topics);
+  template <typename Message>
+  ros::Publisher advertise(int kiva_id, const char* topic, Audience::RobotTopic kind,
+                           int queue_size, bool latched = false);
 
   ros::NodeHandle& node_;
   Audience& audience_;
