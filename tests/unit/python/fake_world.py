@@ -7,7 +7,6 @@ import rospy
 from fake_ros import FakeRos
 from geometry_msgs.msg import Pose
 
-from gazebo_msgs.msg import ModelStates
 from warehouse_sim import models
 
 
@@ -34,15 +33,15 @@ class FakeWorld(FakeRos):
     def wait_for_service(self, name, timeout):
         pass
 
-    def wait_for_message(self, topic, kind, timeout):
-        return ModelStates(list(self.standing), list(self.standing.values()), [])
-
     def ServiceProxy(self, name, kind, persistent):  # noqa: N802 (rospy's name)
         call = getattr(self, name.removeprefix("/gazebo/"))
         return _Proxy(call)
 
     def get_world_properties(self):
         return SimpleNamespace(model_names=list(self.standing))
+
+    def get_model_state(self, name, frame):
+        return SimpleNamespace(success=True, pose=self.standing[name])
 
     def get_physics_properties(self):
         return SimpleNamespace(pause=self.pause)

@@ -17,8 +17,8 @@ from warehouse_sim.survey import BELT, Survey, of_models
 def survey_of(layout):
     units = np.pad(layout.units, ((0, 0), (0, 1)))
     kinds = {"kiva": layout.robots, "storage_unit": units, "conveyor_belt": layout.belts}
-    pairs = [(f"{kind}{i}", p) for kind, ps in kinds.items() for i, p in enumerate(ps, start=1)]
-    return of_models(*zip(*pairs))
+    pairs = ((f"{kind}{i}", p) for kind, ps in kinds.items() for i, p in enumerate(ps, start=1))
+    return of_models(dict(pairs))
 
 
 def fields(command):
@@ -75,8 +75,7 @@ def test_greeting_reads_well():
 
 
 def test_a_survey_says_what_it_found():
-    survey = of_models(
-        ["kiva1", "ground_plane", "person1", "storage_unit1", "storage_unit2"], [(0, 0, 0)] * 5
-    )
+    names = ["kiva1", "ground_plane", "person1", "storage_unit1", "storage_unit2"]
+    survey = of_models(dict.fromkeys(names, (0, 0, 0)))
     assert str(survey) == "1 robot, 2 storage units, 1 other model"
     assert str(Survey()) == "an empty floor"

@@ -6,24 +6,19 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-from fake_ros import FakeRos
-from geometry_msgs.msg import Pose, Quaternion
+from fake_world import FakeWorld
 from visualization_msgs.msg import Marker, MarkerArray
 
-from gazebo_msgs.msg import ModelStates
 from warehouse_msgs.msg import FleetState, KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim import markers, poses
 from warehouse_sim.picture import Picture
 
 
-class Scene(FakeRos):
+class Scene(FakeWorld):
     """Two robots, two units with an item each, a belt and a person."""
 
-    ROSException = TimeoutError
-    names = ["conveyor_belt1", "person1", "ground_plane"]
-
     def __init__(self, turned=0.0):
-        super().__init__()
+        super().__init__(standing=["conveyor_belt1", "person1", "ground_plane"])
         self.parameters["/warehouse/floor"] = [-2.5, 2.5, -1.5, 1.5]
         self.picture = Picture(self)
         self.topic = self.publishers["/warehouse/markers"]
@@ -38,9 +33,6 @@ class Scene(FakeRos):
             )
         )
         self.turn_unit(turned)
-
-    def wait_for_message(self, topic, kind, timeout):
-        return ModelStates(name=self.names, pose=[Pose(orientation=Quaternion(w=1))] * 3)
 
     def drive(self, x=1.0, status=KivaStatus.STATUS_IDLE):
         self.callbacks["/warehouse/fleet"](
@@ -144,5 +136,5 @@ def test_nothing_is_known_of_other_models_while_the_world_is_silent(scene):
     def silent(*_):
         raise scene.ROSException
 
-    scene.wait_for_message = silent
+    scene.wait_for_service = silent
     assert "belts" not in scene.shown()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tracking nodes publish, and when they don't."""
 
+import resource
+
 import pytest
 import rospy
 from fake_ros import FakeRos
@@ -77,7 +79,7 @@ def test_thousands_of_topics_come_in_batches(ros):
     crowd = scene(*range(tracker.BATCH + 5))
     assert follow.update(*crowd) == (True, True)
     assert len(ros.publishers) == tracker.BATCH
-    assert follow.update(*crowd) == (False, False)
+    assert follow.go_on() is False
     assert set(sent(ros).values()) == {1}
     assert len(ros.publishers) == tracker.BATCH + 5
 
@@ -88,6 +90,24 @@ def test_no_more_topics_than_allowed(ros):
     follow.update(*scene(1, 2, 4))
     assert len(ros.publishers) == 2
     assert len(follow.message().objects) == 3
+
+
+@pytest.mark.parametrize(
+    "limits, allowed, raised",
+    [
+        ((1024, 4096), 1000, (1500, 4096)),
+        ((1024, 1200), 700, (1200, 1200)),
+        ((1024, resource.RLIM_INFINITY), 1000, (1500, resource.RLIM_INFINITY)),
+        ((4096, 4096), 1000, None),
+        ((100, 100), 0, (100, 100)),
+    ],
+)
+def test_each_topic_needs_a_file(monkeypatch, limits, allowed, raised):
+    calls = []
+    monkeypatch.setattr(resource, "getrlimit", lambda _: limits)
+    monkeypatch.setattr(resource, "setrlimit", lambda _, new: calls.append(new))
+    assert tracker.topics_allowed(1000) == allowed
+    assert calls == ([raised] if raised else [])
 
 
 def test_the_list_is_up_to_date_however_seldom_it_is_read(ros):

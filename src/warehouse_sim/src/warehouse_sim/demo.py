@@ -6,10 +6,10 @@ Played over topics alone. What shall come true is checked against the events and
 
 import math
 
-from gazebo_msgs.msg import ModelStates
 from warehouse_msgs.msg import Event, Lift, TrackedObjects
 from warehouse_sim import poses, survey
 from warehouse_sim.director import command
+from warehouse_sim.engine import Engine
 from warehouse_sim.layout import Floor
 from warehouse_sim.missions import Map, meeting, two_missions
 from warehouse_sim.newest import Newest
@@ -32,7 +32,6 @@ class Demo:
         self._found, self.cast, self.failed = None, (), []
         self._newest = Newest(
             ros,
-            models=("/gazebo/model_states", ModelStates),
             units=("/storage_units", TrackedObjects),
             items=("/items", TrackedObjects),
         )
@@ -97,15 +96,16 @@ class Demo:
             self._ros.wait_for_service("/warehouse/create_warehouse_models", PATIENCE)
         except self._ros.ROSException as error:
             raise DemoError("no warehouse is running") from error
+        with Engine(self._ros) as engine:
+            self._found = survey.of_engine(engine)
         if not self._director.until(self._told, PATIENCE):
             raise DemoError("the tracking nodes don't tell where storage units and items are")
 
     def _told(self):
         """Whether the tracking nodes know of all that stands."""
-        models, units, items = (self._newest[name] for name in ("models", "units", "items"))
-        if not (models and units and items):
+        units, items = self._newest["units"], self._newest["items"]
+        if not (units and items):
             return False
-        self._found = survey.of_models(models.name, poses.planar_of(models.pose))
         known = (len(units.objects), len(items.objects))
         return known == (len(self._found.storage_unit), len(self._found.item))
 
@@ -156,8 +156,8 @@ class Demo:
 
 def of_tracked(message):
     """A Survey of the objects in a TrackedObjects message."""
-    objects = message.objects
-    return survey.of_models([o.name for o in objects], poses.planar_of(o.pose for o in objects))
+    planar = poses.planar_of(o.pose for o in message.objects)
+    return survey.of_models({o.name: tuple(at) for o, at in zip(message.objects, planar)})
 
 
 def _away(tracked, at):

@@ -5,7 +5,13 @@ from contextlib import contextmanager
 
 from std_srvs.srv import Empty
 
-from gazebo_msgs.srv import DeleteModel, GetPhysicsProperties, GetWorldProperties, SpawnModel
+from gazebo_msgs.srv import (
+    DeleteModel,
+    GetModelState,
+    GetPhysicsProperties,
+    GetWorldProperties,
+    SpawnModel,
+)
 from warehouse_sim import poses
 
 WAIT = 30.0  # for the world to come up [s, wall]
@@ -47,6 +53,13 @@ class Engine:
     def names(self):
         """All models that stand in the world."""
         return self._call("get_world_properties", GetWorldProperties).model_names
+
+    def pose(self, name):
+        """(x, y, yaw) of a model in world [m, rad]. Raises EngineError."""
+        answer = self._call("get_model_state", GetModelState, name, "world")
+        if not answer.success:
+            raise EngineError(f"{name}: {answer.status_message}")
+        return tuple(poses.planar_of([answer.pose])[0])
 
     def spawn(self, name, xml, pose):
         """Puts a model there: SDF text, and a pose row as in poses.py. Raises EngineError."""

@@ -6,9 +6,9 @@ import time
 import numpy as np
 from visualization_msgs.msg import MarkerArray
 
-from gazebo_msgs.msg import ModelStates
 from warehouse_msgs.msg import FleetState, UnitStates, WarehouseObjects
 from warehouse_sim import markers, poses, survey, tracking
+from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.newest import Newest, OnDemand
 from warehouse_sim.shapes import ShapeArray
 
@@ -98,13 +98,16 @@ class Picture:
         if revision == self._seen or time.monotonic() < self._next_look:
             return []
         self._next_look = time.monotonic() + LOOK_EVERY
+        bounds = self._ros.get_param("/warehouse/floor", None)
+        # Where the floor is known, nothing depends on what moves.
+        without = ("kiva", "storage_unit", "item") if bounds else ("item",)
         try:
-            models = self._ros.wait_for_message("/gazebo/model_states", ModelStates, LOOK_EVERY)
-        except self._ros.ROSException:
+            with Engine(self._ros) as engine:
+                found = survey.of_engine(engine, without)
+        except EngineError:
             return []
         self._seen = revision
-        found = survey.of_models(models.name, poses.planar_of(models.pose))
-        return fixed_shapes(found, self._ros.get_param("/warehouse/floor", None))
+        return fixed_shapes(found, bounds)
 
 
 def follow(ros):

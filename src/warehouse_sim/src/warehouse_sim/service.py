@@ -6,9 +6,8 @@ from dataclasses import astuple
 
 from std_msgs.msg import Header
 
-from gazebo_msgs.msg import ModelStates
 from warehouse_msgs.srv import CreateWarehouseResponse
-from warehouse_sim import hints, models, poses, survey
+from warehouse_sim import hints, models, survey
 from warehouse_sim.creation import Creation
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.layout import plan
@@ -17,8 +16,6 @@ from warehouse_sim.request import RequestError, resolve
 # While this stands, what stands in the world is half a warehouse.
 BUILDING = "/warehouse/building"
 GREETED = "~greeted"
-
-PATIENCE = 5.0  # [s, wall]
 
 
 class WarehouseService:
@@ -69,19 +66,16 @@ class WarehouseService:
         What a node that died has left half-built is built anew.
         """
         with Engine(self._ros) as engine:
-            standing = {models.kind_and_number(n)[0] for n in engine.names()} - {None}
+            standing = {models.kind_and_number(name)[0] for name in engine.names()} - {None}
         if self._ros.has_param(BUILDING) or (size and not standing):
             self._greet(self.create(size or "empty"))
         elif not self._ros.has_param(GREETED):
             self._greet()
 
     def _greet(self, title=""):
-        """Tells what stands there and what to try; nothing if the world does not tell."""
-        try:
-            states = self._ros.wait_for_message("/gazebo/model_states", ModelStates, PATIENCE)
-        except self._ros.ROSException:
-            return  # It is paused.
-        found = survey.of_models(states.name, poses.planar_of(states.pose))
+        """Tells what stands there and what to try."""
+        with Engine(self._ros) as engine:
+            found = survey.of_engine(engine)
         title = title or f"{self._ros.get_param('/warehouse/name', 'world')}: {found}"
         self._tell(hints.greeting(title, hints.commands(found)))
         self._ros.set_param(GREETED, True)

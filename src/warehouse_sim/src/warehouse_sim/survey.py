@@ -33,13 +33,19 @@ class Survey:
         return {*belts, *others}
 
 
-def of_models(names, planar_poses):
-    """A Survey of models by name and (x, y, yaw); the floor is left out."""
+def of_models(poses):
+    """A Survey of models, {name: (x, y, yaw)}; the floor is left out."""
     survey = Survey()
-    for name, pose in zip(names, planar_poses):
+    for name, pose in poses.items():
         kind, number = models.kind_and_number(name)
         if kind:
             getattr(survey, kind)[number] = pose
         elif name != models.FLOOR:
             survey.others[name] = pose
     return survey
+
+
+def of_engine(engine, without=("item",)):
+    """A Survey of the running world. Poses of the kinds `without` are left out, to save time."""
+    kinds = {name: models.kind_and_number(name)[0] for name in engine.names()}
+    return of_models({n: None if k in without else engine.pose(n) for n, k in kinds.items()})

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publishes the objects of one kind: a topic for each, and one for all of them."""
 
+import resource
 import threading
 
 import numpy as np
@@ -13,6 +14,7 @@ from warehouse_sim.newest import Newest, OnDemand
 
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
 BATCH = 200
+SPARE_FILES = 500
 
 
 class PoseTopics:
@@ -72,18 +74,38 @@ class Tracker:
 
     def __init__(self, kind, pose_topics):
         self._kind, self._pose_topics = kind, pose_topics
-        self._last, self._list = None, ObjectList()
+        self._last, self._stamp, self._list = None, None, ObjectList()
         self.message = self._list.message
+
+    @property
+    def count(self):
+        """Objects at the last update."""
+        return len(self._last.names) if self._last else 0
 
     def update(self, objects, states):
         """Takes the newest messages in. Returns whether the list changed, and if work is left."""
         new, old = self._kind(objects, states), self._last or tracking.Tracked()
         moved, changed = tracking.moved(old, new), tracking.changed(old, new)
         differs = self._last is None or changed.any() or len(old.names) != len(new.names)
-        stamp = max(objects.header.stamp, states.header.stamp)
-        self._list.update(new, changed, stamp)
+        self._stamp = max(objects.header.stamp, states.header.stamp)
+        self._list.update(new, changed, self._stamp)
         self._last = new
-        return bool(differs), self._pose_topics.update(new, moved, stamp)
+        return bool(differs), self._pose_topics.update(new, moved, self._stamp)
+
+    def go_on(self):
+        """Does more of the work that update left. Returns if there is still some left."""
+        nothing = np.zeros(self.count, bool)
+        return self._pose_topics.update(self._last, nothing, self._stamp)
+
+
+def topics_allowed(wanted):
+    """How many topics a process can have: rospy opens a file for each, beside those of sockets."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    needed = wanted + SPARE_FILES
+    if soft < needed:
+        soft = needed if hard == resource.RLIM_INFINITY else min(needed, hard)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
+    return min(wanted, max(0, soft - SPARE_FILES))
 
 
 def follow(ros, kind, prefix):
@@ -92,7 +114,7 @@ def follow(ros, kind, prefix):
     def advertise(topic):
         return ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
 
-    limit = ros.get_param("~max_topics", 30000)
+    limit = topics_allowed(ros.get_param("~max_topics", 30000))
     tracker = Tracker(kind, PoseTopics(prefix, advertise, limit))
     listing = OnDemand(ros, prefix, TrackedObjects, tracker.message)
     newest = Newest(
@@ -102,9 +124,11 @@ def follow(ros, kind, prefix):
     )
     work_left = False
     while not ros.is_shutdown():
-        if not (newest.wait(0 if work_left else 0.2) or work_left):
-            continue
-        if newest.units_and_objects:
+        if newest.wait(0 if work_left else 0.2) and newest.units_and_objects:
             differs, work_left = tracker.update(*newest.units_and_objects)
             if differs:
                 listing.publish()
+        elif work_left:
+            work_left = tracker.go_on()
+        if tracker.count > limit:
+            ros.logwarn_once(f"{tracker.count} objects, {limit} topics (~max_topics, ulimit -n)")
