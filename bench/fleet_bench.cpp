@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How fast the world is: N robots on a 3 m lattice inside walls, each driving a square of 1 m, one
+// second a side at 1 m/s, one second a quarter turn; a laser of 20 rays over 180°, 5 m, 10 Hz; 1 ms
+// steps. Prints the real-time factor, the median of five chunks of simulated time.
+//
+//   fleet_bench [--no-lasers] [--drive jointed] [--seconds 2] N…
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/world.h"
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace {
+
+constexpr double kLattice = 3.0;  // [m]
+constexpr int kChunks = 5;
+
+struct Options {
+  bool lasers = true;
+  std::string drive = "traction";
+  double seconds = 2;  // of simulated time a chunk
+  std::vector<int> robots;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--no-lasers") {
+      options.lasers = false;
+    } else if (word == "--drive" && i + 1 < argc) {
+      options.drive = argv[++i];
+    } else if (word == "--seconds" && i + 1 < argc) {
+      options.seconds = std::atof(argv[++i]);
+    } else {
+      options.robots.push_back(std::atoi(argv[i]));
+    }
+  }
+  return options;
+}
+
+std::string with(const std::string& text, const std::string& key, const std::string& value) {
+  const std::regex element("<" + key + ">[^<]*</" + key + ">");
+  return std::regex_replace(text, element, "<" + key + ">" + value + "</" + key + ">");
+}
+
+/// The Kiva with the workload's speeds and laser.
+std::string robotText(const Options& options) {
+  std::ifstream file(std::string(WORLDS_DIR) + "/models/kiva/model.sdf");
+  std::ostringstream buffer;
+  buffer << file.rdbuf();
+  std::string text = buffer.str();
+  const std::pair<const char*, std::string> changes[] = {
+      {"drive", options.drive},
+      {"speed", "1.0"},
+      {"quarter_turn_time", "1.0"},
+      {"rays", "20"},
+      {"rate", "10"},
+      {"min_angle", "-1.5707963267948966"},
+      {"max_range", "5.0"},
+      {"max_angle", "1.5707963267948966"},
+  };
+  for (const auto& [key, value] : changes) text = with(text, key, value);
+  if (options.drive == "traction") text = with(text, "acceleration", "0");
+  if (options.lasers) return text;
+  const std::size_t begin = text.find("<plugin name=\"laser\"");
+  return text.erase(begin, text.find("</plugin>", begin) + 9 - begin);
+}
+
+std::string floorAndWalls(double size) {
+  std::ostringstream sdf;
+  sdf << "<sdf version='1.9'><world name='bench'><model name='ground_plane'><static>true</static>"
+      << "<link name='l'><collision name='c'><geometry><plane><normal>0 0 1</normal><size>" << size
+      << " " << size << "</size></plane></geometry></collision></link></model>";
+  const char* names[] = {"east", "west", "north", "south"};
+  for (int i = 0; i < 4; ++i) {
+    const double sign = i % 2 ? -1 : 1, at = sign * (size / 2 + 0.1);
+    sdf << "<model name='wall_" << names[i] << "'><static>true</static><pose>" << (i < 2 ? at : 0)
+        << " " << (i < 2 ? 0 : at) << " 0.5 0 0 " << (i < 2 ? 0 : M_PI / 2)
+        << "</pose><link name='l'><collision name='c'><geometry><box><size>0.2 " << size
+        << " 1</size></box></geometry></collision></link></model>";
+  }
+  sdf << "</world></sdf>";
+  return sdf.str();
+}
+
+/// One robot's square: along its heading, then a quarter turn, four times.
+class Squares {
+ public:
+  explicit Squares(int robots) : phase_(robots, 0) {}
+
+  /// Gives every idle robot its next command.
+  void command(kiva::World& world) {
+    const kiva::Fleet& fleet = world.fleet();
+    for (int i = 0; i < fleet.size(); ++i) {
+      if (fleet.status[i] != kiva::Status::kIdle) continue;
+      kiva::Command next;
+      next.kiva_id = fleet.robots[i].id;
+      const int phase = phase_[i]++ % 8, side = phase / 2;
+      if (phase % 2) {
+        next.kind = kiva::Command::Kind::kRotate;
+        next.direction = 1;
+      } else {
+        next.kind = side % 2 ? kiva::Command::Kind::kMoveY : kiva::Command::Kind::kMoveX;
+        (side % 2 ? next.y : next.x) = side < 2 ? 1 : -1;
+      }
+      world.post(next);
+    }
+  }
+
+ private:
+  std::vector<int> phase_;
+};
+
+double meanSpeed(const kiva::Fleet& fleet) {
+  double sum = 0;
+  for (int i = 0; i < fleet.size(); ++i) sum += std::hypot(fleet.vx[i], fleet.vy[i]);
+  return sum / fleet.size();
+}
+
+/// Lasers are read by somebody: every scan that is due is taken.
+void readLasers(const kiva::World& world, std::vector<float>* ranges) {
+  for (int i = 0; i < world.fleet().size(); ++i) {
+    if (world.scanDue(i)) world.scan(i, ranges);
+  }
+}
+
+void run(const Options& options, int robots) {
+  const int columns = static_cast<int>(std::ceil(std::sqrt(robots)));
+  const double size = columns * kLattice + 6;
+  kiva::World world(kiva::parseWorld(floorAndWalls(size), {}, "bench"));
+  const auto description = kiva::parseModels(robotText(options), {}, "kiva").front().description;
+  const double corner = std::round(-columns * kLattice / 2);
+  for (int i = 0; i < robots; ++i) {
+    const kiva::Pose pose(corner + i % columns * kLattice, corner + i / columns * kLattice, 0, 0, 0,
+                          0);
+    world.spawn({"kiva" + std::to_string(i + 1), pose, description});
+  }
+  Squares squares(robots);
+  std::vector<float> ranges;
+  std::vector<double> factors;
+  double speed = 0;
+  const long steps = std::lround(options.seconds / world.stepSize());
+  for (int chunk = 0; chunk < kChunks; ++chunk) {
+    const auto begin = std::chrono::steady_clock::now();
+    for (long s = 0; s < steps; ++s) {
+      squares.command(world);
+      world.step();
+      if (options.lasers) readLasers(world, &ranges);
+      speed += meanSpeed(world.fleet()) / static_cast<double>(steps * kChunks);
+    }
+    world.takeEvents();
+    world.takeStatusChanges();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    factors.push_back(options.seconds / took.count());
+  }
+  std::sort(factors.begin(), factors.end());
+  const double factor = factors[kChunks / 2];
+  std::printf("%-9s %7d robots  lasers %-3s  RTF %8.2f  %.3f us a robot and step  mean %.2f m/s\n",
+              options.drive.c_str(), robots, options.lasers ? "on" : "off", factor,
+              1e6 * world.stepSize() / factor / robots, speed);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Options options = parse(argc, argv);
+  for (int robots : options.robots) run(options, robots);
+}
