@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world that only keeps names and poses, behind the services of the real one."""
 
+import xml.etree.ElementTree as ElementTree
 from types import SimpleNamespace
 
 import rospy
 from fake_ros import FakeRos
 from geometry_msgs.msg import Pose
 
-from warehouse_sim import models
+from warehouse_sim import models, poses
 
 
 class FakeWorld(FakeRos):
@@ -53,13 +54,16 @@ class FakeWorld(FakeRos):
         self.pause = False
 
     def spawn_sdf_model(self, name, xml, namespace, pose, frame):
-        if name in self.standing:
+        parts = list(ElementTree.fromstring(xml).find("world"))
+        names = [part.get("name") or part.findtext("name") for part in parts]
+        names = names if len(names) > 1 else [name]
+        if not self.standing.keys().isdisjoint(names):
             return _answer("SpawnModel: Failure - entity already exists.")
-        if name == self.refuses:
-            return _answer("bad model")
+        if self.refuses in names:
+            return _answer(f"{self.refuses} is bad")
         if not self.pause:
-            self.spawned_while_running.append(name)
-        self.standing[name] = pose
+            self.spawned_while_running += names
+        self.standing |= {n: _pose(p.findtext("pose")) for n, p in zip(names, parts)}
         return _answer()
 
     def delete_model(self, name):
@@ -71,6 +75,13 @@ class FakeWorld(FakeRos):
                 n: p for n, p in self.standing.items() if models.kind_and_number(n)[0] != "item"
             }
         return _answer()
+
+
+def _pose(text):
+    x, y, z, _, _, yaw = map(float, text.split())
+    pose = poses.message(poses.planar(x, y, yaw))
+    pose.position.z = z
+    return pose
 
 
 class _Proxy:

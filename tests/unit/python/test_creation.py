@@ -7,11 +7,11 @@ import pytest
 from fake_world import FakeWorld
 
 from warehouse_msgs.srv import CreateWarehouseRequest
-from warehouse_sim import creation
+from warehouse_sim import creation, poses
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.layout import plan
-from warehouse_sim.models import FLOOR, kind_and_number, of_layout
-from warehouse_sim.request import PRESETS
+from warehouse_sim.models import FLOOR, kind_and_number
+from warehouse_sim.request import PRESETS, resolve
 from warehouse_sim.service import BUILDING, WarehouseService
 
 
@@ -57,9 +57,18 @@ def test_items_are_spawned_within_their_units():
     assert item.z == 0.46
 
 
-def test_models_of_one_kind_share_their_text():
-    texts = {model.xml for model in of_layout(plan(PRESETS["small"]))}
-    assert len(texts) == 5
+def test_robots_face_where_the_layout_says():
+    world = FakeWorld()
+    ask(world, robots=2)
+    headings = poses.planar_of([world.standing["kiva1"], world.standing["kiva2"]])[:, 2]
+    assert headings == pytest.approx(plan(resolve("", robots=2)).robots[:, 2])
+
+
+def test_a_last_batch_of_one_keeps_its_name(monkeypatch):
+    monkeypatch.setattr(creation, "BATCH", 126)  # There are as many, and the floor.
+    world = FakeWorld()
+    ask(world, "small")
+    assert "kiva4" in world.standing
 
 
 def test_a_warehouse_takes_the_place_of_the_last():
@@ -81,11 +90,12 @@ def test_a_refused_request_changes_nothing(counts):
     assert world.parameters == {}
 
 
-def test_half_a_warehouse_is_taken_away_again():
+def test_half_a_warehouse_is_taken_away_again(monkeypatch):
+    monkeypatch.setattr(creation, "BATCH", 3)
     world = FakeWorld(standing=["kiva9", "person1"], refuses="item5")
     answer = ask(world, shelves=2, items=9, robots=2)
     assert not answer.success
-    assert answer.message == "item5: bad model; the half-made warehouse was taken away"
+    assert answer.message == "item5 is bad; the half-made warehouse was taken away"
     assert set(world.standing) == {FLOOR, "person1"}
     assert world.parameters["/warehouse/name"] == ""
     assert not world.has_param(BUILDING)
@@ -140,14 +150,15 @@ def test_without_a_size_nothing_is_built():
     assert set(world.standing) == {FLOOR}
 
 
-def test_long_work_tells_how_far_it_is():
+def test_long_work_tells_how_far_it_is(monkeypatch):
+    monkeypatch.setattr(creation, "BATCH", 10)
     told, times = [], iter(range(10000))
     with Engine(FakeWorld()) as engine:
         creation.Creation(engine, told.append, clock=lambda: next(times)).replace(
             plan(PRESETS["small"])
         )
-    assert told[0] == "built 2 of 127 models"
-    assert len(told) > 5
+    assert told[0] == "built 20 of 127 models"
+    assert len(told) > 3
 
 
 def test_a_world_that_does_not_answer():

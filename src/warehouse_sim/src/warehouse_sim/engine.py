@@ -3,6 +3,7 @@
 
 from contextlib import contextmanager
 
+from geometry_msgs.msg import Pose
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import (
@@ -61,12 +62,14 @@ class Engine:
             raise EngineError(f"{name}: {answer.status_message}")
         return tuple(poses.planar_of([answer.pose])[0])
 
-    def spawn(self, name, xml, pose):
-        """Puts a model there: SDF text, and a pose row as in poses.py. Raises EngineError."""
-        frame = poses.message(pose)
-        answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", frame, "world")
+    def spawn(self, xml, name):
+        """Adds all models of an SDF text, or none. Raises EngineError.
+
+        Several keep the names that the text gives them; one alone goes by `name`.
+        """
+        answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", Pose(), "world")
         if not answer.success:
-            raise EngineError(f"{name}: {answer.status_message}")
+            raise EngineError(answer.status_message)
 
     def delete(self, name):
         """Takes a model away. Raises EngineError."""

@@ -2,11 +2,9 @@
 """A Layout as the models to spawn: names, SDF texts and poses."""
 
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
-
-from warehouse_sim import poses
 
 FLOOR = "ground_plane"
 
@@ -15,33 +13,29 @@ FLOOR = "ground_plane"
 KINDS = ("kiva", "storage_unit", "item", "conveyor_belt")
 _NUMBERED = re.compile(rf"({'|'.join(KINDS)})(\d+)")
 
-# Equal texts are parsed once by the world, so the name and the pose travel beside them.
-_INCLUDE = """<sdf version="1.9"><world name="spawn">
-  <include><uri>model://{}</uri></include>
-</world></sdf>"""
+_INCLUDE = "<include><uri>model://{}</uri><name>{}</name><pose>{}</pose></include>"
 
-_FLOOR = """<sdf version="1.9"><model name="ground_plane">
+_FLOOR = """<model name="ground_plane">
   <static>true</static>
+  <pose>{0[0]!r} {0[1]!r} 0 0 0 0</pose>
   <link name="floor">
     <collision name="floor">
-      <geometry><plane><normal>0 0 1</normal><size>{0:g} {1:g}</size></plane></geometry>
+      <geometry><plane><normal>0 0 1</normal><size>{1[0]!r} {1[1]!r}</size></plane></geometry>
       <surface><friction><ode><mu>1</mu><mu2>1</mu2></ode></friction></surface>
     </collision>
     <visual name="floor">
-      <geometry><plane><normal>0 0 1</normal><size>{0:g} {1:g}</size></plane></geometry>
+      <geometry><plane><normal>0 0 1</normal><size>{1[0]!r} {1[1]!r}</size></plane></geometry>
       <material><diffuse>0.80 0.80 0.82 1</diffuse></material>
     </visual>
   </link>
-</model></sdf>"""
+</model>"""
 
 
-@dataclass(frozen=True)
-class Model:
-    """One to spawn; the pose is a row as in poses.py."""
+class Part(NamedTuple):
+    """A model as a part of an SDF document."""
 
     name: str
     xml: str
-    pose: np.ndarray
 
 
 def kind_and_number(name):
@@ -51,26 +45,29 @@ def kind_and_number(name):
 
 
 def of_layout(layout):
-    """All models of a Layout: the floor first, then what stands on it, items after their units."""
-    units = _planar(layout.units)
-    places = np.pad(layout.item_place, ((0, 0), (0, 4)))
-    places[:, 6] = 1
+    """The Parts of a Layout: the floor first, and items after the units on which they lie."""
+    on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
     return [
-        Model(FLOOR, _FLOOR.format(*layout.floor.size), poses.planar(*layout.floor.centre, 0)),
-        *_numbered("conveyor_belt", _planar(layout.belts)),
-        *_numbered("storage_unit", units),
-        *_numbered("item", poses.compose(units[layout.item_unit], places)),
-        *_numbered("kiva", _planar(layout.robots)),
+        Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size)),
+        *_numbered("conveyor_belt", layout.belts[:, :2], layout.belts[:, 2]),
+        *_numbered("storage_unit", layout.units),
+        *_numbered("item", on_unit + layout.item_place),
+        *_numbered("kiva", layout.robots[:, :2], layout.robots[:, 2]),
     ]
 
 
-def _planar(points):
-    """Pose rows of (n, 2) x y or (n, 3) x y yaw."""
-    yaws = points[:, 2] if points.shape[1] == 3 else np.zeros(len(points))
-    out = [poses.planar(x, y, yaw) for (x, y), yaw in zip(points[:, :2], yaws)]
-    return np.array(out).reshape(-1, 7)
+def _numbered(kind, places, yaws=None):
+    """Parts of one kind at places (n, 2) or (n, 3), numbered from 1."""
+    yaws = np.zeros(len(places)) if yaws is None else yaws
+    rows = np.column_stack([places, np.zeros((len(places), 3 - places.shape[1])), yaws])
+    return [_include(f"{kind}{i}", kind, *row) for i, row in enumerate(rows.tolist(), start=1)]
 
 
-def _numbered(kind, rows):
-    xml = _INCLUDE.format(kind)
-    return [Model(f"{kind}{i}", xml, pose) for i, pose in enumerate(rows, start=1)]
+def _include(name, kind, x, y, z, yaw):
+    return Part(name, _INCLUDE.format(kind, name, f"{x!r} {y!r} {z!r} 0 0 {yaw!r}"))
+
+
+def document(parts):
+    """One SDF text of all the Parts."""
+    xml = "".join(part.xml for part in parts)
+    return f'<sdf version="1.9"><world name="warehouse">{xml}</world></sdf>'
