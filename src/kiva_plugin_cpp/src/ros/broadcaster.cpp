@@ -43,9 +43,9 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience&
   });
 }
 
-Broadcaster::~Broadcaster() {
+void Broadcaster::stop() {
   outbox_.close();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Broadcaster::publish(const Snapshot& s) {

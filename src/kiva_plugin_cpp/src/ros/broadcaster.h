@@ -22,7 +22,9 @@ class Broadcaster {
  public:
   /// `node`: the node's private names.
   Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience& audience, Outbox& outbox);
-  ~Broadcaster();
+  ~Broadcaster() { stop(); }
+  /// Publishes what is still on its way, and nothing after it.
+  void stop();
 
  private:
   void publish(const Snapshot& snapshot);

@@ -12,6 +12,7 @@
 #include "broadcaster.h"
 #include "commands.h"
 #include "engine.h"
+#include "farewell.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
 #include "outbox.h"
@@ -28,6 +29,19 @@ using namespace kiva_ros;
 constexpr int kCallbackThreads = 4;  // each may wait for the step thread
 // Simulated time may fly; a client that gets a thousand clocks a second does little else.
 constexpr auto kClockGap = std::chrono::milliseconds(4);
+
+volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
+
+/// roscpp sees to SIGINT alone, and tells nobody before it takes its connections down.
+void onSignal(int) {
+  asked_to_stop = 1;
+  if (!serving) ros::requestShutdown();
+}
+
+void serveUntilStopped() {
+  serving = 1;
+  while (ros::ok() && !asked_to_stop) ros::WallDuration(0.05).sleep();
+}
 
 kiva::WorldDescription load(const Settings& settings) {
   std::vector<std::string> warnings;
@@ -68,18 +82,21 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   engine.start();
   ros::AsyncSpinner spinner(kCallbackThreads);
   spinner.start();
-  ros::waitForShutdown();
+  serveUntilStopped();
   spinner.stop();
   engine.stop();
+  broadcaster.stop();
+  if (ros::ok()) withdrawTopics();
+  ros::shutdown();
   return engine.failed() ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "gazebo");
+  ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, onSignal);
   ros::NodeHandle root, node("~");
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });  // roscpp sees to SIGINT alone
   try {
     return run(root, node);
   } catch (const std::exception& error) {
