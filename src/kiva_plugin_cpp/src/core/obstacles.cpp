@@ -114,7 +114,7 @@ int Obstacles::add(const Footprint& footprint) {
 void Obstacles::update(int handle, const Footprint& footprint) {
   Entry& entry = entries_[handle];
   entry.footprint = footprint;
-  if (!entry.everywhere && rangeOf(footprint) == entry.range) return;
+  if (!entry.everywhere && isInside(footprint) && rangeOf(footprint) == entry.range) return;
   unlink(handle);
   cover(entry.footprint);
   link(handle);
@@ -141,15 +141,17 @@ Obstacles::Range Obstacles::rangeOf(const Footprint& f) const {
   return range(f.x - halfX(f), f.x + halfX(f), f.y - halfY(f), f.y + halfY(f));
 }
 
+bool Obstacles::isInside(const Footprint& f) const {
+  return f.x - halfX(f) >= origin_x_ && f.y - halfY(f) >= origin_y_ &&
+         f.x + halfX(f) <= origin_x_ + columns_ * kCell &&
+         f.y + halfY(f) <= origin_y_ + rows_ * kCell;
+}
+
 void Obstacles::link(int handle) {
   Entry& entry = entries_[handle];
-  const Footprint& f = entry.footprint;
-  entry.range = rangeOf(f);
+  entry.range = rangeOf(entry.footprint);
   const Range& r = entry.range;
-  const bool inside = f.x - halfX(f) >= origin_x_ && f.y - halfY(f) >= origin_y_ &&
-                      f.x + halfX(f) <= origin_x_ + columns_ * kCell &&
-                      f.y + halfY(f) <= origin_y_ + rows_ * kCell;
-  entry.everywhere = !inside;
+  entry.everywhere = !isInside(entry.footprint);
   if (entry.everywhere) {
     everywhere_.push_back(handle);
     return;

@@ -78,6 +78,7 @@ class Obstacles {
 
   Range range(double min_x, double max_x, double min_y, double max_y) const;
   Range rangeOf(const Footprint& footprint) const;
+  bool isInside(const Footprint& footprint) const;
   int cell(int cx, int cy) const { return cy * columns_ + cx; }
   void link(int handle);
   void unlink(int handle);
