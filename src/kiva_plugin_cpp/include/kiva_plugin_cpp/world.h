@@ -52,7 +52,8 @@ struct Item {
   int model = -1;
   int unit = -1;  ///< Index of its storage unit, -1 = none.
   Pose pose_in_unit;
-  double mass = 0;  ///< [kg]
+  Pose spawn_pose_in_unit;  ///< Where a reset puts it.
+  double mass = 0;          ///< [kg]
 };
 
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
@@ -118,7 +119,7 @@ class World {
   std::optional<EntityState> state(const std::string& model, const std::string& link = "") const;
   std::shared_ptr<const ModelDescription> description(const std::string& model) const;
   /// Moves a model and everything fixed to it, at that velocity. Returns false if there is no such
-  /// model.
+  /// model; throws DescriptionError if the state is not finite or too far away.
   bool setState(const std::string& model, const EntityState& state);
   /// All models at once, in the order of modelNames().
   void states(std::vector<EntityState>* out) const;

@@ -24,16 +24,24 @@ constexpr double kFlat = 0.005;         // [m]; what rises less above the ground
   throw DescriptionError("model '" + instance.name + "': " + why);
 }
 
+void checkPose(const std::string& name, const Pose& pose) {
+  if (pose.IsFinite() && pose.Pos().Abs().Max() <= kMaxCoordinate) return;
+  throw DescriptionError("model '" + name +
+                         "': its pose must be finite and within 100 km of the origin");
+}
+
+void checkTwist(const std::string& name, const Twist& twist) {
+  if (twist.linear.IsFinite() && twist.angular.IsFinite()) return;
+  throw DescriptionError("model '" + name + "': its velocity must be finite");
+}
+
 void checkInstance(const Parts& parts, const ModelInstance& instance) {
   const std::string& name = instance.name;
   if (name.empty()) throw DescriptionError("a model needs a name");
   if (name.size() > 200) refuse(instance, "a name may have 200 characters at the most");
   if (name.find("::") != std::string::npos) refuse(instance, "'::' can't be part of a name");
   if (parts.find(name)) refuse(instance, "entity already exists");
-  const Vector3& p = instance.pose.Pos();
-  if (!instance.pose.IsFinite() || p.Abs().Max() > kMaxCoordinate) {
-    refuse(instance, "its pose must be finite and within 100 km of the origin");
-  }
+  checkPose(name, instance.pose);
 }
 
 /// The number behind `prefix`, 0 if the name is not of that form.
@@ -123,6 +131,13 @@ double massOf(const ModelDescription& description) {
   return mass;
 }
 
+/// Leaves a unit to Bullet until it stands on its legs again.
+void letFall(Parts& parts, Model& model) {
+  engage(parts, model);
+  for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
+  model.disturbed = true;
+}
+
 void addUnit(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
   StorageUnit unit;
@@ -134,6 +149,7 @@ void addUnit(Parts& parts, int slot) {
   parts.units.push_back(unit);
   parts.unit_of_id[unit.id] = model.index;
   addOutlines(model);
+  if (!standsUpright(parts, model.index)) letFall(parts, model);
   ++parts.units_revision;
 }
 
@@ -146,6 +162,7 @@ void addItem(Parts& parts, int slot) {
   item.mass = massOf(*model.description);
   item.unit = unitAt(parts, model.pose.Pos());
   if (item.unit >= 0) item.pose_in_unit = unitPose(parts, item.unit).Inverse() * model.pose;
+  item.spawn_pose_in_unit = item.pose_in_unit;
   model.index = static_cast<int>(parts.items.size());
   parts.items.push_back(item);
   if (item.unit >= 0) {
@@ -275,6 +292,13 @@ void eraseFrom(std::vector<int>& slots, int slot) {
   slots.erase(std::remove(slots.begin(), slots.end(), slot), slots.end());
 }
 
+/// A body that sleeps on something falls once that is gone.
+void wakeBodies(Parts& parts) {
+  for (int slot : parts.bodies) {
+    for (LinkBody& link : parts.models[slot]->bodies.links) link.body->activate();
+  }
+}
+
 void dismantle(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
   model.plugins.clear();
@@ -289,6 +313,7 @@ void dismantle(Parts& parts, int slot) {
   const bool was_floor = model.kind == ModelKind::kFloor;
   freeSlot(parts, slot);
   if (was_floor) measureFloor(parts);
+  wakeBodies(parts);
 }
 
 EntityState bodyState(const LinkBody& link) {
@@ -343,11 +368,18 @@ void placeUnit(Parts& parts, Model& model, const EntityState& state) {
   if (carrier >= 0) putDown(parts, carrier);
   if (model.in_physics) disengage(parts, model);
   model.pose = state.pose;
-  // One that is moved by hand may float or fall: let Bullet tell.
-  engage(parts, model);
+  letFall(parts, model);  // one that is moved by hand may float: let Bullet tell
   moveBodies(model, state);
-  model.disturbed = true;
   ++parts.units_revision;
+}
+
+void resetUnit(Parts& parts, Model& model) {
+  const int carrier = parts.units[model.index].carrier;
+  if (carrier >= 0) putDown(parts, carrier);
+  if (model.in_physics) disengage(parts, model);
+  model.pose = model.spawn_pose;
+  if (!standsUpright(parts, model.index)) letFall(parts, model);
+  updateOutlines(parts, model);
 }
 
 void placeItem(Parts& parts, Model& model, const EntityState& state) {
@@ -376,6 +408,8 @@ void spawnModel(Parts& parts, const ModelInstance& instance) {
     dismantle(parts, slot);
     refuse(instance, error.what());
   }
+  const Model& model = *parts.models[slot];
+  if (model.kind == ModelKind::kRobot) parts.setStatus(model.index, Status::kIdle, State::kIdle);
   ++parts.models_revision;
   parts.report(Event::Kind::kSpawned, instance.name, "", "");
 }
@@ -389,6 +423,8 @@ void removeModel(Parts& parts, int slot) {
 
 void placeModel(Parts& parts, int slot, const EntityState& state) {
   Model& model = *parts.models[slot];
+  checkPose(model.name, state.pose);
+  checkTwist(model.name, state.twist);
   if (model.kind == ModelKind::kRobot) {
     placeRobot(parts, model.index, state);
   } else if (model.kind == ModelKind::kStorageUnit) {
@@ -403,20 +439,17 @@ void placeModel(Parts& parts, int slot, const EntityState& state) {
   if (model.isStatic()) model.pose = state.pose;
   if (model.kind == ModelKind::kFloor) measureFloor(parts);
   updateOutlines(parts, model);
+  wakeBodies(parts);
 }
 
 void resetModel(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
+  ++parts.units_revision;
   if (model.kind == ModelKind::kRobot) return resetRobot(parts, model.index);
+  if (model.kind == ModelKind::kStorageUnit) return resetUnit(parts, model);
   if (model.kind == ModelKind::kItem && parts.items[model.index].unit >= 0) {
-    return;  // it goes where its unit goes
-  }
-  if (model.kind == ModelKind::kStorageUnit) {
-    const int carrier = parts.units[model.index].carrier;
-    if (carrier >= 0) putDown(parts, carrier);
-    if (model.in_physics) disengage(parts, model);
-    model.pose = model.spawn_pose;
-    updateOutlines(parts, model);
+    Item& item = parts.items[model.index];  // it goes where its unit goes
+    item.pose_in_unit = item.spawn_pose_in_unit;
     return;
   }
   if (hasFreeBodies(model)) {  // joints too: a model is put together anew

@@ -118,7 +118,6 @@ void addRobot(Parts& parts, int slot) {
   const bool jointed = robot.drive.drive == Drive::kJointed;
   model.index = parts.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   if (jointed) engage(parts, model);
-  parts.setStatus(model.index, Status::kIdle, State::kIdle);
 }
 
 void removeRobot(Parts& parts, int robot) {
@@ -157,8 +156,8 @@ void placeRobot(Parts& parts, int robot, const EntityState& state) {
 void resetRobot(Parts& parts, int robot) {
   Fleet& fleet = parts.fleet;
   if (fleet.unit[robot] >= 0) putDown(parts, robot);
-  placeRobot(parts, robot, {parts.modelOf(robot).spawn_pose, {}});
   fleet.tower[robot] = 0;
+  placeRobot(parts, robot, {parts.modelOf(robot).spawn_pose, {}});
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
