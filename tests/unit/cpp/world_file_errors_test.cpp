@@ -61,6 +61,7 @@ const std::map<std::string, std::string> kErrors = {
                             "less than the minimum allowed value of [0] for key [friction]"},
     {"geometry_empty", ":8:" + kGeometry + ": expected a shape: " + kShapes.substr(9)},
     {"geometry_missing", ":7:" + kLink + ", collision 'c': expected <geometry> in <collision>"},
+    {"geometry_unknown", ":8:" + kGeometry + ": <prism> is not supported; " + kShapes},
     {"gravity",
      ":5: world 'w', gravity: '0 0 down' is no value for <gravity>; expected three "
      "numbers"},
@@ -146,11 +147,18 @@ TEST(WorldFileErrors, NameTheFileOfTheModelThatIsIncluded) {
                 "above 0 kg, found 0");
 }
 
+TEST(WorldFileErrors, NameWhatIsMissingHoweverDeepItIs) {
+  const std::string path = (kFolder / "invalid_deep_include_missing.sdf").string();
+  EXPECT_EQ(errorOf(path), kBrokenModels + "/outer/model.sdf" + kNowhere);
+}
+
 TEST(WorldFileErrors, HaveAFixtureEach) {
   for (const auto& entry : fs::directory_iterator(kFolder)) {
     const std::string name = entry.path().stem().string();
-    if (name.compare(0, 8, "invalid_") != 0 || name == "invalid_include_broken") continue;
-    EXPECT_EQ(kErrors.count(name.substr(8)), 1u) << name;
+    if (name.compare(0, 8, "invalid_") != 0) continue;
+    const std::string rule = name.substr(8);
+    const bool has_its_own_test = rule == "include_broken" || rule == "deep_include_missing";
+    EXPECT_TRUE(has_its_own_test || kErrors.count(rule)) << name;
   }
 }
 
@@ -184,6 +192,34 @@ TEST(WorldFileErrors, KeepTheirLineBehindIncludesThatWereTakenOut) {
     EXPECT_STREQ(error.what(),
                  "text:7: world 'w', model 'm', link 'l', inertial/mass: expected a mass above 0 "
                  "kg, found 0");
+  }
+}
+
+TEST(WorldFileErrors, KnowNamesOfIncludesAndOfModelsBesideThem) {
+  const std::string xml =
+      "<sdf version='1.9'><world name='w'>\n<model name='m'><link name='l'/></model>\n"
+      "<include><uri>model://item</uri><name>m</name></include></world></sdf>";
+  try {
+    parseWorld(xml, kPaths, "text");
+    FAIL() << "no error";
+  } catch (const DescriptionError& error) {
+    EXPECT_EQ(error.what(), "text:3: include: the name 'm'" + taken("model", "world"));
+  }
+}
+
+/// std::regex, for one, overflows the stack on texts of this length.
+TEST(WorldFileErrors, SurviveVeryLongTexts) {
+  const std::string letters(1000000, 'x');
+  const std::string model = "<model name='" + letters + "'>";
+  for (const std::string& inside :
+       {model + "</model>",
+        model + "<link name='l'><inertial><mass>0</mass></inertial></link></model>",
+        "<model name='m'><link name='l'><inertial><mass>" + letters +
+            "</mass></inertial></link></model>",
+        "<model name='m'><link name='l'><pose relative_to='" + letters + "'/></link></model>",
+        "<model name='m'>" + letters, "<include><uri>model://" + letters + "</uri></include>"}) {
+    EXPECT_THROW(parseModels("<sdf version='1.9'>" + inside + "</sdf>", kPaths, "request"),
+                 DescriptionError);
   }
 }
 

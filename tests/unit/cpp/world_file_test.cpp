@@ -286,6 +286,24 @@ TEST(Joints, MayHoldOnToTheWorld) {
 
 // --- models in models
 
+/// A folder of models that goes when the test ends.
+class ModelFolder {
+ public:
+  ModelFolder() : path_(fs::temp_directory_path() / ("models_" + std::to_string(getpid()))) {}
+  ~ModelFolder() { fs::remove_all(path_); }
+  ModelPaths paths() const { return {path_.string()}; }
+
+  void write(const std::string& name, const std::string& content) const {
+    fs::create_directories(path_ / name);
+    std::ofstream(path_ / name / "model.config")
+        << "<model><name>" << name << "</name><sdf version='1.9'>model.sdf</sdf></model>";
+    std::ofstream(path_ / name / "model.sdf") << sdf(content);
+  }
+
+ private:
+  fs::path path_;
+};
+
 const std::string kNested =
     "<link name='base'/>"
     "<model name='arm'><pose>1 0 0 0 0 1.5707963267948966</pose>"
@@ -318,12 +336,29 @@ TEST(NestedModels, KeepTheirJoints) {
   expectNear(m.joints[1].axis_in_model, {0, 1, 0});
 }
 
+TEST(NestedModels, MayHoldOnToTheWorld) {
+  const ModelDescription m = model(
+      "<link name='l'/><model name='n'><link name='k'/><joint name='j' type='fixed'>"
+      "<parent>world</parent><child>k</child></joint></model>");
+  EXPECT_EQ(m.joints.at(0).parent, "world");
+  EXPECT_EQ(m.joints.at(0).child, "n::k");
+}
+
 TEST(NestedModels, MayBeIncluded) {
   const ModelDescription m =
       model("<link name='l'/>" + include("item", "<name>box</name><pose>0 0 2 0 0 0</pose>"));
   ASSERT_TRUE(m.findLink("box::body"));
   expectNear(m.findLink("box::body")->pose_in_model, Pose(0, 0, 2, 0, 0, 0));
   EXPECT_EQ(m.findLink("box::body")->mass, 1.5);
+}
+
+TEST(NestedModels, MayIncludeModelsThatInclude) {
+  const ModelFolder folder;
+  folder.write("a", "<model name='a'><link name='l'/>" + include("b", "") + "</model>");
+  folder.write("b", "<model name='b'><link name='l'/>" + include("c", "") + "</model>");
+  folder.write("c", "<model name='c'><link name='l'/></model>");
+  const auto models = parseModels(worldOf(include("a", "")), folder.paths(), "text");
+  EXPECT_TRUE(models.at(0).description->findLink("b::c::l"));
 }
 
 TEST(NestedModels, MayBeMerged) {
@@ -377,6 +412,13 @@ TEST(Plugins, KeepNestedRepeatedAndEmptyParameters) {
       {"a", "1"}, {"a[2]", "4"}, {"b/c", "2"}, {"b/d/e", "3"}, {"f", ""}};
   EXPECT_EQ(p.values(), expected);
   EXPECT_EQ(p.where(), "model 'm', plugin 'p'");
+}
+
+TEST(Plugins, MayCallTheirParametersLikePartsOfSdf) {
+  const ModelDescription m = model(
+      "<link name='l'/><plugin name='p' filename='libp.so'><model>kiva1</model><joint type='x'/>"
+      "</plugin>");
+  EXPECT_EQ(m.plugins.at(0).parameters.text("model", ""), "kiva1");
 }
 
 TEST(Plugins, KnowTheirFile) {
@@ -440,24 +482,6 @@ TEST(Includes, MayHoldCommentsAndEntities) {
   EXPECT_EQ(models.at(0).name, "i1");
   EXPECT_EQ(models.at(1).name, "a&b");
 }
-
-/// A folder of models that goes when the test ends.
-class ModelFolder {
- public:
-  ModelFolder() : path_(fs::temp_directory_path() / ("models_" + std::to_string(getpid()))) {}
-  ~ModelFolder() { fs::remove_all(path_); }
-  ModelPaths paths() const { return {path_.string()}; }
-
-  void write(const std::string& name, const std::string& content) const {
-    fs::create_directories(path_ / name);
-    std::ofstream(path_ / name / "model.config")
-        << "<model><name>" << name << "</name><sdf version='1.9'>model.sdf</sdf></model>";
-    std::ofstream(path_ / name / "model.sdf") << sdf(content);
-  }
-
- private:
-  fs::path path_;
-};
 
 TEST(Includes, KeepTheModelsOwnPoseUnlessGivenOne) {
   const ModelFolder folder;
@@ -644,6 +668,19 @@ TEST(Warnings, NameWhatIsLeftOutOnceEach) {
                               "link 'l', collision 'c', surface/friction/ode: mu2 is left out: "
                               "friction is the same in every direction",
                       }));
+}
+
+TEST(Warnings, OfAModelComeOnceHoweverOftenItStands) {
+  const ModelFolder folder;
+  folder.write("odd", "<model name='odd'><strange/><link name='l'/></model>");
+  const std::string plain = include("odd", "<name>a</name>") + include("odd", "<name>b</name>");
+  const std::string nested = "<model name='m'><link name='l'/>" + plain + "</model>";
+  for (const std::string& body : {plain, nested}) {
+    std::vector<std::string> warnings;
+    parseWorld(worldOf(body), folder.paths(), "text", &warnings);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].find(folder.paths()[0] + "/odd/model.sdf:1: "), 0u) << warnings[0];
+  }
 }
 
 TEST(Warnings, ComeAgainFromTheCache) {

@@ -7,7 +7,7 @@
 
 namespace kiva {
 
-FileStamps::FileStamps(const std::vector<std::string>& files) {
+FileStamps::FileStamps(const std::set<std::string>& files) {
   for (const std::string& file : files) stamps_.push_back(take(file));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace kiva {
 class FileStamps {
  public:
   FileStamps() = default;
-  explicit FileStamps(const std::vector<std::string>& files);
+  explicit FileStamps(const std::set<std::string>& files);
   bool areCurrent() const;
 
  private:

@@ -35,8 +35,8 @@ LibraryModel readFile(const std::string& folder, const std::string& file,
   for (const sdf::Error& warning : document.warnings) {
     result.warnings.push_back(describe(warning, file));
   }
-  document.files.push_back(file);
-  document.files.push_back(folder + "/model.config");
+  document.files.insert(file);
+  document.files.insert(folder + "/model.config");
   result.stamps = FileStamps(document.files);
   return result;
 }

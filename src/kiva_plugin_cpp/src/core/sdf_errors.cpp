@@ -18,18 +18,22 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// `/sdf/model[@name="m"]/link[@name="l"]/pose` → `model 'm', link 'l', pose`.
 std::string entity(const std::string& xml_path) {
-  static const std::regex kSegment(R"re(/([^/\[]+)(\[@name="([^"]*)"\]|\[\d+\])?)re");
   std::string text;
   bool named = true;
-  for (std::sregex_iterator it(xml_path.begin(), xml_path.end(), kSegment), end; it != end; ++it) {
-    const std::smatch& match = *it;
-    if (match[1] == "sdf") continue;
-    const bool has_name = match[3].matched;
-    if (!text.empty()) text += named || has_name ? ", " : "/";
-    text += match[1].str() + (has_name ? " '" + match[3].str() + "'" : "");
-    named = has_name;
+  for (const PathStep& step : pathSteps(xml_path)) {
+    if (step.element == "sdf") continue;
+    if (!text.empty()) text += named || step.name ? ", " : "/";
+    text += step.element + (step.name ? " '" + *step.name + "'" : "");
+    named = step.name.has_value();
   }
   return text;
+}
+
+/// libsdformat quotes what it can't read, be it a whole document; and std::regex overflows the
+/// stack on what is too long.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kLongest = 2000;
+  return text.size() > kLongest ? text.substr(0, kLongest) + "…" : text;
 }
 
 /// One message a line, `Error [file:line] text`, in colours.
@@ -39,18 +43,20 @@ struct Printed {
 };
 
 Printed sortPrinted(const std::string& printed) {
-  static const std::regex kColours("\x1b\\[[0-9;]*m");
-  static const std::regex kPrefix(R"(^(Error|Warning|Msg) \[[^\]]*\] ?)");
+  static const std::regex kPrefix(
+      "^(\x1b\\[[0-9;]*m)?(Error|Warning) \\[[^\\]]*\\](\x1b\\[[0-9;]*m)? ?");
   Printed sorted;
-  std::istringstream lines(std::regex_replace(printed, kColours, ""));
+  std::istringstream lines(printed);
   for (std::string line; std::getline(lines, line);) {
+    line = shortened(line);
     std::smatch match;
     // The last one speaks of a format older than SDF, which nobody tries.
     if (!std::regex_search(line, match, kPrefix) || contains(line, "old deprecated")) continue;
     const std::string text = match.suffix();
-    if (match[1] == "Warning") sorted.warnings.push_back(text);
-    if (match[1] == "Error") sorted.errors += (sorted.errors.empty() ? "" : "; ") + text;
+    if (match[2] == "Warning") sorted.warnings.push_back(text);
+    if (match[2] == "Error") sorted.errors += (sorted.errors.empty() ? "" : "; ") + text;
   }
+  sorted.errors = shortened(sorted.errors);
   return sorted;
 }
 
@@ -69,15 +75,14 @@ bool readXmlError(const std::string& printed, sdf::Error* error) {
   return true;
 }
 
-bool isHarmless(const sdf::Error& error) {
-  switch (error.Code()) {
-    case ErrorCode::ATTRIBUTE_DEPRECATED:
-    case ErrorCode::ELEMENT_DEPRECATED:
-    case ErrorCode::VERSION_DEPRECATED:
-      return true;
-    default:
-      return contains(error.Message(), "not defined in SDF");
-  }
+/// `[/sdf/model[@name="m"]/odd:file:L7]: text`, as libsdformat prints its warnings.
+sdf::Error readWarning(const std::string& printed) {
+  static const std::regex kLocated(R"(^\[(/.*):([^:]*):L(\d+)\]: (.*))");
+  std::smatch match;
+  if (!std::regex_search(printed, match, kLocated)) return {ErrorCode::NONE, printed};
+  sdf::Error warning(ErrorCode::NONE, match[4], match[2], std::stoi(match[3]));
+  warning.SetXmlPath(match[1]);
+  return warning;
 }
 
 /// Says only that something below it failed.
@@ -91,7 +96,7 @@ std::string plain(std::string message) {
   static const std::regex kTail(R"(\. (Copying\[|Using the first).*)");
   static const std::regex kValue(R"(.*Unable to set value \[(.*?) ?\] ?for key ?\[(.*)\])");
   static const std::regex kVersion(R"(Unable to convert from SDF version (\S+) to (\S+))");
-  message = std::regex_replace(message, kTail, "");
+  message = std::regex_replace(shortened(message), kTail, "");
   message = std::regex_replace(message, kVersion, "SDF version $1 is unknown; expected 1.0 to $2");
   message = std::regex_replace(message, kValue, "'$1' is no value for <$2>");
   message.erase(message.find_last_not_of(" .\n") + 1);
@@ -104,11 +109,7 @@ sdf::Error withCause(const sdf::Error& error, const std::string& printed) {
   const bool is_wrong_type = contains(cause, "no value for") || contains(cause, "boolean");
   const std::string expected = expectedValue(error.XmlPath().value_or(""));
   if (is_wrong_type && !expected.empty()) cause += "; expected " + expected;
-  sdf::Error renamed(error.Code(), cause);
-  if (error.FilePath()) renamed.SetFilePath(*error.FilePath());
-  if (error.LineNumber()) renamed.SetLineNumber(*error.LineNumber());
-  if (error.XmlPath()) renamed.SetXmlPath(*error.XmlPath());
-  return renamed;
+  return reworded(error, cause);
 }
 
 }  // namespace
@@ -123,6 +124,14 @@ sdf::Error noteAt(const sdf::ElementConstPtr& element, const std::string& messag
   if (!known->FilePath().empty()) error.SetFilePath(known->FilePath());
   if (known->LineNumber()) error.SetLineNumber(*known->LineNumber());
   return error;
+}
+
+sdf::Error reworded(const sdf::Error& error, const std::string& message) {
+  sdf::Error renamed(error.Code(), message);
+  if (error.FilePath()) renamed.SetFilePath(*error.FilePath());
+  if (error.LineNumber()) renamed.SetLineNumber(*error.LineNumber());
+  if (error.XmlPath()) renamed.SetXmlPath(*error.XmlPath());
+  return renamed;
 }
 
 void failAt(const sdf::ElementConstPtr& element, const std::string& message) {
@@ -147,17 +156,13 @@ void throwErrors(const sdf::Errors& errors, const std::string& printed, sdf::Err
   const Printed sorted = sortPrinted(printed);
   sdf::Error xml_error;
   if (readXmlError(sorted.errors, &xml_error)) throw SdfError(xml_error);
-  for (const sdf::Error& error : errors) {
-    if (isHarmless(error)) {
-      warnings->push_back(error);
-    } else if (isEcho(error) && !sorted.errors.empty()) {
-      throw SdfError(withCause(error, sorted.errors));
-    } else {
-      throw SdfError(error);
-    }
+  if (!errors.empty()) {
+    const sdf::Error& first = errors.front();
+    throw SdfError(isEcho(first) && !sorted.errors.empty() ? withCause(first, sorted.errors)
+                                                           : first);
   }
   if (!sorted.errors.empty()) throw SdfError(sdf::Error(ErrorCode::STRING_READ, sorted.errors));
-  for (const std::string& text : sorted.warnings) warnings->emplace_back(ErrorCode::NONE, text);
+  for (const std::string& text : sorted.warnings) warnings->push_back(readWarning(text));
 }
 
 std::mutex ConsoleCapture::mutex_;
@@ -169,5 +174,11 @@ ConsoleCapture::ConsoleCapture() : lock_(mutex_) {
 }
 
 ConsoleCapture::~ConsoleCapture() { sdf::Console::Instance()->GetMsgStream().SetStream(before_); }
+
+std::string ConsoleCapture::take() {
+  std::string text = printed_.str();
+  printed_.str("");
+  return text;
+}
 
 }  // namespace kiva

@@ -29,6 +29,8 @@ class SdfError : public std::exception {
 
 /// A message at the file, line and entity of `element`.
 sdf::Error noteAt(const sdf::ElementConstPtr& element, const std::string& message);
+/// Another message at the address of `error`.
+sdf::Error reworded(const sdf::Error& error, const std::string& message);
 [[noreturn]] void failAt(const sdf::ElementConstPtr& element, const std::string& message);
 
 /// `file:line: model 'm', link 'l'`; `where` is put for the file of a document that was given as
@@ -37,8 +39,8 @@ std::string address(const sdf::Error& error, const std::string& where);
 /// The address and the message.
 std::string describe(const sdf::Error& error, const std::string& where);
 
-/// Sorts what libsdformat reported: appends the harmless to `warnings` and throws SdfError for the
-/// first of the rest, with the cause that libsdformat only printed.
+/// Throws SdfError for the first of libsdformat's errors, with the cause that it only printed;
+/// without any, appends the warnings that it printed.
 void throwErrors(const sdf::Errors& errors, const std::string& printed, sdf::Errors* warnings);
 
 /// While it lives, no other thread uses libsdformat through this library, and what libsdformat
@@ -49,7 +51,8 @@ class ConsoleCapture {
   ~ConsoleCapture();
   ConsoleCapture(const ConsoleCapture&) = delete;
   ConsoleCapture& operator=(const ConsoleCapture&) = delete;
-  std::string text() const { return printed_.str(); }
+  /// What came since the last call.
+  std::string take();
 
  private:
   static std::mutex mutex_;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sdf/ParserConfig.hh>
 #include <sdf/parser.hh>
+#include <set>
 
 #include "core/model_paths.h"
 #include "core/sdf_checks.h"
@@ -14,41 +15,34 @@
 namespace kiva {
 namespace {
 
-/// Follows what libsdformat includes.
-class ModelFinder {
- public:
-  explicit ModelFinder(const ModelPaths& paths) : paths_(paths) {}
-
-  std::string operator()(const std::string& uri) {
-    const std::string path = findModel(uri, paths_);
-    if (path.empty()) {
-      if (missing.empty()) missing = uri;
-      return "";
-    }
-    if (std::filesystem::is_directory(path)) {
-      files.push_back(path + "/model.config");
-      files.push_back(sdf::getModelFilePath(path));
-    } else {
-      files.push_back(path);
-    }
-    return path;
-  }
-
-  std::vector<std::string> files;
-  std::string missing;  ///< The first that is nowhere.
-
- private:
-  const ModelPaths& paths_;
-};
-
-/// Everything that libsdformat could say is an error here; `throwErrors` finds the harmless.
-sdf::ParserConfig parserConfig(ModelFinder* finder) {
+/// The paths come first: libsdformat would look into the current folder before it asks back. What
+/// is asked for is in none of them.
+sdf::ParserConfig parserConfig(const ModelPaths& model_paths, std::string* missing) {
   sdf::ParserConfig config;
-  config.SetFindCallback([finder](const std::string& uri) { return (*finder)(uri); });
-  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
-  config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  for (const std::string& folder : model_paths) config.AddURIPath("model://", folder);
+  config.SetFindCallback([missing](const std::string& uri) {
+    if (missing->empty()) *missing = uri;
+    return "";
+  });
+  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
   return config;
 }
+
+/// libsdformat 12 forgets the configuration of a call where an included model includes another, and
+/// takes the process's own; that is ours for the time of the call.
+class GlobalConfig {
+ public:
+  explicit GlobalConfig(const sdf::ParserConfig& config)
+      : before_(sdf::ParserConfig::GlobalConfig()) {
+    sdf::ParserConfig::GlobalConfig() = config;
+  }
+  ~GlobalConfig() { sdf::ParserConfig::GlobalConfig() = before_; }
+  GlobalConfig(const GlobalConfig&) = delete;
+  GlobalConfig& operator=(const GlobalConfig&) = delete;
+
+ private:
+  const sdf::ParserConfig before_;
+};
 
 std::string rootOf(const std::string& text) {
   TagScanner scanner(text);
@@ -69,42 +63,54 @@ bool readInto(const sdf::SDFPtr& document, const std::string& text, bool is_urdf
                  : sdf::readString(text, config, document->Root(), *errors);
 }
 
-void addCause(sdf::Errors* errors, const ModelFinder& finder, const ModelPaths& paths) {
-  if (finder.missing.empty() || errors->empty()) return;
-  sdf::Error error(sdf::ErrorCode::URI_LOOKUP, modelNotFound(finder.missing, paths));
-  if (errors->front().LineNumber()) error.SetLineNumber(*errors->front().LineNumber());
-  if (errors->front().FilePath()) error.SetFilePath(*errors->front().FilePath());
-  if (errors->front().XmlPath()) error.SetXmlPath(*errors->front().XmlPath());
-  errors->insert(errors->begin(), error);
+/// libsdformat lets it pass if it is a model in a model in a model.
+void throwIfMissing(const std::string& missing, const ModelPaths& paths,
+                    const sdf::Errors& errors) {
+  if (missing.empty()) return;
+  const sdf::Error at = errors.empty() ? sdf::Error() : errors.front();
+  throw SdfError(reworded(at, modelNotFound(missing, paths)));
+}
+
+/// The files of `element` and of all below it, each with the model.config beside it.
+void collectFiles(const sdf::ElementPtr& element, std::set<std::string>* files) {
+  const std::string& file = element->FilePath();
+  if (!file.empty() && file[0] != '<' && files->insert(file).second) {
+    files->insert((std::filesystem::path(file).parent_path() / "model.config").string());
+  }
+  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
+    collectFiles(child, files);
+  }
 }
 
 }  // namespace
 
 SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
-  const ConsoleCapture console;
-  ModelFinder finder(model_paths);
-  const sdf::ParserConfig config = parserConfig(&finder);
+  ConsoleCapture console;
+  std::string missing;
+  const sdf::ParserConfig config = parserConfig(model_paths, &missing);
+  const GlobalConfig global(config);
   const sdf::SDFPtr document = emptyDocument();
+  const std::string root = rootOf(text);
   sdf::Errors errors;
   SdfDocument parsed;
-  const std::string root = rootOf(text);
   const bool read = readInto(document, text, root == "robot", config, &errors);
-  addCause(&errors, finder, model_paths);
-  throwErrors(errors, console.text(), &parsed.warnings);
+  throwIfMissing(missing, model_paths, errors);
+  throwErrors(errors, console.take(), &parsed.warnings);
   if (!read) failAtRoot(root);
   checkElements(document->Root());
   parsed.root = std::make_unique<sdf::Root>();
-  throwErrors(parsed.root->Load(document, config), "", &parsed.warnings);
-  parsed.files = std::move(finder.files);
+  const sdf::Errors load_errors = parsed.root->Load(document, config);
+  throwErrors(load_errors, console.take(), &parsed.warnings);
+  collectFiles(document->Root(), &parsed.files);
   return parsed;
 }
 
 std::string modelFile(const std::string& folder) {
   if (!std::filesystem::is_directory(folder)) return folder;
-  const ConsoleCapture console;
+  ConsoleCapture console;
   const std::string file = sdf::getModelFilePath(folder);
   sdf::Errors warnings;
-  throwErrors({}, console.text(), &warnings);
+  throwErrors({}, console.take(), &warnings);
   return file;
 }
 

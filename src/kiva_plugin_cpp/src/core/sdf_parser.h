@@ -4,8 +4,8 @@
 #include <memory>
 #include <sdf/Root.hh>
 #include <sdf/Types.hh>
+#include <set>
 #include <string>
-#include <vector>
 
 #include "kiva_plugin_cpp/world_file.h"
 
@@ -15,7 +15,7 @@ namespace kiva {
 struct SdfDocument {
   std::unique_ptr<sdf::Root> root;
   sdf::Errors warnings;
-  std::vector<std::string> files;  ///< Those of the models that the text includes.
+  std::set<std::string> files;  ///< Those of the models that the text includes.
 };
 
 /// Throws SdfError. Thread-safe, though one call waits for another.
