@@ -17,6 +17,12 @@ constexpr double kMargin = 0.0002;  // [m]
 // Bullet's own distance at which contacts are foreseen.
 constexpr double kForesight = 0.02;  // [m]
 
+// Share of its depth by which a bouncing body is lifted out in a step; more would throw it.
+constexpr double kGentle = 0.02;
+
+// What is slower for two seconds falls asleep; Bullet's own 0.8 m/s would stop a pendulum.
+constexpr double kAsleep = 0.005;  // [m/s, rad/s]
+
 /// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
 /// boxes, and a fast body would sink in before its parts are looked at.
 template <typename Base>
@@ -102,6 +108,7 @@ LinkBody finishBody(LinkBody body, const Link& link, const BodyContext& context,
   body.body->setUserIndex(context.model);
   body.body->setCollisionFlags(body.body->getCollisionFlags() |
                                btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+  body.body->setSleepingThresholds(kAsleep, kAsleep);
   if (!link.gravity) body.body->setFlags(body.body->getFlags() | BT_DISABLE_WORLD_GRAVITY);
   body.place(context.model_pose * toBullet(link.pose_in_model));
   return body;
@@ -128,7 +135,12 @@ LinkBody makeBody(const Link& link, int index, const BodyContext& context) {
     out.shape.add(collision, in_body * toBullet(collision.pose_in_link), context.model);
   }
   btCollisionShape* shape = out.shape.compound.get();
-  return finishBody(std::move(out), link, context, shape);
+  LinkBody body = finishBody(std::move(out), link, context, shape);
+  // A contact that is foreseen slows a body down before it could bounce.
+  const bool bounces = std::any_of(link.collisions.begin(), link.collisions.end(),
+                                   [](const Collision& c) { return c.restitution > 0; });
+  if (bounces) body.body->setContactProcessingThreshold(0);
+  return body;
 }
 
 /// Joint frame: origin at the anchor, `along` (0 = x, 2 = z) on the axis; in world.
@@ -158,7 +170,7 @@ std::unique_ptr<btTypedConstraint> makeHinge(const Joint& joint, const JointEnds
       ends.child.getWorldTransform().inverse() * frame);
   // Bullet counts a hinge's angle from parent to child the other way round.
   if (joint.kind == Joint::Kind::kRevolute && joint.upper - joint.lower < 2 * SIMD_PI) {
-    hinge->setLimit(joint.lower, joint.upper);
+    hinge->setLimit(-joint.upper, -joint.lower);
   }
   return hinge;
 }
@@ -215,6 +227,10 @@ bool combineMaterials(btManifoldPoint& point, const btCollisionObjectWrapper* a,
   if (part_a && part_b) {
     point.m_combinedFriction = part_a->friction * part_b->friction;
     point.m_combinedRestitution = part_a->restitution * part_b->restitution;
+    if (part_a->restitution > 0 || part_b->restitution > 0) {  // not foreseen: they sink in a bit
+      point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP;
+      point.m_contactERP = kGentle;
+    }
   }
   return true;
 }
