@@ -166,9 +166,25 @@ void pullPlanar(Parts& parts, int robot) {
   }
 }
 
+/// A robot's one box moves in the plane: written directly, since this is done at every step.
+void moveChassisOutline(Parts& parts, int robot) {
+  const Fleet& f = parts.fleet;
+  const Outline& outline = parts.modelOf(robot).outlines.front();
+  Footprint footprint = parts.obstacles[outline.handle];
+  footprint.c = std::cos(f.yaw[robot]);
+  footprint.s = std::sin(f.yaw[robot]);
+  const double x = outline.pose_in_link.X(), y = outline.pose_in_link.Y();
+  footprint.x = f.x[robot] + footprint.c * x - footprint.s * y;
+  footprint.y = f.y[robot] + footprint.s * x + footprint.c * y;
+  parts.obstacles.update(outline.handle, footprint);
+}
+
 void moveRobotOutlines(Parts& parts, int robot) {
-  updateOutlines(parts, parts.modelOf(robot));
-  const int unit = parts.fleet.unit[robot];
+  const Fleet& f = parts.fleet;
+  const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
+  if (still && f.state[robot] != State::kLifting) return;
+  moveChassisOutline(parts, robot);
+  const int unit = f.unit[robot];
   if (unit < 0) return;
   updateOutlines(parts, *parts.models[parts.units[unit].model]);
   ++parts.units_revision;
