@@ -144,10 +144,18 @@ def test_a_node_that_dies_while_building_leaves_word_of_it():
     assert world.has_param(BUILDING)
 
 
-def test_without_a_size_nothing_is_built():
+@pytest.mark.parametrize("size", ["", "none"])
+def test_without_a_size_nothing_is_built(size):
     world = FakeWorld(standing=[FLOOR])
-    service(world).start("")
+    service(world).start(size)
     assert set(world.standing) == {FLOOR}
+
+
+def test_a_misspelt_size_is_told_and_the_service_comes_all_the_same():
+    world, told = FakeWorld(standing=[FLOOR]), []
+    service(world, told).start("smal")
+    assert set(world.standing) == {FLOOR}
+    assert told[0].startswith("nothing was built: 'smal' is no preset")
 
 
 def test_long_work_tells_how_far_it_is(monkeypatch):

@@ -50,6 +50,16 @@ def test_composed_poses_agree_with_matrices():
         assert matrix(out[3:]) == pytest.approx(turn @ matrix(pose[3:]), abs=1e-12)
 
 
+def test_inverse_undoes():
+    frames = random_poses(20, 3)
+    for rows in (
+        poses.compose(frames, poses.inverse(frames)),
+        poses.compose(poses.inverse(frames), frames),
+    ):
+        assert rows[:, :6] == pytest.approx(np.zeros((20, 6)), abs=1e-12)
+        assert rows[:, 6] == pytest.approx(np.ones(20))
+
+
 @pytest.mark.parametrize("angle", [-3.0, -math.pi / 2, 0, 0.1, math.pi / 2, 3.1])
 def test_yaw(angle):
     assert poses.yaw(poses.planar(1, 2, angle)[None]) == pytest.approx([angle])

@@ -23,6 +23,13 @@ def compose(frame, inner):
     return out
 
 
+def inverse(frame):
+    """Poses of a frame's parent, given in that frame: (n, 7)."""
+    out = frame * (-1, -1, -1, -1, -1, -1, 1)
+    out[:, :3] = rotate(out[:, 3:], out[:, :3])
+    return out
+
+
 def rotate(q, v):
     """Vectors (n, 3) turned by unit quaternions (n, 4)."""
     twice = 2 * np.cross(q[:, :3], v)

@@ -61,10 +61,16 @@ class WarehouseService:
         self._ros.delete_param(BUILDING)
 
     def start(self, size):
-        """Finds the warehouse as it stands; builds the preset `size` where none does.
+        """Finds the warehouse as it stands; builds the preset `size`, if any, where none does.
 
         What a node that died has left half-built is built anew.
         """
+        try:
+            self._find_or_build("" if size == "none" else size)
+        except RequestError as error:
+            self._tell(f"nothing was built: {error}")
+
+    def _find_or_build(self, size):
         with Engine(self._ros) as engine:
             standing = {models.kind_and_number(name)[0] for name in engine.names()} - {None}
         if self._ros.has_param(BUILDING) or (size and not standing):

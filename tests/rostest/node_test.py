@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests of the warehouse's nodes share: wait for a topic, command a robot, ask a service.
+
+Everything waits for what it needs, with a deadline of wall time; nothing sleeps.
+"""
+
+import subprocess
+import threading
+import time
+
+import rospy
+
+from warehouse_msgs.msg import Event
+from warehouse_msgs.srv import CreateWarehouse
+from warehouse_sim.director import Director, command
+
+PATIENCE = 30.0  # [s, wall]
+
+
+class Listener:
+    """Keeps the messages of a topic; until() waits for the right one."""
+
+    def __init__(self, topic, kind):
+        self.topic, self.messages = topic, []
+        self._came = threading.Condition()
+        self._subscriber = rospy.Subscriber(topic, kind, self._keep, queue_size=1000)
+
+    def _keep(self, message):
+        with self._came:
+            self.messages.append(message)
+            self._came.notify_all()
+
+    def until(self, condition=lambda message: True):
+        """The newest message if it meets the condition, or the first to come that does."""
+        end = time.monotonic() + PATIENCE
+        with self._came:
+            while not (self.messages and condition(self.messages[-1])):
+                left = end - time.monotonic()
+                if left <= 0:
+                    last = self.messages[-1] if self.messages else "nothing"
+                    raise AssertionError(f"{self.topic}: not what was waited for: {last}")
+                self._came.wait(left)
+            return self.messages[-1]
+
+    def close(self):
+        self._subscriber.unregister()
+
+
+def latched(topic, kind, condition=lambda message: True):
+    """The message that a newcomer gets, once it meets the condition."""
+    listener = Listener(topic, kind)
+    try:
+        return listener.until(condition)
+    finally:
+        listener.close()
+
+
+def wait_until(condition, what):
+    """Until condition() holds, where nothing is published that one could wait for."""
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end, f"waited in vain: {what}"
+        threading.Event().wait(0.05)
+
+
+def call(name, kind, *args, **fields):
+    """The answer of a service, once it is there."""
+    rospy.wait_for_service(name, PATIENCE)
+    return rospy.ServiceProxy(name, kind)(*args, **fields)
+
+
+def create(name="", **fields):
+    """The answer of /warehouse/create_warehouse_models."""
+    service = "/warehouse/create_warehouse_models"
+    return call(service, CreateWarehouse, warehouse_name=name, **fields)
+
+
+def run(node, *args):
+    """(exit code, what it prints) of a node of warehouse_sim that ends by itself."""
+    done = subprocess.run(
+        ["rosrun", "warehouse_sim", node, *args],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=150,
+        check=False,
+    )
+    return done.returncode, done.stdout
+
+
+class Robot:
+    """Commands one robot, each command after the one before has ended."""
+
+    def __init__(self, number):
+        self.number = number
+        self._director = Director(rospy, lambda *_: None, PATIENCE)
+        self._director.watch(number)
+
+    def do(self, topic, **fields):
+        """The command's last Event; it is DONE."""
+        script = self._script(command(topic, self.number, **fields))
+        self._director.play({self.number: script})
+
+    def _script(self, wanted):
+        event = yield wanted
+        assert event.kind == Event.DONE, f"{wanted}: {event.text}"

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every command is answered, however fast they come."""
+
+import math
+import unittest
+
+import rospy
+import rostest
+from warehouse_test import ANSWERS, Commander, Paused, control, place
+
+from warehouse_msgs.msg import Event, Lift, Rotate
+
+BURST = 10000
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        control("reset_simulation")
+        self.commander = Commander()
+
+    def tearDown(self):
+        self.commander.close()
+
+    def refused(self, text, topic, **fields):
+        answer = self.commander.ask(topic, **fields)
+        self.assertEqual(answer.kind, Event.REFUSED, answer)
+        self.assertIn(text, answer.text)
+
+    def stands_at(self, x, y):
+        for here, there in zip(place("kiva1"), (x, y)):
+            self.assertAlmostEqual(here, there, places=3)
+
+    def test_each_of_the_five_reaches_its_robot(self):
+        do = self.commander.do
+        kinds = [e.kind for e in do("/mov", kiva_id=1, x=-4.0, y=-3.0)]
+        self.assertEqual((kinds[0], kinds[-1]), (Event.ACCEPTED, Event.DONE))
+        self.stands_at(-4, -3)
+        do("/movx", kiva_id=1, distance=4.0)
+        do("/movy", kiva_id=1, distance=-1.0)
+        self.stands_at(0, -4)
+        do("/rot", kiva_id=1, direction=Rotate.CLOCKWISE)
+        events = do("/lift", kiva_id=1, shelf_id=1, status=Lift.CARRY)
+        self.assertEqual(
+            [(e.kind, e.other) for e in events if e.kind == Event.LIFTED],
+            [(Event.LIFTED, "storage_unit1")],
+        )
+        events = do("/lift", kiva_id=1, shelf_id=1, status=Lift.DROP)
+        self.assertIn(Event.DROPPED, [e.kind for e in events])
+
+    def test_a_refusal_says_why(self):
+        self.refused("no robot kiva99", "/mov", kiva_id=99, x=0.0, y=0.0)
+        self.refused("no robot", "/rot", kiva_id=-1, direction=1)
+        self.refused("finite", "/mov", kiva_id=1, x=math.nan, y=0.0)
+        self.refused("off the grid", "/mov", kiva_id=1, x=0.3, y=0.0)
+        self.refused("outside the floor", "/mov", kiva_id=1, x=1000.0, y=0.0)
+        self.refused("whole number", "/movx", kiva_id=1, distance=0.5)
+        self.refused("finite", "/movy", kiva_id=1, distance=math.inf)
+        self.refused("direction 2", "/rot", kiva_id=1, direction=2)
+        self.refused("storage_unit77", "/lift", kiva_id=1, shelf_id=77, status=Lift.CARRY)
+        self.refused("away", "/lift", kiva_id=1, shelf_id=1, status=Lift.CARRY)
+        self.refused("does not carry", "/lift", kiva_id=1, shelf_id=1, status=Lift.DROP)
+        self.refused("status 7", "/lift", kiva_id=1, shelf_id=1, status=7)
+
+    def test_a_busy_robot_refuses(self):
+        self.commander.ask("/movx", kiva_id=1, distance=2.0)
+        self.refused("not idle", "/movx", kiva_id=1, distance=1.0)
+
+    def test_none_of_a_burst_is_lost(self):
+        commands = (
+            ("/mov", {"kiva_id": 901, "x": 0.0, "y": 0.0}),
+            ("/movx", {"kiva_id": 902, "distance": 1.0}),
+            ("/movy", {"kiva_id": 903, "distance": 1.0}),
+            ("/rot", {"kiva_id": 904, "direction": 1}),
+            ("/lift", {"kiva_id": 905, "shelf_id": 1, "status": 1}),
+        )
+        for i in range(BURST):
+            topic, fields = commands[i % len(commands)]
+            self.commander.send(topic, **fields)
+        events = self.commander.events.wait_for(
+            lambda messages: sum(e.kind in ANSWERS for e in messages) >= BURST
+        )
+        for i in range(5):
+            mine = [e for e in events if e.model == f"kiva{901 + i}"]
+            self.assertEqual(len(mine), BURST // 5, f"kiva{901 + i}")
+
+    def test_a_command_waits_while_time_stands_still(self):
+        with Paused():
+            self.commander.send("/rot", kiva_id=1, direction=1)
+            self.commander.send("/rot", kiva_id=99, direction=1)
+            place("kiva1")  # an answer, so that time stood still in fact
+            self.assertEqual([e for e in self.commander.events.messages if e.kind in ANSWERS], [])
+        self.commander.events.first(lambda e: e.kind == Event.ACCEPTED and e.model == "kiva1")
+        self.commander.events.first(lambda e: e.kind == Event.REFUSED and e.model == "kiva99")
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_commands")
+    rostest.rosrun("warehouse_tests", "commands", __name__)

@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""A world file is added to the world that runs: all of it, or nothing."""
+
+import unittest
+
+import rospy
+import rostest
+from node_test import call, create, run
+
+from gazebo_msgs.srv import GetWorldProperties
+
+
+def standing():
+    return sorted(call("/gazebo/get_world_properties", GetWorldProperties).model_names)
+
+
+class InsertWorld(unittest.TestCase):
+    def setUp(self):
+        self.assertTrue(create("empty").success)
+
+    def test_all_of_it(self):
+        code, text = run("insert_world", "paper")
+        self.assertEqual(code, 0, text)
+        self.assertIn("added 12 models", text)
+        for name in ("kiva2", "storage_unit3", "item5", "conveyor_belt2"):
+            self.assertIn(name, standing())
+        self.assertEqual(standing().count("ground_plane"), 1)
+
+    def test_or_nothing(self):
+        create(robots=1)
+        before = standing()
+        code, text = run("insert_world", "paper")
+        self.assertNotEqual(code, 0)
+        self.assertIn("insert_world: SpawnModel: Failure - entity already exists. (kiva1)", text)
+        self.assertEqual(standing(), before)
+
+    def test_no_such_world(self):
+        code, text = run("insert_world", "mars")
+        self.assertNotEqual(code, 0)
+        self.assertIn("there is no world 'mars'", text)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_insert_world")
+    rostest.rosrun("warehouse_tests", "insert_world", InsertWorld)

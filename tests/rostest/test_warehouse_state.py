@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""One topic tells what stands in the warehouse and what it does."""
+
+import unittest
+
+import rospy
+import rostest
+from node_test import Listener, Robot, call, create, latched
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Empty
+
+from warehouse_msgs.msg import KivaStatus, Lift, WarehouseState
+from warehouse_sim.state import COMMANDS
+
+TOPIC = "/warehouse/state"
+
+
+class State(unittest.TestCase):
+    def setUp(self):
+        self.assertTrue(create("mine", warehouse_id=3, robots=2, shelves=4, items=9).success)
+        self.state = latched(TOPIC, WarehouseState, self.is_mine)
+
+    def is_mine(self, state):
+        free = {unit.carrier for unit in state.storage_units} == {""}
+        return state.warehouse_name == "mine" and len(state.kivas) == 2 and free
+
+    def test_name_counts_and_units(self):
+        state = self.state
+        self.assertEqual((state.warehouse_id, state.robots, state.shelves), (3, 2, 4))
+        self.assertEqual((state.items, state.belts), (9, 1))
+        names = [unit.name for unit in state.storage_units]
+        self.assertEqual(names, [f"storage_unit{i}" for i in range(1, 5)])
+        self.assertEqual([k.kiva_id for k in state.kivas], [1, 2])
+        self.assertEqual({k.status for k in state.kivas}, {KivaStatus.STATUS_IDLE})
+
+    def test_once_a_second_of_simulated_time(self):
+        states = Listener(TOPIC, WarehouseState)
+        states.until(lambda _: len(states.messages) >= 6)
+        stamps = [m.header.stamp.to_sec() for m in states.messages]
+        # The first may be the latched one; a glance is as old as the fleet's last report.
+        for earlier, later in zip(stamps[1:], stamps[2:]):
+            self.assertAlmostEqual(later - earlier, 1.0, delta=0.25)
+
+    def test_it_follows_a_robot_with_its_load(self):
+        at = self.state.storage_units[0].pose.position
+        robot = Robot(1)
+        robot.do("/mov", x=at.x, y=at.y)
+        robot.do("/lift", status=Lift.CARRY, shelf_id=1)
+        state = latched(TOPIC, WarehouseState, lambda m: m.storage_units[0].carrier)
+        self.assertEqual(state.storage_units[0].carrier, "kiva1")
+        self.assertEqual(state.kivas[0].shelf_id, 1)
+        self.assertAlmostEqual(state.kivas[0].pose.x, at.x, delta=0.01)
+
+    def test_news_come_while_physics_stands_still(self):
+        call("/gazebo/pause_physics", Empty)
+        self.addCleanup(call, "/gazebo/unpause_physics", Empty)
+        states = Listener(TOPIC, WarehouseState)
+        create("other", robots=1)
+        state = states.until(lambda m: m.warehouse_name == "other" and m.robots == 1)
+        self.assertEqual((state.shelves, state.items), (0, 0))
+
+    def test_command_topics_are_known(self):
+        latched("/clock", Clock)
+        known = dict(rospy.get_published_topics())
+        for topic, kind in COMMANDS.items():
+            self.assertEqual(known.get(topic), kind._type)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_warehouse_state")
+    rostest.rosrun("warehouse_tests", "warehouse_state", State)
