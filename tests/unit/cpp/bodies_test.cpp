@@ -76,6 +76,9 @@ TEST_F(Bodies, ABoxLandsAndRests) {
   w.run(3);
   const Pose rest = w.world.state("box")->pose;
   EXPECT_NEAR(rest.Z(), 0.25, kMillimetre);
+  EXPECT_NEAR(rest.X(), 2, kMillimetre);
+  EXPECT_NEAR(rest.Y(), 3, kMillimetre);
+  EXPECT_NEAR(rest.Rot().Yaw(), 0.4, 0.001);
   EXPECT_NEAR(rest.Rot().ZAxis().Z(), 1, 1e-5);
   EXPECT_LT(velocity("box").Length(), 1e-3);
   w.run(2);

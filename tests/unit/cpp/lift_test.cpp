@@ -463,7 +463,7 @@ TEST_F(Lift, AnItemWhereNoUnitIsFallsToTheFloor) {
   EXPECT_EQ(w.world.items().at(0).unit, -1);
   w.run(2);
   EXPECT_NEAR(w.itemPose("item1").Z(), 0, kMillimetre);
-  EXPECT_NEAR(w.itemPose("item1").X(), 3, 0.1);
+  EXPECT_NEAR(w.itemPose("item1").X(), 3, kMillimetre);
 }
 
 }  // namespace

@@ -278,6 +278,8 @@ Physics::Physics(const Vector3& gravity)
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
+  // All corners of what lands on a plane at once: one a step would tip it over.
+  configuration_.setPlaneConvexMultipointIterations(4, 4);
   world_.getSolverInfo().m_numIterations = 50;
 }
 
@@ -354,6 +356,7 @@ void Physics::contacts(std::vector<Contact>* out) const {
 double Physics::cast(const Vector3& from, const Vector3& direction, double range) const {
   const btVector3 start = toBullet(from), end = toBullet(from + direction * range);
   btCollisionWorld::ClosestRayResultCallback hit(start, end);
+  hit.m_collisionFilterGroup = ~0;  // robots do not touch the floor's group, a ray's default
   world_.rayTest(start, end, hit);
   return hit.hasHit() ? hit.m_closestHitFraction * range : std::numeric_limits<double>::infinity();
 }
