@@ -30,20 +30,26 @@ void loadWorldPlugins(Parts& parts, const std::vector<PluginDescription>& plugin
   }
 }
 
+/// Calls every user's plugin. It may add and remove models, its own among them.
+template <typename Call>
+void forEachUserPlugin(Parts& parts, Call call) {
+  for (auto& plugin : parts.world_plugins) call(*plugin);
+  const std::vector<int> slots = parts.models_with_plugins;
+  for (int slot : slots) {
+    if (!parts.models[slot]) continue;
+    const auto plugins = parts.models[slot]->plugins;
+    for (auto& plugin : plugins) call(*plugin);
+  }
+}
+
 void beforeStep(Parts& parts) {
   for (auto& plugin : parts.fleet_plugins) plugin->beforeStep(parts);
-  for (auto& plugin : parts.world_plugins) plugin->beforeStep(*parts.world, parts.dt);
-  for (int slot : parts.models_with_plugins) {
-    for (auto& plugin : parts.models[slot]->plugins) plugin->beforeStep(*parts.world, parts.dt);
-  }
+  forEachUserPlugin(parts, [&](Plugin& p) { p.beforeStep(*parts.world, parts.dt); });
 }
 
 void afterStep(Parts& parts) {
   for (auto& plugin : parts.fleet_plugins) plugin->afterStep(parts);
-  for (auto& plugin : parts.world_plugins) plugin->afterStep(*parts.world, parts.dt);
-  for (int slot : parts.models_with_plugins) {
-    for (auto& plugin : parts.models[slot]->plugins) plugin->afterStep(*parts.world, parts.dt);
-  }
+  forEachUserPlugin(parts, [&](Plugin& p) { p.afterStep(*parts.world, parts.dt); });
 }
 
 int shelfId(const Parts& parts, int robot) {
