@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A plugin to learn from: a robot that patrols between the place where it was spawned and another
+// grid point. Put it into the robot's SDF, beside the plugins that it has,
+//
+//   <plugin name="patrol" filename="libhello_plugin.so">
+//     <x>5</x>          <!-- the other end, in world [m] -->
+//     <y>2</y>
+//     <pause>1.5</pause>  <!-- at either end [s] -->
+//   </plugin>
+//
+// and the folder of the library into KIVA_PLUGIN_PATH.
+#include <cmath>
+#include <ignition/plugin/Register.hh>
+#include <string>
+#include <utility>
+
+#include "kiva_plugin_cpp/plugin.h"
+#include "kiva_plugin_cpp/world.h"
+
+namespace {
+
+class Patrol : public kiva::Plugin {
+ public:
+  // Once, when the model stands. A key that is never asked for here is an error of the SDF.
+  void load(kiva::World& world, const std::string& model,
+            const kiva::Parameters& parameters) override {
+    if (world.kind(model) != kiva::ModelKind::kRobot) {
+      throw kiva::DescriptionError(parameters.where() + ": patrol is for robots");
+    }
+    id_ = std::stoi(model.substr(4));  // kiva<id>
+    const kiva::Pose home = world.state(model)->pose;
+    other_end_ = {home.X(), home.Y()};
+    goal_.x = parameters.number("x", home.X(), -1e5, 1e5);
+    goal_.y = parameters.number("y", home.Y(), -1e5, 1e5);
+    pause_ = parameters.number("pause", 1.0, 0.1, 3600);
+  }
+
+  // Before every step of `dt` seconds: the place to command.
+  void beforeStep(kiva::World& world, double dt) override {
+    // Ids stay with a robot; its index changes when another one is deleted.
+    const int robot = world.fleet().find(id_);
+    const bool idle = world.fleet().status[robot] == kiva::Status::kIdle;
+    waited_ = idle ? waited_ + dt : 0;
+    if (waited_ < pause_) return;
+    waited_ = 0;
+    // Only what was reached is turned back from; what was blocked or refused is tried again.
+    const kiva::Pose at = world.basePose(robot);
+    if (std::hypot(at.X() - goal_.x, at.Y() - goal_.y) < 0.01) std::swap(goal_, other_end_);
+    kiva::Command command;
+    command.kind = kiva::Command::Kind::kMoveTo;
+    command.kiva_id = id_;
+    command.x = goal_.x;
+    command.y = goal_.y;
+    world.post(command);
+  }
+
+ private:
+  struct Point {
+    double x = 0, y = 0;  // in world [m]
+  };
+  int id_ = 0;
+  Point goal_, other_end_;
+  double pause_ = 0;   // [s]
+  double waited_ = 0;  // [s]
+};
+
+}  // namespace
+
+// By this line the library tells what it holds.
+IGNITION_ADD_PLUGIN(Patrol, kiva::Plugin)

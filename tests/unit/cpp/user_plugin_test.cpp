@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Plugins of a user: found by their file names, configured by SDF, called around every step; and
+// the example that shows how.
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/parts.h"
+#include "warehouse.h"
+
+namespace kiva::test {
+namespace {
+
+/// Where the workspace's libraries are, from where this test is.
+std::string libraryFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path().string();
+}
+
+std::string patrol(const std::string& parameters) {
+  return "<plugin name='patrol' filename='libhello_plugin.so'>" + parameters + "</plugin>";
+}
+
+class UserPlugin : public ::testing::Test {
+ protected:
+  UserPlugin() { setPath("/nowhere:" + libraryFolder()); }
+
+  static void setPath(const std::string& folders) {
+    setenv("KIVA_PLUGIN_PATH", folders.c_str(), true);
+  }
+  /// Why a Kiva with that element is refused.
+  std::string refusal(const std::string& element, const std::string& kind = "kiva",
+                      const std::string& name = "kiva1") {
+    try {
+      w.spawnText(withElement(modelText(kind), element), name, 0, 0);
+      ADD_FAILURE() << name << " was spawned";
+    } catch (const DescriptionError& error) {
+      EXPECT_FALSE(w.world.has(name));
+      return error.what();
+    }
+    return "";
+  }
+
+  Warehouse w;
+};
+
+// --- the example
+
+TEST_F(UserPlugin, TheExampleSendsItsRobotBackAndForth) {
+  w.spawnText(withElement(kivaText(), patrol("<x>3</x><y>1</y><pause>0.5</pause>")), "kiva1", 0, 0);
+  for (int round = 0; round < 3; ++round) {
+    w.runUntil([&] { return std::hypot(w.x(1) - 3, w.y(1) - 1) < kMillimetre; }, 20);
+    w.runUntil([&] { return std::hypot(w.x(1), w.y(1)) < kMillimetre; }, 20);
+  }
+  EXPECT_GE(w.count(Event::Kind::kDone, "kiva1"), 5);
+  EXPECT_EQ(w.count(Event::Kind::kRefused), 0);
+}
+
+TEST_F(UserPlugin, TheExampleTriesAgainWhatWasBlocked) {
+  w.spawnText(withElement(kivaText(), patrol("<x>4</x>")), "kiva1", 0, 0);
+  w.spawn("wall", "wall1", 3, 0, kQuarter);
+  w.run(10);
+  EXPECT_GE(w.count(Event::Kind::kBlocked, "kiva1"), 2);
+  w.world.remove("wall1");
+  w.runUntil([&] { return std::abs(w.x(1) - 4) < kMillimetre; }, 20);
+}
+
+TEST_F(UserPlugin, EveryModelHasAnObjectOfItsOwn) {
+  w.spawnText(withElement(kivaText(), patrol("<x>3</x>")), "kiva1", 0, 0);
+  w.spawnText(withElement(kivaText(), patrol("<x>-4</x>")), "kiva2", 0, 5);
+  w.world.remove("kiva1");  // and kiva2 takes its index
+  w.runUntil([&] { return std::abs(w.x(2) + 4) < kMillimetre; }, 20);
+  EXPECT_EQ(w.count(Event::Kind::kAccepted, "kiva1"), 0);
+}
+
+// --- what is refused
+
+TEST_F(UserPlugin, AnUnknownParameterIsRefusedAndTheKnownOnesAreNamed) {
+  const std::string reason = refusal(patrol("<x>3</x><pouse>1</pouse>"));
+  EXPECT_PRED2(contains, reason, "unknown parameter 'pouse'");
+  EXPECT_PRED2(contains, reason, "'pause', 'x', 'y'");
+}
+
+TEST_F(UserPlugin, AParameterOutOfItsRangeIsRefused) {
+  EXPECT_PRED2(contains, refusal(patrol("<pause>-1</pause>")), "'pause' is '-1'");
+}
+
+TEST_F(UserPlugin, WhatThePluginThrowsIsTheReason) {
+  EXPECT_PRED2(contains, refusal(patrol(""), "wall", "wall1"), "patrol is for robots");
+}
+
+TEST_F(UserPlugin, AMissingLibraryIsNamedWithTheFoldersSearched) {
+  setPath("/nowhere:/tmp");
+  const std::string reason = refusal("<plugin name='own' filename='libmissing.so'/>");
+  EXPECT_PRED2(contains, reason, "libmissing.so");
+  EXPECT_PRED2(contains, reason, "KIVA_PLUGIN_PATH='/nowhere:/tmp'");
+  EXPECT_PRED2(contains, reason, "plugin 'own'");
+}
+
+TEST_F(UserPlugin, AFileThatIsNoLibraryIsNamed) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kiva_no_library";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "libtext.so") << "not a library";
+  setPath(folder.string());
+  EXPECT_PRED2(contains, refusal("<plugin name='own' filename='libtext.so'/>"), "libtext.so");
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(UserPlugin, ALibraryWithoutAPluginIsNamed) {
+  const std::string reason = refusal("<plugin name='own' filename='libkiva_core.so'/>");
+  EXPECT_PRED2(contains, reason, "library 'libkiva_core.so' holds no class registered");
+}
+
+TEST_F(UserPlugin, AWorldWithAFaultyPluginIsRefused) {
+  for (const std::string& faulty :
+       {patrol(""), std::string("<plugin name='own' filename='libmissing.so'/>")}) {
+    Floorplan plan;
+    plan.more = faulty;
+    EXPECT_THROW(Warehouse{plan}, DescriptionError);
+  }
+}
+
+// --- when they are called
+
+/// Does what it is told to, around the step.
+struct Scripted : Plugin {
+  std::function<void(World&)> before = [](World&) {};
+  std::function<void(const World&)> after = [](const World&) {};
+  void load(World&, const std::string&, const Parameters&) override {}
+  void beforeStep(World& world, double) override { before(world); }
+  void afterStep(const World& world, double) override { after(world); }
+};
+
+class PluginCalls : public UserPlugin {
+ protected:
+  /// A plugin of a model that stands, or of the world.
+  Scripted& script(const std::string& model = "") {
+    auto plugin = std::make_shared<Scripted>();
+    World::Parts& parts = w.world.parts();
+    if (model.empty()) {
+      parts.world_plugins.push_back(plugin);
+    } else {
+      parts.find(model)->plugins.push_back(plugin);
+      parts.models_with_plugins.push_back(parts.slot_of_name.at(model));
+    }
+    return *plugin;
+  }
+};
+
+TEST_F(PluginCalls, AreBeforeAndAfterEachStep) {
+  w.spawn("wall", "wall1", 0, 0);
+  for (const char* model : {"", "wall1"}) {
+    const auto steps = std::make_shared<std::vector<std::uint64_t>>();
+    Scripted& plugin = script(model);
+    plugin.before = [steps](World& world) { steps->push_back(world.steps()); };
+    plugin.after = [steps](const World& world) { steps->push_back(world.steps()); };
+    w.world.reset(true);
+    w.step();
+    w.step();
+    EXPECT_EQ(*steps, (std::vector<std::uint64_t>{0, 1, 1, 2})) << model;
+  }
+}
+
+TEST_F(PluginCalls, MayPushABody) {
+  w.spawn("item", "item1", 0, 0);
+  script("item1").before = [](World& world) {
+    world.applyWrench("item1", "body", {0, 0, 3 * 9.81}, {});  // twice its weight
+  };
+  w.run(1);
+  EXPECT_NEAR(w.itemPose("item1").Z(), 0.5 * 9.81, 0.05);
+}
+
+TEST_F(PluginCalls, MaySpawnModelsWithPlugins) {
+  w.spawn("wall", "wall1", 0, 0);
+  const std::string robot = withElement(kivaText(), patrol("<x>3</x>"));
+  int spawned = 0;
+  script("wall1").before = [&](World& world) {
+    if (spawned == 20) return;
+    ++spawned;
+    world.spawn(
+        instance(robot, "kiva" + std::to_string(spawned), Pose(0, 2 * spawned, 0, 0, 0, 0)));
+  };
+  w.run(1);
+  EXPECT_EQ(w.world.fleet().size(), 20);
+}
+
+TEST_F(PluginCalls, MayRemoveModelsTheirOwnAmongThem) {
+  for (int i = 1; i <= 5; ++i) w.spawn("wall", "wall" + std::to_string(i), i, 0);
+  for (int i = 1; i <= 5; ++i) {
+    script("wall" + std::to_string(i)).before = [i](World& world) {
+      world.remove("wall" + std::to_string(i % 5 + 1));
+      if (i == 3) world.remove("wall3");
+    };
+  }
+  w.run(0.01);
+  EXPECT_FALSE(w.world.has("wall3"));
+}
+
+TEST_F(PluginCalls, EndWithTheirModel) {
+  w.spawn("wall", "wall1", 0, 0);
+  int calls = 0;
+  script("wall1").before = [&](World&) { ++calls; };
+  w.step();
+  w.world.remove("wall1");
+  w.run(0.01);
+  EXPECT_EQ(calls, 1);
+}
+
+}  // namespace
+}  // namespace kiva::test
