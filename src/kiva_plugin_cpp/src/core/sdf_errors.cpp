@@ -54,7 +54,9 @@ Printed sortPrinted(const std::string& printed) {
     if (!std::regex_search(line, match, kPrefix) || contains(line, "old deprecated")) continue;
     const std::string text = match.suffix();
     if (match[2] == "Warning") sorted.warnings.push_back(text);
-    if (match[2] == "Error") sorted.errors += (sorted.errors.empty() ? "" : "; ") + text;
+    if (match[2] == "Error" && !contains(sorted.errors, text)) {
+      sorted.errors += (sorted.errors.empty() ? "" : "; ") + text;
+    }
   }
   sorted.errors = shortened(sorted.errors);
   return sorted;
@@ -69,6 +71,7 @@ bool readXmlError(const std::string& printed, sdf::Error* error) {
   if (!std::regex_search(printed, match, kError)) return false;
   std::string cause = match[2];
   for (char& letter : cause) letter = letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
+  if (cause.compare(0, 7, "parsing") == 0) cause = "error while " + cause;
   if (match[5].matched) cause += " (" + match[5].str() + ")";
   *error = sdf::Error(ErrorCode::STRING_READ, "the XML is ill-formed: " + cause);
   error->SetLineNumber(std::stoi(match[3]));

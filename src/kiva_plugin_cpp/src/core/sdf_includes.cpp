@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/model_paths.h"
+#include "core/sdf_errors.h"
 #include "core/tag_scanner.h"
 
 namespace kiva {
@@ -159,11 +160,44 @@ class Splitter {
   int line_ = 1;          ///< Of `kept_`.
 };
 
+bool isFieldOfInclude(const Path& path) {
+  static const std::set<std::string_view> kFields = {"uri", "name", "static", "placement_frame"};
+  return path.size() > 1 && path[path.size() - 2] == "include" && kFields.count(path.back());
+}
+
+[[noreturn]] void failAtBlank(const std::string& xml, const TagScanner& scanner) {
+  const std::string name(scanner.name);
+  sdf::Error error(sdf::ErrorCode::ELEMENT_INVALID, "include: expected a text in <" + name + ">");
+  const auto end = xml.begin() + static_cast<std::ptrdiff_t>(scanner.begin);
+  error.SetLineNumber(1 + static_cast<int>(std::count(xml.begin(), end, '\n')));
+  throw SdfError(error);
+}
+
 }  // namespace
 
 SplitText takeIncludes(const std::string& xml) {
   if (auto split = Splitter(xml).split()) return std::move(*split);
   return {xml, {}, {}};
+}
+
+void checkIncludes(const std::string& xml) {
+  TagScanner scanner(xml);
+  Path path;
+  std::size_t text = 0;  // Where the innermost element's text begins.
+  while (scanner.next()) {
+    if (scanner.opens) {
+      path.push_back(scanner.name);
+      text = scanner.end;
+    }
+    if (!scanner.closes) continue;
+    const bool is_blank =
+        scanner.opens ||
+        (text <= scanner.begin &&
+         trimmed(std::string_view(xml).substr(text, scanner.begin - text)).empty());
+    if (is_blank && isFieldOfInclude(path)) failAtBlank(xml, scanner);
+    if (!path.empty()) path.pop_back();
+    text = xml.size();  // What follows belongs to an element that is not empty.
+  }
 }
 
 }  // namespace kiva

@@ -34,4 +34,7 @@ struct SplitText {
 /// other: libsdformat then does it, or says what is wrong.
 SplitText takeIncludes(const std::string& xml);
 
+/// Throws SdfError at an include whose uri, name or such is blank: libsdformat trips over it.
+void checkIncludes(const std::string& xml);
+
 }  // namespace kiva

@@ -2,6 +2,7 @@
 #include "core/sdf_parser.h"
 
 #include <filesystem>
+#include <sdf/Exception.hh>
 #include <sdf/ParserConfig.hh>
 #include <sdf/parser.hh>
 #include <set>
@@ -10,6 +11,7 @@
 #include "core/sdf_checks.h"
 #include "core/sdf_errors.h"
 #include "core/sdf_format.h"
+#include "core/sdf_includes.h"
 #include "core/tag_scanner.h"
 
 namespace kiva {
@@ -82,9 +84,7 @@ void collectFiles(const sdf::ElementPtr& element, std::set<std::string>* files) 
   }
 }
 
-}  // namespace
-
-SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
+SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
   ConsoleCapture console;
   std::string missing;
   const sdf::ParserConfig config = parserConfig(model_paths, &missing);
@@ -103,6 +103,26 @@ SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   throwErrors(load_errors, console.take(), &parsed.warnings);
   collectFiles(document->Root(), &parsed.files);
   return parsed;
+}
+
+[[noreturn]] void failAtFault(const std::string& what) {
+  throw SdfError(
+      sdf::Error(sdf::ErrorCode::STRING_READ, "libsdformat gave up on this text: " + what));
+}
+
+}  // namespace
+
+SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
+  checkIncludes(text);
+  try {
+    return parse(text, model_paths);
+  } catch (const SdfError&) {
+    throw;
+  } catch (const sdf::Exception& fault) {
+    failAtFault(fault.GetErrorStr());
+  } catch (const std::exception& fault) {
+    failAtFault(fault.what());
+  }
 }
 
 std::string modelFile(const std::string& folder) {

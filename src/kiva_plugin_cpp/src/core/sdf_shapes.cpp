@@ -146,7 +146,9 @@ void readMaterial(const sdf::ElementPtr& element, Visual* visual) {
     for (const int i : {0, 1, 2, 3}) visual->rgba[i] = std::clamp<double>(colour[i], 0, 1);
     break;
   }
-  visual->rgba[3] *= 1 - element->Get<double>("transparency", 0.0).first;
+  double transparency = 0;
+  readWithin(element, "transparency", 0, 1, &transparency);
+  visual->rgba[3] *= 1 - transparency;
 }
 
 }  // namespace kiva
