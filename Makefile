@@ -22,8 +22,10 @@ help:  ## list the targets
 run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
 
-demo: build  ## watch a robot fetch a storage unit
-	@$(DEVEL) rosrun warehouse_sim demo $(ARGS)
+demo: build  ## watch robots fetch storage units, meet head on and recover
+	@. devel/setup.bash; export ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
+	roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch rtf:=5 $(ARGS) >/dev/null & \
+	trap "kill $$!; wait" EXIT; rosrun warehouse_sim demo
 
 test: build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests

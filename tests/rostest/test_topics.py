@@ -135,9 +135,12 @@ class OneRobot(unittest.TestCase):
         tf2_ros.TransformListener(buffer)
 
         def frame(child):
-            patience = rospy.Duration(20)
-            found = buffer.lookup_transform("world", child, rospy.Time(), patience).transform
-            return found.translation.x, found.translation.y, found.translation.z
+            newest = (
+                rospy.Time()
+            )  # and no timeout of lookup_transform's: the reset makes it stumble
+            wait_until(lambda: buffer.can_transform("world", child, newest), child)
+            found = buffer.lookup_transform("world", child, newest).transform.translation
+            return found.x, found.y, found.z
 
         def assert_at(child, x, y, z):
             for number, wanted in zip(frame(child), (x, y, z)):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Poses of storage units and items follow their robots."""
 
+import math
 import unittest
 
 import rosgraph
@@ -58,6 +59,9 @@ class Tracking(unittest.TestCase):
         self.assertEqual([o.name for o in self.units.objects], ["storage_unit1", "storage_unit2"])
         self.assertEqual({o.storage_unit for o in self.items.objects[::2]}, {"storage_unit1"})
         self.assertEqual({o.carrier for o in self.items.objects}, {""})
+        for item in self.items.objects:
+            unit = named(self.units, item.storage_unit)
+            self.assertLess(math.dist(place(item.pose)[:2], place(unit.pose)[:2]), 0.4)
         for prefix, message in (("/storage_units", self.units), ("/items", self.items)):
             self.assertEqual(message.header.frame_id, "world")
             for tracked in message.objects:
