@@ -132,7 +132,7 @@ class OneRobot(unittest.TestCase):
 
     def test_frames(self):
         buffer = tf2_ros.Buffer()
-        tf2_ros.TransformListener(buffer)
+        self.addCleanup(tf2_ros.TransformListener(buffer).unregister)
 
         def frame(child):
             newest = (
