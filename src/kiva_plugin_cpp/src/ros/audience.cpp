@@ -14,7 +14,7 @@ std::vector<int> Audience::listenedRobots(RobotTopic topic) const {
 
 void Audience::count(Topic topic, int change) {
   counts_[static_cast<int>(topic)] += change;
-  noteArrival(change);
+  noteArrival(change, &arrived_[static_cast<int>(topic)]);
 }
 
 void Audience::count(RobotTopic topic, int kiva_id, int change) {
@@ -23,7 +23,7 @@ void Audience::count(RobotTopic topic, int kiva_id, int change) {
     listeners_[static_cast<int>(topic)][kiva_id] += change;
   }
   ++robots_revision_;
-  noteArrival(change);
+  noteArrival(change, &robots_arrived_[static_cast<int>(topic)]);
 }
 
 void Audience::forget(int kiva_id) {
@@ -34,9 +34,9 @@ void Audience::forget(int kiva_id) {
   ++robots_revision_;
 }
 
-void Audience::noteArrival(int change) {
+void Audience::noteArrival(int change, std::atomic<bool>* arrived) {
   if (change < 0) return;
-  arrived_ = true;
+  *arrived = true;
   if (on_arrival_) on_arrival_();
 }
 

@@ -23,8 +23,11 @@ class Audience {
 
   /// Called, in any thread, when a listener came.
   void onArrival(std::function<void()> call) { on_arrival_ = std::move(call); }
-  /// Whether a listener came since the last call.
-  bool takeArrival() { return arrived_.exchange(false); }
+  /// Whether a listener to that topic, of one robot or another, came since the last call.
+  bool takeArrival(Topic topic) { return arrived_[static_cast<int>(topic)].exchange(false); }
+  bool takeArrival(RobotTopic topic) {
+    return robots_arrived_[static_cast<int>(topic)].exchange(false);
+  }
 
   bool listensTo(Topic topic) const { return counts_[static_cast<int>(topic)] > 0; }
   /// Counts up whenever the ids that listenedRobots returns may have changed.
@@ -38,10 +41,10 @@ class Audience {
   void forget(int kiva_id);
 
  private:
-  void noteArrival(int change);
+  void noteArrival(int change, std::atomic<bool>* arrived);
 
   std::function<void()> on_arrival_;
-  std::atomic<bool> arrived_{false};
+  std::atomic<bool> arrived_[3] = {}, robots_arrived_[3] = {};
   std::atomic<int> counts_[3] = {};
   std::atomic<std::uint64_t> robots_revision_{0};
   mutable std::mutex mutex_;

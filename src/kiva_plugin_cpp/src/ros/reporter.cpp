@@ -73,22 +73,29 @@ void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
   Snapshot out;
   out.time = world.time();
   addNews(world, &out);
-  const bool at_rest = paused || world.steps() < last_steps_;  // or after a reset
+  updateListened();
   // Where time stands still or jumped, nobody should have to wait for a step to learn of it.
-  if (at_rest && world.steps() != told_steps_) {
+  const bool reset = world.steps() < last_steps_;
+  if ((paused || reset) && world.steps() != told_steps_) {
     out.clock_owed = true;
     told_steps_ = world.steps();
   }
-  if (moved && at_rest) addStatuses(world, &out);
-  const bool arrival = audience_.takeArrival();
-  if ((moved && at_rest) || (arrival && paused)) {
-    updateListened();
+  if (moved && (paused || reset)) {
+    addStatuses(world, &out);
     addFleet(world, &out);
-    addRobots(world, &out);
+    addOdometry(world, &out);
+    if (reset) addTransforms(world, &out);  // a second one of the same time would be ignored
   }
+  if (paused) addForNewcomers(world, &out);
   addPictures(world, &out);
   last_steps_ = world.steps();
   send(std::move(out));
+}
+
+void Reporter::addForNewcomers(const kiva::World& world, Snapshot* out) {
+  if (audience_.takeArrival(Audience::Topic::kFleet)) addFleet(world, out);
+  if (audience_.takeArrival(Audience::Topic::kTransforms)) addTransforms(world, out);
+  if (audience_.takeArrival(Audience::RobotTopic::kOdometry)) addOdometry(world, out);
 }
 
 void Reporter::send(Snapshot snapshot) {
@@ -150,7 +157,10 @@ void Reporter::addPeriodic(const kiva::World& world, Snapshot* out) {
   addClock(world, out);
   if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
   if (steps % fleet_every_ == 0) addFleet(world, out);
-  if (steps % robots_every_ == 0) addRobots(world, out);
+  if (steps % robots_every_ == 0) {
+    addOdometry(world, out);
+    addTransforms(world, out);
+  }
   if (steps % models_every_ == 0) addModelStates(world, out);
   if (!scan_ids_.empty()) addScans(world, out);
 }
@@ -168,13 +178,17 @@ void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
   if (audience_.listensTo(Audience::Topic::kFleet)) out->fleet = fleetState(world);
 }
 
-void Reporter::addRobots(const kiva::World& world, Snapshot* out) const {
-  const kiva::Fleet& fleet = world.fleet();
+void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
+  out->odometry.clear();
   for (int id : odometry_ids_) {
-    if (const int i = fleet.find(id); i >= 0) out->odometry.push_back(poseOf(world, i));
+    if (const int i = world.fleet().find(id); i >= 0) out->odometry.push_back(poseOf(world, i));
   }
+}
+
+void Reporter::addTransforms(const kiva::World& world, Snapshot* out) const {
   if (!audience_.listensTo(Audience::Topic::kTransforms)) return;
-  for (int i = 0; i < fleet.size(); ++i) out->transforms.push_back(poseOf(world, i));
+  out->transforms.clear();
+  for (int i = 0; i < world.fleet().size(); ++i) out->transforms.push_back(poseOf(world, i));
 }
 
 void Reporter::addScans(const kiva::World& world, Snapshot* out) const {

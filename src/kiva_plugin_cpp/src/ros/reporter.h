@@ -46,7 +46,9 @@ class Reporter {
   void addPeriodic(const kiva::World& world, Snapshot* out);
   void updateListened();
   void addFleet(const kiva::World& world, Snapshot* out) const;
-  void addRobots(const kiva::World& world, Snapshot* out) const;
+  void addOdometry(const kiva::World& world, Snapshot* out) const;
+  void addTransforms(const kiva::World& world, Snapshot* out) const;
+  void addForNewcomers(const kiva::World& world, Snapshot* out);
   void addScans(const kiva::World& world, Snapshot* out) const;
   void addModelStates(const kiva::World& world, Snapshot* out);
   void addPictures(const kiva::World& world, Snapshot* out);
