@@ -9,7 +9,7 @@ import pytest
 from fake_world import FakeWorld
 from visualization_msgs.msg import Marker, MarkerArray
 
-from warehouse_msgs.msg import FleetState, KivaStatus, UnitStates, WarehouseObjects
+from warehouse_msgs.msg import Event, FleetState, KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim import markers, poses
 from warehouse_sim.picture import Picture
 
@@ -70,6 +70,15 @@ def extent(marker):
     return points.min(0).tolist(), points.max(0).tolist()
 
 
+def colour(status):
+    return tuple(markers.STATUS_COLOURS[status][:3])
+
+
+def changed_colours(before, after):
+    pairs = zip(before.colors, after.colors)
+    return {(round(c.r, 2), round(c.g, 2), round(c.b, 2)) for b, c in pairs if b != c}
+
+
 @pytest.fixture
 def scene():
     return Scene()
@@ -103,14 +112,19 @@ def test_a_newcomer_gets_everything(scene):
 
 def test_status_has_its_colour(scene):
     idle = scene.shown()["robots"]
-    scene.drive(status=KivaStatus.STATUS_BLOCKED)
+    scene.drive(status=KivaStatus.STATUS_BUSY)
+    assert changed_colours(idle, scene.shown()["robots"]) == {colour(KivaStatus.STATUS_BUSY)}
+
+
+def test_who_was_blocked_shows_it_until_the_next_command(scene):
+    idle = scene.shown()["robots"]
+    scene.callbacks["/warehouse/events"](Event(kind=Event.BLOCKED, model="kiva2"))
+    scene.drive()
     blocked = scene.shown()["robots"]
-    changed = {
-        (round(c.r, 2), round(c.g, 2), round(c.b, 2))
-        for c, before in zip(blocked.colors, idle.colors)
-        if c != before
-    }
-    assert changed == {tuple(markers.STATUS_COLOURS[KivaStatus.STATUS_BLOCKED][:3])}
+    assert changed_colours(idle, blocked) == {colour(KivaStatus.STATUS_BLOCKED)}
+    scene.callbacks["/warehouse/events"](Event(kind=Event.ACCEPTED, model="kiva2"))
+    scene.drive()
+    assert changed_colours(blocked, scene.shown()["robots"]) == {colour(KivaStatus.STATUS_IDLE)}
 
 
 def test_a_turned_unit_is_drawn_turned():

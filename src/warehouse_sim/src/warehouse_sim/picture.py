@@ -6,7 +6,7 @@ import time
 import numpy as np
 from visualization_msgs.msg import MarkerArray
 
-from warehouse_msgs.msg import FleetState, UnitStates, WarehouseObjects
+from warehouse_msgs.msg import Event, FleetState, KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim import markers, poses, survey, tracking
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.newest import Newest, OnDemand
@@ -16,11 +16,12 @@ LOOK_EVERY = 1.0  # at what is neither robot, unit nor item [s, wall]
 MARGIN = 2.0  # of a floor of unknown size, around what stands on it [m]
 
 
-def fleet_shapes(fleet):
-    """Markers of a FleetState."""
+def fleet_shapes(fleet, blocked):
+    """Markers of a FleetState; `blocked` names the robots whose last command ended so."""
     at = np.column_stack([fleet.x, fleet.y, fleet.yaw]).reshape(-1, 3)
     # rospy reads uint8[] as bytes.
-    status = np.frombuffer(bytes(fleet.status), np.uint8)
+    status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
+    status[[f"kiva{number}" in blocked for number in fleet.kiva_id]] = KivaStatus.STATUS_BLOCKED
     return markers.robots(at, status, np.array(fleet.shelf_id, int) > 0)
 
 
@@ -67,6 +68,8 @@ class Picture:
     def __init__(self, ros):
         self._ros, self._shapes, self._news = ros, {}, []
         self._seen, self._next_look = None, 0.0
+        self._blocked = set()
+        ros.Subscriber("/warehouse/events", Event, self._note, queue_size=1000)
         self._newest = Newest(
             ros,
             fleet=("/warehouse/fleet", FleetState),
@@ -74,6 +77,13 @@ class Picture:
             states=("/warehouse/unit_states", UnitStates),
         )
         self._topic = OnDemand(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
+
+    def _note(self, event):
+        """The status BLOCKED itself lasts but a moment; it shows until the next command."""
+        if event.kind == Event.BLOCKED:
+            self._blocked.add(event.model)
+        elif event.kind == Event.ACCEPTED:
+            self._blocked.discard(event.model)
 
     def _all(self):
         return ShapeArray(list(self._shapes.values()))
@@ -85,7 +95,7 @@ class Picture:
         """Waits for news, at most `patience` wall seconds, and shows them."""
         self._newest.wait(patience)
         fleet, fit = self._newest["fleet"], self._newest.units_and_objects
-        shapes = fleet_shapes(fleet) if fleet else []
+        shapes = fleet_shapes(fleet, self._blocked) if fleet else []
         if fit:
             shapes += load_shapes(*fit) + self._look(fit[0].revision)
         self._news = [s for s in shapes if not s.same_as(self._shapes.get(s.name))]
