@@ -286,23 +286,6 @@ void postAnything(Warehouse& w, int robots, std::mt19937& random) {
   }
 }
 
-/// What is wrong with the order of a robot's events; empty if each ACCEPTED has its one end.
-std::string disorder(const std::vector<Kind>& kinds) {
-  bool busy = false;
-  for (Kind kind : kinds) {
-    if (kind == Kind::kAccepted) {
-      if (busy) return "a second ACCEPTED before the first one's end";
-      busy = true;
-    } else if (kind == Kind::kDone || kind == Kind::kBlocked) {
-      if (!busy) return "an end without an ACCEPTED";
-      busy = false;
-    } else if ((kind == Kind::kLifted || kind == Kind::kDropped) && !busy) {
-      return "LIFTED or DROPPED outside a command";
-    }
-  }
-  return busy ? "an ACCEPTED without an end" : "";
-}
-
 TEST(CommandsToAFleet, EveryAcceptedOneEndsInOneDoneOrBlocked) {
   constexpr int kRobots = 6;
   Warehouse w("hall.sdf");

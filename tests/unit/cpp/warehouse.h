@@ -135,6 +135,26 @@ inline ModelInstance instance(const std::string& text, const std::string& name,
   return model;
 }
 
+/// What is wrong with the order of a robot's events; empty if each ACCEPTED has its one end.
+inline std::string disorder(const std::vector<Event::Kind>& kinds) {
+  using Kind = Event::Kind;
+  bool busy = false;
+  for (Kind kind : kinds) {
+    if (kind == Kind::kAccepted) {
+      if (busy) return "a second ACCEPTED before the first one's end";
+      busy = true;
+    } else if (kind == Kind::kDone || kind == Kind::kBlocked) {
+      if (!busy) return "an end without an ACCEPTED";
+      busy = false;
+    } else if ((kind == Kind::kLifted || kind == Kind::kDropped) && !busy) {
+      return "LIFTED or DROPPED outside a command";
+    } else if (kind == Kind::kDeleted) {
+      busy = false;  // its command goes with a robot
+    }
+  }
+  return busy ? "an ACCEPTED without an end" : "";
+}
+
 struct Floorplan {
   double size = 100;      ///< Edge of the square floor around the origin [m].
   double spacing = 1;     ///< Of the grid [m].
