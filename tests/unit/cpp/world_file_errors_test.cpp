@@ -128,6 +128,7 @@ const std::map<std::string, std::string> kErrors = {
     {"sphere_radius", ":9:" + kGeometry + "/sphere/radius: expected lengths above 0 m, found -1"},
     {"static", ":6: world 'w', model 'm', static: Invalid boolean value; expected true or false"},
     {"step_size", ":5: world 'w', physics 'p': expected a max_step_size above 0 s"},
+    {"step_size_infinite", ":5: world 'w', physics 'p': expected a max_step_size above 0 s"},
     {"transparency",
      ":8:" + kLink + ", visual 'v', transparency: expected a number from 0 to 1, found nan"},
     {"two_models", ": Root object can only contain one model"},
