@@ -169,28 +169,23 @@ def test_long_work_tells_how_far_it_is(monkeypatch):
     assert len(told) > 3
 
 
-def test_a_world_that_does_not_answer():
+@pytest.mark.parametrize(
+    "method, error, words",
+    [
+        ("wait_for_service", "ROSException", "the world does not answer: too late"),
+        ("spawn_sdf_model", "ServiceException", "spawn_sdf_model: too late"),
+    ],
+)
+def test_a_world_that_does_not_answer(method, error, words):
     world = FakeWorld()
 
     def fail(*_):
-        raise world.ROSException("timeout exceeded")
+        raise getattr(world, error)("too late")
 
-    world.wait_for_service = fail
+    setattr(world, method, fail)
     answer = ask(world, "small")
     assert not answer.success
-    assert "does not answer: timeout exceeded" in answer.message
-
-
-def test_a_world_that_dies_midway():
-    world = FakeWorld()
-
-    def fail(*_):
-        raise world.ServiceException("connection closed")
-
-    world.spawn_sdf_model = fail
-    answer = ask(world, "small")
-    assert not answer.success
-    assert "spawn_sdf_model: connection closed" in answer.message
+    assert words in answer.message
 
 
 def test_engine_names_what_can_not_be_deleted():
