@@ -3,6 +3,7 @@
 """What the world publishes: rates, frames, latching."""
 
 import math
+import time
 import unittest
 
 import rospy
@@ -27,7 +28,7 @@ from warehouse_test import (
     world,
 )
 
-from gazebo_msgs.msg import ModelState, ModelStates
+from gazebo_msgs.msg import ModelState, ModelStates, PerformanceMetrics
 from gazebo_msgs.srv import SetModelState
 from warehouse_msgs.msg import (
     Event,
@@ -64,6 +65,16 @@ class Rates(unittest.TestCase):
     def test_clock(self):
         gap = self.usual_gap("/clock", Clock, lambda m: m.clock, 100)
         self.assertEqual(gap, 0.01)
+
+    def test_time_passes_as_fast_as_was_asked_for(self):
+        with Collector("/clock", Clock) as clocks:
+            begin = clocks.next(1)[0].clock.to_sec(), time.monotonic()
+            end = clocks.next(200)[-1].clock.to_sec(), time.monotonic()
+        self.assertAlmostEqual((end[0] - begin[0]) / (end[1] - begin[1]), 1.0, delta=0.15)
+
+    def test_the_pace_is_told(self):
+        with Collector("/gazebo/performance_metrics", PerformanceMetrics) as metrics:
+            metrics.first(lambda m: abs(m.real_time_factor - 1) < 0.15)
 
     def test_of_one_robot(self):
         def stamp(message):

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
 #include "outbox.h"
+#include "performance.h"
 #include "reporter.h"
 #include "settings.h"
 #include "simulation_services.h"
@@ -76,6 +78,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   Commands commands(root, engine);
   SimulationServices simulation_services(node, engine);
   StateServices state_services(root, node, engine);
+  Performance performance(node, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
 
   announce(world, settings, rtf);
@@ -94,6 +97,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // that a log file has each line at once
   ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, onSignal);
   ros::NodeHandle root, node("~");
