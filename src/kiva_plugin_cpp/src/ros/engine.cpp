@@ -92,10 +92,12 @@ void Engine::serve(const Requests& requests) {
 void Engine::advance() {
   const int due = pacer_.due(WallClock::now());
   int steps = 0;
-  for (; steps < due && !attention_; ++steps) {
+  // At least one, or a flood of requests would hold time up.
+  while (steps < due && (steps == 0 || !attention_)) {
     world_.step();
     pacer_.stepped();
     reporter_.afterStep(world_);
+    ++steps;
   }
   measure(steps);
 }
