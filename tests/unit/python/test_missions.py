@@ -81,6 +81,13 @@ def test_steps_go_from_cell_to_cell(chart):
             assert all(math.dist(*pair) == 1 for pair in itertools.pairwise(way))
 
 
+def test_parked_robots_leave_ahead():
+    layout = plan(resolve("small"))
+    for mission in two_missions(Map(survey_of(layout), layout.floor)):
+        x, y, yaw = layout.robots[mission.kiva - 1]
+        assert mission.to_unit[1] == point((x + math.cos(yaw), y + math.sin(yaw)))
+
+
 def test_drop_points_of_a_layout_are_found():
     layout = plan(resolve("medium"))
     assert list(_chart("medium").drops.values()) == [point(p) for p in layout.drops]

@@ -25,6 +25,11 @@ def test_few_turns():
     assert len(goals(route(Grid(FLOOR), (0, 0), (5, 4)))) == 1
 
 
+def test_the_first_turn_counts_where_the_heading_is_known():
+    ways = [route(Grid(FLOOR), (1, 1), (3, 3), heading) for heading in ((1, 0), (0, 1))]
+    assert [way[1] for way in ways] == [(2, 1), (1, 2)]
+
+
 def test_start_may_be_blocked():
     assert route(Grid(FLOOR, [(0, 0)]), (0, 0), (1, 0)) == [(0, 0), (1, 0)]
 

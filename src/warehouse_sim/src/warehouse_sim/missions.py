@@ -49,6 +49,7 @@ class Map:
 
     def __init__(self, survey, floor=None):
         self.robots = {number: point(pose) for number, pose in survey.kiva.items()}
+        self.headings = {number: _step(pose[2]) for number, pose in survey.kiva.items()}
         self.units = {number: point(pose) for number, pose in survey.storage_unit.items()}
         self.fixed = survey.obstacles()
         self.floor = floor or _bounds({*self.robots.values(), *self.units.values(), *self.fixed})
@@ -62,6 +63,10 @@ class Map:
         others = [p for number, p in self.robots.items() if number not in without]
         units = set(self.units.values()) - {loaded_from} if loaded_from else set()
         return Grid(self.floor, {*self.fixed, *others, *units, *also})
+
+
+def _step(yaw):
+    return round(math.cos(yaw)), round(math.sin(yaw))
 
 
 def _bounds(points):
@@ -124,11 +129,22 @@ def _mission(chart, kiva, unit, belt):
     """None where there is no way."""
     at, drop = chart.units[unit], chart.drops[belt]
     try:
-        to_unit = route(chart.grid([kiva]), chart.robots[kiva], at)
+        to_unit = _leave(chart.grid([kiva]), chart.robots[kiva], chart.headings[kiva], at)
         to_drop = route(chart.grid([kiva], loaded_from=at), at, drop)
     except NoRouteError:
         return None
     return Mission(kiva, unit, belt, to_unit, to_drop)
+
+
+def _leave(grid, start, heading, goal):
+    """A route that begins with a step ahead, if it can.
+
+    Two robots parked back to back clear each other by 6 mm where both turn at once.
+    """
+    ahead = (start[0] + heading[0], start[1] + heading[1])
+    if grid.free(ahead) and start != goal:
+        return [start] + route(grid, ahead, goal, heading)
+    return route(grid, start, goal)
 
 
 def meeting(grid, a, b):

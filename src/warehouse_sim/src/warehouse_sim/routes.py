@@ -64,14 +64,14 @@ def reachable(grid, starts, neighbours=None):
     return seen
 
 
-def route(grid, start, goal):
+def route(grid, start, goal, heading=None):
     """Grid points from start to goal, both included: short, with few turns.
 
-    Dijkstra (1959) over points and headings. The start may be blocked, for there the robot
-    stands. Raises NoRouteError.
+    `heading` is the step (dx, dy) the robot faces at the start. Dijkstra (1959) over points and
+    headings. The start may be blocked, for there the robot stands. Raises NoRouteError.
     """
     start, goal = point(start), point(goal)
-    queue, came_from = [(0.0, start, None, None)], {}
+    queue, came_from = [(0.0, start, heading, None)], {}
     while queue:
         cost, here, step, before = heapq.heappop(queue)
         if (here, step) in came_from:
