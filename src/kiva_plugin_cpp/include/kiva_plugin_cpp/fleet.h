@@ -97,7 +97,7 @@ struct Robot {
   LaserParameters laser;
   bool has_motion = false;
   bool has_rotation = false;
-  std::deque<Leg> legs;  ///< Those of the current command, the first under way.
+  std::deque<Leg> legs;     ///< Those of the current command, the first under way.
   int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
   bool leg_started = false;
   Profile profile;           ///< Of the current leg: [m] along the heading, [rad], or [m] of tower.
