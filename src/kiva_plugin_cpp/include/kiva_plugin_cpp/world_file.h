@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // SDF (1.x) to description, checked whole before anything is built from it.
+// Any thread may call; while one does, libsdformat's console and global configuration are its own.
 #pragma once
 
 #include <string>
