@@ -198,18 +198,21 @@ void letRest(Fleet& f, int robot) {
   f.awake[robot] = f.tower[robot] > 0 && f.unit[robot] < 0;  // an empty tower still comes down
 }
 
+bool isAwake(const Model& model) {
+  return std::any_of(model.bodies.links.begin(), model.bodies.links.end(),
+                     [](const LinkBody& link) { return link.body->isActive(); });
+}
+
 void pullBodies(Parts& parts) {
   for (int slot : parts.bodies) {
     Model& model = *parts.models[slot];
-    const bool awake = std::any_of(model.bodies.links.begin(), model.bodies.links.end(),
-                                   [](const LinkBody& l) { return l.body->isActive(); });
-    if (!awake) continue;
+    if (!isAwake(model)) continue;
     updateOutlines(parts, model);
     if (model.kind == ModelKind::kItem) ++parts.units_revision;
   }
   for (int slot : parts.engaged) {
     Model& model = *parts.models[slot];
-    if (model.kind != ModelKind::kStorageUnit || !model.disturbed) continue;
+    if (model.kind != ModelKind::kStorageUnit || !model.disturbed || !isAwake(model)) continue;
     updateOutlines(parts, model);
     ++parts.units_revision;
   }
