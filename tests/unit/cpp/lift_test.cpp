@@ -93,17 +93,17 @@ TEST_F(Lift, TheStatusNamesTheUnitFromContactToContact) {
 }
 
 TEST_F(Lift, CarriesAHundredMetresThroughTurnsWithoutShift) {
-  carry();
-  const Pose before = w.world.basePose(w.index(1)).Inverse() * w.unitPose(1);
-  double shift = 0;
-  const auto watch = [&] {
-    const Pose now = w.world.basePose(w.index(1)).Inverse() * w.unitPose(1);
-    shift = std::max(shift, (now.Pos() - before.Pos()).Length());
+  const auto corner = [&] {  // the farthest from the centre, as the robot sees it
+    const Pose unit = w.world.basePose(w.index(1)).Inverse() * w.unitPose(1);
+    return (unit * Pose(0.4, 0.4, 1.8, 0, 0, 0)).Pos();
   };
+  carry();
+  const Vector3 before = corner();
+  double shift = 0;
   for (int lap = 0; lap < 5; ++lap) {
     for (const auto& [x, y] : {std::pair{5, 0}, {5, 5}, {0, 5}, {0, 0}}) {
       w.mov(1, x, y);
-      w.runUntilIdle(1, 60, watch);
+      w.runUntilIdle(1, 60, [&] { shift = std::max(shift, (corner() - before).Length()); });
     }
   }
   EXPECT_LT(shift, kMillimetre);
@@ -133,6 +133,21 @@ TEST_F(Lift, AUnitALittleOffTheCentreIsCarriedAsItStands) {
   w.runUntilIdle(2);
   EXPECT_NEAR(w.unitPose(2).X(), 15.04, kMillimetre);
   EXPECT_NEAR(w.unitPose(2).Y(), -0.03, kMillimetre);
+}
+
+TEST_F(Lift, ARobotPushedALittleReturnsToItsGridPointBeforeItLifts) {
+  w.world.setState("kiva1", {Pose(-0.06, 0, 0, 0, 0, 0), {}});
+  carry();
+  w.expectAt(1, 0, 0);
+  EXPECT_NEAR(w.unitPose(1).X(), 0, kMillimetre);
+}
+
+TEST_F(Lift, ARobotPushedALittleReturnsToItsGridPointBeforeItDrops) {
+  carry();
+  w.world.setState("kiva1", {Pose(0.2, -0.1, 0, 0, 0, 0.1), {}});
+  drop();
+  expectOnFloor(0, 0);
+  EXPECT_NEAR(w.unitPose(1).Rot().Yaw(), 0, kHundredthDegree);
 }
 
 TEST_F(Lift, WithoutLiftingTimeTheUnitIsUpAtOnce) {
@@ -345,24 +360,59 @@ TEST_F(Lift, DeletingAUnitThatIsBeingLoweredEndsTheCommandInBlocked) {
   expectTowerComesDown();
 }
 
-TEST_F(Lift, ARobotCarriesOnWhileOtherUnitsAndRobotsGo) {
-  w.spawn("kiva", "kiva2", 5, 0);
-  w.spawn("storage_unit", "storage_unit2", 5, 0);
-  w.spawn("item", "item2", 5, 0, 0, 0.46);
-  w.carry(2, 2);
+/// While kiva1 and storage_unit1 are deleted, the last robot and the last unit take their places.
+class LiftOfTheLast : public Lift {
+ protected:
+  LiftOfTheLast() {
+    w.spawn("kiva", "kiva2", 5, 0);
+    w.spawn("storage_unit", "storage_unit2", 5, 0);
+    w.spawn("item", "item2", 5, 0, 0, 0.46);
+    w.carry(2, 2);
+  }
+
+  void deleteTheFirst() {
+    w.world.remove("storage_unit1");
+    w.world.remove("kiva1");
+  }
+  void expectCarriesAndDrops() {
+    w.runUntilIdle(2);
+    EXPECT_EQ(w.carrierOf(2), 2);
+    EXPECT_EQ(w.loadOf(2), 2);
+    w.movx(2, 2);
+    w.runUntilIdle(2);
+    EXPECT_NEAR(w.unitPose(2).X(), 7, kMillimetre);
+    EXPECT_NEAR(w.itemPose("item2").X(), 7, kMillimetre);
+    w.drop(2, 2);
+    w.runUntilIdle(2);
+    EXPECT_EQ(w.count(Kind::kDone, "kiva2"), 3);
+    EXPECT_EQ(w.unitPose(2).Z(), 0);
+    EXPECT_EQ(w.robot(2).load_mass, 0);
+  }
+};
+
+TEST_F(LiftOfTheLast, GoesOnWhenTheFirstAreDeletedBeforeItMeetsTheUnit) {
   w.run(0.5);
-  w.world.remove("storage_unit1");  // the last unit and the last robot take their places
-  w.world.remove("kiva1");
+  ASSERT_EQ(w.loadOf(2), 0);
+  deleteTheFirst();
+  w.spawnText(kivaText({{"proximity", "2"}}), "kiva3", 6, 0);
+  w.carry(3, 2);
+  EXPECT_PRED2(contains, w.refusal(), "storage_unit2 is carried by kiva2");
+  w.world.remove("kiva3");
+  expectCarriesAndDrops();
+}
+
+TEST_F(LiftOfTheLast, GoesOnWhenTheFirstAreDeletedWhileItRises) {
+  w.run(1.5);
+  ASSERT_EQ(w.loadOf(2), 2);
+  deleteTheFirst();
+  expectCarriesAndDrops();
+}
+
+TEST_F(LiftOfTheLast, GoesOnWhenTheFirstAreDeletedAfterwards) {
   w.runUntilIdle(2);
-  EXPECT_EQ(w.carrierOf(2), 2);
-  w.movx(2, 2);
-  w.runUntilIdle(2);
-  EXPECT_NEAR(w.unitPose(2).X(), 7, kMillimetre);
-  EXPECT_NEAR(w.itemPose("item2").X(), 7, kMillimetre);
-  w.drop(2, 2);
-  w.runUntilIdle(2);
-  EXPECT_EQ(w.unitPose(2).Z(), 0);
-  EXPECT_EQ(w.robot(2).load_mass, 0);
+  deleteTheFirst();
+  w.step();
+  expectCarriesAndDrops();
 }
 
 // --- a hand comes in between

@@ -77,6 +77,31 @@ INSTANTIATE_TEST_SUITE_P(Loads, MoveOfAnyLength,
                                   number(info.param.load);
                          });
 
+TEST(Motion, IsAsExactWithOtherStepSizes) {
+  for (double step : {0.0005, 0.002, 0.005, 0.01}) {
+    Floorplan plan;
+    plan.step = step;
+    Warehouse w(plan);
+    w.spawn("kiva", "kiva1", 0, 0);
+    for (const auto& [x, y] : {std::pair{7, 3}, {-2, 4}, {0, 0}}) {
+      w.mov(1, x, y);
+      w.runUntilIdle(1);
+      w.expectAt(1, x, y);
+      w.expectOnGrid(1);
+    }
+    EXPECT_EQ(w.count(Event::Kind::kDone), 3) << step;
+  }
+}
+
+TEST(Motion, WheelsThatSlipALittleArriveAllTheSame) {
+  Warehouse w;  // the floor holds 5 m/s² and not 20
+  w.spawnText(kivaText({{"acceleration", "20"}}), "kiva1", 0, 0);
+  w.movx(1, 10);
+  w.runUntilIdle(1);
+  w.expectAt(1, 10, 0);
+  EXPECT_EQ(w.count(Event::Kind::kDone), 1);
+}
+
 TEST(Motion, AMoveByNothingIsDoneAtOnce) {
   Warehouse w;
   w.spawn("kiva", "kiva1", 3, -2);
