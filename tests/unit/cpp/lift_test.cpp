@@ -12,7 +12,7 @@ using Kind = Event::Kind;
 /// A robot at the origin, beneath a storage unit.
 class Lift : public ::testing::Test {
  protected:
-  void SetUp() override {
+  Lift() {
     w.spawn("kiva", "kiva1", 0, 0);
     w.spawn("storage_unit", "storage_unit1", 0, 0);
     w.forget();
