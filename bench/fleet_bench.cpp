@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -96,29 +97,31 @@ std::string floorAndWalls(double size) {
 /// One robot's square: along its heading, then a quarter turn, four times.
 class Squares {
  public:
-  explicit Squares(int robots) : phase_(robots, 0) {}
+  explicit Squares(int robots) : phase_(robots + 1, 0) {}
 
-  /// Gives every idle robot its next command.
+  /// Gives every robot that has become idle its next command.
   void command(kiva::World& world) {
-    const kiva::Fleet& fleet = world.fleet();
-    for (int i = 0; i < fleet.size(); ++i) {
-      if (fleet.status[i] != kiva::Status::kIdle) continue;
-      kiva::Command next;
-      next.kiva_id = fleet.robots[i].id;
-      const int phase = phase_[i]++ % 8, side = phase / 2;
-      if (phase % 2) {
-        next.kind = kiva::Command::Kind::kRotate;
-        next.direction = 1;
-      } else {
-        next.kind = side % 2 ? kiva::Command::Kind::kMoveY : kiva::Command::Kind::kMoveX;
-        (side % 2 ? next.y : next.x) = side < 2 ? 1 : -1;
-      }
-      world.post(next);
+    for (const kiva::StatusChange& change : world.takeStatusChanges()) {
+      if (change.status == kiva::Status::kIdle) world.post(next(change.kiva_id));
     }
   }
 
  private:
-  std::vector<int> phase_;
+  kiva::Command next(int kiva_id) {
+    kiva::Command next;
+    next.kiva_id = kiva_id;
+    const int phase = phase_[kiva_id]++ % 8, side = phase / 2;
+    if (phase % 2) {
+      next.kind = kiva::Command::Kind::kRotate;
+      next.direction = 1;
+    } else {
+      next.kind = side % 2 ? kiva::Command::Kind::kMoveY : kiva::Command::Kind::kMoveX;
+      (side % 2 ? next.y : next.x) = side < 2 ? 1 : -1;
+    }
+    return next;
+  }
+
+  std::vector<int> phase_;  // by id
 };
 
 double meanSpeed(const kiva::Fleet& fleet) {
@@ -129,9 +132,14 @@ double meanSpeed(const kiva::Fleet& fleet) {
 
 /// Lasers are read by somebody: every scan that is due is taken.
 void readLasers(const kiva::World& world, std::vector<float>* ranges) {
-  for (int i = 0; i < world.fleet().size(); ++i) {
-    if (world.scanDue(i)) world.scan(i, ranges);
-  }
+  for (int i : world.scansDue()) world.scan(i, ranges);
+}
+
+/// Of this process [s].
+double cpuTime() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 void run(const Options& options, int robots) {
@@ -148,26 +156,28 @@ void run(const Options& options, int robots) {
   Squares squares(robots);
   std::vector<float> ranges;
   std::vector<double> factors;
-  double speed = 0;
+  double speed = 0, cpu = 0;
+  constexpr int kSample = 10;  // steps between two looks at the speed
   const long steps = std::lround(options.seconds / world.stepSize());
   for (int chunk = 0; chunk < kChunks; ++chunk) {
     const auto begin = std::chrono::steady_clock::now();
+    cpu -= cpuTime();
     for (long s = 0; s < steps; ++s) {
       squares.command(world);
       world.step();
       if (options.lasers) readLasers(world, &ranges);
-      speed += meanSpeed(world.fleet()) / static_cast<double>(steps * kChunks);
+      if (s % kSample == 0) speed += kSample * meanSpeed(world.fleet()) / (steps * kChunks);
     }
     world.takeEvents();
-    world.takeStatusChanges();
+    cpu += cpuTime();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     factors.push_back(options.seconds / took.count());
   }
   std::sort(factors.begin(), factors.end());
-  const double factor = factors[kChunks / 2];
-  std::printf("%-9s %7d robots  lasers %-3s  RTF %8.2f  %.3f us a robot and step  mean %.2f m/s\n",
-              options.drive.c_str(), robots, options.lasers ? "on" : "off", factor,
-              1e6 * world.stepSize() / factor / robots, speed);
+  const double each = 1e6 * cpu / (static_cast<double>(steps) * kChunks * robots);
+  std::printf("%-9s %7d robots  lasers %-3s  RTF %8.2f  CPU %.4f us a robot and step  %.2f m/s\n",
+              options.drive.c_str(), robots, options.lasers ? "on" : "off", factors[kChunks / 2],
+              each, speed);
 }
 
 }  // namespace

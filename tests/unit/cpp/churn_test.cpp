@@ -40,9 +40,11 @@ void checkRobots(const World::Parts& parts) {
     ASSERT_EQ(parts.models.at(r.model)->name, r.name);
     ASSERT_EQ(parts.models[r.model]->index, i);
     ASSERT_EQ(parts.models[r.model]->in_physics, f.engaged[i] != 0);
-    for (const Outline& o : parts.models[r.model]->outlines) {
-      ASSERT_EQ(parts.obstacles[o.handle].group, i);
-      ASSERT_EQ(parts.obstacles[o.handle].model, r.model);
+    ASSERT_FALSE(parts.obstacles.footprints(i).empty());
+    for (const Footprint& footprint : parts.obstacles.footprints(i)) {
+      ASSERT_EQ(footprint.group, i);
+      const bool own = footprint.model == r.model;
+      ASSERT_TRUE(own || (f.unit[i] >= 0 && footprint.model == parts.units[f.unit[i]].model));
     }
     for (const Leg& leg : r.legs) ASSERT_LT(leg.unit, static_cast<int>(parts.units.size()));
     ASSERT_EQ(r.legs.empty(), f.status[i] == Status::kIdle) << r.name;
@@ -72,7 +74,7 @@ void checkUnits(const World::Parts& parts) {
     ASSERT_NEAR(unit.mass, masses[u], 1e-9) << unit.name;
     ASSERT_TRUE(unit.carrier < 0 || parts.fleet.unit.at(unit.carrier) == static_cast<int>(u));
     for (const Outline& o : parts.models[unit.model]->outlines) {
-      ASSERT_EQ(parts.obstacles[o.handle].group, unit.carrier) << unit.name;
+      ASSERT_EQ(o.handle < 0, unit.carrier >= 0) << unit.name;
     }
     if (unit.claimed_by < 0) continue;
     const auto& legs = parts.fleet.robots.at(unit.claimed_by).legs;

@@ -100,14 +100,12 @@ struct Robot {
   std::deque<Leg> legs;     ///< Those of the current command, the first under way.
   int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
   bool leg_started = false;
-  Profile profile;           ///< Of the current leg: [m] along the heading, [rad], or [m] of tower.
-  double goal = 0;           ///< Where the profile is to end.
-  double deceleration = 1;   ///< With which it is to end.
   double overdue = 0;        ///< Since the profile ended without the robot being there [s].
   bool look_now = false;     ///< A leg begins: look ahead before it drives off.
   double seen_distance = 0;  ///< What the laser saw last on this leg [m], 0 = nothing yet,
   double seen_from = 0;      ///< from where on the leg [m],
   int seen_model = -1;       ///< and what it was.
+  int ray_fan = -1;          ///< Index of its laser's directions among the world's.
   bool stopping = false;     ///< The command is ending in BLOCKED, as soon as the robot stands.
   bool halting = false;      ///< The same, with locked wheels.
   std::string blocked_by;    ///< A model's name, or empty.
@@ -128,7 +126,25 @@ struct Fleet {
   std::vector<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
   std::vector<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
   std::vector<std::uint64_t> look_again;  ///< Step at which something could have come near.
+
+  // The reference of the current leg: [m] along the heading, [rad], or [m] of tower.
+  std::vector<double> reference, reference_speed;
+  std::vector<double> goal;          ///< Where it is to end.
+  std::vector<double> deceleration;  ///< With which it is to end.
+
+  // Of robots that follow their references exactly, see src/core/cruise.h.
+  std::vector<std::int64_t> cruising;             ///< -1 = is one, 0 = is none: a mask.
+  std::vector<double> per_x, per_y, per_yaw;      ///< What a unit of reference moves the chassis.
+  std::vector<double> per_wheel[2];               ///< And its wheels.
+  std::vector<double> top_speed, acceleration;    ///< Of the reference.
+  std::vector<double> cruise_until;               ///< Step to which nothing can come near.
   std::vector<Robot> robots;
+
+  Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
+  void setProfile(int i, const Profile& profile) {
+    reference[i] = profile.position;
+    reference_speed[i] = profile.speed;
+  }
 
   int size() const { return static_cast<int>(robots.size()); }
   /// Index of the robot with that id, -1 if there is none.

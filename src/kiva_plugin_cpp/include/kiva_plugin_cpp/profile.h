@@ -23,16 +23,15 @@ struct Profile {
                double dt) {
     const double distance = std::abs(target - position);
     const double sign = target < position ? -1 : 1;
-    double next = top_speed;
-    if (acceleration > 0) {
-      next = std::min(next, sign * speed + acceleration * dt);
-      next = std::min(next, std::max(stoppingSpeed(distance, deceleration, dt),
-                                     sign * speed - deceleration * dt));
-    }
-    next = std::clamp(next, 0.0, distance / dt);
+    const double slowest = sign * speed - deceleration * dt;
+    const double stopping = stoppingSpeed(distance, deceleration, dt);
+    const double faster = std::min(top_speed, sign * speed + acceleration * dt);
+    const double ramped = std::min(faster, std::max(stopping, slowest));
+    const double wanted = acceleration > 0 ? ramped : top_speed;
+    const double next = std::min(std::max(wanted, 0.0), distance / dt);
+    const double moved = position + sign * next * dt;
     speed = sign * next;
-    position += speed * dt;
-    if (distance <= std::max(next * dt, kThere)) position = target;
+    position = distance <= std::max(next * dt, kThere) ? target : moved;
   }
 
   bool reached(double target) const { return position == target; }

@@ -74,6 +74,8 @@ struct StatusChange {
 struct WorldOptions {
   std::uint64_t seed = 1;      ///< Of everything random.
   std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
+  /// Every robot is a Bullet body at all times, slowly: the reference that the arrays are held to.
+  bool always_in_bullet = false;
 };
 
 class World {
@@ -142,8 +144,9 @@ class World {
   // --- sensing
   /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117).
   void scan(int robot, std::vector<float>* ranges) const;
-  /// Whether robot's scan is due at this step; scans are staggered over the fleet.
-  bool scanDue(int robot) const;
+  /// Robots whose scan is due at this step, in the fleet's order; scans are staggered over the
+  /// fleet. Valid until the next step or until a robot is removed.
+  const std::vector<int>& scansDue() const;
   /// Distance [m] from a point in world, level, in the direction `yaw`, to the first body that
   /// stands on the floor; +inf = none within `range`.
   double rayCast(const Vector3& from, double yaw, double range) const;

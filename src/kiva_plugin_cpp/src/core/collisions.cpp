@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "models.h"
 
 namespace kiva {
 namespace {
@@ -33,15 +34,14 @@ bool isCollision(const Parts& parts, const Contact& contact) {
 }
 
 bool areApart(const Parts& parts, const TouchingPair& pair) {
-  for (const Outline& a : parts.models[pair.model_a]->outlines) {
-    for (const Outline& b : parts.models[pair.model_b]->outlines) {
-      const Footprint& fa = parts.obstacles[a.handle];
-      const Footprint& fb = parts.obstacles[b.handle];
-      const bool level = fa.z_min <= fb.z_max && fb.z_min <= fa.z_max;
-      if (level && gap(fa, fb) < kApart) return false;
-    }
-  }
-  return true;
+  bool apart = true;
+  forFootprints(parts, pair.model_a, [&](const Footprint& a) {
+    forFootprints(parts, pair.model_b, [&](const Footprint& b) {
+      const bool level = a.z_min <= b.z_max && b.z_min <= a.z_max;
+      if (level && gap(a, b) < kApart) apart = false;
+    });
+  });
+  return apart;
 }
 
 void halt(Parts& parts, const Model& model, const Model& other) {

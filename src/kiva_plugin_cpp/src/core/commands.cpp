@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "cruise.h"
 #include "load.h"
 #include "sensing.h"
 
@@ -405,6 +406,7 @@ void haltRobot(Parts& parts, int robot, const std::string& by, const std::string
   const Leg::Kind kind = r.legs.front().kind;
   if (kind != Leg::Kind::kTurn && kind != Leg::Kind::kDrive) return;  // it stands, and goes on
   markBlocked(parts, robot, by, reason);
+  stopCruise(parts.fleet, robot);
   r.halting = true;
 }
 
@@ -415,6 +417,7 @@ void clearCommand(Parts& parts, int robot) {
       parts.units[leg.unit].claimed_by = -1;
     }
   }
+  stopCruise(parts.fleet, robot);
   r.legs.clear();
   r.leg_started = r.stopping = r.halting = false;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "commands.h"
+#include "cruise.h"
 #include "jointed.h"
 #include "load.h"
 #include "models.h"
@@ -51,17 +52,6 @@ ModelBodies buildUnit(const Parts& parts, const Model& model) {
   return bodies;
 }
 
-/// The robot's footprints, its load's among them.
-template <typename Visit>
-void forOwnFootprints(const Parts& parts, int robot, Visit visit) {
-  for (const Outline& o : parts.modelOf(robot).outlines) visit(parts.obstacles[o.handle]);
-  const int unit = parts.fleet.unit[robot];
-  if (unit < 0) return;
-  for (const Outline& o : parts.models[parts.units[unit].model]->outlines) {
-    visit(parts.obstacles[o.handle]);
-  }
-}
-
 void engageOther(Parts& parts, int slot) {
   Model& other = *parts.models[slot];
   if (!canEngage(other)) return;
@@ -92,9 +82,9 @@ void lookAround(Parts& parts, int robot) {
   const double near = kNear + closing * parts.dt;
   double least = kReach;
   std::vector<int> close;
-  forOwnFootprints(parts, robot, [&](const Footprint& own) {
+  for (const Footprint& own : parts.obstacles.footprints(robot)) {
     least = std::min(least, inspect(parts, own, near, &close));
-  });
+  }
   if (!close.empty()) engage(parts, parts.modelOf(robot));
   for (int slot : close) engageOther(parts, slot);
   const double free_steps = (least - near) / (closing * parts.dt);
@@ -166,28 +156,14 @@ void pullPlanar(Parts& parts, int robot) {
   }
 }
 
-/// A robot's one box moves in the plane: written directly, since this is done at every step.
-void moveChassisOutline(Parts& parts, int robot) {
-  const Fleet& f = parts.fleet;
-  const Outline& outline = parts.modelOf(robot).outlines.front();
-  Footprint footprint = parts.obstacles[outline.handle];
-  footprint.c = std::cos(f.yaw[robot]);
-  footprint.s = std::sin(f.yaw[robot]);
-  const double x = outline.pose_in_link.X(), y = outline.pose_in_link.Y();
-  footprint.x = f.x[robot] + footprint.c * x - footprint.s * y;
-  footprint.y = f.y[robot] + footprint.s * x + footprint.c * y;
-  parts.obstacles.update(outline.handle, footprint);
-}
-
 void moveRobotOutlines(Parts& parts, int robot) {
   const Fleet& f = parts.fleet;
+  const bool loaded = f.unit[robot] >= 0;
   const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
-  if (still && f.state[robot] != State::kLifting) return;
-  moveChassisOutline(parts, robot);
-  const int unit = f.unit[robot];
-  if (unit < 0) return;
-  updateOutlines(parts, *parts.models[parts.units[unit].model]);
-  ++parts.units_revision;
+  if (!still) parts.obstacles.follow(robot);
+  const bool lifts = loaded && f.state[robot] == State::kLifting;
+  if (lifts) updateOutlines(parts, parts.modelOf(robot));
+  if (loaded && (lifts || !still)) ++parts.units_revision;
 }
 
 /// A robot that stands without a command is left alone until it gets one, or is hit.
@@ -215,6 +191,14 @@ void pullBodies(Parts& parts) {
     if (model.kind != ModelKind::kStorageUnit || !model.disturbed || !isAwake(model)) continue;
     updateOutlines(parts, model);
     ++parts.units_revision;
+  }
+}
+
+void findActive(Parts& parts) {
+  const Fleet& f = parts.fleet;
+  parts.active.clear();
+  for (int i = 0; i < f.size(); ++i) {
+    if (f.awake[i] && f.cruising[i] == 0) parts.active.push_back(i);
   }
 }
 
@@ -256,6 +240,7 @@ void engage(Parts& parts, Model& model) {
   if (model.in_physics) return;
   const int slot = parts.slot_of_name.at(model.name);
   if (model.kind == ModelKind::kRobot) {
+    stopCruise(parts.fleet, model.index);
     model.bodies = buildRobot(parts, model.index);
     parts.fleet.engaged[model.index] = 1;
     parts.fleet.awake[model.index] = 1;
@@ -288,10 +273,12 @@ void rebuildBody(Parts& parts, int robot) {
 
 void updateEngagement(Parts& parts) {
   const Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (f.awake[i] && f.look_again[i] <= parts.total_steps && isMoving(parts, i)) {
-      lookAround(parts, i);
-    }
+  if (parts.options.always_in_bullet) {
+    for (int i = 0; i < f.size(); ++i) engage(parts, parts.modelOf(i));
+  }
+  findActive(parts);
+  for (int i : parts.active) {
+    if (f.look_again[i] <= parts.total_steps && isMoving(parts, i)) lookAround(parts, i);
   }
   for (int slot : parts.bodies) lookAroundBody(parts, *parts.models[slot]);
   const std::vector<int> engaged = parts.engaged;  // it grows meanwhile
@@ -300,12 +287,13 @@ void updateEngagement(Parts& parts) {
     if (model.kind == ModelKind::kStorageUnit && model.disturbed) lookAroundBody(parts, model);
   }
   releaseIdle(parts);
+  findActive(parts);  // who was engaged has woken
 }
 
 void drive(Parts& parts) {
   Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (!f.awake[i]) continue;
+  for (int i : parts.active) {
+    if (f.cruising[i] != 0) continue;  // since this step
     if (isJointed(f.robots[i])) {
       driveJointed(parts, i);
       continue;
@@ -320,8 +308,8 @@ void drive(Parts& parts) {
 
 void settle(Parts& parts) {
   Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (!f.awake[i]) continue;
+  for (int i : parts.active) {
+    if (f.cruising[i] != 0) continue;
     if (isJointed(f.robots[i])) {
       readJointed(parts, i);
     } else if (f.engaged[i]) {
@@ -332,6 +320,7 @@ void settle(Parts& parts) {
     moveRobotOutlines(parts, i);
     letRest(f, i);
   }
+  cruise(parts);
   pullBodies(parts);
 }
 

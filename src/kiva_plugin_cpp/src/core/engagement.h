@@ -9,7 +9,8 @@
 
 namespace kiva {
 
-/// Finds who is near whom, and lets models enter or leave Bullet.
+/// Finds who is near whom, lets models enter or leave Bullet, and fills Parts::active: the robots
+/// that are awake and do not cruise, in the fleet's order.
 void updateEngagement(Parts& parts);
 /// Puts a robot or storage unit into Bullet for the next while.
 void engage(Parts& parts, Model& model);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cruise.h"
 #include "engagement.h"
 #include "footprint.h"
 #include "models.h"
@@ -135,6 +136,8 @@ void unload(Parts& parts, int robot) {
   f.unit[robot] = -1;
   r.load_mass = r.load_inertia = r.load_half_length = r.load_half_width = 0;
   f.awake[robot] = 1;  // its tower may have to come down
+  stopCruise(f, robot);
+  updateOutlines(parts, parts.modelOf(robot));
   rebuildBody(parts, robot);
   parts.setStatus(robot, f.status[robot], f.state[robot]);
 }
@@ -164,6 +167,7 @@ void addMass(Parts& parts, int unit, double mass) {
   const int carrier = parts.units[unit].carrier;
   if (carrier < 0) return;
   loadRobot(parts, carrier, unit);
+  stopCruise(parts.fleet, carrier);
   rebuildBody(parts, carrier);
 }
 

@@ -221,10 +221,15 @@ void loadPlugins(Parts& parts, int slot) {
   if (!model.plugins.empty()) parts.models_with_plugins.push_back(slot);
 }
 
-void dropOutlines(Parts& parts, Model& model) {
+void hideOutlines(Parts& parts, Model& model) {
   for (Outline& outline : model.outlines) {
     if (outline.handle >= 0) parts.obstacles.remove(outline.handle);
+    outline.handle = -1;
   }
+}
+
+void dropOutlines(Parts& parts, Model& model) {
+  hideOutlines(parts, model);
   model.outlines.clear();
 }
 
@@ -290,6 +295,12 @@ void dropByKind(Parts& parts, int slot) {
 
 void eraseFrom(std::vector<int>& slots, int slot) {
   slots.erase(std::remove(slots.begin(), slots.end(), slot), slots.end());
+}
+
+/// Something has come or was moved: all robots look around again before they go on.
+void alarm(Parts& parts) {
+  std::fill(parts.fleet.look_again.begin(), parts.fleet.look_again.end(), 0);
+  std::fill(parts.fleet.cruise_until.begin(), parts.fleet.cruise_until.end(), 0);
 }
 
 /// A body that sleeps on something falls once that is gone.
@@ -410,6 +421,7 @@ void spawnModel(Parts& parts, const ModelInstance& instance) {
   }
   const Model& model = *parts.models[slot];
   if (model.kind == ModelKind::kRobot) parts.setStatus(model.index, Status::kIdle, State::kIdle);
+  alarm(parts);
   ++parts.models_revision;
   parts.report(Event::Kind::kSpawned, instance.name, "", "");
 }
@@ -439,6 +451,7 @@ void placeModel(Parts& parts, int slot, const EntityState& state) {
   if (model.isStatic()) model.pose = state.pose;
   if (model.kind == ModelKind::kFloor) measureFloor(parts);
   updateOutlines(parts, model);
+  alarm(parts);
   wakeBodies(parts);
 }
 
@@ -512,23 +525,58 @@ std::vector<int> slotsInOrder(const Parts& parts) {
   return slots;
 }
 
-void updateOutlines(Parts& parts, Model& model) {
+namespace {
+
+/// The footprints of one model, of `group`, in world or in the frame whose inverse is given.
+void appendFootprints(const Parts& parts, const Model& model, const Pose& to_frame, int group,
+                      std::vector<Footprint>* out) {
   const int slot = parts.slot_of_name.at(model.name);
-  int group = model.kind == ModelKind::kRobot ? model.index : -1;
-  if (model.kind == ModelKind::kStorageUnit) group = parts.units[model.index].carrier;
-  for (Outline& outline : model.outlines) {
+  for (const Outline& outline : model.outlines) {
     const Pose link =
         outline.link < 0 ? basePose(parts, model.index) : linkPose(parts, model, outline.link);
-    Footprint footprint = makeFootprint(outline.shape, link * outline.pose_in_link);
+    Footprint footprint = makeFootprint(outline.shape, to_frame * link * outline.pose_in_link);
     footprint.model = slot;
     footprint.group = group;
     if (footprint.kind == Footprint::Kind::kOther && model.in_physics) {
       footprint.body = model.bodies.links[std::max(0, outline.link)].body.get();
     }
-    if (outline.handle < 0) {
-      outline.handle = parts.obstacles.add(footprint);
+    out->push_back(footprint);
+  }
+}
+
+/// A robot and its load move as one.
+void updateMover(Parts& parts, int robot) {
+  const Pose to_robot = basePose(parts, robot).Inverse();
+  std::vector<Footprint> local;
+  appendFootprints(parts, parts.modelOf(robot), to_robot, robot, &local);
+  const int unit = parts.fleet.unit[robot];
+  if (unit >= 0) {
+    appendFootprints(parts, *parts.models[parts.units[unit].model], to_robot, robot, &local);
+  }
+  parts.obstacles.setMover(robot, std::move(local));
+}
+
+}  // namespace
+
+int moverOf(const Parts& parts, const Model& model) {
+  if (model.kind == ModelKind::kRobot) return model.index;
+  return model.kind == ModelKind::kStorageUnit ? parts.units[model.index].carrier : -1;
+}
+
+void updateOutlines(Parts& parts, Model& model) {
+  const int mover = moverOf(parts, model);
+  if (mover >= 0) {
+    if (model.kind != ModelKind::kRobot) hideOutlines(parts, model);
+    return updateMover(parts, mover);
+  }
+  std::vector<Footprint> footprints;
+  appendFootprints(parts, model, Pose::Zero, -1, &footprints);
+  for (std::size_t k = 0; k < footprints.size(); ++k) {
+    int& handle = model.outlines[k].handle;
+    if (handle < 0) {
+      handle = parts.obstacles.add(footprints[k]);
     } else {
-      parts.obstacles.update(outline.handle, footprint);
+      parts.obstacles.update(handle, footprints[k]);
     }
   }
 }

@@ -20,6 +20,20 @@ std::vector<int> slotsInOrder(const Parts& parts);
 
 /// Writes the footprints of a model anew, from where its links are now.
 void updateOutlines(Parts& parts, Model& model);
+/// The robot that the model is or is carried by, -1 = none.
+int moverOf(const Parts& parts, const Model& model);
+/// Calls visit(footprint) for each of the model's footprints in world.
+template <typename Visit>
+void forFootprints(const Parts& parts, int slot, Visit visit) {
+  const int mover = moverOf(parts, *parts.models[slot]);
+  if (mover < 0) {
+    for (const Outline& o : parts.models[slot]->outlines) visit(parts.obstacles[o.handle]);
+    return;
+  }
+  for (const Footprint& footprint : parts.obstacles.footprints(mover)) {
+    if (footprint.model == slot) visit(footprint);
+  }
+}
 /// Links' poses without bodies: those of a standing model at `pose`.
 Pose linkPose(const Parts& parts, const Model& model, int link);
 

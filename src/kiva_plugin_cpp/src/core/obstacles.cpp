@@ -81,6 +81,8 @@ double castOne(const Footprint& f, double x, double y, double z, double dx, doub
       return castCircle(f, std::sqrt(std::max(0.0, f.hx * f.hx - up * up)), x, y, dx, dy);
     }
     case Footprint::Kind::kOther:
+      // What has no body now, as a unit that nobody is near, is seen as its circle.
+      if (!f.body) return castCircle(f, f.hx, x, y, dx, dy);
       return castBody(*f.body, {x, y, z}, {dx, dy, 0}, range);
   }
   return kInfinity;
@@ -106,24 +108,82 @@ int Obstacles::add(const Footprint& footprint) {
   }
   entries_[handle].used = true;
   entries_[handle].footprint = footprint;
-  cover(entries_[handle].footprint);
-  link(handle);
+  link(handle, entries_[handle].place, boxOf(footprint));
   return handle;
 }
 
 void Obstacles::update(int handle, const Footprint& footprint) {
   Entry& entry = entries_[handle];
   entry.footprint = footprint;
-  if (!entry.everywhere && isInside(footprint) && rangeOf(footprint) == entry.range) return;
-  unlink(handle);
-  cover(entry.footprint);
-  link(handle);
+  const Box box = boxOf(footprint);
+  if (!entry.place.everywhere && isInside(box) && range(box) == entry.place.range) return;
+  unlink(handle, entry.place);
+  link(handle, entry.place, box);
 }
 
 void Obstacles::remove(int handle) {
-  unlink(handle);
+  unlink(handle, entries_[handle].place);
   entries_[handle] = Entry();
   free_.push_back(handle);
+}
+
+void Obstacles::setMover(int robot, std::vector<Footprint> local) {
+  if (robot >= static_cast<int>(movers_.size())) movers_.resize(robot + 1);
+  MoverEntry& entry = movers_[robot];
+  entry.mover.radius = 0;
+  for (const Footprint& f : local) {
+    const double half = f.kind == Footprint::Kind::kBox ? std::hypot(f.hx, f.hy) : f.hx;
+    entry.mover.radius = std::max(entry.mover.radius, std::hypot(f.x, f.y) + half);
+  }
+  entry.world = local;
+  entry.world_x = kInfinity;  // to be worked out
+  entry.mover.local = std::move(local);
+  linkMover(robot);
+}
+
+void Obstacles::removeMover(int robot) {
+  unlink(~robot, movers_[robot].place);
+  const int last = static_cast<int>(movers_.size()) - 1;
+  if (robot != last) {
+    unlink(~last, movers_[last].place);
+    movers_[robot] = std::move(movers_[last]);
+  }
+  movers_.pop_back();
+  if (robot != last) linkMover(robot);
+}
+
+void Obstacles::follow(int robot, double way) {
+  const MoverEntry& entry = movers_[robot];
+  const double dx = fleet_.x[robot] - entry.x, dy = fleet_.y[robot] - entry.y;
+  const double room = kSlack - way;
+  if (dx * dx + dy * dy > std::max(0.0, room * room)) linkMover(robot);
+}
+
+const std::vector<Footprint>& Obstacles::footprints(int robot) const {
+  const MoverEntry& entry = movers_[robot];
+  const double x = fleet_.x[robot], y = fleet_.y[robot], yaw = fleet_.yaw[robot];
+  if (entry.world_x == x && entry.world_y == y && entry.world_yaw == yaw) return entry.world;
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  for (std::size_t k = 0; k < entry.world.size(); ++k) {
+    const Footprint& local = entry.mover.local[k];
+    Footprint& world = entry.world[k];
+    world.x = x + c * local.x - s * local.y;
+    world.y = y + s * local.x + c * local.y;
+    world.c = c * local.c - s * local.s;
+    world.s = s * local.c + c * local.s;
+  }
+  entry.world_x = x;
+  entry.world_y = y;
+  entry.world_yaw = yaw;
+  return entry.world;
+}
+
+void Obstacles::linkMover(int robot) {
+  MoverEntry& entry = movers_[robot];
+  entry.x = fleet_.x[robot];
+  entry.y = fleet_.y[robot];
+  unlink(~robot, entry.place);
+  link(~robot, entry.place, boxOf(entry));
 }
 
 Obstacles::Range Obstacles::range(double min_x, double max_x, double min_y, double max_y) const {
@@ -137,60 +197,62 @@ Obstacles::Range Obstacles::range(double min_x, double max_x, double min_y, doub
           std::max(row(min_y), 0), std::min(row(max_y), rows_ - 1)};
 }
 
-Obstacles::Range Obstacles::rangeOf(const Footprint& f) const {
-  return range(f.x - halfX(f), f.x + halfX(f), f.y - halfY(f), f.y + halfY(f));
+Obstacles::Box Obstacles::boxOf(const Footprint& f) {
+  return {f.x - halfX(f), f.x + halfX(f), f.y - halfY(f), f.y + halfY(f)};
 }
 
-bool Obstacles::isInside(const Footprint& f) const {
-  return f.x - halfX(f) >= origin_x_ && f.y - halfY(f) >= origin_y_ &&
-         f.x + halfX(f) <= origin_x_ + columns_ * kCell &&
-         f.y + halfY(f) <= origin_y_ + rows_ * kCell;
+Obstacles::Box Obstacles::boxOf(const MoverEntry& m) {
+  const double half = m.mover.radius + kSlack;
+  return {m.x - half, m.x + half, m.y - half, m.y + half};
 }
 
-void Obstacles::link(int handle) {
-  Entry& entry = entries_[handle];
-  entry.range = rangeOf(entry.footprint);
-  const Range& r = entry.range;
-  entry.everywhere = !isInside(entry.footprint);
-  if (entry.everywhere) {
+bool Obstacles::isInside(const Box& box) const {
+  return box.min_x >= origin_x_ && box.min_y >= origin_y_ &&
+         box.max_x <= origin_x_ + columns_ * kCell && box.max_y <= origin_y_ + rows_ * kCell;
+}
+
+void Obstacles::link(int handle, Place& place, const Box& box) {
+  cover(box);
+  place.linked = true;
+  place.range = range(box);
+  place.everywhere = !isInside(box);
+  if (place.everywhere) {
     everywhere_.push_back(handle);
     return;
   }
+  const Range& r = place.range;
   for (int cy = r.y0; cy <= r.y1; ++cy) {
     for (int cx = r.x0; cx <= r.x1; ++cx) cells_[cell(cx, cy)].push_back(handle);
   }
 }
 
-void Obstacles::unlink(int handle) {
+void Obstacles::unlink(int handle, Place& place) {
+  if (!place.linked) return;
+  place.linked = false;
   const auto drop = [handle](std::vector<int>& list) {
     const auto at = std::find(list.begin(), list.end(), handle);
     *at = list.back();
     list.pop_back();
   };
-  const Entry& entry = entries_[handle];
-  if (entry.everywhere) {
+  if (place.everywhere) {
     drop(everywhere_);
     return;
   }
-  for (int cy = entry.range.y0; cy <= entry.range.y1; ++cy) {
-    for (int cx = entry.range.x0; cx <= entry.range.x1; ++cx) drop(cells_[cell(cx, cy)]);
+  for (int cy = place.range.y0; cy <= place.range.y1; ++cy) {
+    for (int cx = place.range.x0; cx <= place.range.x1; ++cx) drop(cells_[cell(cx, cy)]);
   }
 }
 
-void Obstacles::cover(const Footprint& f) {
+void Obstacles::cover(const Box& box) {
   const double margin = 8 * kCell;  // so that a driver at the rim does not make the grid grow often
-  const double min_x = f.x - halfX(f), max_x = f.x + halfX(f);
-  const double min_y = f.y - halfY(f), max_y = f.y + halfY(f);
   const bool empty = columns_ == 0;
-  if (!empty && min_x >= origin_x_ && min_y >= origin_y_ && max_x <= origin_x_ + columns_ * kCell &&
-      max_y <= origin_y_ + rows_ * kCell) {
-    return;
-  }
-  const double x0 = std::floor(std::min(empty ? min_x : origin_x_, min_x - margin));
-  const double y0 = std::floor(std::min(empty ? min_y : origin_y_, min_y - margin));
+  if (!empty && isInside(box)) return;
+  const double x0 = std::floor(std::min(empty ? box.min_x : origin_x_, box.min_x - margin));
+  const double y0 = std::floor(std::min(empty ? box.min_y : origin_y_, box.min_y - margin));
   const double x1 =
-      std::ceil(std::max(empty ? max_x : origin_x_ + columns_ * kCell, max_x + margin));
-  const double y1 = std::ceil(std::max(empty ? max_y : origin_y_ + rows_ * kCell, max_y + margin));
+      std::ceil(std::max(empty ? box.max_x : origin_x_ + columns_ * kCell, box.max_x + margin));
+  const double y1 =
+      std::ceil(std::max(empty ? box.max_y : origin_y_ + rows_ * kCell, box.max_y + margin));
   if (!(x1 - x0 <= kMaxCells * kCell && y1 - y0 <= kMaxCells * kCell)) return;
 
   origin_x_ = x0;
@@ -200,8 +262,26 @@ void Obstacles::cover(const Footprint& f) {
   cells_.assign(static_cast<std::size_t>(columns_) * rows_, {});
   everywhere_.clear();
   for (std::size_t handle = 0; handle < entries_.size(); ++handle) {
-    const bool is_new = &entries_[handle].footprint == &f;
-    if (entries_[handle].used && !is_new) link(static_cast<int>(handle));
+    Entry& entry = entries_[handle];
+    if (entry.place.linked) link(static_cast<int>(handle), entry.place, boxOf(entry.footprint));
+  }
+  for (std::size_t robot = 0; robot < movers_.size(); ++robot) {
+    MoverEntry& entry = movers_[robot];
+    if (entry.place.linked) link(~static_cast<int>(robot), entry.place, boxOf(entry));
+  }
+}
+
+void Obstacles::castMover(int robot, double x, double y, double z, double dx, double dy,
+                          RayHit* hit) const {
+  // Most rays pass the circle around the mover: that costs no work on its footprints.
+  const double ox = fleet_.x[robot] - x, oy = fleet_.y[robot] - y;
+  const double radius = movers_[robot].mover.radius;
+  const double along = ox * dx + oy * dy, across = ox * dy - oy * dx;
+  if (std::abs(across) > radius || along < -radius || along - radius > hit->range) return;
+  for (const Footprint& f : footprints(robot)) {
+    if (z < f.z_min || z > f.z_max) continue;
+    const double t = castOne(f, x, y, z, dx, dy, hit->range);
+    if (t < hit->range) *hit = {t, f.model};
   }
 }
 
@@ -209,8 +289,12 @@ RayHit Obstacles::cast(double x, double y, double z, double dx, double dy, doubl
                        int group) const {
   RayHit hit{range, -1};
   const auto test = [&](int handle) {
+    if (handle < 0) {
+      if (~handle != group) castMover(~handle, x, y, z, dx, dy, &hit);
+      return;
+    }
     const Footprint& f = entries_[handle].footprint;
-    if (z < f.z_min || z > f.z_max || (group >= 0 && f.group == group)) return;
+    if (z < f.z_min || z > f.z_max) return;
     const double t = castOne(f, x, y, z, dx, dy, range);
     if (t < hit.range) hit = {t, f.model};
   };

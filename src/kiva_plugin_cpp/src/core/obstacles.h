@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "kiva_plugin_cpp/fleet.h"
+
 class btCollisionObject;
 
 namespace kiva {
@@ -37,25 +39,69 @@ struct RayHit {
   int model = -1;
 };
 
+/// A robot and what it carries: footprints that move as one with it. They are indexed by a circle
+/// around the robot with some slack, so that the index changes seldom, and are worked out in world
+/// when somebody asks.
+struct Mover {
+  std::vector<Footprint> local;  ///< In the robot's frame.
+  double radius = 0;             ///< Of the circle around the robot that holds them all [m].
+};
+
 class Obstacles {
  public:
+  static constexpr double kSlack = 0.25;  ///< [m] that a mover may go before it is indexed anew.
+
+  /// Movers are at the poses of that fleet's robots.
+  explicit Obstacles(const Fleet& fleet) : fleet_(fleet) {}
+
   /// Returns a handle, valid until removed.
   int add(const Footprint& footprint);
   void update(int handle, const Footprint& footprint);
   void remove(int handle);
   const Footprint& operator[](int handle) const { return entries_[handle].footprint; }
 
+  /// The footprints of robot `robot`, in its frame; instead of those it had.
+  void setMover(int robot, std::vector<Footprint> local);
+  /// The last mover takes its index, as in the fleet.
+  void removeMover(int robot);
+  /// Indexes it anew if it is not, or within the next `way` [m] might not be, where it was.
+  void follow(int robot, double way = 0);
+  /// In world, now.
+  const std::vector<Footprint>& footprints(int robot) const;
+
   /// Calls visit(footprint) for each one whose box lies within `reach` [m] of (x, y), once or more
   /// often each.
   template <typename Visit>
   void near(double x, double y, double reach, Visit visit) const {
+    const auto see = [&](const Footprint& footprint) {
+      visit(footprint);
+      return false;
+    };
+    any(x, y, reach, see, [&](const Mover&, int robot) {
+      for (const Footprint& footprint : footprints(robot)) visit(footprint);
+      return false;
+    });
+  }
+
+  /// Whether meets(footprint), of what is no mover, or approaches(mover, robot) is true for any
+  /// within `reach` of (x, y).
+  template <typename Meets, typename Approaches>
+  bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
+    const auto ask = [&](int handle) {
+      return handle >= 0 ? meets(entries_[handle].footprint) : approaches(movers_[~handle].mover, ~handle);
+    };
     const Range r = range(x - reach, x + reach, y - reach, y + reach);
     for (int cy = r.y0; cy <= r.y1; ++cy) {
       for (int cx = r.x0; cx <= r.x1; ++cx) {
-        for (int handle : cells_[cell(cx, cy)]) visit(entries_[handle].footprint);
+        for (int handle : cells_[cell(cx, cy)]) {
+          if (ask(handle)) return true;
+        }
       }
     }
-    for (int handle : everywhere_) visit(entries_[handle].footprint);
+    for (int handle : everywhere_) {
+      if (ask(handle)) return true;
+    }
+    return false;
   }
 
   /// The first footprint on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but
@@ -69,25 +115,45 @@ class Obstacles {
       return x0 == o.x0 && x1 == o.x1 && y0 == o.y0 && y1 == o.y1;
     }
   };
-  struct Entry {
-    Footprint footprint;
+  struct Box {  // along the world's axes [m]
+    double min_x, max_x, min_y, max_y;
+  };
+  struct Place {  // in the index
     Range range;
     bool everywhere = false;
+    bool linked = false;
+  };
+  struct Entry {
+    Footprint footprint;
+    Place place;
     bool used = false;
   };
+  struct MoverEntry {
+    Mover mover;
+    Place place;
+    double x = 0, y = 0;  // around which it is indexed
+    mutable std::vector<Footprint> world;
+    mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
+  };
 
+  static Box boxOf(const Footprint& footprint);
+  static Box boxOf(const MoverEntry& mover);
   Range range(double min_x, double max_x, double min_y, double max_y) const;
-  Range rangeOf(const Footprint& footprint) const;
-  bool isInside(const Footprint& footprint) const;
+  Range range(const Box& b) const { return range(b.min_x, b.max_x, b.min_y, b.max_y); }
+  bool isInside(const Box& box) const;
   int cell(int cx, int cy) const { return cy * columns_ + cx; }
-  void link(int handle);
-  void unlink(int handle);
-  void cover(const Footprint& footprint);
+  void link(int handle, Place& place, const Box& box);
+  void unlink(int handle, Place& place);
+  void linkMover(int robot);
+  void cover(const Box& box);
+  void castMover(int robot, double x, double y, double z, double dx, double dy, RayHit* hit) const;
 
+  const Fleet& fleet_;
   std::vector<Entry> entries_;
+  std::vector<MoverEntry> movers_;
   std::vector<int> free_;
-  std::vector<std::vector<int>> cells_;
-  std::vector<int> everywhere_;  // too large for cells
+  std::vector<std::vector<int>> cells_;  // handles; ~robot for a mover
+  std::vector<int> everywhere_;          // too large for cells
   double origin_x_ = 0, origin_y_ = 0;
   int columns_ = 0, rows_ = 0;
 };

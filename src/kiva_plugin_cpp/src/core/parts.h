@@ -30,7 +30,7 @@ struct Outline {
   int link = 0;
   Pose pose_in_link;
   Shape shape;
-  int handle = -1;  ///< In Obstacles.
+  int handle = -1;  ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
 };
 
 struct Model {
@@ -57,6 +57,19 @@ struct TouchingPair {
   std::uint64_t last_step = 0;
 };
 
+/// Directions of a laser's rays in the frame of its robot, as (cos, sin).
+struct RayFan {
+  int rays = 0;
+  double min_angle = 0, max_angle = 0;  // [rad]
+  std::vector<double> c, s;
+};
+
+/// Robots whose scans have the same period, by the step within it.
+struct ScanRound {
+  std::uint64_t period = 0;  // steps
+  std::vector<std::vector<int>> robots_at;
+};
+
 struct World::Parts {
   explicit Parts(const WorldDescription& description, const WorldOptions& options);
   ~Parts();
@@ -71,8 +84,8 @@ struct World::Parts {
   std::uint64_t total_steps = 0;  // ever; what schedules count by
 
   Physics physics;
-  Obstacles obstacles;
   Fleet fleet;
+  Obstacles obstacles{fleet};
   std::vector<StorageUnit> units;
   std::vector<Item> items;
   std::unordered_map<int, int> unit_of_id;
@@ -86,6 +99,12 @@ struct World::Parts {
   std::vector<int> bodies;               // slots of models with bodies of their own that can move
   std::vector<int> models_with_plugins;  // slots
   std::vector<int> engaged;              // slots of robots and units that are in Bullet now
+  std::vector<RayFan> ray_fans;
+  std::vector<ScanRound> scan_rounds;
+  std::uint64_t scan_rounds_revision = ~0ull;  // of the models that scan_rounds were made for
+  std::vector<int> scans_due;                  // robots whose scan is due at this step
+  std::vector<int> active;               // robots that are stepped one by one
+  double top_speed = 0;                  // [m/s] of the fastest robot there was
   Floor floor;
 
   std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;

@@ -6,10 +6,12 @@
 
 #include "../plugins/fleet_plugin.h"
 #include "commands.h"
+#include "cruise.h"
 #include "engagement.h"
 #include "footprint.h"
 #include "load.h"
 #include "models.h"
+#include "sensing.h"
 
 namespace kiva {
 namespace {
@@ -90,9 +92,6 @@ void reindex(Parts& parts, int from, int to) {
     if (unit.claimed_by == from) unit.claimed_by = to;
   }
   updateOutlines(parts, model);
-  if (parts.fleet.unit[to] >= 0) {
-    updateOutlines(parts, *parts.models[parts.units[parts.fleet.unit[to]].model]);
-  }
 }
 
 }  // namespace
@@ -116,7 +115,10 @@ void addRobot(Parts& parts, int slot) {
   model.outlines.push_back({-1, centre, outline, -1});
   const double yaw = model.pose.Rot().Yaw();
   const bool jointed = robot.drive.drive == Drive::kJointed;
+  setRays(parts, &robot);
+  parts.top_speed = std::max(parts.top_speed, robot.drive.speed);
   model.index = parts.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
+  updateOutlines(parts, model);
   if (jointed) engage(parts, model);
 }
 
@@ -127,11 +129,14 @@ void removeRobot(Parts& parts, int robot) {
   }
   const int last = parts.fleet.size() - 1;
   parts.fleet.remove(robot);
+  parts.obstacles.removeMover(robot);
+  parts.scans_due.clear();  // indices have changed
   if (robot != last) reindex(parts, last, robot);
 }
 
 void placeRobot(Parts& parts, int robot, const EntityState& state) {
   Fleet& fleet = parts.fleet;
+  stopCruise(fleet, robot);
   if (!fleet.robots[robot].legs.empty()) {
     markBlocked(parts, robot, "", "was moved by hand");
     endBlocked(parts, robot);
@@ -149,8 +154,7 @@ void placeRobot(Parts& parts, int robot, const EntityState& state) {
     disengage(parts, model);
     engage(parts, model);
   }
-  const int unit = fleet.unit[robot];
-  if (unit >= 0) updateOutlines(parts, *parts.models[parts.units[unit].model]);
+  updateOutlines(parts, model);
 }
 
 void resetRobot(Parts& parts, int robot) {

@@ -13,14 +13,15 @@ namespace {
 constexpr double kSideMargin = 0.03;  // [m]
 
 struct Sensor {
-  double x, y, z, yaw;
+  double x, y, z;
+  double c, s;  // of its heading
 };
 
 Sensor sensorOf(const Parts& parts, int robot) {
   const Fleet& f = parts.fleet;
   const LaserParameters& laser = f.robots[robot].laser;
   const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
-  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, laser.z, f.yaw[robot]};
+  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, laser.z, c, s};
 }
 
 double rayAngle(const LaserParameters& laser, int ray) {
@@ -28,17 +29,77 @@ double rayAngle(const LaserParameters& laser, int ray) {
   return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
 }
 
-}  // namespace
+/// Rebuilds the rounds after robots have come or gone.
+void arrangeScans(Parts& parts) {
+  parts.scan_rounds.clear();
+  parts.scan_rounds_revision = parts.models_revision;
+  for (int i = 0; i < parts.fleet.size(); ++i) {
+    const Robot& robot = parts.fleet.robots[i];
+    if (!robot.laser.fitted) continue;
+    const std::uint64_t period = scanPeriod(parts, robot);
+    auto round = std::find_if(parts.scan_rounds.begin(), parts.scan_rounds.end(),
+                              [&](const ScanRound& r) { return r.period == period; });
+    if (round == parts.scan_rounds.end()) {
+      round = parts.scan_rounds.insert(round, {period, {}});
+      round->robots_at.resize(period);
+    }
+    // Weyl's sequence by the golden ratio spreads any set of ids evenly.
+    const double spread = std::fmod(robot.id * 0.6180339887498949, 1.0);
+    const auto offset = static_cast<std::uint64_t>(spread * static_cast<double>(period));
+    round->robots_at[(period - offset) % period].push_back(i);
+  }
+}
 
-void castScan(const Parts& parts, int robot, std::vector<RayHit>* hits) {
+/// Casts each ray as far as limit(ray) [m].
+template <typename Limit>
+void castRays(const Parts& parts, int robot, Limit limit, std::vector<RayHit>* hits) {
   const LaserParameters& laser = parts.fleet.robots[robot].laser;
-  const Sensor sensor = sensorOf(parts, robot);
+  const RayFan& fan = parts.ray_fans[parts.fleet.robots[robot].ray_fan];
+  const Sensor at = sensorOf(parts, robot);
   hits->resize(laser.rays);
   for (int ray = 0; ray < laser.rays; ++ray) {
-    const double angle = sensor.yaw + rayAngle(laser, ray);
-    (*hits)[ray] = parts.obstacles.cast(sensor.x, sensor.y, sensor.z, std::cos(angle),
-                                        std::sin(angle), laser.max_range, robot);
+    const double dx = at.c * fan.c[ray] - at.s * fan.s[ray];
+    const double dy = at.s * fan.c[ray] + at.c * fan.s[ray];
+    (*hits)[ray] = parts.obstacles.cast(at.x, at.y, at.z, dx, dy, limit(ray), robot);
   }
+}
+
+}  // namespace
+
+std::uint64_t scanPeriod(const Parts& parts, const Robot& robot) {
+  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * parts.dt)));
+}
+
+void findDueScans(Parts& parts) {
+  if (parts.scan_rounds_revision != parts.models_revision) arrangeScans(parts);
+  parts.scans_due.clear();
+  for (const ScanRound& round : parts.scan_rounds) {
+    const std::vector<int>& due = round.robots_at[parts.total_steps % round.period];
+    parts.scans_due.insert(parts.scans_due.end(), due.begin(), due.end());
+  }
+  if (parts.scan_rounds.size() > 1) std::sort(parts.scans_due.begin(), parts.scans_due.end());
+}
+
+void setRays(Parts& parts, Robot* robot) {
+  const LaserParameters& laser = robot->laser;
+  const auto same = [&](const RayFan& fan) {
+    return fan.rays == laser.rays && fan.min_angle == laser.min_angle &&
+           fan.max_angle == laser.max_angle;
+  };
+  const auto at = std::find_if(parts.ray_fans.begin(), parts.ray_fans.end(), same);
+  robot->ray_fan = static_cast<int>(at - parts.ray_fans.begin());
+  if (at != parts.ray_fans.end()) return;
+  RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}};
+  for (int ray = 0; ray < laser.rays; ++ray) {
+    fan.c.push_back(std::cos(rayAngle(laser, ray)));
+    fan.s.push_back(std::sin(rayAngle(laser, ray)));
+  }
+  parts.ray_fans.push_back(std::move(fan));
+}
+
+void castScan(const Parts& parts, int robot, std::vector<RayHit>* hits) {
+  const double range = parts.fleet.robots[robot].laser.max_range;
+  castRays(parts, robot, [range](int) { return range; }, hits);
 }
 
 bool blocks(const Parts& parts, int robot, int model) {
@@ -49,16 +110,19 @@ bool blocks(const Parts& parts, int robot, int model) {
 
 Ahead lookAhead(const Parts& parts, int robot) {
   const Robot& r = parts.fleet.robots[robot];
+  const RayFan& fan = parts.ray_fans[r.ray_fan];
   const double half = std::max(r.half_width, r.load_half_width) + kSideMargin;
   static thread_local std::vector<RayHit> hits;
-  castScan(parts, robot, &hits);
+  // A ray is of interest until it leaves the corridor.
+  const auto limit = [&](int ray) {
+    return std::min(r.laser.max_range, half / std::max(1e-9, std::abs(fan.s[ray])));
+  };
+  castRays(parts, robot, limit, &hits);
   Ahead ahead{std::numeric_limits<double>::infinity(), -1};
   for (int ray = 0; ray < r.laser.rays; ++ray) {
     const RayHit& hit = hits[ray];
     if (hit.model < 0 || !blocks(parts, robot, hit.model)) continue;
-    const double angle = rayAngle(r.laser, ray);
-    if (std::abs(hit.range * std::sin(angle)) > half) continue;
-    const double distance = r.laser.x + hit.range * std::cos(angle);
+    const double distance = r.laser.x + hit.range * fan.c[ray];
     if (distance < ahead.distance) ahead = {distance, hit.model};
   }
   return ahead;

@@ -5,6 +5,15 @@
 
 namespace kiva {
 
+/// Steps between two scans of a robot.
+std::uint64_t scanPeriod(const Parts& parts, const Robot& robot);
+/// Fills Parts::scans_due: whose lasers turn in a scan at this step, in the fleet's order. The
+/// fleet's scans are spread over the period.
+void findDueScans(Parts& parts);
+
+/// Gives the robot the directions of its laser's rays, shared with others of the same kind.
+void setRays(Parts& parts, Robot* robot);
+
 void castScan(const Parts& parts, int robot, std::vector<RayHit>* hits);
 
 /// The nearest obstacle in the corridor that the robot would sweep, as its laser sees it.

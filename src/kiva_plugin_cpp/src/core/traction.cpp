@@ -142,6 +142,12 @@ void integrate(Fleet& fleet, int i, double dt) {
   }
 }
 
+double drivingLimit(const Robot& robot, double gravity) {
+  const Vehicle v = vehicle(robot, gravity);
+  const double force = std::min(v.torque / v.radius, v.grip);
+  return 2 * force / (v.mass + 2 * v.wheel_inertia / (v.radius * v.radius));
+}
+
 double turningLimit(const Robot& robot, double gravity) {
   const Vehicle v = vehicle(robot, gravity);
   const double force = std::min(v.torque / v.radius, v.grip);

@@ -14,6 +14,9 @@ void applyTraction(Fleet& fleet, int i, double gravity, double dt);
 /// Moves robot `i` by one step at its velocities (semi-implicit Euler, as Bullet does).
 void integrate(Fleet& fleet, int i, double dt);
 
+/// Acceleration [m/s²] along the heading that both motors can give the loaded robot without slip.
+double drivingLimit(const Robot& robot, double gravity);
+
 /// Acceleration [rad/s²] with which both motors can turn the loaded robot in place without slip.
 double turningLimit(const Robot& robot, double gravity);
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "../plugins/fleet_plugin.h"
-#include "../plugins/laser.h"
 #include "collisions.h"
 #include "commands.h"
 #include "engagement.h"
@@ -42,9 +41,8 @@ void forEachUserPlugin(Parts& parts, Call call) {
   }
 }
 
-void beforeStep(Parts& parts) {
+void command(Parts& parts) {
   for (auto& plugin : parts.fleet_plugins) plugin->beforeStep(parts);
-  forEachUserPlugin(parts, [&](Plugin& p) { p.beforeStep(*parts.world, parts.dt); });
 }
 
 void afterStep(Parts& parts) {
@@ -103,13 +101,15 @@ World::~World() = default;
 void World::step() {
   Parts& parts = *parts_;
   acceptCommands(parts);
-  beforeStep(parts);
+  forEachUserPlugin(parts, [&](Plugin& p) { p.beforeStep(*this, parts.dt); });
   updateEngagement(parts);
+  command(parts);
   drive(parts);
   parts.physics.step(parts.dt);
   settle(parts);
   ++parts.steps;
   ++parts.total_steps;
+  findDueScans(parts);
   reportCollisions(parts);
   afterStep(parts);
 }
@@ -225,7 +225,7 @@ void World::scan(int robot, std::vector<float>* ranges) const {
   }
 }
 
-bool World::scanDue(int robot) const { return isScanDue(*parts_, robot); }
+const std::vector<int>& World::scansDue() const { return parts_->scans_due; }
 
 double World::rayCast(const Vector3& from, double yaw, double range) const {
   return parts_->obstacles

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../core/commands.h"
+#include "../core/cruise.h"
 #include "../core/sensing.h"
 
 namespace kiva {
@@ -13,10 +14,6 @@ namespace {
 constexpr double kClearance = 0.05;   // [m] kept to an obstacle on a way off the grid
 constexpr double kTopApproach = 3.0;  // [m/s]; what comes faster is another thing come into view
 constexpr double kSoon = 1e-3;        // [m]
-
-std::uint64_t period(const Parts& parts, const Robot& robot) {
-  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * parts.dt)));
-}
 
 double alongLeg(const Fleet& f, int i) {
   const Leg& leg = f.robots[i].legs.front();
@@ -44,22 +41,25 @@ double farthestStop(const Parts& parts, const Robot& r, double obstacle) {
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(Robot& r, double stop, double dt) {
-  const double speed = std::abs(r.profile.speed);
-  const double way = stop - r.profile.position;
-  const double usual = r.drive.acceleration, hardest = r.drive.emergency_deceleration;
+void planStop(Fleet& f, int i, double stop, double dt) {
+  const DriveParameters& drive = f.robots[i].drive;
+  const double speed = std::abs(f.reference_speed[i]), here = f.reference[i];
+  const double way = stop - here;
+  const double usual = drive.acceleration, hardest = drive.emergency_deceleration;
   if (usual == 0) {
-    r.goal = std::max(stop, r.profile.position);
+    f.goal[i] = std::max(stop, here);
     return;
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
-  r.deceleration = std::clamp(needed, usual, hardest);
+  f.deceleration[i] = std::clamp(needed, usual, hardest);
   const double shortest = speed * speed / (2 * hardest) + speed * dt;
-  r.goal = needed <= hardest ? std::max(stop, r.profile.position) : r.profile.position + shortest;
+  f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
 /// What one look tells: places along the leg [m], speeds [m/s].
 struct View {
+  double reference;  // where this robot is to be now
+  double goal;       // where it is to stop so far
   double obstacle;   // where it is now
   double approach;   // how fast it comes by itself
   double speed;      // of this robot
@@ -71,10 +71,12 @@ View look(const Parts& parts, Robot& r, int i) {
   const double along = alongLeg(parts.fleet, i);
   const Ahead ahead = lookAhead(parts, i);
   View view;
-  view.scan_time = static_cast<double>(period(parts, r)) * parts.dt;
+  view.reference = parts.fleet.reference[i];
+  view.goal = parts.fleet.goal[i];
+  view.scan_time = static_cast<double>(scanPeriod(parts, r)) * parts.dt;
   view.obstacle = along + ahead.distance;
   view.approach = approachSpeed(r, ahead, along, view.scan_time);
-  view.speed = std::abs(r.profile.speed);
+  view.speed = std::abs(parts.fleet.reference_speed[i]);
   view.model = ahead.model;
   r.seen_distance = ahead.model < 0 ? 0 : ahead.distance;
   r.seen_from = along;
@@ -90,22 +92,22 @@ double firstStop(const Parts& parts, const Robot& r, const View& view) {
       2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
   const double expected = view.obstacle - comes;
   const double stop = farthestStop(parts, r, expected);
-  if (stop >= r.goal - kSoon) return r.goal;  // the way ends before, anyway
+  if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
   const double next = farthestStop(parts, r, expected - view.approach * view.scan_time);
   const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
-  return next - r.profile.position > braking + kSoon ? r.goal : stop;  // while there is time
+  return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
 double revisedStop(const Parts& parts, const Robot& r, const View& view) {
   const double hardest = r.drive.emergency_deceleration;
-  const double gap = view.obstacle - r.profile.position - reach(r);
+  const double gap = view.obstacle - view.reference - reach(r);
   const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
                         (view.speed + view.approach) * view.scan_time + kClearance;
-  if (view.speed > 0 && gap < needed) return r.profile.position;
-  if (r.goal + reach(r) + kClearance <= view.obstacle) return r.goal;
-  return std::min(r.goal, farthestStop(parts, r, view.obstacle));
+  if (view.speed > 0 && gap < needed) return view.reference;
+  if (view.goal + reach(r) + kClearance <= view.obstacle) return view.goal;
+  return std::min(view.goal, farthestStop(parts, r, view.obstacle));
 }
 
 void guard(Parts& parts, int i) {
@@ -113,10 +115,11 @@ void guard(Parts& parts, int i) {
   const View view = look(parts, r, i);
   if (view.model < 0) return;
   const double stop = r.stopping ? revisedStop(parts, r, view) : firstStop(parts, r, view);
-  if (stop == r.goal) return;
+  if (stop == view.goal) return;
   const std::string& name = parts.models[view.model]->name;
   markBlocked(parts, i, name, name + " is in the way");
-  planStop(r, stop, parts.dt);
+  stopCruise(parts.fleet, i);
+  planStop(parts.fleet, i, stop, parts.dt);
 }
 
 bool isOnGuard(const Robot& r) {
@@ -125,16 +128,6 @@ bool isOnGuard(const Robot& r) {
 }
 
 }  // namespace
-
-bool isScanDue(const Parts& parts, int robot) {
-  const Robot& r = parts.fleet.robots[robot];
-  if (!r.laser.fitted) return false;
-  const std::uint64_t steps = period(parts, r);
-  // Weyl's sequence by the golden ratio spreads any set of ids evenly.
-  const double spread = std::fmod(r.id * 0.6180339887498949, 1.0);
-  const auto offset = static_cast<std::uint64_t>(spread * static_cast<double>(steps));
-  return (parts.total_steps + offset) % steps == 0;
-}
 
 void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   LaserParameters& laser = robot.laser;
@@ -151,11 +144,16 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void LaserPlugin::afterStep(Parts& parts) {
   Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (!f.awake[i] || !isOnGuard(f.robots[i])) continue;
-    if (!f.robots[i].look_now && !isScanDue(parts, i)) continue;
+  const auto watch = [&](int i) {
+    if (!isOnGuard(f.robots[i])) return;
     f.robots[i].look_now = false;
     guard(parts, i);
+  };
+  for (int i : parts.scans_due) {
+    if (f.awake[i]) watch(i);
+  }
+  for (int i : parts.active) {
+    if (f.robots[i].look_now) watch(i);
   }
 }
 

@@ -13,8 +13,4 @@ class LaserPlugin : public FleetPlugin {
   void afterStep(Parts& parts) override;
 };
 
-/// Whether the robot's laser turns in a scan at this step. The fleet's scans are spread over the
-/// period.
-bool isScanDue(const Parts& parts, int robot);
-
 }  // namespace kiva

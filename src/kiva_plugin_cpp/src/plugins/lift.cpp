@@ -17,14 +17,15 @@ void moveTower(Parts& parts, int i, double height) {
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
   const double top = time == 0 ? r.lift.height / parts.dt : 2 * r.lift.height / time;
-  r.profile.advance(height, top, acceleration, acceleration, parts.dt);
-  parts.fleet.tower[i] = r.profile.position;
+  Profile profile = parts.fleet.profile(i);
+  profile.advance(height, top, acceleration, acceleration, parts.dt);
+  parts.fleet.setProfile(i, profile);
+  parts.fleet.tower[i] = profile.position;
 }
 
 void start(Parts& parts, int i) {
-  Robot& r = parts.fleet.robots[i];
-  r.leg_started = true;
-  r.profile = {parts.fleet.tower[i], 0};
+  parts.fleet.robots[i].leg_started = true;
+  parts.fleet.setProfile(i, {parts.fleet.tower[i], 0});
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
@@ -55,7 +56,7 @@ void raiseLeg(Parts& parts, int i, int unit) {
   if (parts.fleet.unit[i] < 0 && parts.fleet.tower[i] >= towerGap(parts, i, unit)) {
     takeUp(parts, i, unit);
   }
-  if (!r.profile.reached(r.lift.height)) return;
+  if (parts.fleet.reference[i] != r.lift.height) return;
   rebuildBody(parts, i);  // its load is higher than when it was taken up
   parts.report(Event::Kind::kLifted, r.name, parts.units[unit].name, "");
   finishLeg(parts, i);
@@ -81,8 +82,8 @@ void liftLeg(Parts& parts, int i) {
 
 /// A tower whose unit was deleted comes down by itself.
 void lowerEmptyTower(Parts& parts, int i) {
-  Robot& r = parts.fleet.robots[i];
-  if (r.profile.position != parts.fleet.tower[i]) r.profile = {parts.fleet.tower[i], 0};
+  Fleet& f = parts.fleet;
+  if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
   moveTower(parts, i, 0);
 }
 
@@ -99,8 +100,7 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void LiftPlugin::beforeStep(Parts& parts) {
   const Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (!f.awake[i]) continue;
+  for (int i : parts.active) {
     if (!f.robots[i].legs.empty()) {
       const Leg::Kind kind = f.robots[i].legs.front().kind;
       if (kind == Leg::Kind::kRaise || kind == Leg::Kind::kLower) liftLeg(parts, i);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "../core/commands.h"
+#include "../core/cruise.h"
 
 namespace kiva {
 namespace {
@@ -28,28 +29,34 @@ OnLine onLine(const Fleet& f, int i, const Leg& leg) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
 }
 
-void start(Robot& robot, const OnLine& at) {
+void start(Fleet& f, int i, const OnLine& at) {
+  Robot& robot = f.robots[i];
+  f.setProfile(i, {at.along, at.speed});
+  f.goal[i] = 0;
+  f.deceleration[i] = robot.drive.acceleration;
   robot.leg_started = true;
-  robot.profile = {at.along, at.speed};
-  robot.goal = 0;
-  robot.deceleration = robot.drive.acceleration;
   robot.overdue = 0;
   robot.look_now = true;
   robot.seen_model = -1;
   robot.seen_distance = 0;
 }
 
+Motion alongLine(const Leg& leg, double top_speed, double acceleration) {
+  return {std::cos(leg.yaw), std::sin(leg.yaw), 0, top_speed, acceleration};
+}
+
 bool arrived(const Fleet& f, int i, const OnLine& at) {
   const Robot& r = f.robots[i];
-  return r.profile.reached(r.goal) && std::abs(at.along - r.goal) < tolerance(r).distance &&
-         stands(f, i);
+  return f.reference[i] == f.goal[i] &&
+         std::abs(at.along - f.goal[i]) < tolerance(r).distance && stands(f, i);
 }
 
 /// Ends a leg that the wheels can't drive, as against a wall that no laser saw.
 bool giveUp(Parts& parts, int i, const OnLine& at) {
+  const Fleet& f = parts.fleet;
   Robot& r = parts.fleet.robots[i];
-  if (r.profile.reached(r.goal)) r.overdue += parts.dt;
-  const double lag = std::abs(r.profile.position - at.along);
+  if (f.reference[i] == f.goal[i]) r.overdue += parts.dt;
+  const double lag = std::abs(f.reference[i] - at.along);
   if (lag < kStuck && r.overdue < kOverdue) return false;
   haltRobot(parts, i, "", "is stuck: its wheels turn or stall without getting it on");
   return true;
@@ -62,7 +69,7 @@ void driveLeg(Parts& parts, int i) {
   const Leg leg = r.legs.front();
   const OnLine at = onLine(f, i, leg);
   if (!r.leg_started) {
-    start(r, at);
+    start(f, i, at);
     setWheels(f, i, 0, 0);
     return;  // the laser looks first
   }
@@ -71,11 +78,17 @@ void driveLeg(Parts& parts, int i) {
     return finishLeg(parts, i);
   }
   if (giveUp(parts, i, at)) return;
-  const double lag = r.profile.position - at.along;
+  const double lag = f.reference[i] - at.along;
   const double top = leg.on_grid ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
-  r.profile.advance(r.goal, top, r.drive.acceleration, r.deceleration, parts.dt);
   const double heading = f.yaw[i] - leg.yaw;
-  setWheels(f, i, r.profile.speed + kAlongGain * lag,
+  const bool exact = isExact(lag) && isExact(heading) && isExact(at.across);
+  if (exact && !leg.reverse && tryCruise(parts, i, alongLine(leg, top, r.drive.acceleration))) {
+    return;
+  }
+  Profile profile = f.profile(i);
+  profile.advance(f.goal[i], top, r.drive.acceleration, f.deceleration[i], parts.dt);
+  f.setProfile(i, profile);
+  setWheels(f, i, profile.speed + kAlongGain * lag,
             -kHeadingGain * heading - kLineGain * at.speed * at.across);
 }
 
@@ -104,8 +117,8 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void MotionPlugin::beforeStep(Parts& parts) {
   const Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (!f.awake[i] || f.robots[i].legs.empty()) continue;
+  for (int i : parts.active) {
+    if (f.robots[i].legs.empty()) continue;
     if (f.robots[i].legs.front().kind == Leg::Kind::kDrive) driveLeg(parts, i);
   }
 }

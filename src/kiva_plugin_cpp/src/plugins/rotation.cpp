@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../core/commands.h"
+#include "../core/cruise.h"
 #include "../core/traction.h"
 #include "motion.h"
 
@@ -36,13 +37,13 @@ void turnLeg(Parts& parts, int i) {
   if (halting(parts, i)) return;
   if (!r.leg_started) {
     r.leg_started = true;
-    r.profile = {f.yaw[i], f.yaw_rate[i]};
-    r.goal = r.legs.front().yaw;
-    r.deceleration = turnAcceleration(r, parts.gravityDown());
+    f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
+    f.goal[i] = r.legs.front().yaw;
+    f.deceleration[i] = turnAcceleration(r, parts.gravityDown());
     r.overdue = 0;
   }
-  const double lag = r.profile.position - f.yaw[i];
-  const bool ended = r.profile.reached(r.goal);
+  const double lag = f.reference[i] - f.yaw[i];
+  const bool ended = f.reference[i] == f.goal[i];
   if (ended && std::abs(lag) < tolerance(r).angle && stands(f, i)) {
     setWheels(f, i, 0, 0);
     return finishLeg(parts, i);
@@ -51,8 +52,12 @@ void turnLeg(Parts& parts, int i) {
   if (std::abs(lag) > kStuck || r.overdue > kOverdue) {
     return haltRobot(parts, i, "", "is stuck: it can't turn");
   }
-  r.profile.advance(r.goal, turnSpeed(r, parts.dt), r.deceleration, r.deceleration, parts.dt);
-  setWheels(f, i, 0, r.profile.speed + kGain * lag);
+  const double top = turnSpeed(r, parts.dt), acceleration = f.deceleration[i];
+  if (isExact(lag) && tryCruise(parts, i, {0, 0, 1, top, acceleration})) return;
+  Profile profile = f.profile(i);
+  profile.advance(f.goal[i], top, acceleration, acceleration, parts.dt);
+  f.setProfile(i, profile);
+  setWheels(f, i, 0, profile.speed + kGain * lag);
 }
 
 }  // namespace
@@ -64,8 +69,8 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void RotationPlugin::beforeStep(Parts& parts) {
   const Fleet& f = parts.fleet;
-  for (int i = 0; i < f.size(); ++i) {
-    if (!f.awake[i] || f.robots[i].legs.empty()) continue;
+  for (int i : parts.active) {
+    if (f.robots[i].legs.empty()) continue;
     if (f.robots[i].legs.front().kind == Leg::Kind::kTurn) turnLeg(parts, i);
   }
 }

@@ -192,9 +192,9 @@ void Reporter::addTransforms(const kiva::World& world, Snapshot* out) const {
 }
 
 void Reporter::addScans(const kiva::World& world, Snapshot* out) const {
-  for (int id : scan_ids_) {
-    const int i = world.fleet().find(id);
-    if (i < 0 || !world.scanDue(i)) continue;
+  for (int i : world.scansDue()) {
+    const int id = world.fleet().robots[i].id;
+    if (!std::binary_search(scan_ids_.begin(), scan_ids_.end(), id)) continue;
     out->scans.push_back({id, {}});
     world.scan(i, &out->scans.back().ranges);
   }

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cruise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "obstacles.h"
+#include "traction.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kNear = 0.008;       // [m]: nearer than this, somebody else decides
+constexpr double kHorizons[] = {0.3, 0.08};  // [s] for which the way may be found free
+constexpr double kRetry = 0.05;       // [s] after which one looks again that had somebody near
+constexpr double kPushed = 0.5;       // [m/s] by which a robot may be faster than it drives
+constexpr double kMargin = 2;         // of force to spare: a profile's last steps are uneven
+
+/// Whether the chassis is just as fast as its reference says.
+bool keepsUp(const Fleet& f, int i, const Motion& per) {
+  const double v = f.reference_speed[i];
+  return isExact(f.vx[i] - per.x * v) && isExact(f.vy[i] - per.y * v) &&
+         isExact(f.yaw_rate[i] - per.yaw * v);
+}
+
+bool hasForce(const Robot& robot, const Motion& per, double deceleration, double gravity) {
+  if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
+  if (per.acceleration == 0) return false;
+  const double hardest = kMargin * std::max(per.acceleration, deceleration);
+  const double limit = per.yaw != 0 ? turningLimit(robot, gravity) : drivingLimit(robot, gravity);
+  return hardest < limit;
+}
+
+/// The robot with its load as one upright box.
+Footprint outline(const Fleet& f, int i) {
+  const Robot& r = f.robots[i];
+  Footprint own;
+  own.x = f.x[i];
+  own.y = f.y[i];
+  own.c = std::cos(f.yaw[i]);
+  own.s = std::sin(f.yaw[i]);
+  own.hx = std::max(r.half_length, r.load_half_length);
+  own.hy = std::max(r.half_width, r.load_half_width);
+  own.z_max = f.unit[i] < 0 ? r.height : 1e9;
+  return own;
+}
+
+/// What it covers of the floor while its reference goes on by `way`.
+Footprint sweep(const Fleet& f, int i, double way) {
+  Footprint swept = outline(f, i);
+  if (f.per_yaw[i] != 0) {
+    swept.kind = Footprint::Kind::kCircle;
+    swept.hx = std::hypot(swept.hx, swept.hy);
+    return swept;
+  }
+  swept.x += f.per_x[i] * way / 2;
+  swept.y += f.per_y[i] * way / 2;
+  swept.hx += std::abs(way) / 2;
+  return swept;
+}
+
+/// Whether nothing comes near while the robot goes `way` on, in `time` [s].
+bool isWayFree(const Parts& parts, int robot, double way, double time) {
+  const Fleet& f = parts.fleet;
+  const Footprint swept = sweep(f, robot, way);
+  const double reach = std::hypot(swept.hx, swept.hy);
+  const auto meets = [&](const Footprint& other) {
+    return other.z_min <= swept.z_max && other.z_max >= swept.z_min && gap(swept, other) < kNear;
+  };
+  const auto approaches = [&](const Mover& other, int index) {
+    if (index == robot) return false;
+    const double speed = std::max(f.robots[index].drive.speed,
+                                  std::hypot(f.vx[index], f.vy[index]) + kPushed);
+    Footprint circle;
+    circle.kind = Footprint::Kind::kCircle;
+    circle.x = f.x[index];
+    circle.y = f.y[index];
+    circle.hx = other.radius;
+    return gap(swept, circle) < kNear + speed * time;
+  };
+  const double farthest = (parts.top_speed + kPushed) * time + kNear;
+  return !parts.obstacles.any(swept.x, swept.y, reach + farthest, meets, approaches);
+}
+
+/// How far the reference goes at most in that time.
+double wayWithin(const Fleet& f, int i, double time) {
+  const double way = f.goal[i] - f.reference[i];
+  const double most = f.top_speed[i] * time;
+  return std::clamp(way, -most, most);
+}
+
+/// Looks ahead at step `now`; returns whether the robot may cruise on, for a while.
+bool renew(Parts& parts, int i, double now) {
+  Fleet& f = parts.fleet;
+  for (const double horizon : kHorizons) {
+    const bool turns = f.per_yaw[i] != 0;
+    const double time =
+        turns ? horizon : std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
+    const double way = wayWithin(f, i, time);
+    if (!isWayFree(parts, i, way, time)) continue;
+    parts.obstacles.follow(i, turns ? 0 : std::abs(way));
+    f.cruise_until[i] = now + std::floor(time / parts.dt);
+    return true;
+  }
+  return false;
+}
+
+constexpr int kBlock = 8;  // robots that are stepped together
+
+/// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
+/// reference has ended, or its time is over at step `now`.
+__attribute__((target_clones("avx2", "default"))) bool advance(Fleet& f, int begin, int end,
+                                                               double dt, double now) {
+  const std::int64_t* __restrict mask = f.cruising.data();
+  const double* __restrict goal = f.goal.data();
+  const double* __restrict top = f.top_speed.data();
+  const double* __restrict acceleration = f.acceleration.data();
+  const double* __restrict deceleration = f.deceleration.data();
+  const double* __restrict until = f.cruise_until.data();
+  const double* __restrict per_x = f.per_x.data();
+  const double* __restrict per_y = f.per_y.data();
+  const double* __restrict per_yaw = f.per_yaw.data();
+  const double* __restrict per_left = f.per_wheel[0].data();
+  const double* __restrict per_right = f.per_wheel[1].data();
+  double* __restrict reference = f.reference.data();
+  double* __restrict speed = f.reference_speed.data();
+  double* __restrict x = f.x.data();
+  double* __restrict y = f.y.data();
+  double* __restrict yaw = f.yaw.data();
+  double* __restrict vx = f.vx.data();
+  double* __restrict vy = f.vy.data();
+  double* __restrict yaw_rate = f.yaw_rate.data();
+  double* __restrict left = f.wheel_angle[0].data();
+  double* __restrict right = f.wheel_angle[1].data();
+  double* __restrict left_speed = f.wheel_speed[0].data();
+  double* __restrict right_speed = f.wheel_speed[1].data();
+  std::int64_t attention = 0;
+  for (int i = begin; i < end; ++i) {
+    Profile profile{reference[i], speed[i]};
+    profile.advance(goal[i], top[i], acceleration[i], deceleration[i], dt);
+    const bool cruises = mask[i] != 0;
+    const double v = cruises ? profile.speed : 0.0;
+    const double way = v * dt;
+    reference[i] = cruises ? profile.position : reference[i];
+    speed[i] = cruises ? profile.speed : speed[i];
+    x[i] += per_x[i] * way;
+    y[i] += per_y[i] * way;
+    yaw[i] += per_yaw[i] * way;
+    left[i] += per_left[i] * way;
+    right[i] += per_right[i] * way;
+    vx[i] = cruises ? per_x[i] * v : vx[i];
+    vy[i] = cruises ? per_y[i] * v : vy[i];
+    yaw_rate[i] = cruises ? per_yaw[i] * v : yaw_rate[i];
+    left_speed[i] = cruises ? per_left[i] * v : left_speed[i];
+    right_speed[i] = cruises ? per_right[i] * v : right_speed[i];
+    const std::int64_t ended = profile.position == goal[i] ? -1 : 0;
+    const std::int64_t due = until[i] <= now ? -1 : 0;
+    attention |= mask[i] & (ended | due);
+  }
+  return attention != 0;
+}
+
+double retryStep(const Parts& parts, double now) { return now + std::ceil(kRetry / parts.dt); }
+
+void attend(Parts& parts, int i, double now) {
+  Fleet& f = parts.fleet;
+  if (f.reference[i] == f.goal[i]) return stopCruise(f, i);
+  if (f.cruise_until[i] > now || renew(parts, i, now)) return;
+  stopCruise(f, i);
+  f.cruise_until[i] = retryStep(parts, now);
+}
+
+}  // namespace
+
+bool tryCruise(Parts& parts, int i, const Motion& per) {
+  Fleet& f = parts.fleet;
+  const Robot& r = f.robots[i];
+  const auto now = static_cast<double>(parts.total_steps);
+  if (f.engaged[i] || parts.options.always_in_bullet || f.cruise_until[i] > now ||
+      f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
+      std::abs(f.reference_speed[i]) > per.top_speed || !keepsUp(f, i, per) ||
+      !hasForce(r, per, f.deceleration[i], parts.gravityDown())) {
+    return false;
+  }
+  const double turn = per.yaw * r.drive.wheel_separation / 2;
+  const double ahead = std::cos(f.yaw[i]) * per.x + std::sin(f.yaw[i]) * per.y;
+  f.per_x[i] = per.x;
+  f.per_y[i] = per.y;
+  f.per_yaw[i] = per.yaw;
+  f.per_wheel[0][i] = (ahead - turn) / r.drive.wheel_radius;
+  f.per_wheel[1][i] = (ahead + turn) / r.drive.wheel_radius;
+  f.top_speed[i] = per.top_speed;
+  f.acceleration[i] = per.acceleration;
+  if (!renew(parts, i, now)) {
+    f.cruise_until[i] = retryStep(parts, now);
+    return false;
+  }
+  f.cruising[i] = -1;
+  return true;
+}
+
+void stopCruise(Fleet& f, int i) {
+  if (f.cruising[i] == 0) return;
+  f.cruising[i] = 0;
+  f.look_again[i] = 0;
+  f.cruise_until[i] = 0;
+  for (int wheel = 0; wheel < 2; ++wheel) f.wheel_target[wheel][i] = f.wheel_speed[wheel][i];
+}
+
+void cruise(Parts& parts) {
+  Fleet& f = parts.fleet;
+  const auto next = static_cast<double>(parts.total_steps + 1);
+  bool any_loaded = false;
+  for (int begin = 0; begin < f.size(); begin += kBlock) {
+    const int end = std::min(begin + kBlock, f.size());
+    std::int64_t any = 0;
+    for (int i = begin; i < end; ++i) {
+      any |= f.cruising[i];
+      any_loaded |= f.cruising[i] != 0 && f.unit[i] >= 0;
+    }
+    if (any == 0 || !advance(f, begin, end, parts.dt, next)) continue;
+    for (int i = begin; i < end; ++i) {
+      if (f.cruising[i] != 0) attend(parts, i, next);
+    }
+  }
+  if (any_loaded) ++parts.units_revision;
+}
+
+}  // namespace kiva
