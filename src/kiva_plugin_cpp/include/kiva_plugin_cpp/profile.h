@@ -22,16 +22,16 @@ struct Profile {
   void advance(double target, double top_speed, double acceleration, double deceleration,
                double dt) {
     const double distance = std::abs(target - position);
-    const double sign = target < position ? -1 : 1;
-    const double slowest = sign * speed - deceleration * dt;
-    const double stopping = stoppingSpeed(distance, deceleration, dt);
-    const double faster = std::min(top_speed, sign * speed + acceleration * dt);
-    const double ramped = std::min(faster, std::max(stopping, slowest));
-    const double wanted = acceleration > 0 ? ramped : top_speed;
-    const double next = std::min(std::max(wanted, 0.0), distance / dt);
+    const double sign = target < position ? -1.0 : 1.0;
+    const double forward = sign * speed;
+    const double braked =
+        larger(stoppingSpeed(distance, deceleration, dt), forward - deceleration * dt);
+    const double ramped = smaller(smaller(top_speed, forward + acceleration * dt), braked);
+    const double wanted = larger(acceleration > 0.0 ? ramped : top_speed, 0.0);
+    const double next = smaller(wanted, distance * (1 / dt));
     const double moved = position + sign * next * dt;
     speed = sign * next;
-    position = distance <= std::max(next * dt, kThere) ? target : moved;
+    position = distance - next * dt <= kThere ? target : moved;
   }
 
   bool reached(double target) const { return position == target; }
@@ -42,6 +42,11 @@ struct Profile {
     const double half = 0.5 * deceleration * dt;
     return -half + std::sqrt(half * half + 2 * deceleration * distance);
   }
+
+ private:
+  // By value, unlike std::min: a compiler can do several at a time.
+  static double smaller(double a, double b) { return a < b ? a : b; }
+  static double larger(double a, double b) { return a > b ? a : b; }
 };
 
 }  // namespace kiva

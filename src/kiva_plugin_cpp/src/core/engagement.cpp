@@ -194,11 +194,19 @@ void pullBodies(Parts& parts) {
   }
 }
 
+/// Who is awake and does not cruise. Most blocks of a large fleet have none, and cost little.
 void findActive(Parts& parts) {
   const Fleet& f = parts.fleet;
   parts.active.clear();
-  for (int i = 0; i < f.size(); ++i) {
-    if (f.awake[i] && f.cruising[i] == 0) parts.active.push_back(i);
+  constexpr int kBlock = 16;
+  for (int begin = 0; begin < f.size(); begin += kBlock) {
+    const int end = std::min(begin + kBlock, f.size());
+    std::int64_t any = 0;
+    for (int i = begin; i < end; ++i) any |= f.awake[i] & ~f.cruising[i];
+    if (any == 0) continue;
+    for (int i = begin; i < end; ++i) {
+      if (f.awake[i] && f.cruising[i] == 0) parts.active.push_back(i);
+    }
   }
 }
 
