@@ -61,8 +61,10 @@ void begin(Parts& parts, const Contact& contact) {
 void touch(Parts& parts, const Contact& contact) {
   for (int slot : {contact.model_a, contact.model_b}) {
     Model& model = *parts.models[slot];
-    if (model.kind == ModelKind::kStorageUnit && parts.units[model.index].carrier < 0) {
-      model.disturbed = true;
+    if (model.kind != ModelKind::kStorageUnit || parts.units[model.index].carrier >= 0) continue;
+    if (!model.disturbed) {
+      model.disturbed = true;  // from now on it is where its body is
+      updateOutlines(parts, model);
     }
   }
   for (TouchingPair& pair : parts.touching) {
