@@ -78,7 +78,11 @@ def _worlds():
     """The folder of world files: of the installation, else of the source tree."""
     package = Path(__file__).parent
     installed = package.parents[3] / "share" / "warehouse_sim" / "worlds"
-    return installed if installed.is_dir() else package.joinpath("__init__.py").resolve().parents[4] / "worlds"
+    return (
+        installed
+        if installed.is_dir()
+        else package.joinpath("__init__.py").resolve().parents[4] / "worlds"
+    )
 
 
 def _find(world):
@@ -130,7 +134,7 @@ class World(_core.World):
         DescriptionError if there is none, or the name is taken.
         """
         include = f"<include><uri>model://{model}</uri><name>{name}</name></include>"
-        text = f'<sdf version="1.9"><world name="world">{include}</world></sdf>'
+        text = f'<sdf version="1.9"><world name="models">{include}</world></sdf>'
         return self.spawn(text, name, (x, y, z, yaw))[0]
 
     def carry(self, kiva_id, shelf_id):

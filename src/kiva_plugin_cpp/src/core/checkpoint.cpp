@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "checkpoint.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -165,6 +166,10 @@ std::uint64_t stateHash(const Parts& parts) {
   Hasher hasher;
   PhysicsState physics = readPhysics(parts);
   physics.contacts.clear();  // their order has no meaning
+  // Nor has it a meaning which slots are free.
+  auto& bodies = physics.bodies;
+  const auto is_empty = [](const std::vector<BodyState>& states) { return states.empty(); };
+  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), is_empty), bodies.end());
   // Describing changes nothing unless it reads.
   describeMotion(hasher, const_cast<Parts&>(parts), physics);
   return hasher.hash;

@@ -579,7 +579,8 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
   world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
   world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
                               "Since time was 0.");
-  world.def_property_readonly("step_size", guarded([](World& w) { return w.stepSize(); }), "[s]");
+  world.def_property_readonly("step_size", guarded([](World& w) { return w.stepSize(); }),
+                              "How far a step goes [s].");
   world.def_property_readonly("grid_spacing", guarded([](World& w) { return w.gridSpacing(); }),
                               "Of the grid points on which robots stand [m].");
   world.def_property_readonly("floor", guarded([](World& w) {
