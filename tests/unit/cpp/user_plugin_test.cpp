@@ -72,6 +72,41 @@ TEST_F(UserPlugin, EveryModelHasAnObjectOfItsOwn) {
   EXPECT_EQ(w.count(Event::Kind::kAccepted, "kiva1"), 0);
 }
 
+// --- checkpoints
+
+TEST_F(UserPlugin, TakesPartInCheckpoints) {
+  w.spawnText(withElement(kivaText(), patrol("<x>3</x><pause>0.5</pause>")), "kiva1", 0, 0);
+  w.runUntil([&] { return std::abs(w.x(1) - 3) < kMillimetre; }, 20);
+  w.run(2);  // on its way back
+  const std::string saved = w.world.checkpoint();
+  w.run(5);
+  const std::uint64_t hash = w.world.stateHash();
+  Warehouse other;
+  for (World* world : {&w.world, &other.world}) {
+    world->restore(saved);
+    for (int i = 0; i < 5000; ++i) world->step();
+    EXPECT_EQ(world->stateHash(), hash);
+  }
+}
+
+TEST_F(UserPlugin, ThatCannotBeLoadedLeavesTheWorldAsItWas) {
+  const std::string folder = ::testing::TempDir();
+  std::filesystem::copy_file(libraryFolder() + "/libhello_plugin.so", folder + "/libgone.so",
+                             std::filesystem::copy_options::overwrite_existing);
+  setPath(folder);
+  const std::string plugin = replaced(patrol("<x>3</x>"), "libhello_plugin.so", "libgone.so");
+  w.spawnText(withElement(kivaText(), plugin), "kiva1", 0, 0);
+  const std::string saved = w.world.checkpoint();
+  Warehouse other;
+  other.spawn("person", "person1", 1, 1);
+  setPath("/nowhere");
+  EXPECT_THROW(other.world.restore(saved), DescriptionError);
+  EXPECT_TRUE(other.world.has("person1"));
+  EXPECT_FALSE(other.world.has("kiva1"));
+  other.run(0.1);
+  EXPECT_NO_THROW(w.world.restore(saved));  // the plugin that it has goes on
+}
+
 // --- what is refused
 
 TEST_F(UserPlugin, AnUnknownParameterIsRefusedAndTheKnownOnesAreNamed) {

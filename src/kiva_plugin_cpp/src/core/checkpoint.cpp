@@ -172,6 +172,8 @@ std::uint64_t stateHash(const Parts& parts) {
   bodies.erase(std::remove_if(bodies.begin(), bodies.end(), is_empty), bodies.end());
   // Describing changes nothing unless it reads.
   describeMotion(hasher, const_cast<Parts&>(parts), physics);
+  std::vector<PluginState> plugins = savePlugins(parts);
+  hasher(plugins);
   return hasher.hash;
 }
 
