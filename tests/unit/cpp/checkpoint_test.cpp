@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A world that is restored goes on as the one that was saved did, bit by bit.
-#include <chrono>
+#include <algorithm>
+#include <ctime>
 #include <random>
 
 #include "warehouse.h"
@@ -271,13 +272,15 @@ TEST(CheckpointOfAHugeWarehouse, IsSmallAndQuick) {
   for (int id = 1; id <= 1000; ++id) w.movy(id, 3);
   w.run(1);
   w.forget();
-  const auto begin = std::chrono::steady_clock::now();
-  const std::string saved = w.world.checkpoint();
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  RecordProperty("milliseconds", static_cast<int>(took.count() * 1000));
-  std::printf("%.1f ms, %.2f MB\n", took.count() * 1000, saved.size() / 1e6);
+  std::string saved;
+  double seconds = 1;  // of this process alone: others may be busy too
+  for (int i = 0; i < 5; ++i) {
+    const std::clock_t begin = std::clock();
+    saved = w.world.checkpoint();
+    seconds = std::min(seconds, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  }
   EXPECT_LT(saved.size(), 5e6);
-  EXPECT_LT(took.count(), 0.2);  // 0.05 on a quiet machine
+  EXPECT_LT(seconds, 0.05);
   const Hashes first = goOn(w.world, 100, 1);
   w.world.restore(saved);
   EXPECT_EQ(goOn(w.world, 100, 1), first);
