@@ -72,6 +72,23 @@ TEST_F(UserPlugin, EveryModelHasAnObjectOfItsOwn) {
   EXPECT_EQ(w.count(Event::Kind::kAccepted, "kiva1"), 0);
 }
 
+// --- checkpoints
+
+TEST_F(UserPlugin, TakesPartInCheckpoints) {
+  w.spawnText(withElement(kivaText(), patrol("<x>3</x><pause>0.5</pause>")), "kiva1", 0, 0);
+  w.runUntil([&] { return std::abs(w.x(1) - 3) < kMillimetre; }, 20);
+  w.run(2);  // on its way back
+  const std::string saved = w.world.checkpoint();
+  w.run(5);
+  const std::uint64_t hash = w.world.stateHash();
+  Warehouse other;
+  for (World* world : {&w.world, &other.world}) {
+    world->restore(saved);
+    for (int i = 0; i < 5000; ++i) world->step();
+    EXPECT_EQ(world->stateHash(), hash);
+  }
+}
+
 // --- what is refused
 
 TEST_F(UserPlugin, AnUnknownParameterIsRefusedAndTheKnownOnesAreNamed) {
@@ -145,6 +162,34 @@ class PluginCalls : public UserPlugin {
     return *plugin;
   }
 };
+
+/// Remembers a number, and fails to go back to 13.
+struct Counting : Plugin {
+  int count = 0;
+  void load(World&, const std::string&, const Parameters&) override {}
+  std::string save() const override { return std::to_string(count); }
+  void restore(World&, const std::string& state) override {
+    count = std::stoi(state);
+    if (count == 13) throw std::runtime_error("an unlucky number");
+  }
+};
+
+TEST_F(PluginCalls, ThatFailToRestoreLeaveTheWorldAsItWas) {
+  w.spawn("wall", "wall1", 0, 0);
+  const auto first = std::make_shared<Counting>(), second = std::make_shared<Counting>();
+  w.world.parts().world_plugins = {first, second};
+  first->count = 1;
+  second->count = 13;
+  const std::string saved = w.world.checkpoint();
+  first->count = 2;
+  second->count = 3;
+  w.spawn("wall", "wall2", 5, 5);
+  EXPECT_THROW(w.world.restore(saved), std::runtime_error);
+  EXPECT_TRUE(w.world.has("wall2"));
+  EXPECT_EQ(first->count, 2);
+  EXPECT_EQ(second->count, 3);
+  w.step();
+}
 
 TEST_F(PluginCalls, AreBeforeAndAfterEachStep) {
   w.spawn("wall", "wall1", 0, 0);

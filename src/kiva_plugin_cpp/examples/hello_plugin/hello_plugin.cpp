@@ -12,6 +12,7 @@
 // and the folder of the library into KIVA_PLUGIN_PATH.
 #include <cmath>
 #include <ignition/plugin/Register.hh>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -53,6 +54,19 @@ class Patrol : public kiva::Plugin {
     command.x = goal_.x;
     command.y = goal_.y;
     world.post(command);
+  }
+
+  // For checkpoints: what it remembers from step to step. The rest comes from load.
+  std::string save() const override {
+    std::ostringstream out;
+    out.precision(17);
+    out << goal_.x << ' ' << goal_.y << ' ' << other_end_.x << ' ' << other_end_.y << ' '
+        << waited_;
+    return out.str();
+  }
+  void restore(kiva::World& /*world*/, const std::string& state) override {
+    std::istringstream in(state);
+    in >> goal_.x >> goal_.y >> other_end_.x >> other_end_.y >> waited_;
   }
 
  private:

@@ -11,6 +11,7 @@
 
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/profile.h"
+#include "kiva_plugin_cpp/shared_memory.h"
 
 namespace kiva {
 
@@ -112,32 +113,36 @@ struct Robot {
   std::string blocked_reason;  ///< Why, for a person.
 };
 
+/// One value a robot. Others may hold its memory and read it without a copy.
+template <typename T>
+using Column = std::vector<T, SharedAllocator<T>>;
+
 /// Positions in world [m, rad], velocities in world [m/s, rad/s] unless said otherwise.
 struct Fleet {
-  std::vector<double> x, y, yaw;  ///< Yaw is unwrapped: it counts full turns.
-  std::vector<double> vx, vy, yaw_rate;
-  std::vector<double> wheel_speed[2];   ///< Left, right [rad/s].
-  std::vector<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
-  std::vector<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
-  std::vector<double> tower;            ///< Height of the tower above its rest [m].
-  std::vector<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
-  std::vector<Status> status;
-  std::vector<State> state;
-  std::vector<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
-  std::vector<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
-  std::vector<std::uint64_t> look_again;  ///< Step at which something could have come near.
+  Column<double> x, y, yaw;  ///< Yaw is unwrapped: it counts full turns.
+  Column<double> vx, vy, yaw_rate;
+  Column<double> wheel_speed[2];   ///< Left, right [rad/s].
+  Column<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
+  Column<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
+  Column<double> tower;            ///< Height of the tower above its rest [m].
+  Column<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
+  Column<Status> status;
+  Column<State> state;
+  Column<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
+  Column<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
+  Column<std::uint64_t> look_again;  ///< Step at which something could have come near.
 
   // The reference of the current leg: [m] along the heading, [rad], or [m] of tower.
-  std::vector<double> reference, reference_speed;
-  std::vector<double> goal;          ///< Where it is to end.
-  std::vector<double> deceleration;  ///< With which it is to end.
+  Column<double> reference, reference_speed;
+  Column<double> goal;          ///< Where it is to end.
+  Column<double> deceleration;  ///< With which it is to end.
 
   // Of robots that follow their references exactly, see src/core/cruise.h.
-  std::vector<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
-  std::vector<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis.
-  std::vector<double> per_wheel[2];             ///< And its wheels.
-  std::vector<double> top_speed, acceleration;  ///< Of the reference.
-  std::vector<double> cruise_until;             ///< Step to which nothing can come near.
+  Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
+  Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis.
+  Column<double> per_wheel[2];             ///< And its wheels.
+  Column<double> top_speed, acceleration;  ///< Of the reference.
+  Column<double> cruise_until;             ///< Step to which nothing can come near.
   std::vector<Robot> robots;
 
   Profile profile(int i) const { return {reference[i], reference_speed[i]}; }

@@ -32,6 +32,12 @@ class Plugin {
 
   /// After it: observe.
   virtual void afterStep(const World& /*world*/, double /*dt*/) {}
+
+  /// For checkpoints: what the plugin remembers from step to step, as bytes.
+  virtual std::string save() const { return ""; }
+  /// Goes back to what save() gave, once all models stand as they did then. A model that was gone
+  /// meanwhile comes back with a new plugin: load() is called before, and what it posts is dropped.
+  virtual void restore(World& /*world*/, const std::string& /*state*/) {}
 };
 
 }  // namespace kiva

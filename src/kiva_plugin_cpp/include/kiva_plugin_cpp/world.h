@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,11 @@ struct StatusChange {
   State state = State::kIdle;
   int shelf_id = 0;  ///< 0 = none.
   double x = 0, y = 0, yaw = 0;
+};
+
+/// A checkpoint that can't be restored; the message says why.
+class CheckpointError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 struct WorldOptions {
@@ -150,6 +156,19 @@ class World {
   /// Distance [m] from a point in world, level, in the direction `yaw`, to the first body that
   /// stands on the floor; +inf = none within `range`.
   double rayCast(const Vector3& from, double yaw, double range) const;
+
+  // --- checkpoints
+  /// The whole state as bytes: time, models and what is in motion, commands under way and pending,
+  /// events not yet taken, what plugins save. This world and any that restores the bytes go on the
+  /// same from here, bit by bit, as long as they are given the same commands.
+  std::string checkpoint();
+  /// Makes this world the one that was saved, whatever it was before. Throws CheckpointError, with
+  /// nothing changed, if the bytes are damaged or of another version, and DescriptionError if a
+  /// plugin of a model can't be loaded.
+  void restore(const std::string& checkpoint);
+  /// Of all that decides what happens next, commands posted but not yet answered left out. Equal
+  /// worlds have equal hashes.
+  std::uint64_t stateHash() const;
 
   // --- what happened since the last call
   std::vector<Event> takeEvents();

@@ -27,10 +27,6 @@ std::uint64_t lingerSteps(const Parts& parts) {
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
-bool canEngage(const Model& model) {
-  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
-}
-
 ModelBodies buildRobot(const Parts& parts, int robot) {
   const Robot& r = parts.fleet.robots[robot];
   if (isJointed(r)) return buildJointed(parts, robot);
@@ -243,17 +239,24 @@ ModelBodies buildPlanar(const Parts& parts, int robot) {
   return bodies;
 }
 
+bool canEngage(const Model& model) {
+  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
+}
+
+ModelBodies buildEngaged(const Parts& parts, const Model& model) {
+  if (model.kind == ModelKind::kRobot) return buildRobot(parts, model.index);
+  return buildUnit(parts, model);
+}
+
 void engage(Parts& parts, Model& model) {
   model.engaged_until = parts.total_steps + lingerSteps(parts);
   if (model.in_physics) return;
   const int slot = parts.slot_of_name.at(model.name);
+  if (model.kind == ModelKind::kRobot) stopCruise(parts.fleet, model.index);
+  model.bodies = buildEngaged(parts, model);
   if (model.kind == ModelKind::kRobot) {
-    stopCruise(parts.fleet, model.index);
-    model.bodies = buildRobot(parts, model.index);
     parts.fleet.engaged[model.index] = 1;
     parts.fleet.awake[model.index] = 1;
-  } else {
-    model.bodies = buildUnit(parts, model);
   }
   parts.physics.insert(model.bodies);
   model.in_physics = true;

@@ -12,6 +12,10 @@ namespace kiva {
 /// Finds who is near whom, lets models enter or leave Bullet, and fills Parts::active: the robots
 /// that are awake and do not cruise, in the fleet's order.
 void updateEngagement(Parts& parts);
+/// Whether it is a model that enters Bullet for a while only: a robot or a storage unit.
+bool canEngage(const Model& model);
+/// Its bodies, at its present pose.
+ModelBodies buildEngaged(const Parts& parts, const Model& model);
 /// Puts a robot or storage unit into Bullet for the next while.
 void engage(Parts& parts, Model& model);
 /// Takes a model out of Bullet at once; its pose stays.

@@ -103,26 +103,14 @@ void freeSlot(Parts& parts, int slot) {
   parts.free_slots.push_back(slot);
 }
 
-void addOutlines(Model& model) {
-  const auto& links = model.description->links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    for (const Collision& collision : links[i].collisions) {
-      if (collision.shape.kind == Shape::Kind::kPlane) continue;
-      model.outlines.push_back({static_cast<int>(i), collision.pose_in_link, collision.shape, -1});
-    }
-  }
-}
-
 /// Bodies that are in Bullet for as long as the model stands.
 void addBodies(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
-  const bool is_floor = model.kind == ModelKind::kFloor;
-  const int group = is_floor ? kFloorGroup : model.isStatic() ? kStaticGroup : kDynamicGroup;
-  model.bodies = parts.physics.build(*model.description, model.pose, slot, group, ~0);
+  model.bodies = buildBodies(parts, slot);
   parts.physics.insert(model.bodies);
   model.in_physics = true;
   if (!model.isStatic()) parts.bodies.push_back(slot);
-  if (!is_floor) addOutlines(model);
+  if (model.kind != ModelKind::kFloor) addOutlines(model);
 }
 
 double massOf(const ModelDescription& description) {
@@ -405,6 +393,25 @@ void placeItem(Parts& parts, Model& model, const EntityState& state) {
 
 }  // namespace
 
+void addOutlines(Model& model) {
+  const auto& links = model.description->links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (const Collision& collision : links[i].collisions) {
+      if (collision.shape.kind == Shape::Kind::kPlane) continue;
+      model.outlines.push_back({static_cast<int>(i), collision.pose_in_link, collision.shape, -1});
+    }
+  }
+}
+
+ModelBodies buildBodies(const Parts& parts, int slot) {
+  const Model& model = *parts.models[slot];
+  if (canEngage(model)) return buildEngaged(parts, model);
+  const bool is_floor = model.kind == ModelKind::kFloor;
+  const int group = is_floor ? kFloorGroup : model.isStatic() ? kStaticGroup : kDynamicGroup;
+  return parts.physics.build(*model.description, model.isStatic() ? model.pose : model.spawn_pose,
+                             slot, group, ~0);
+}
+
 void spawnModel(Parts& parts, const ModelInstance& instance) {
   checkInstance(parts, instance);
   const int slot = takeSlot(parts, instance);
@@ -467,8 +474,7 @@ void resetModel(Parts& parts, int slot) {
   }
   if (hasFreeBodies(model)) {  // joints too: a model is put together anew
     parts.physics.remove(model.bodies);
-    model.bodies =
-        parts.physics.build(*model.description, model.spawn_pose, slot, kDynamicGroup, ~0);
+    model.bodies = buildBodies(parts, slot);
     parts.physics.insert(model.bodies);
     updateOutlines(parts, model);
     return;

@@ -18,6 +18,10 @@ std::optional<EntityState> linkState(const Parts& parts, const Model& model,
 /// Slots in order of arrival.
 std::vector<int> slotsInOrder(const Parts& parts);
 
+/// A model's bodies as they are when it enters Bullet.
+ModelBodies buildBodies(const Parts& parts, int slot);
+/// Gives a model the outlines of its shapes, without footprints so far.
+void addOutlines(Model& model);
 /// Writes the footprints of a model anew, from where its links are now.
 void updateOutlines(Parts& parts, Model& model);
 /// The robot that the model is or is carried by, -1 = none.

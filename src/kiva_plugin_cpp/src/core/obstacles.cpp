@@ -98,6 +98,16 @@ double gap(const Footprint& a, const Footprint& b) {
   return std::hypot(b.x - a.x, b.y - a.y) - a.hx - b.hx;
 }
 
+void Obstacles::clear() {
+  entries_.clear();
+  movers_.clear();
+  free_.clear();
+  cells_.clear();
+  everywhere_.clear();
+  origin_x_ = origin_y_ = 0;
+  columns_ = rows_ = 0;
+}
+
 int Obstacles::add(const Footprint& footprint) {
   int handle = static_cast<int>(entries_.size());
   if (free_.empty()) {

@@ -54,6 +54,7 @@ class Obstacles {
   /// Movers are at the poses of that fleet's robots.
   explicit Obstacles(const Fleet& fleet) : fleet_(fleet) {}
 
+  void clear();
   /// Returns a handle, valid until removed.
   int add(const Footprint& footprint);
   void update(int handle, const Footprint& footprint);

@@ -7,6 +7,7 @@
 //   load        storage units and items: carried, put down, where they are
 //   sensing     scans, and what lies ahead
 //   collisions  contacts that should not be
+//   checkpoint  all of it as bytes, and back
 #pragma once
 
 #include <array>
@@ -109,6 +110,7 @@ struct World::Parts {
 
   std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;
   std::vector<std::shared_ptr<Plugin>> world_plugins;
+  std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
   std::deque<Command> commands;
   std::vector<Event> events;

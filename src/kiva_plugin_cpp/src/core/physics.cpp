@@ -353,6 +353,14 @@ void Physics::contacts(std::vector<Contact>* out) const {
   }
 }
 
+std::vector<btPersistentManifold*> Physics::manifolds() const {
+  auto& dispatcher = const_cast<btCollisionDispatcher&>(dispatcher_);
+  btPersistentManifold** const first = dispatcher.getInternalManifoldPointer();
+  return {first, first + dispatcher.getNumManifolds()};
+}
+
+void Physics::findContacts() { world_.performDiscreteCollisionDetection(); }
+
 double Physics::cast(const Vector3& from, const Vector3& direction, double range) const {
   const btVector3 start = toBullet(from), end = toBullet(from + direction * range);
   btCollisionWorld::ClosestRayResultCallback hit(start, end);

@@ -79,6 +79,10 @@ class Physics {
   void step(double dt);
   /// Pairs of models that touch now, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
+  /// The pairs of bodies that Bullet keeps contacts of, with their contacts.
+  std::vector<btPersistentManifold*> manifolds() const;
+  /// Finds the contacts of this moment, as a step does at its beginning.
+  void findContacts();
   /// First body on a ray, as a fraction of `range`; +inf = none.
   double cast(const Vector3& from, const Vector3& direction, double range) const;
 

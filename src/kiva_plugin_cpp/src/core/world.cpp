@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../plugins/fleet_plugin.h"
+#include "checkpoint.h"
 #include "collisions.h"
 #include "commands.h"
 #include "engagement.h"
@@ -24,6 +25,7 @@ void loadWorldPlugins(Parts& parts, const std::vector<PluginDescription>& plugin
     } else {
       parts.world_plugins.push_back(loadUserPlugin(plugin.filename, plugin.parameters.where()));
       parts.world_plugins.back()->load(*parts.world, "", plugin.parameters);
+      parts.world_plugin_descriptions.push_back(plugin);
     }
     plugin.parameters.rejectUnread();
   }
@@ -231,6 +233,26 @@ double World::rayCast(const Vector3& from, double yaw, double range) const {
   return parts_->obstacles
       .cast(from.X(), from.Y(), from.Z(), std::cos(yaw), std::sin(yaw), range, -1)
       .range;
+}
+
+std::string World::checkpoint() { return kiva::checkpoint(*parts_); }
+std::uint64_t World::stateHash() const { return kiva::stateHash(*parts_); }
+
+void World::restore(const std::string& checkpoint) {
+  Restored next = readCheckpoint(checkpoint);
+  const std::vector<PluginState> before = savePlugins(*parts_);
+  next.parts->world = this;
+  next.parts->models_revision = parts_->models_revision + 1;
+  next.parts->units_revision = parts_->units_revision + 1;
+  parts_.swap(next.parts);
+  try {
+    adoptPlugins(*parts_, *next.parts);
+    restorePlugins(*parts_, next.plugins);
+  } catch (...) {
+    parts_.swap(next.parts);
+    restorePlugins(*parts_, before);
+    throw;
+  }
 }
 
 std::vector<Event> World::takeEvents() {

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse world inside this process, without ROS.
+
+    from kiva_plugin_cpp import World
+
+    world = World.preset("small")
+    world.mov(kiva_id=1, x=0, y=2)
+    world.step(5000)
+    print(world.fleet.x, world.events())
+
+SI units, radians, x forward, y left, z up. One thread at a time uses a world.
+"""
+
+from enum import IntEnum
+from pathlib import Path
+
+from kiva_plugin_cpp import _core
+from kiva_plugin_cpp._core import COMMAND, EVENT, CheckpointError, DescriptionError, Fleet
+
+__all__ = [
+    "COMMAND",
+    "EVENT",
+    "CheckpointError",
+    "DescriptionError",
+    "EventKind",
+    "Fleet",
+    "Kind",
+    "State",
+    "Status",
+    "World",
+]
+
+
+class Kind(IntEnum):
+    """Of a command, in COMMAND's field `kind`."""
+
+    MOVE_TO = 0
+    MOVE_X = 1
+    MOVE_Y = 2
+    ROTATE = 3
+    LIFT = 4
+
+
+class Status(IntEnum):
+    """Of a robot, in Fleet.status."""
+
+    IDLE = 0
+    BUSY = 1
+    BLOCKED = 2
+
+
+class State(IntEnum):
+    """What a robot does, in Fleet.state."""
+
+    IDLE = 0
+    MOVING_X = 1
+    MOVING_Y = 2
+    ROTATING = 3
+    LIFTING = 4
+    BLOCKED = 5
+
+
+class EventKind(IntEnum):
+    """In EVENT's field `kind`."""
+
+    ACCEPTED = 0
+    REFUSED = 1
+    DONE = 2
+    BLOCKED = 3
+    LIFTED = 4
+    DROPPED = 5
+    COLLISION = 6
+    SPAWNED = 7
+    DELETED = 8
+
+
+def _worlds():
+    """The folder of world files: of the installation, else of the source tree."""
+    package = Path(__file__).parent
+    installed = package.parents[3] / "share" / "warehouse_sim" / "worlds"
+    return (
+        installed
+        if installed.is_dir()
+        else package.joinpath("__init__.py").resolve().parents[4] / "worlds"
+    )
+
+
+def _find(world):
+    tried = [Path(world), _worlds() / world, _worlds() / f"{world}.sdf"]
+    for path in tried:
+        if path.is_file():
+            return path
+    raise FileNotFoundError(f"there is no world '{world}'; tried {', '.join(map(str, tried))}")
+
+
+class World(_core.World):
+    """A simulated warehouse, from an SDF world file: its path, or its name in worlds/.
+
+    seed: of everything random. drive: "traction" or "jointed" instead of what the robots' models
+    say. model_paths: folders in which to look for `model://` before the project's own.
+    FileNotFoundError, or DescriptionError that names file, line and what is wrong.
+    """
+
+    def __init__(self, world="empty", *, seed=1, drive="", model_paths=()):
+        models = [*map(str, model_paths), str(_worlds() / "models")]
+        super().__init__(str(_find(world)), False, models, seed, drive)
+
+    @classmethod
+    def preset(cls, name, **options):
+        """A warehouse as create_warehouse_models builds it: empty, small, medium, large or huge.
+
+        Options as of World. ValueError for an unknown name.
+        """
+        return cls.create(name, **options)
+
+    @classmethod
+    def create(cls, name="", *, robots=0, items=0, shelves=0, **options):
+        """A warehouse of so many robots, items and storage units.
+
+        ValueError if items find no room or a number is negative or beyond the limits.
+        """
+        from warehouse_sim import layout, models, request
+
+        plan = layout.plan(request.resolve(name, robots=robots, items=items, shelves=shelves))
+        world = cls(**options)
+        world.delete(models.FLOOR)
+        world.spawn(models.document(models.of_layout(plan)))
+        world.events()
+        return world
+
+    def spawn_model(self, model, name, x, y, z=0.0, yaw=0.0):
+        """Adds a model of worlds/models ("kiva", "storage_unit" …) at a place in world [m, rad].
+
+        DescriptionError if there is none, or the name is taken.
+        """
+        include = f"<include><uri>model://{model}</uri><name>{name}</name></include>"
+        text = f'<sdf version="1.9"><world name="models">{include}</world></sdf>'
+        return self.spawn(text, name, (x, y, z, yaw))[0]
+
+    def carry(self, kiva_id, shelf_id):
+        """Carry that storage unit. Arguments and errors as of mov()."""
+        self.lift(kiva_id, 1, shelf_id)
+
+    def drop(self, kiva_id, shelf_id):
+        """Drop it. Arguments and errors as of mov()."""
+        self.lift(kiva_id, 0, shelf_id)

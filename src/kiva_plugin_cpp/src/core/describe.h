@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the structs of a world hold, listed once for writing, reading and hashing; see archive.h.
+#pragma once
+
+#include "archive.h"
+#include "models.h"
+#include "plugin_states.h"
+#include "renewal.h"
+
+namespace kiva {
+
+// A field that is added to a struct below has to be described too, and where that changes what the
+// bytes mean, the version counted up. Each of these numbers is to remind of it.
+#if defined(__x86_64__) && defined(__GLIBCXX__)
+#define DESCRIBED(type, size) \
+  static_assert(sizeof(type) == (size), "describe what is new in it, then correct the size")
+#else
+#define DESCRIBED(type, size)
+#endif
+
+// --- descriptions
+
+template <class A>
+void describe(A& a, Shape& s) {
+  DESCRIBED(Shape, 104);
+  a(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size);
+}
+
+template <class A>
+void describe(A& a, Collision& c) {
+  DESCRIBED(Collision, 224);
+  a(c.name, c.pose_in_link, c.shape, c.friction, c.restitution);
+}
+
+template <class A>
+void describe(A& a, Visual& v) {
+  DESCRIBED(Visual, 240);
+  a(v.name, v.pose_in_link, v.shape, v.rgba);
+}
+
+template <class A>
+void describe(A& a, Link& l) {
+  DESCRIBED(Link, 272);
+  a(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
+    l.collisions, l.visuals);
+}
+
+template <class A>
+void describe(A& a, Joint& j) {
+  DESCRIBED(Joint, 216);
+  a(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model, j.lower, j.upper,
+    j.max_effort, j.max_velocity, j.damping, j.friction);
+}
+
+template <class A>
+void describe(A& a, Parameters& p) {
+  std::string where = p.where();
+  std::vector<std::string> keys, texts;
+  for (const auto& [key, text] : p.values()) {
+    keys.push_back(key);
+    texts.push_back(text);
+  }
+  a(where, keys, texts);
+  if constexpr (A::kReads) {
+    p = Parameters(where);
+    for (std::size_t i = 0; i < keys.size(); ++i) p.set(keys[i], texts.at(i));
+  }
+}
+
+template <class A>
+void describe(A& a, PluginDescription& p) {
+  DESCRIBED(PluginDescription, 192);
+  a(p.name, p.filename, p.parameters);
+}
+
+template <class A>
+void describe(A& a, ModelDescription& m) {
+  DESCRIBED(ModelDescription, 104);
+  a(m.is_static, m.links, m.joints, m.plugins, m.nested_models);
+}
+
+// --- the fleet
+
+template <class A>
+void describe(A& a, DriveParameters& d) {
+  DESCRIBED(DriveParameters, 88);
+  a(d.drive, d.speed, d.acceleration, d.emergency_deceleration, d.wheel_radius, d.wheel_separation,
+    d.wheel_inertia, d.motor_torque, d.friction, d.drive_wheel_load, d.quarter_turn_time);
+}
+
+template <class A>
+void describe(A& a, LiftParameters& l) {
+  DESCRIBED(LiftParameters, 40);
+  a(l.fitted, l.height, l.time, l.max_load, l.proximity);
+}
+
+template <class A>
+void describe(A& a, LaserParameters& l) {
+  DESCRIBED(LaserParameters, 64);
+  a(l.fitted, l.rays, l.min_angle, l.max_angle, l.min_range, l.max_range, l.rate, l.x, l.z);
+}
+
+template <class A>
+void describe(A& a, Leg& l) {
+  DESCRIBED(Leg, 48);
+  a(l.kind, l.x, l.y, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
+}
+
+template <class A>
+void describe(A& a, Robot& r) {
+  DESCRIBED(Robot, 512);
+  a(r.name, r.id, r.model, r.mass, r.inertia, r.half_length, r.half_width, r.height);
+  a(r.load_mass, r.load_inertia, r.load_half_length, r.load_half_width);
+  a(r.drive, r.lift, r.laser, r.has_motion, r.has_rotation);
+  a(r.legs, r.reported_shelf, r.leg_started, r.overdue);
+  a(r.look_now, r.seen_distance, r.seen_from, r.seen_model);
+  a(r.stopping, r.halting, r.blocked_by, r.blocked_reason);  // its ray_fan comes with its laser
+}
+
+template <class A>
+void describe(A& a, Fleet& f) {
+  DESCRIBED(Fleet, 816);
+  a(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
+  a(f.tower, f.unit, f.status, f.state, f.awake, f.engaged, f.look_again);
+  a(f.reference, f.reference_speed, f.goal, f.deceleration);
+  a(f.cruising, f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed, f.acceleration,
+    f.cruise_until);
+  a(f.robots, f.index_of_id);
+}
+
+// --- models, storage units, items
+
+template <class A>
+void describe(A& a, Outline& o) {
+  DESCRIBED(Outline, 192);
+  a(o.link, o.pose_in_link, o.shape);
+}
+
+template <class A>
+void describe(A& a, Model& m) {
+  DESCRIBED(Model, 360);
+  a(m.name, m.kind, m.serial, m.spawn_pose);
+  a.mostly(m.pose, m.spawn_pose);
+  a(m.index, m.in_physics, m.engaged_until, m.disturbed);
+  bool has_outlines = !m.outlines.empty();
+  a(has_outlines);
+  if (m.kind == ModelKind::kRobot) {
+    a(m.outlines);
+  } else if (A::kReads && has_outlines) {
+    addOutlines(m);
+  }
+}
+
+template <class A>
+void describe(A& a, StorageUnit& u) {
+  DESCRIBED(StorageUnit, 128);
+  a(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier);
+}
+
+template <class A>
+void describe(A& a, Item& i) {
+  DESCRIBED(Item, 200);
+  a(i.id, i.model, i.unit, i.pose_in_unit, i.mass);  // its name is its model's
+  a.mostly(i.spawn_pose_in_unit, i.pose_in_unit);
+}
+
+// --- Bullet
+
+template <class A>
+void describe(A& a, btVector3& v) {
+  a(v.m_floats[0], v.m_floats[1], v.m_floats[2]);
+}
+
+template <class A>
+void describe(A& a, btTransform& t) {
+  a(t.getBasis()[0], t.getBasis()[1], t.getBasis()[2], t.getOrigin());
+}
+
+template <class A>
+void describe(A& a, BodyState& b) {
+  DESCRIBED(BodyState, 464);
+  a(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
+    b.predicted_angular_velocity, b.force, b.torque, b.activation, b.resting);
+}
+
+template <class A>
+void describe(A& a, BodyAddress& b) {
+  a(b.model, b.link, b.is_plane);
+}
+
+template <class A>
+void describe(A& a, btManifoldPoint& p) {
+  a(p.m_localPointA, p.m_localPointB, p.m_positionWorldOnA, p.m_positionWorldOnB,
+    p.m_normalWorldOnB, p.m_distance1, p.m_combinedFriction, p.m_combinedRollingFriction,
+    p.m_combinedSpinningFriction, p.m_combinedRestitution, p.m_partId0, p.m_partId1, p.m_index0,
+    p.m_index1, p.m_contactPointFlags, p.m_appliedImpulse, p.m_prevRHS, p.m_appliedImpulseLateral1,
+    p.m_appliedImpulseLateral2, p.m_contactMotion1, p.m_contactMotion2, p.m_contactCFM,
+    p.m_contactERP, p.m_frictionCFM, p.m_lifeTime, p.m_lateralFrictionDir1,
+    p.m_lateralFrictionDir2);
+}
+
+template <class A>
+void describe(A& a, ContactMemory& c) {
+  a(c.a, c.b, c.points);
+}
+
+template <class A>
+void describe(A& a, PhysicsState& p) {
+  a(p.bodies, p.contacts);
+}
+
+// --- the world
+
+template <class A>
+void describe(A& a, Command& c) {
+  DESCRIBED(Command, 40);
+  a(c.kind, c.kiva_id, c.x, c.y, c.direction, c.lift, c.shelf_id);
+}
+
+template <class A>
+void describe(A& a, Event& e) {
+  DESCRIBED(Event, 112);
+  a(e.time, e.kind, e.model, e.other, e.text);
+}
+
+template <class A>
+void describe(A& a, StatusChange& s) {
+  DESCRIBED(StatusChange, 48);
+  a(s.time, s.kiva_id, s.status, s.state, s.shelf_id, s.x, s.y, s.yaw);
+}
+
+template <class A>
+void describe(A& a, TouchingPair& t) {
+  DESCRIBED(TouchingPair, 16);
+  a(t.model_a, t.model_b, t.last_step);
+}
+
+template <class A>
+void describe(A& a, PluginState& p) {
+  a(p.model, p.index, p.state);
+}
+
+template <class A>
+void describe(A& a, Floor& f) {
+  DESCRIBED(Floor, 32);
+  a(f.min_x, f.max_x, f.min_y, f.max_y);
+}
+
+template <class A>
+void describe(A& a, WorldOptions& o) {
+  DESCRIBED(WorldOptions, 16);
+  a(o.seed, o.drive, o.always_in_bullet);
+}
+
+#undef DESCRIBED
+
+}  // namespace kiva

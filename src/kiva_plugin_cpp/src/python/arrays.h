@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Between numpy and the world's arrays.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cmath>
+#include <string>
+
+#include "kiva_plugin_cpp/fleet.h"
+
+namespace kiva::python {
+
+namespace py = pybind11;
+
+/// A read-only array over memory of the world, without a copy. It holds the memory: whatever
+/// becomes of the world, what was there last can still be read.
+template <typename Out, typename T>
+py::array view(const Column<T>& column, std::vector<py::ssize_t> shape = {}) {
+  static_assert(sizeof(Out) == sizeof(T));
+  if (shape.empty()) shape = {static_cast<py::ssize_t>(column.size())};
+  py::object owner = py::none();
+  if (column.data()) {
+    SharedMemory::hold(column.data());
+    owner = py::capsule(column.data(), [](void* memory) { SharedMemory::release(memory); });
+  }
+  py::array_t<Out> array(shape, reinterpret_cast<const Out*>(column.data()), owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return std::move(array);
+}
+
+/// As Python prints it.
+inline std::string text(const py::object& value) { return py::str(value); }
+
+/// An argument that is one number or an array of one a command. Throws TypeError for what holds no
+/// such numbers and ValueError for an array of more than one dimension.
+template <typename T>
+class Numbers {
+ public:
+  Numbers(const char* name, const py::object& value) : name_(name) {
+    const py::array given = py::array::ensure(value);
+    const char kind = given ? given.dtype().kind() : 'O';
+    const bool fits = kind == 'i' || kind == 'u' || (kind == 'f' && std::is_floating_point_v<T>);
+    if (!fits) {
+      PyErr_Clear();
+      throw py::type_error(std::string(name) + ": expected " +
+                           (std::is_floating_point_v<T> ? "numbers" : "whole numbers") + ", not " +
+                           (given ? text(given.dtype()) : text(py::type::of(value))));
+    }
+    if (given.ndim() > 1) {
+      throw py::value_error(std::string(name) + ": expected a number or an array of shape (n,)," +
+                            " not " + text(given.attr("shape")));
+    }
+    values_ = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(given);
+    if constexpr (std::is_integral_v<T>) checkRange(given);
+  }
+
+  const char* name() const { return name_; }
+  bool isOne() const { return values_.ndim() == 0 || values_.size() == 1; }
+  py::ssize_t size() const { return values_.size(); }
+  T operator[](py::ssize_t i) const { return values_.data()[isOne() ? 0 : i]; }
+
+ private:
+  void checkRange(const py::array& given) const {
+    if (given.dtype().itemsize() < static_cast<py::ssize_t>(sizeof(T))) return;
+    const py::object same = values_.attr("__eq__")(given).attr("all")();
+    if (!same.cast<bool>()) {
+      throw py::value_error(std::string(name_) + ": a value is too large for 32 bits");
+    }
+  }
+
+  const char* name_;
+  py::array_t<T, py::array::c_style | py::array::forcecast> values_;
+};
+
+}  // namespace kiva::python

@@ -1,0 +1,607 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The world inside a Python process. This file translates; python/kiva_plugin_cpp/__init__.py adds
+// what is easier said in Python.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "arrays.h"
+#include "kiva_plugin_cpp/world.h"
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace kiva::python {
+namespace {
+
+constexpr std::uint64_t kStepsBetweenSignals = 256;
+
+/// A row of World.storage_units.
+struct UnitRow {
+  std::int32_t shelf_id;
+  double x, y, z, yaw, mass;
+  std::int32_t kiva_id;
+};
+
+/// A row of World.items.
+struct ItemRow {
+  std::int32_t item_id;
+  double x, y, z, mass;
+  std::int32_t shelf_id;
+};
+
+/// A world that one thread uses at a time: a second one is told so.
+class Host {
+ public:
+  Host(const WorldDescription& description, const WorldOptions& options, ModelPaths paths)
+      : world(description, options), model_paths(std::move(paths)) {}
+
+  std::unique_lock<std::mutex> use() {
+    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock) throw std::runtime_error("the world is in use by another thread");
+    return lock;
+  }
+
+  World world;
+  ModelPaths model_paths;
+  Column<float> ranges;  // of the last scans()
+
+ private:
+  std::mutex mutex_;
+};
+
+using HostPtr = std::shared_ptr<Host>;
+
+std::optional<Drive> driveOf(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  if (name == "traction") return Drive::kTraction;
+  if (name == "jointed") return Drive::kJointed;
+  throw py::value_error("drive is '" + name + "'; 'traction', 'jointed' or '' was expected");
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& text : warnings) {
+    if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 2) != 0) throw py::error_already_set();
+  }
+}
+
+HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
+                 std::uint64_t seed, const std::string& drive) {
+  const WorldOptions options{seed, driveOf(drive)};
+  std::vector<std::string> warnings;
+  HostPtr host;
+  {
+    py::gil_scoped_release release;
+    host = std::make_shared<Host>(is_text ? parseWorld(source, models, "<text>", &warnings)
+                                          : loadWorld(source, models, &warnings),
+                                  options, models);
+  }
+  warn(warnings);
+  return host;
+}
+
+void step(Host& host, std::int64_t steps) {
+  if (steps < 0) throw py::value_error("steps is " + std::to_string(steps) + "; 0 or more");
+  const auto lock = host.use();
+  while (steps > 0) {
+    const std::int64_t now = std::min<std::int64_t>(steps, kStepsBetweenSignals);
+    {
+      py::gil_scoped_release release;
+      for (std::int64_t i = 0; i < now; ++i) host.world.step();
+    }
+    steps -= now;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // Ctrl-C
+  }
+}
+
+// --- commands
+
+void checkRobot(const Host& host, std::int32_t id) {
+  if (host.world.fleet().find(id) < 0) {
+    throw py::value_error("kiva_id: there is no robot kiva" + std::to_string(id));
+  }
+}
+
+void checkFinite(const char* name, double value, std::size_t i) {
+  if (std::isfinite(value)) return;
+  throw py::value_error(std::string(name) + " of command " + std::to_string(i) + " is " +
+                        text(py::float_(value)) + "; expected a finite number");
+}
+
+void checkCommand(const Host& host, const Command& command, std::size_t i) {
+  if (command.kind > Command::Kind::kLift) {
+    throw py::value_error("kind of command " + std::to_string(i) + " is " +
+                          std::to_string(static_cast<int>(command.kind)) + "; expected 0 to 4");
+  }
+  checkRobot(host, command.kiva_id);
+  checkFinite("x", command.x, i);
+  checkFinite("y", command.y, i);
+}
+
+/// All or none.
+void postAll(Host& host, const Command* commands, std::size_t count) {
+  const auto lock = host.use();
+  for (std::size_t i = 0; i < count; ++i) checkCommand(host, commands[i], i);
+  for (std::size_t i = 0; i < count; ++i) host.world.post(commands[i]);
+}
+
+void post(Host& host, const py::array& commands) {
+  const py::dtype expected = py::dtype::of<Command>();
+  if (!commands.dtype().equal(expected)) {
+    throw py::type_error("commands: expected an array of dtype kiva_plugin_cpp.COMMAND, " +
+                         text(expected) + ", not " + text(commands.dtype()));
+  }
+  if (commands.ndim() > 1) {
+    throw py::value_error("commands: expected shape (n,), not " + text(commands.attr("shape")));
+  }
+  const auto rows = py::array_t<Command, py::array::c_style>::ensure(commands);
+  postAll(host, rows.data(), static_cast<std::size_t>(rows.size()));
+}
+
+/// How many commands the columns make: the one length that isn't 1.
+template <typename... Columns>
+std::size_t lengthOf(const Columns&... columns) {
+  py::ssize_t length = 1;
+  const char* whose = nullptr;
+  const auto check = [&](const auto& column) {
+    if (column.isOne()) return;
+    if (whose && column.size() != length) {
+      throw py::value_error(std::string(column.name()) + " has " + std::to_string(column.size()) +
+                            " entries and " + whose + " has " + std::to_string(length));
+    }
+    whose = column.name();
+    length = column.size();
+  };
+  (check(columns), ...);
+  return static_cast<std::size_t>(length);
+}
+
+template <typename Fill, typename... Columns>
+void postColumns(Host& host, Command::Kind kind, Fill fill, const Columns&... columns) {
+  std::vector<Command> commands(lengthOf(columns...));
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    commands[i].kind = kind;
+    fill(commands[i], columns[static_cast<py::ssize_t>(i)]...);
+  }
+  postAll(host, commands.data(), commands.size());
+}
+
+using Ids = Numbers<std::int32_t>;
+using Reals = Numbers<double>;
+
+void mov(Host& host, const py::object& kiva_id, const py::object& x, const py::object& y) {
+  const auto fill = [](Command& c, int id, double to_x, double to_y) {
+    c.kiva_id = id;
+    c.x = to_x;
+    c.y = to_y;
+  };
+  postColumns(host, Command::Kind::kMoveTo, fill, Ids("kiva_id", kiva_id), Reals("x", x),
+              Reals("y", y));
+}
+
+void movAlong(Host& host, Command::Kind kind, const py::object& kiva_id,
+              const py::object& distance) {
+  const auto fill = [kind](Command& c, int id, double way) {
+    c.kiva_id = id;
+    (kind == Command::Kind::kMoveX ? c.x : c.y) = way;
+  };
+  postColumns(host, kind, fill, Ids("kiva_id", kiva_id), Reals("distance", distance));
+}
+
+void rot(Host& host, const py::object& kiva_id, const py::object& direction) {
+  const auto fill = [](Command& c, int id, int way) {
+    c.kiva_id = id;
+    c.direction = way;
+  };
+  postColumns(host, Command::Kind::kRotate, fill, Ids("kiva_id", kiva_id),
+              Ids("direction", direction));
+}
+
+void lift(Host& host, const py::object& kiva_id, const py::object& status,
+          const py::object& shelf_id) {
+  const auto fill = [](Command& c, int id, int what, int shelf) {
+    c.kiva_id = id;
+    c.lift = what;
+    c.shelf_id = shelf;
+  };
+  postColumns(host, Command::Kind::kLift, fill, Ids("kiva_id", kiva_id), Ids("status", status),
+              Ids("shelf_id", shelf_id));
+}
+
+// --- the fleet
+
+/// What Python calls World.fleet.
+struct FleetView {
+  HostPtr host;
+
+  template <typename Out, typename Read>
+  py::array column(Read read) const {
+    const auto lock = host->use();
+    return view<Out>(read(host->world.fleet()));
+  }
+  template <typename Read>
+  py::array_t<std::int32_t> numbers(Read read) const {
+    const auto lock = host->use();
+    const int size = host->world.fleet().size();
+    py::array_t<std::int32_t> out(size);
+    for (int i = 0; i < size; ++i) out.mutable_data()[i] = read(host->world, i);
+    return out;
+  }
+};
+
+std::int32_t idOf(const World& world, int robot) {
+  return robot < 0 ? 0 : world.fleet().robots[robot].id;
+}
+std::int32_t shelfOf(const World& world, int robot) {
+  const int unit = world.fleet().unit[robot];
+  return unit < 0 ? 0 : world.storageUnits()[unit].id;
+}
+
+int indexOf(const Host& host, std::int32_t kiva_id) {
+  checkRobot(host, kiva_id);
+  return host.world.fleet().find(kiva_id);
+}
+
+std::vector<int> robotsOf(const Host& host, const py::object& kiva_id) {
+  std::vector<int> robots;
+  if (kiva_id.is_none()) {
+    for (int i = 0; i < host.world.fleet().size(); ++i) robots.push_back(i);
+    return robots;
+  }
+  const Ids ids("kiva_id", kiva_id);
+  for (py::ssize_t i = 0; i < ids.size(); ++i) robots.push_back(indexOf(host, ids[i]));
+  return robots;
+}
+
+/// One row a robot, filled up with NaN.
+void scanInto(Host& host, const std::vector<int>& robots, std::size_t rays) {
+  std::vector<float> ranges;
+  for (std::size_t row = 0; row < robots.size(); ++row) {
+    float* const out = host.ranges.data() + row * rays;
+    ranges.clear();
+    if (host.world.fleet().robots[robots[row]].laser.fitted) {
+      host.world.scan(robots[row], &ranges);
+    }
+    std::fill(std::copy(ranges.begin(), ranges.end(), out), out + rays,
+              std::numeric_limits<float>::quiet_NaN());
+  }
+}
+
+py::array scans(Host& host, const py::object& kiva_id) {
+  const auto lock = host.use();
+  const std::vector<int> robots = robotsOf(host, kiva_id);
+  std::size_t rays = 0;
+  for (int robot : robots) {
+    const LaserParameters& laser = host.world.fleet().robots[robot].laser;
+    if (laser.fitted) rays = std::max(rays, static_cast<std::size_t>(laser.rays));
+  }
+  if (host.ranges.size() != robots.size() * rays) {
+    host.ranges = Column<float>(robots.size() * rays);
+  }
+  {
+    py::gil_scoped_release release;
+    scanInto(host, robots, rays);
+  }
+  return view<float>(host.ranges,
+                     {static_cast<py::ssize_t>(robots.size()), static_cast<py::ssize_t>(rays)});
+}
+
+// --- models
+
+std::vector<std::string> spawn(Host& host, std::vector<ModelInstance> models) {
+  std::vector<std::string> names;
+  for (const ModelInstance& model : models) names.push_back(model.name);
+  host.world.spawn(models);
+  return names;
+}
+
+std::vector<std::string> spawnText(Host& host, const std::string& sdf, const std::string& name,
+                                   const std::optional<std::array<double, 4>>& place) {
+  const auto lock = host.use();
+  std::vector<std::string> warnings;
+  std::vector<ModelInstance> models = parseModels(sdf, host.model_paths, "<text>", &warnings);
+  warn(warnings);
+  if (models.size() > 1 && (!name.empty() || place)) {
+    throw py::value_error("the text holds " + std::to_string(models.size()) +
+                          " models; name and place are for one");
+  }
+  if (!name.empty()) models[0].name = name;
+  if (place) {
+    const auto& [x, y, z, yaw] = *place;
+    models[0].pose = Pose(x, y, z, 0, 0, yaw);
+  }
+  return spawn(host, std::move(models));
+}
+
+void checkModel(const Host& host, const std::string& name) {
+  if (!host.world.has(name)) throw py::key_error("there is no model '" + name + "'");
+}
+
+void removeModel(Host& host, const std::string& name) {
+  const auto lock = host.use();
+  checkModel(host, name);
+  host.world.remove(name);
+}
+
+py::array_t<double> poseOf(Host& host, const std::string& name) {
+  const auto lock = host.use();
+  checkModel(host, name);
+  const Pose pose = host.world.state(name)->pose;
+  const Quaternion& q = pose.Rot();
+  const double numbers[] = {pose.X(), pose.Y(), pose.Z(), q.X(), q.Y(), q.Z(), q.W()};
+  return py::array_t<double>(7, numbers);
+}
+
+void setPose(Host& host, const std::string& name, double x, double y, double z, double yaw) {
+  const auto lock = host.use();
+  checkModel(host, name);
+  host.world.setState(name, {Pose(x, y, z, 0, 0, yaw), {}});
+}
+
+py::array_t<UnitRow> storageUnits(Host& host) {
+  const auto lock = host.use();
+  const auto& units = host.world.storageUnits();
+  py::array_t<UnitRow> out(static_cast<py::ssize_t>(units.size()));
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Pose pose = host.world.storageUnitPose(static_cast<int>(i));
+    out.mutable_data()[i] = {units[i].id,
+                             pose.X(),
+                             pose.Y(),
+                             pose.Z(),
+                             pose.Yaw(),
+                             units[i].mass,
+                             idOf(host.world, units[i].carrier)};
+  }
+  return out;
+}
+
+py::array_t<ItemRow> items(Host& host) {
+  const auto lock = host.use();
+  const auto& all = host.world.items();
+  py::array_t<ItemRow> out(static_cast<py::ssize_t>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Pose pose = host.world.itemPose(static_cast<int>(i));
+    const int unit = all[i].unit;
+    out.mutable_data()[i] = {all[i].id,   pose.X(),
+                             pose.Y(),    pose.Z(),
+                             all[i].mass, unit < 0 ? 0 : host.world.storageUnits()[unit].id};
+  }
+  return out;
+}
+
+// --- events, checkpoints
+
+py::dtype eventType() {
+  py::list fields;
+  fields.append(py::make_tuple("time", "f8"));
+  fields.append(py::make_tuple("kind", "u1"));
+  for (const char* text : {"model", "other", "text"}) fields.append(py::make_tuple(text, "O"));
+  return py::dtype::from_args(fields);
+}
+
+py::object events(Host& host) {
+  const auto lock = host.use();
+  py::list rows;
+  for (const Event& e : host.world.takeEvents()) {
+    rows.append(py::make_tuple(e.time, static_cast<int>(e.kind), e.model, e.other, e.text));
+  }
+  host.world.takeStatusChanges();
+  return py::module_::import("numpy").attr("array")(rows, eventType());
+}
+
+py::bytes checkpoint(Host& host) {
+  const auto lock = host.use();
+  return host.world.checkpoint();
+}
+
+void restore(Host& host, const py::bytes& bytes) {
+  const auto lock = host.use();
+  host.world.restore(bytes);
+}
+
+/// A function of the world, as a method that no second thread gets into.
+template <typename Call>
+auto guarded(Call call) {
+  return [call](Host& host) {
+    const auto lock = host.use();
+    return call(host.world);
+  };
+}
+
+void defineFleet(py::module_& m) {
+  py::class_<FleetView> fleet(m, "Fleet", R"(All robots as arrays: entry i of each is robot i.
+
+Arrays but kiva_id and shelf_id are read-only views: nothing is copied, and step() changes what
+they show. They are current until robots come or go, or the world is restored: ask for them anew
+then. An old one stays safe to read, whatever becomes of the world, and shows what was there last.)");
+  const auto add = [&fleet](const char* name, auto read, auto zero, const char* doc) {
+    const auto get = [read](const FleetView& f) { return f.template column<decltype(zero)>(read); };
+    fleet.def_property_readonly(name, get, doc);
+  };
+  add(
+      "x", [](const Fleet& f) -> auto& { return f.x; }, 0.0,
+      "(n,) float64: x in world [m]. A view.");
+  add(
+      "y", [](const Fleet& f) -> auto& { return f.y; }, 0.0,
+      "(n,) float64: y in world [m]. A view.");
+  add(
+      "yaw", [](const Fleet& f) -> auto& { return f.yaw; }, 0.0,
+      "(n,) float64: heading in world [rad], unwrapped: it counts full turns. A view.");
+  add(
+      "vx", [](const Fleet& f) -> auto& { return f.vx; }, 0.0,
+      "(n,) float64: velocity along the world's x [m/s]. A view.");
+  add(
+      "vy", [](const Fleet& f) -> auto& { return f.vy; }, 0.0,
+      "(n,) float64: velocity along the world's y [m/s]. A view.");
+  add(
+      "yaw_rate", [](const Fleet& f) -> auto& { return f.yaw_rate; }, 0.0,
+      "(n,) float64 [rad/s], counterclockwise. A view.");
+  add(
+      "left_wheel_speed", [](const Fleet& f) -> auto& { return f.wheel_speed[0]; }, 0.0,
+      "(n,) float64 [rad/s]. A view.");
+  add(
+      "right_wheel_speed", [](const Fleet& f) -> auto& { return f.wheel_speed[1]; }, 0.0,
+      "(n,) float64 [rad/s]. A view.");
+  add(
+      "tower", [](const Fleet& f) -> auto& { return f.tower; }, 0.0,
+      "(n,) float64: height of the tower above its rest [m]. A view.");
+  add(
+      "status", [](const Fleet& f) -> auto& { return f.status; }, std::uint8_t(),
+      "(n,) uint8, values of Status. A view.");
+  add(
+      "state", [](const Fleet& f) -> auto& { return f.state; }, std::uint8_t(),
+      "(n,) uint8, values of State. A view.");
+  fleet.def_property_readonly(
+      "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
+      "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
+  fleet.def_property_readonly(
+      "shelf_id", [](const FleetView& f) { return f.numbers(shelfOf); },
+      "(n,) int32: number of the storage unit that each carries, 0 = none. A copy.");
+  fleet.def(
+      "index",
+      [](const FleetView& f, std::int32_t id) {
+        const auto lock = f.host->use();
+        return indexOf(*f.host, id);
+      },
+      py::arg("kiva_id"), "Where robot kiva_id is in the arrays. ValueError if there is none.");
+  fleet.def("__len__", [](const FleetView& f) {
+    const auto lock = f.host->use();
+    return f.host->world.fleet().size();
+  });
+}
+
+void defineWorld(py::module_& m) {
+  py::class_<Host, HostPtr> world(m, "World");
+  world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
+            py::arg("seed"), py::arg("drive"));
+  world.def("step", &step, py::arg("steps") = 1,
+            R"(Advances the world by so many steps of step_size seconds.
+
+Other threads run meanwhile; one that uses this world gets a RuntimeError. Ctrl-C ends it between
+steps. ValueError for a negative number.)");
+  world.def(
+      "reset",
+      [](Host& host, bool time) {
+        const auto lock = host.use();
+        host.world.reset(time);
+      },
+      py::arg("time") = true, R"(Everything back to where it was spawned, at rest, without commands.
+
+Time goes back to 0 too, unless time is False.)");
+  world.def("post", &post, py::arg("commands"),
+            R"(Posts commands: a row, or an array of shape (n,), of dtype COMMAND.
+
+They are answered by an ACCEPTED or REFUSED event each at the next step. TypeError for another
+dtype; ValueError, and none is posted, for another shape, an unknown kind or robot, NaN or
+infinity.)");
+  world.def("mov", &mov, py::arg("kiva_id"), py::arg("x"), py::arg("y"),
+            R"(Go to (x, y) in world [m]: along x first, then along y, turning as needed.
+
+Each argument is a number or an array of shape (n,), one command an entry; numbers go with every
+entry. TypeError for what holds no numbers; ValueError, and nothing is posted, for shapes that
+don't match, an unknown robot, NaN or infinity. What a robot can't do is refused by an event.)");
+  world.def(
+      "movx",
+      [](Host& host, const py::object& id, const py::object& distance) {
+        movAlong(host, Command::Kind::kMoveX, id, distance);
+      },
+      py::arg("kiva_id"), py::arg("distance"),
+      "Go so far [m] along the world's x, a whole number of cells. Arguments and errors as of "
+      "mov().");
+  world.def(
+      "movy",
+      [](Host& host, const py::object& id, const py::object& distance) {
+        movAlong(host, Command::Kind::kMoveY, id, distance);
+      },
+      py::arg("kiva_id"), py::arg("distance"),
+      "Go so far [m] along the world's y, a whole number of cells. Arguments and errors as of "
+      "mov().");
+  world.def(
+      "rot", &rot, py::arg("kiva_id"), py::arg("direction"),
+      "Turn by 90 degrees: 1 counterclockwise, -1 clockwise. Arguments and errors as of mov().");
+  world.def("lift", &lift, py::arg("kiva_id"), py::arg("status"), py::arg("shelf_id"),
+            "Carry (1) or drop (0) storage unit shelf_id. Arguments and errors as of mov().");
+  world.def(
+      "scans", &scans, py::arg("kiva_id") = py::none(),
+      R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].
+
++inf = nothing within range, -inf = nearer than the minimum; rays go counterclockwise; NaN fills
+the rows of robots with fewer rays or without a laser. A read-only view of the world's own memory:
+current until the next call of scans(), which may write into it; safe to read ever after.
+ValueError for a robot that isn't.)");
+  world.def("spawn", &spawnText, py::arg("sdf"), py::arg("name") = "",
+            py::arg("place") = py::none(),
+            R"(Adds the models of an SDF or URDF text, or none; returns their names.
+
+A single one can be given a name and a place, (x, y, z, yaw) in world [m, rad]. DescriptionError
+(a ValueError) names what is wrong.)");
+  world.def("delete", &removeModel, py::arg("name"),
+            "Takes a model away; a storage unit goes with its items. KeyError if there is none of "
+            "that name.");
+  world.def("pose", &poseOf, py::arg("name"),
+            "x y z qx qy qz qw of a model in world [m], (7,) float64. KeyError if there is none.");
+  world.def("set_pose", &setPose, py::arg("name"), py::arg("x"), py::arg("y"), py::arg("z") = 0.0,
+            py::arg("yaw") = 0.0,
+            R"(Puts a model there [m, rad], at rest; a command that it is at ends in BLOCKED.
+
+KeyError if there is none of that name, DescriptionError if the place is no finite one.)");
+  world.def("events", &events, R"(What happened since the last call: (n,) of dtype EVENT, in order.
+
+Fields: time [s], kind (values of EventKind), model, other and text.)");
+  world.def("checkpoint", &checkpoint, R"(The whole state as bytes.
+
+This world, and any that restores them, go on the same from here, bit by bit, if they are given
+the same commands.)");
+  world.def("restore", &restore, py::arg("checkpoint"),
+            R"(Makes this world the one that was saved, whatever it was before.
+
+CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)");
+  world.def("state_hash", guarded([](World& w) { return w.stateHash(); }),
+            "64 bits over all that decides what happens next; equal worlds have equal ones.");
+  world.def_property_readonly(
+      "fleet", [](const HostPtr& host) { return FleetView{host}; },
+      "The robots as arrays, a Fleet.");
+  world.def_property_readonly(
+      "storage_units", &storageUnits,
+      R"((n,) with shelf_id, x y z yaw in world [m, rad], mass with items [kg], kiva_id of its carrier
+(0 = none). A copy.)");
+  world.def_property_readonly(
+      "items", &items,
+      "(n,) with item_id, x y z in world [m], mass [kg], shelf_id it lies on (0 = none). A copy.");
+  world.def_property_readonly("names", guarded([](World& w) { return w.modelNames(); }),
+                              "Of all models, in the order in which they came.");
+  world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
+  world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
+                              "Since time was 0.");
+  world.def_property_readonly("step_size", guarded([](World& w) { return w.stepSize(); }),
+                              "How far a step goes [s].");
+  world.def_property_readonly("grid_spacing", guarded([](World& w) { return w.gridSpacing(); }),
+                              "Of the grid points on which robots stand [m].");
+  world.def_property_readonly("floor", guarded([](World& w) {
+                                const Floor& f = w.floor();
+                                return py::make_tuple(f.min_x, f.max_x, f.min_y, f.max_y);
+                              }),
+                              "(min_x, max_x, min_y, max_y) in world [m].");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  PYBIND11_NUMPY_DTYPE(Command, kind, kiva_id, x, y, direction, lift, shelf_id);
+  PYBIND11_NUMPY_DTYPE(UnitRow, shelf_id, x, y, z, yaw, mass, kiva_id);
+  PYBIND11_NUMPY_DTYPE(ItemRow, item_id, x, y, z, mass, shelf_id);
+  py::register_exception<DescriptionError>(m, "DescriptionError", PyExc_ValueError);
+  py::register_exception<CheckpointError>(m, "CheckpointError", PyExc_ValueError);
+  m.attr("COMMAND") = py::dtype::of<Command>();
+  m.attr("EVENT") = eventType();
+  defineFleet(m);
+  defineWorld(m);
+}
+
+}  // namespace kiva::python
