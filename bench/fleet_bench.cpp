@@ -71,7 +71,11 @@ std::string robotText(const Options& options) {
       {"max_angle", "1.5707963267948966"},
   };
   for (const auto& [key, value] : changes) text = with(text, key, value);
-  if (options.drive == "traction") text = with(text, "acceleration", "0");
+  if (options.drive == "traction") {
+    text = with(text, "acceleration", "0");
+  } else {  // wheels that slip can't be at full speed at once: 4 m/s² over half a metre, and back
+    text = with(with(text, "acceleration", "4.0"), "speed", "2.0");
+  }
   if (options.lasers) return text;
   const std::size_t begin = text.find("<plugin name=\"laser\"");
   return text.erase(begin, text.find("</plugin>", begin) + 9 - begin);

@@ -28,7 +28,7 @@ enum class State : std::uint8_t {
 /// How a robot's drive is modelled.
 enum class Drive : std::uint8_t {
   kTraction,  ///< Planar chassis, two wheel speeds, Coulomb friction at the wheels.
-  kJointed    ///< Wheel joints and floor contacts in Bullet.
+  kJointed    ///< Wheel joints, casters, rigid contacts with the floor; the chassis pitches.
 };
 
 struct DriveParameters {
@@ -112,6 +112,17 @@ struct Robot {
   std::string blocked_reason;  ///< Why, for a person.
 };
 
+/// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
+/// on the floor.
+struct Stance {
+  double height = 0;      ///< Of the axle's middle, above where it is then [m].
+  double roll = 0;        ///< About the heading [rad].
+  double pitch = 0;       ///< About the axle, front down [rad].
+  double climb_rate = 0;  ///< [m/s] upwards.
+  double roll_rate = 0;   ///< Turning about the chassis' own x axis,
+  double pitch_rate = 0;  ///< and about its y axis [rad/s].
+};
+
 /// Positions in world [m, rad], velocities in world [m/s, rad/s] unless said otherwise.
 struct Fleet {
   std::vector<double> x, y, yaw;  ///< Yaw is unwrapped: it counts full turns.
@@ -119,6 +130,7 @@ struct Fleet {
   std::vector<double> wheel_speed[2];   ///< Left, right [rad/s].
   std::vector<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
   std::vector<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
+  std::vector<Stance> stance;           ///< Of jointed robots; others stand upright.
   std::vector<double> tower;            ///< Height of the tower above its rest [m].
   std::vector<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
   std::vector<Status> status;

@@ -33,6 +33,8 @@ struct Outline {
   int handle = -1;  ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
 };
 
+struct JointedBody;
+
 struct Model {
   std::string name;
   ModelKind kind = ModelKind::kOther;
@@ -45,6 +47,7 @@ struct Model {
   bool in_physics = false;          ///< Its bodies are in Bullet now.
   std::uint64_t engaged_until = 0;  ///< Step up to which something near keeps it in Bullet.
   bool disturbed = false;           ///< Touched since it was engaged.
+  std::shared_ptr<JointedBody> jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<Outline> outlines;
   std::vector<std::shared_ptr<Plugin>> plugins;
 
@@ -106,6 +109,7 @@ struct World::Parts {
   std::vector<int> active;               // robots that are stepped one by one
   double top_speed = 0;                  // [m/s] of the fastest robot there was
   Floor floor;
+  double floor_friction = 1;  // Coulomb coefficient of the floor's surface
 
   std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;
   std::vector<std::shared_ptr<Plugin>> world_plugins;

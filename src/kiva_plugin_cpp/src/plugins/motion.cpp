@@ -130,10 +130,9 @@ void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
   f.wheel_target[1][i] = (speed + turn) / d.wheel_radius;
 }
 
-const Tolerance& tolerance(const Robot& robot) {
-  // A jointed robot is shaken a little by its contacts with the floor.
-  static const Tolerance traction{1e-5, 1e-6, 1e-3}, jointed{3e-4, 6e-5, 5e-3};
-  return robot.drive.drive == Drive::kJointed ? jointed : traction;
+const Tolerance& tolerance(const Robot& /*robot*/) {
+  static const Tolerance tolerance{1e-5, 1e-6, 1e-3};
+  return tolerance;
 }
 
 bool stands(const Fleet& f, int i) {
