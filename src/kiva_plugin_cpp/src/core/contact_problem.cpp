@@ -10,8 +10,9 @@ namespace {
 // Of a row's own response: where contacts share a load that could rest on fewer, they share it
 // evenly, as if the ground were that soft.
 constexpr double kSoftness = 1e-9;
-constexpr double kExact = 1e-12;  // [m/s]
-constexpr int kMaxSweeps = 300;
+constexpr double kExact = 1e-12;   // [m/s]
+constexpr double kSettled = 1e-10;  // [m/s] of change in a sweep
+constexpr int kMaxSweeps = 100;
 constexpr int kMaxRounds = 4;
 
 }  // namespace
@@ -39,30 +40,32 @@ bool ContactProblem::isWithinFriction(int c) const {
   return along * along + across * across <= limit * limit;
 }
 
-/// Takes it that all contacts hold which would sink in otherwise, but for those that would have to
-/// pull. Returns whether that is the solution.
+/// Takes it that contacts hold which would sink in otherwise, and finds by trial which of them would
+/// have to pull and which others are needed. Returns whether that is the solution.
 bool ContactProblem::solveHolding() {
   bool holds[kMaxContacts];
   for (int c = 0; c < contacts_; ++c) holds[c] = b[first_[c]] < 0;
-  bool pulls = true;
-  for (int round = 0; pulls; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     int active[kMaxRows], count = 0;
     for (int c = 0; c < contacts_; ++c) {
       const int end = first_[c] + (hasFriction(c) ? 3 : 1);
       for (int row = first_[c]; holds[c] && row < end; ++row) active[count++] = row;
     }
     solveActive(active, count);
-    pulls = false;
+    bool changed = false;
     for (int c = 0; c < contacts_; ++c) {
-      if (!holds[c] || x[first_[c]] >= 0) continue;
-      holds[c] = false;
-      pulls = true;
+      const bool wrong = holds[c] ? x[first_[c]] < 0 : residual(first_[c]) < -kExact;
+      if (wrong) holds[c] = !holds[c];
+      changed = changed || wrong;
     }
-    if (pulls && round == kMaxRounds) return false;
+    if (!changed) return holdWithinFriction();
   }
+  return false;
+}
+
+bool ContactProblem::holdWithinFriction() const {
   for (int c = 0; c < contacts_; ++c) {
-    if (holds[c] && hasFriction(c) && !isWithinFriction(c)) return false;
-    if (!holds[c] && residual(first_[c]) < -kExact) return false;
+    if (hasFriction(c) && !isWithinFriction(c)) return false;
   }
   return true;
 }
@@ -94,7 +97,7 @@ void ContactProblem::solveActive(const int* active, int count) {
 }
 
 void ContactProblem::iterate() {
-  for (int sweeps = 0; sweeps < kMaxSweeps && sweep() > kExact; ++sweeps) {
+  for (int sweeps = 0; sweeps < kMaxSweeps && sweep() > kSettled; ++sweeps) {
   }
 }
 

@@ -37,6 +37,7 @@ class ContactProblem {
 
  private:
   bool solveHolding();
+  bool holdWithinFriction() const;
   void solveActive(const int* active, int count);
   double residual(int row) const;
   bool isWithinFriction(int contact) const;

@@ -163,7 +163,7 @@ void moveRobotOutlines(Parts& parts, int robot) {
 /// A robot that stands without a command is left alone until it gets one, or is hit.
 void letRest(Fleet& f, int robot) {
   if (!f.robots[robot].legs.empty() || f.engaged[robot] || !atRest(f, robot)) return;
-  if (isJointed(f.robots[robot]) && !isSteady(f, robot)) return;
+  if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
   f.awake[robot] = f.tower[robot] > 0 && f.unit[robot] < 0;  // an empty tower still comes down

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact_problem.h"
 #include "jointed_body.h"
@@ -195,7 +194,7 @@ class Step {
     const JointedBody::Response& response = body_.response[free];
     advanceFreely(free, response, motor);
     ContactProblem& problem = contacts_.problem;
-    for (int i = 0; i < problem.rows(); ++i) respond(response, &contacts_.rows[i]);
+    for (int i = 0; i < problem.rows(); ++i) respond(response, free, &contacts_.rows[i]);
     for (int i = 0; i < problem.rows(); ++i) {
       for (int j = 0; j <= i; ++j) problem.a[i][j] = problem.a[j][i] = coupling(i, j);
       problem.b[i] = velocity(contacts_.rows[i]) - contacts_.wanted[i];
@@ -236,18 +235,20 @@ class Step {
     }
   }
 
-  static void respond(const JointedBody::Response& response, Row* row) {
+  static void respond(const JointedBody::Response& response, int free, Row* row) {
     const double impulse[5] = {row->angular.x(), row->angular.y(), row->angular.z(), row->spin[0],
                                row->spin[1]};
-    for (int i = 0; i < 5; ++i) {
+    const int responding = free ? 5 : 3;  // held wheels keep their spins
+    row->turning[3] = row->turning[4] = 0;
+    for (int i = 0; i < responding; ++i) {
       row->turning[i] = 0;
-      for (int j = 0; j < 5; ++j) row->turning[i] += response[i][j] * impulse[j];
+      for (int j = 0; j < responding; ++j) row->turning[i] += response[i][j] * impulse[j];
     }
   }
 
   double coupling(int i, int j) const {
     const Row &r = contacts_.rows[i], &s = contacts_.rows[j];
-    return r.linear.dot(s.linear) / body_.mass + r.angular.x() * s.turning[0] +
+    return r.linear.dot(s.linear) * body_.inverse_mass + r.angular.x() * s.turning[0] +
            r.angular.y() * s.turning[1] + r.angular.z() * s.turning[2] +
            r.spin[0] * s.turning[3] + r.spin[1] * s.turning[4];
   }
@@ -258,7 +259,7 @@ class Step {
   }
 
   void push(const Row& r, double impulse) {
-    after_.linear += r.linear * (impulse / body_.mass);
+    after_.linear += r.linear * (impulse * body_.inverse_mass);
     after_.turning += btVector3(r.turning[0], r.turning[1], r.turning[2]) * impulse;
     for (int wheel = 0; wheel < 2; ++wheel) after_.spin[wheel] += r.turning[3 + wheel] * impulse;
   }
@@ -305,10 +306,13 @@ void settleJointed(Parts& parts, int robot) {
   stance.roll += (turning.x() + heading_rate * tilt.sin_pitch) * parts.dt;
 }
 
-bool isSteady(const Fleet& f, int robot) {
-  const Stance& s = f.stance[robot];
-  return std::abs(s.climb_rate) < kSteady && std::abs(s.roll_rate) < kSteady &&
-         std::abs(s.pitch_rate) < kSteady;
+bool restJointed(Fleet& f, int robot) {
+  Stance& s = f.stance[robot];
+  const double rocking = std::max({std::abs(s.climb_rate), std::abs(s.roll_rate),
+                                   std::abs(s.pitch_rate)});
+  if (rocking > kSteady) return false;
+  s.climb_rate = s.roll_rate = s.pitch_rate = 0;
+  return true;
 }
 
 }  // namespace kiva

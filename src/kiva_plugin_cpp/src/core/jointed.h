@@ -17,7 +17,7 @@ namespace kiva {
 void driveJointed(Parts& parts, int robot);
 /// Moves the chassis up, down and about by one step; its place in the plane has been found.
 void settleJointed(Parts& parts, int robot);
-/// Whether the chassis does not rock.
-bool isSteady(const Fleet& fleet, int robot);
+/// Ends the last of a standing chassis' rocking. Returns whether it is little enough for that.
+bool restJointed(Fleet& fleet, int robot);
 
 }  // namespace kiva

@@ -212,7 +212,7 @@ std::shared_ptr<JointedBody> make(const Parts& parts, int robot, const RigidSum&
   body->axle.setValue(0, 1, 0);
   const RigidSum sum = addUp(parts, robot, body.get());
   sortFeet(body.get());
-  body->mass = sum.mass();
+  body->inverse_mass = 1 / sum.mass();
   body->centre = toBullet(sum.centre());
   body->spin_inertia = r.drive.wheel_inertia;
   body->inertia = tensor(sum.inertia());

@@ -35,7 +35,7 @@ struct JointedBody {
   double low_feet_reach;  ///< What is not a low foot stays off the floor up to that sine of a tilt,
   int low_feet = 0;       ///< the first ones of `feet`.
 
-  double mass;            ///< With load and wheels [kg].
+  double inverse_mass;    ///< With load and wheels [1/kg].
   btVector3 centre;       ///< Of mass.
   btMatrix3x3 inertia;    ///< About the centre, without the wheels' about their axle [kg m²].
   double spin_inertia;    ///< Of one wheel with its motor about the axle [kg m²].
