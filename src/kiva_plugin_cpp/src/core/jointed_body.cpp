@@ -222,24 +222,47 @@ std::shared_ptr<JointedBody> make(const Parts& parts, int robot, const RigidSum&
   return body;
 }
 
-bool isFor(const JointedBody& body, const Parts& parts, int robot) {
+bool hasLoadOf(const JointedBody& body, const Parts& parts, int robot) {
   const Robot& r = parts.fleet.robots[robot];
-  return body.tower == parts.fleet.tower[robot] && body.unit == parts.fleet.unit[robot] &&
-         body.load_mass == r.load_mass && body.load_inertia == r.load_inertia;
+  return body.unit == parts.fleet.unit[robot] && body.load_mass == r.load_mass &&
+         body.load_inertia == r.load_inertia;
+}
+
+bool isFor(const JointedBody& body, const Parts& parts, int robot) {
+  return body.tower == parts.fleet.tower[robot] && hasLoadOf(body, parts, robot);
+}
+
+/// What it carries, summed up anew only if it is something else than before.
+RigidSum loadOf(const Parts& parts, int robot) {
+  const int unit = parts.fleet.unit[robot];
+  if (unit < 0) return RigidSum();
+  const JointedBody* old = parts.modelOf(robot).jointed.get();
+  return old && hasLoadOf(*old, parts, robot) ? old->load : sumLoad(parts, unit);
+}
+
+/// Robots of one description are the same while they carry nothing and the tower is down; a step
+/// of a whole fleet spends much of its time on fetching what it knows about each robot.
+std::shared_ptr<const JointedBody> shareBare(Parts& parts, int robot) {
+  auto& known = parts.bare_jointed;
+  const ModelDescription* description = parts.modelOf(robot).description.get();
+  const auto at = known.find(description);
+  if (at != known.end() && !at->second.expired()) return at->second.lock();
+  for (auto old = known.begin(); old != known.end();) {
+    old = old->second.expired() ? known.erase(old) : std::next(old);
+  }
+  std::shared_ptr<const JointedBody> body = make(parts, robot, RigidSum());
+  known[description] = body;
+  return body;
 }
 
 }  // namespace
 
 const JointedBody& jointedBody(Parts& parts, int robot) {
   Model& model = parts.modelOf(robot);
-  const JointedBody* old = model.jointed.get();
-  if (old && isFor(*old, parts, robot)) return *old;
-  const int unit = parts.fleet.unit[robot];
-  const Robot& r = parts.fleet.robots[robot];
-  const bool same_load = old && old->unit == unit && old->load_mass == r.load_mass &&
-                         old->load_inertia == r.load_inertia;
-  const RigidSum load = same_load ? old->load : unit < 0 ? RigidSum() : sumLoad(parts, unit);
-  model.jointed = make(parts, robot, load);
+  if (!model.jointed || !isFor(*model.jointed, parts, robot)) {
+    const bool bare = parts.fleet.unit[robot] < 0 && parts.fleet.tower[robot] == 0;
+    model.jointed = bare ? shareBare(parts, robot) : make(parts, robot, loadOf(parts, robot));
+  }
   return *model.jointed;
 }
 
