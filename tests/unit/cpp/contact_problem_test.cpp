@@ -11,7 +11,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kMass = 10;      // [kg]
+constexpr double kMass = 10;  // [kg]
 constexpr double kFriction = 0.5;
 
 /// A block that can't turn, on one contact, at that velocity along x, y and z (up).

@@ -8,11 +8,11 @@
 namespace kiva::test {
 namespace {
 
-constexpr double kGravity = 9.81;    // [m/s²]
-constexpr double kMass = 145;        // of robot without load [kg]
+constexpr double kGravity = 9.81;  // [m/s²]
+constexpr double kMass = 145;      // of robot without load [kg]
 constexpr double kCentre = (130 * 0.16 + 2 * 2.5 * 0.1 + 10 * 0.38) / kMass;  // its height [m]
-constexpr double kCasters = 0.30;    // from the axle [m]
-constexpr double kCasterGap = 0.001;  // [m]
+constexpr double kCasters = 0.30;                                             // from the axle [m]
+constexpr double kCasterGap = 0.001;                                          // [m]
 
 std::string jointedKiva(Changes changes = {}) {
   changes.push_back({"drive", "jointed"});
@@ -113,8 +113,7 @@ TEST(Jointed, SpeedsUpOnIceAsWeightAndLeverAllow) {
 TEST(Jointed, SpeedsUpWithWhatTheMotorsGive) {
   // Both motors' force on the mass and the spinning wheels: F = m a + 2 I a / r².
   const double torque = 2, radius = 0.1, inertia = 0.03;
-  const double expected =
-      2 * torque / radius / (kMass + 2 * inertia / (radius * radius));
+  const double expected = 2 * torque / radius / (kMass + 2 * inertia / (radius * radius));
   Lone lone(0, {{"motor_torque", "2"}});
   EXPECT_NEAR(speedingUp(lone.w), expected, 0.001 * expected);
 }

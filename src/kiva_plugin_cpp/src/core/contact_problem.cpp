@@ -10,7 +10,7 @@ namespace {
 // Of a row's own response: where contacts share a load that could rest on fewer, they share it
 // evenly, as if the ground were that soft.
 constexpr double kSoftness = 1e-9;
-constexpr double kExact = 1e-12;   // [m/s]
+constexpr double kExact = 1e-12;    // [m/s]
 constexpr double kSettled = 1e-10;  // [m/s] of change in a sweep
 constexpr int kMaxSweeps = 100;
 constexpr int kMaxRounds = 4;
@@ -40,8 +40,8 @@ bool ContactProblem::isWithinFriction(int c) const {
   return along * along + across * across <= limit * limit;
 }
 
-/// Takes it that contacts hold which would sink in otherwise, and finds by trial which of them would
-/// have to pull and which others are needed. Returns whether that is the solution.
+/// Takes it that contacts hold which would sink in otherwise, and finds by trial which of them
+/// would have to pull and which others are needed. Returns whether that is the solution.
 bool ContactProblem::solveHolding() {
   bool holds[kMaxContacts];
   for (int c = 0; c < contacts_; ++c) holds[c] = b[first_[c]] < 0;

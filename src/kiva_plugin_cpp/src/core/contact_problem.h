@@ -24,8 +24,8 @@ class ContactProblem {
   /// Appends a contact; its rows' `a` and `b` are still to be filled.
   void add(double friction);
 
-  /// Finds x so that at every contact a x + b >= 0 along the normal, x >= 0 there, one of both zero,
-  /// and along the ground a x + b = 0 unless that takes more than friction · x_normal.
+  /// Finds x so that at every contact a x + b >= 0 along the normal, x >= 0 there, one of both
+  /// zero, and along the ground a x + b = 0 unless that takes more than friction · x_normal.
   ///
   /// Contacts that hold are solved for directly; where one slips or is about to lift off, by
   /// projected Gauss-Seidel (Jourdan, Alart, Jean 1998) from there.

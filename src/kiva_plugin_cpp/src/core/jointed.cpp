@@ -10,12 +10,12 @@
 namespace kiva {
 namespace {
 
-constexpr double kForeseen = 0.01;    // [m] above the floor at which a contact is looked at
-constexpr double kMending = 0.2;      // share of a contact's depth that a step takes back,
-constexpr double kMendSpeed = 0.05;   // [m/s] but no faster
-constexpr double kSteady = 1e-6;      // [m/s, rad/s]
-constexpr double kSteepest = 0.01;    // cosine of a pitch beyond which headings mean nothing
-constexpr double kUnlimited = 1e6;    // [Nm s]
+constexpr double kForeseen = 0.01;   // [m] above the floor at which a contact is looked at
+constexpr double kMending = 0.2;     // share of a contact's depth that a step takes back,
+constexpr double kMendSpeed = 0.05;  // [m/s] but no faster
+constexpr double kSteady = 1e-6;     // [m/s, rad/s]
+constexpr double kSteepest = 0.01;   // cosine of a pitch beyond which headings mean nothing
+constexpr double kUnlimited = 1e6;   // [Nm s]
 
 /// The chassis frame against the one that looks along the robot's heading, z up.
 struct Tilt {
@@ -66,10 +66,10 @@ struct FloorContacts {
 
 /// A point of the robot close above, on or in the floor.
 struct Touch {
-  btVector3 at;       // chassis frame
-  double gap;         // [m]
+  btVector3 at;  // chassis frame
+  double gap;    // [m]
   double friction;
-  int wheel;          // -1: of the chassis
+  int wheel;  // -1: of the chassis
 };
 
 class Step {
@@ -168,9 +168,8 @@ class Step {
     contacts_.problem.add(touch.friction);
     fill(row, touch, up_);
     // A foreseen contact is met at the end of the step; one that sank in is lifted gently.
-    contacts_.wanted[row] = touch.gap > 0
-                                ? -touch.gap / dt_
-                                : std::min(kMendSpeed, -kMending * touch.gap / dt_);
+    contacts_.wanted[row] =
+        touch.gap > 0 ? -touch.gap / dt_ : std::min(kMendSpeed, -kMending * touch.gap / dt_);
     if (touch.friction <= 0) return;
     const btVector3 ahead = body_.axle.cross(up_).normalized();
     fill(row + 1, touch, ahead);
@@ -249,8 +248,8 @@ class Step {
   double coupling(int i, int j) const {
     const Row &r = contacts_.rows[i], &s = contacts_.rows[j];
     return r.linear.dot(s.linear) * body_.inverse_mass + r.angular.x() * s.turning[0] +
-           r.angular.y() * s.turning[1] + r.angular.z() * s.turning[2] +
-           r.spin[0] * s.turning[3] + r.spin[1] * s.turning[4];
+           r.angular.y() * s.turning[1] + r.angular.z() * s.turning[2] + r.spin[0] * s.turning[3] +
+           r.spin[1] * s.turning[4];
   }
 
   double velocity(const Row& r) const {
@@ -267,8 +266,8 @@ class Step {
   /// What the motor of a held wheel had to give in this step [Nm s].
   double motorImpulse(int wheel) const {
     const btVector3 turned = after_.turning - before_.turning;
-    double needed = body_.spin_inertia * (target_[wheel] - before_.spin[wheel] +
-                                          turned.dot(body_.axle));
+    double needed =
+        body_.spin_inertia * (target_[wheel] - before_.spin[wheel] + turned.dot(body_.axle));
     const ContactProblem& problem = contacts_.problem;
     for (int i = 0; i < problem.rows(); ++i) {
       needed -= contacts_.rows[i].spin[wheel] * problem.x[i];
@@ -308,8 +307,8 @@ void settleJointed(Parts& parts, int robot) {
 
 bool restJointed(Fleet& f, int robot) {
   Stance& s = f.stance[robot];
-  const double rocking = std::max({std::abs(s.climb_rate), std::abs(s.roll_rate),
-                                   std::abs(s.pitch_rate)});
+  const double rocking =
+      std::max({std::abs(s.climb_rate), std::abs(s.roll_rate), std::abs(s.pitch_rate)});
   if (rocking > kSteady) return false;
   s.climb_rate = s.roll_rate = s.pitch_rate = 0;
   return true;

@@ -46,8 +46,8 @@ void addBoxFeet(const Vector3& half, const Pose& pose, const Collision& collisio
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3 at(corner & 1 ? half.X() : -half.X(), corner & 2 ? half.Y() : -half.Y(),
                      corner & 4 ? half.Z() : -half.Z());
-    feet->push_back({toBullet((pose * Pose(at, Quaternion::Identity)).Pos()), 0,
-                     collision.friction});
+    feet->push_back(
+        {toBullet((pose * Pose(at, Quaternion::Identity)).Pos()), 0, collision.friction});
   }
 }
 
@@ -62,8 +62,8 @@ void addFeet(const Collision& collision, const Pose& in_model,
       break;
     case Shape::Kind::kCapsule:
       for (double end : {-shape.length / 2, shape.length / 2}) {
-        feet->push_back({toBullet((pose * Pose(0, 0, end, 0, 0, 0)).Pos()), shape.radius,
-                         collision.friction});
+        feet->push_back(
+            {toBullet((pose * Pose(0, 0, end, 0, 0, 0)).Pos()), shape.radius, collision.friction});
       }
       break;
     case Shape::Kind::kBox:

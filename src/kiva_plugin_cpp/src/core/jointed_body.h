@@ -35,11 +35,11 @@ struct JointedBody {
   double low_feet_reach;  ///< What is not a low foot stays off the floor up to that sine of a tilt,
   int low_feet = 0;       ///< the first ones of `feet`.
 
-  double inverse_mass;    ///< With load and wheels [1/kg].
-  btVector3 centre;       ///< Of mass.
-  btMatrix3x3 inertia;    ///< About the centre, without the wheels' about their axle [kg m²].
-  double spin_inertia;    ///< Of one wheel with its motor about the axle [kg m²].
-  Response response[4];   ///< Bit i of the index: wheel i spins freely, and is not held.
+  double inverse_mass;   ///< With load and wheels [1/kg].
+  btVector3 centre;      ///< Of mass.
+  btMatrix3x3 inertia;   ///< About the centre, without the wheels' about their axle [kg m²].
+  double spin_inertia;   ///< Of one wheel with its motor about the axle [kg m²].
+  Response response[4];  ///< Bit i of the index: wheel i spins freely, and is not held.
 
   // For what it was made.
   double tower = -1;

@@ -47,7 +47,8 @@ struct Model {
   bool in_physics = false;          ///< Its bodies are in Bullet now.
   std::uint64_t engaged_until = 0;  ///< Step up to which something near keeps it in Bullet.
   bool disturbed = false;           ///< Touched since it was engaged.
-  std::shared_ptr<const JointedBody> jointed;  ///< Of a robot of that drive; made when it is asked for.
+  std::shared_ptr<const JointedBody>
+      jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<Outline> outlines;
   std::vector<std::shared_ptr<Plugin>> plugins;
 
