@@ -43,8 +43,8 @@ struct Tilt {
   double cos_pitch, sin_pitch, cos_roll, sin_roll;
 };
 
-/// Velocities, in the chassis frame.
-struct Motion {
+/// All in the chassis frame.
+struct Velocities {
   btVector3 linear;   // of the centre of mass [m/s]
   btVector3 turning;  // [rad/s]
   double spin[2];     // of the wheels against the chassis [rad/s]
@@ -286,7 +286,7 @@ class Step {
   const double dt_, gravity_, floor_friction_;
   double cos_yaw_ = 1, sin_yaw_ = 0;
   double target_[2];  // of the spins
-  Motion before_, after_;
+  Velocities before_, after_;
   FloorContacts contacts_;
 };
 
