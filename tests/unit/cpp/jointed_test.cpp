@@ -100,14 +100,29 @@ double speedingUp(Warehouse& w) {
   return (w.speed(1) - before) / 0.1;
 }
 
+/// A floor plane with that friction.
+std::string floorText(double friction) {
+  return "<sdf version='1.9'><model name='floor'><static>true</static><link name='l'><collision "
+         "name='c'><geometry><plane><normal>0 0 1</normal><size>100 100</size></plane></geometry>"
+         "<surface><friction><ode><mu>" +
+         number(friction) + "</mu><mu2>" + number(friction) +
+         "</mu2></ode></friction></surface></collision></link></model></sdf>";
+}
+
 TEST(Jointed, SpeedsUpOnIceAsWeightAndLeverAllow) {
   // The rear caster carries m a h / l of the weight; it does not grip.
   const double mu = 0.05, expected = mu * kGravity / (1 + mu * kCentre / kCasters);
-  const std::string icy = replaced(jointedKiva({{"wheel_inertia", "1e-5"}}),
-                                   "<mu>0.8</mu><mu2>0.8</mu2>", "<mu>0.05</mu><mu2>0.05</mu2>");
-  Warehouse w;
-  w.spawnText(icy, "kiva1", 0, 0);
-  EXPECT_NEAR(speedingUp(w), expected, 0.001 * expected);
+  const std::string light = jointedKiva({{"wheel_inertia", "1e-5"}});
+  const std::string icy =
+      replaced(light, "<mu>0.8</mu><mu2>0.8</mu2>", "<mu>0.05</mu><mu2>0.05</mu2>");
+  Warehouse icy_wheels, icy_floor;
+  icy_wheels.spawnText(icy, "kiva1", 0, 0);
+  EXPECT_NEAR(speedingUp(icy_wheels), expected, 0.001 * expected);
+
+  ASSERT_TRUE(icy_floor.world.remove("ground_plane"));
+  icy_floor.spawnText(floorText(mu / 0.8), "floor", 0, 0);
+  icy_floor.spawnText(light, "kiva1", 0, 0);
+  EXPECT_NEAR(speedingUp(icy_floor), expected, 0.001 * expected);
 }
 
 TEST(Jointed, SpeedsUpWithWhatTheMotorsGive) {
@@ -128,7 +143,7 @@ std::string ballWheeled(const std::string& robot) {
 class HingedRobot {
  public:
   HingedRobot() : physics_({0, 0, -kGravity}) {
-    ModelDescription floor = *instance(worldFloor(), "floor").description;
+    ModelDescription floor = *instance(floorText(1), "floor").description;
     floor_ = physics_.build(floor, Pose::Zero, 0, kFloorGroup, ~0);
     ModelDescription robot = *instance(ballWheeled(modelText("kiva")), "robot").description;
     for (Joint& joint : robot.joints) {
@@ -160,11 +175,6 @@ class HingedRobot {
   }
 
  private:
-  static std::string worldFloor() {
-    return "<sdf version='1.9'><model name='floor'><static>true</static><link name='l'><collision "
-           "name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link>"
-           "</model></sdf>";
-  }
   Physics physics_;
   ModelBodies floor_, robot_;
 };
