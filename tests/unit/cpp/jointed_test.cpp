@@ -79,6 +79,23 @@ TEST_P(JointedWithLoad, RestsUnmovedAndAsleep) {
 }
 INSTANTIATE_TEST_SUITE_P(Loads, JointedWithLoad, ::testing::Values(0.0, 450.0));
 
+TEST(Jointed, TurnsBeneathAUnitWithoutTouchingIt) {
+  Lone lone;
+  Warehouse& w = lone.w;
+  w.spawn("storage_unit", "storage_unit1", 2, 0);  // 1.2 cm to the legs at the corners
+  w.movx(1, 2);
+  w.runUntilIdle(1);
+  for (int turn = 0; turn < 4; ++turn) {
+    w.rot(1, kLeft);
+    w.runUntilIdle(1);
+  }
+  w.movx(1, 2);
+  w.runUntilIdle(1);
+  w.expectAt(1, 4, 0);
+  EXPECT_EQ(w.count(Event::Kind::kCollision), 0);
+  EXPECT_EQ(w.count(Event::Kind::kDone), 6);
+}
+
 TEST(Jointed, LeansOnTheRearCasterWhenItDrivesOffAndOnTheFrontOneWhenItBrakes) {
   Lone lone;
   const double lean = std::asin(kCasterGap / kCasters);
