@@ -45,15 +45,13 @@ TEST(Jointed, TurnsDrivesAndLiftsAsWell) {
   w.spawn("storage_unit", "storage_unit1", 3, 2);
   w.mov(1, 3, 2);
   w.runUntilIdle(1);
-  EXPECT_NEAR(w.x(1), 3, 0.002);
-  EXPECT_NEAR(w.y(1), 2, 0.002);
+  w.expectAt(1, 3, 2);
   w.carry(1, 1);
   w.runUntilIdle(1);
   EXPECT_EQ(w.loadOf(1), 1);
   w.mov(1, 0, 0);
   w.runUntilIdle(1);
-  EXPECT_NEAR(w.x(1), 0, 0.002);
-  EXPECT_NEAR(w.y(1), 0, 0.002);
+  w.expectAt(1, 0, 0);
   EXPECT_EQ(w.count(Event::Kind::kDone), 3);
 }
 

@@ -29,13 +29,14 @@ enum class State : std::uint8_t {
 /// How a robot's drive is modelled.
 enum class Drive : std::uint8_t {
   kTraction,  ///< Planar chassis, two wheel speeds, Coulomb friction at the wheels.
-  kJointed    ///< Wheel joints and floor contacts in Bullet.
+  kJointed    ///< Wheel joints, casters, rigid contacts with the floor; the chassis pitches.
 };
 
 struct DriveParameters {
   Drive drive = Drive::kTraction;
   double speed = 1.5;         ///< [m/s], > 0.
-  double acceleration = 1.0;  ///< [m/s²]; 0 = speed changes at once, grip and motors unlimited.
+  double acceleration = 1.0;  ///< [m/s²]; 0 = speed changes at once, motors unlimited,
+                              ///< and grip too but for jointed robots, whose wheels slip.
   double emergency_deceleration = 2.5;  ///< [m/s²], when a normal stop would come too late.
   double wheel_radius = 0.1;            ///< [m]
   double wheel_separation = 0.52;       ///< Between the wheels' centres [m].
@@ -113,6 +114,17 @@ struct Robot {
   std::string blocked_reason;  ///< Why, for a person.
 };
 
+/// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
+/// on the floor.
+struct Stance {
+  double height = 0;      ///< Of the axle's middle, above where it is then [m].
+  double roll = 0;        ///< About the heading [rad].
+  double pitch = 0;       ///< About the axle, front down [rad].
+  double climb_rate = 0;  ///< [m/s] upwards.
+  double roll_rate = 0;   ///< Turning about the chassis' own x axis,
+  double pitch_rate = 0;  ///< and about its y axis [rad/s].
+};
+
 /// One value a robot. Others may hold its memory and read it without a copy.
 template <typename T>
 using Column = std::vector<T, SharedAllocator<T>>;
@@ -124,6 +136,7 @@ struct Fleet {
   Column<double> wheel_speed[2];   ///< Left, right [rad/s].
   Column<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
   Column<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
+  Column<Stance> stance;           ///< Of jointed robots; others stand upright.
   Column<double> tower;            ///< Height of the tower above its rest [m].
   Column<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
   Column<Status> status;
@@ -131,6 +144,17 @@ struct Fleet {
   Column<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
   Column<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
   Column<std::uint64_t> look_again;  ///< Step at which something could have come near.
+/// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
+/// on the floor.
+struct Stance {
+  double height = 0;      ///< Of the axle's middle, above where it is then [m].
+  double roll = 0;        ///< About the heading [rad].
+  double pitch = 0;       ///< About the axle, front down [rad].
+  double climb_rate = 0;  ///< [m/s] upwards.
+  double roll_rate = 0;   ///< Turning about the chassis' own x axis,
+  double pitch_rate = 0;  ///< and about its y axis [rad/s].
+};
+
 
   // The reference of the current leg: [m] along the heading, [rad], or [m] of tower.
   Column<double> reference, reference_speed;

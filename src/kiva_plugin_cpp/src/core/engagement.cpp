@@ -27,12 +27,6 @@ std::uint64_t lingerSteps(const Parts& parts) {
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
-ModelBodies buildRobot(const Parts& parts, int robot) {
-  const Robot& r = parts.fleet.robots[robot];
-  if (isJointed(r)) return buildJointed(parts, robot);
-  return buildPlanar(parts, robot);
-}
-
 /// A standing unit with the mass of its items.
 ModelBodies buildUnit(const Parts& parts, const Model& model) {
   const StorageUnit& unit = parts.units[model.index];
@@ -107,8 +101,8 @@ void lookAroundBody(Parts& parts, Model& model) {
   for (int slot : close) engageOther(parts, slot);
 }
 
-bool mayLeave(const Parts& parts, const Model& model) {
-  if (model.kind == ModelKind::kRobot) return !isJointed(parts.fleet.robots[model.index]);
+bool mayLeave(const Model& model) {
+  if (model.kind == ModelKind::kRobot) return true;
   const btRigidBody& body = *model.bodies.links.front().body;
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
   return !model.disturbed || (up > kTilt && body.getLinearVelocity().length() < kStill &&
@@ -128,7 +122,7 @@ void settleUnit(Parts& parts, Model& model) {
 void releaseIdle(Parts& parts) {
   for (std::size_t k = 0; k < parts.engaged.size();) {
     Model& model = *parts.models[parts.engaged[k]];
-    if (model.engaged_until < parts.total_steps && mayLeave(parts, model)) {
+    if (model.engaged_until < parts.total_steps && mayLeave(model)) {
       disengage(parts, model);  // removes entry k
     } else {
       ++k;
@@ -165,6 +159,7 @@ void moveRobotOutlines(Parts& parts, int robot) {
 /// A robot that stands without a command is left alone until it gets one, or is hit.
 void letRest(Fleet& f, int robot) {
   if (!f.robots[robot].legs.empty() || f.engaged[robot] || !atRest(f, robot)) return;
+  if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
   f.awake[robot] = f.tower[robot] > 0 && f.unit[robot] < 0;  // an empty tower still comes down
@@ -244,7 +239,7 @@ bool canEngage(const Model& model) {
 }
 
 ModelBodies buildEngaged(const Parts& parts, const Model& model) {
-  if (model.kind == ModelKind::kRobot) return buildRobot(parts, model.index);
+  if (model.kind == ModelKind::kRobot) return buildPlanar(parts, model.index);
   return buildUnit(parts, model);
 }
 
@@ -307,9 +302,9 @@ void drive(Parts& parts) {
     if (f.cruising[i] != 0) continue;  // since this step
     if (isJointed(f.robots[i])) {
       driveJointed(parts, i);
-      continue;
+    } else {
+      applyTraction(f, i, parts.gravityDown(), parts.dt);
     }
-    applyTraction(f, i, parts.gravityDown(), parts.dt);
     if (!f.engaged[i]) continue;
     btRigidBody& body = *parts.modelOf(i).bodies.links.front().body;
     body.setLinearVelocity({f.vx[i], f.vy[i], 0});
@@ -321,13 +316,12 @@ void settle(Parts& parts) {
   Fleet& f = parts.fleet;
   for (int i : parts.active) {
     if (f.cruising[i] != 0) continue;
-    if (isJointed(f.robots[i])) {
-      readJointed(parts, i);
-    } else if (f.engaged[i]) {
+    if (f.engaged[i]) {
       pullPlanar(parts, i);
     } else {
       integrate(f, i, parts.dt);
     }
+    if (isJointed(f.robots[i])) settleJointed(parts, i);
     moveRobotOutlines(parts, i);
     letRest(f, i);
   }

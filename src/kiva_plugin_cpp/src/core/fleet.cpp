@@ -21,6 +21,7 @@ void forEachArray(Fleet& f, Visit visit) {
     visit(*array);
   }
   visit(f.cruising);
+  visit(f.stance);
   visit(f.unit);
   visit(f.status);
   visit(f.state);

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The reference drive model: a chassis on two hinged, motorised wheels and frictionless casters,
-// all of it Bullet's.
+// The reference drive model: a chassis on two jointed, motorised wheels and casters, with rigid
+// contacts and Coulomb friction at the floor. Each robot is a small system of its own, in eight
+// degrees of freedom: the chassis' six and the wheels' spins. The wheel joints hold by the choice
+// of coordinates (Featherstone 2008, chapter 3); motors and contacts are solved for as impulses of
+// a step (Stewart and Trinkle 1996). Robots and other things touch each other in Bullet, which
+// moves a robot in the plane as one of the traction drive.
 #pragma once
 
 #include "parts.h"
 
 namespace kiva {
 
-/// Bodies of the robot with its present load: chassis (with tower and load), left and right wheel.
-ModelBodies buildJointed(const Parts& parts, int robot);
-/// Asks the hinges' motors for the wheel targets; the step does the rest.
+/// Changes velocities and wheel speeds of robot `i` by one step's gravity, motors and floor;
+/// positions stay.
 void driveJointed(Parts& parts, int robot);
-/// Reads pose, velocity and wheel speeds back into the fleet.
-void readJointed(Parts& parts, int robot);
+/// Moves the chassis up, down and about by one step; its place in the plane has been found.
+void settleJointed(Parts& parts, int robot);
+/// Ends the last of a standing chassis' rocking. Returns whether it is little enough for that.
+bool restJointed(Fleet& fleet, int robot);
 
 }  // namespace kiva

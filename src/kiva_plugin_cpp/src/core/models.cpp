@@ -163,11 +163,13 @@ void addItem(Parts& parts, int slot) {
 /// The floor is what the floor models cover together.
 void measureFloor(Parts& parts) {
   Bounds all;
+  parts.floor_friction = 1;
   for (const auto& model : parts.models) {
     if (!model || model->kind != ModelKind::kFloor) continue;
     for (const Link& link : model->description->links) {
       for (const Collision& collision : link.collisions) {
         all.add(bounds(collision.shape, model->pose * link.pose_in_model * collision.pose_in_link));
+        parts.floor_friction = collision.friction;
       }
     }
   }

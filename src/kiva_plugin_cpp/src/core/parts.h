@@ -34,6 +34,8 @@ struct Outline {
   int handle = -1;  ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
 };
 
+struct JointedBody;
+
 struct Model {
   std::string name;
   ModelKind kind = ModelKind::kOther;
@@ -46,6 +48,8 @@ struct Model {
   bool in_physics = false;          ///< Its bodies are in Bullet now.
   std::uint64_t engaged_until = 0;  ///< Step up to which something near keeps it in Bullet.
   bool disturbed = false;           ///< Touched since it was engaged.
+  std::shared_ptr<const JointedBody>
+      jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<Outline> outlines;
   std::vector<std::shared_ptr<Plugin>> plugins;
 
@@ -106,7 +110,10 @@ struct World::Parts {
   std::vector<int> scans_due;                  // robots whose scan is due at this step
   std::vector<int> active;                     // robots that are stepped one by one
   double top_speed = 0;                        // [m/s] of the fastest robot there was
+  // Of robots without a load, by description; owned by those robots.
+  std::unordered_map<const ModelDescription*, std::weak_ptr<const JointedBody>> bare_jointed;
   Floor floor;
+  double floor_friction = 1;  // Coulomb coefficient of the floor's surface
 
   std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;
   std::vector<std::shared_ptr<Plugin>> world_plugins;

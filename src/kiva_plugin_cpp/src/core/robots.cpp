@@ -9,6 +9,7 @@
 #include "cruise.h"
 #include "engagement.h"
 #include "footprint.h"
+#include "jointed_body.h"
 #include "load.h"
 #include "models.h"
 #include "sensing.h"
@@ -119,7 +120,7 @@ void addRobot(Parts& parts, int slot) {
   parts.top_speed = std::max(parts.top_speed, robot.drive.speed);
   model.index = parts.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   updateOutlines(parts, model);
-  if (jointed) engage(parts, model);
+  if (jointed) jointedBody(parts, model.index);  // throws if it lacks a wheel
 }
 
 void removeRobot(Parts& parts, int robot) {
@@ -161,6 +162,7 @@ void resetRobot(Parts& parts, int robot) {
   Fleet& fleet = parts.fleet;
   if (fleet.unit[robot] >= 0) putDown(parts, robot);
   fleet.tower[robot] = 0;
+  fleet.stance[robot] = Stance();
   placeRobot(parts, robot, {parts.modelOf(robot).spawn_pose, {}});
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;

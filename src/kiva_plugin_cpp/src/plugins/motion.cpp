@@ -130,11 +130,10 @@ void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
   f.wheel_target[1][i] = (speed + turn) / d.wheel_radius;
 }
 
-const Tolerance& tolerance(const Robot& robot) {
-  // A jointed robot is shaken a little by its contacts with the floor.
+const Tolerance& tolerance(const Robot& /*robot*/) {
   // The limit of speed is none that a profile ends with: acceleration · dt is a round number.
-  static const Tolerance traction{1e-5, 1e-6, 1.1e-4}, jointed{3e-4, 6e-5, 5e-3};
-  return robot.drive.drive == Drive::kJointed ? jointed : traction;
+  static const Tolerance tolerance{1e-5, 1e-6, 1.1e-4};
+  return tolerance;
 }
 
 bool stands(const Fleet& f, int i) {
