@@ -119,10 +119,16 @@ void describe(A& a, Robot& r) {
 }
 
 template <class A>
+void describe(A& a, Stance& s) {
+  DESCRIBED(Stance, 48);
+  a(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
+}
+
+template <class A>
 void describe(A& a, Fleet& f) {
-  DESCRIBED(Fleet, 816);
+  DESCRIBED(Fleet, 840);
   a(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
-  a(f.tower, f.unit, f.status, f.state, f.awake, f.engaged, f.look_again);
+  a(f.stance, f.tower, f.unit, f.status, f.state, f.awake, f.engaged, f.look_again);
   a(f.reference, f.reference_speed, f.goal, f.deceleration);
   a(f.cruising, f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed, f.acceleration,
     f.cruise_until);
@@ -139,7 +145,7 @@ void describe(A& a, Outline& o) {
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 360);
+  DESCRIBED(Model, 376);
   a(m.name, m.kind, m.serial, m.spawn_pose);
   a.mostly(m.pose, m.spawn_pose);
   a(m.index, m.in_physics, m.engaged_until, m.disturbed);
