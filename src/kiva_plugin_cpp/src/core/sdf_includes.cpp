@@ -130,7 +130,7 @@ class Splitter {
     path_.push_back(scanner_.name);
     if (refersToOthers(path_, scanner_.attributes)) return false;
     if (is_top && (scanner_.name == "model" || scanner_.name == "include")) {
-      const bool is_taken = scanner_.name == "model" ? takeCopy() : takeInclude();
+      const bool is_taken = scanner_.name == "include" ? takeInclude() : takeCopy();
       if (!is_taken) result_.order.push_back(SplitText::kOfRest);
     }
     return true;
@@ -151,6 +151,7 @@ class Splitter {
 
   /// The first of several models that differ in name and place alone stays.
   bool takeCopy() {
+    if (path_.size() < 3) return false;  // <sdf> itself holds one model.
     TagScanner ahead = scanner_;
     const auto part = takePart(xml_, &ahead);
     const auto text = part ? readModelText(*part) : std::nullopt;

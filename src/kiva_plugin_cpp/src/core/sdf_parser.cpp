@@ -90,8 +90,8 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
   std::string missing;
   const sdf::ParserConfig config = parserConfig(model_paths, &missing);
   const GlobalConfig global(config);
-  const sdf::SDFPtr document = emptyDocument();
   const std::string root = rootOf(text);
+  const sdf::SDFPtr document = emptyDocument(root == "robot" ? "" : text);
   sdf::Errors errors;
   SdfDocument parsed;
   const bool read = readInto(document, text, root == "robot", config, &errors);

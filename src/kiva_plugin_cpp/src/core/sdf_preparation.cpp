@@ -22,10 +22,11 @@ class Preparation {
         if (!replace()) return false;
         continue;
       }
-      if (scanner_.opens && !scanner_.closes) path_.push_back(scanner_.name);
+      if (scanner_.opens && !scanner_.closes) open();
       if (scanner_.opens || !scanner_.closes) continue;
       if (path_.empty() || path_.back() != scanner_.name) return false;
       path_.pop_back();
+      addresses_.pop_back();
     }
     keepUpTo(xml_.size());
     return path_.empty();
@@ -34,6 +35,17 @@ class Preparation {
   PreparedText take() { return std::move(result_); }
 
  private:
+  void open() {
+    path_.push_back(scanner_.name);
+    addresses_.push_back(addressOf({scanner_.name, scanner_.attributes, {}, {}}));
+  }
+
+  /// As libsdformat has it.
+  static std::string addressOf(const XmlPart& part) {
+    const auto name = attributeOf(part, "name");
+    return "/" + std::string(part.name) + (name ? "[@name=\"" + *name + "\"]" : "");
+  }
+
   bool isOurs() const {
     const bool is_in_world = path_ == std::vector<std::string_view>{"sdf", "world"};
     const bool is_alone = path_ == std::vector<std::string_view>{"sdf"};
@@ -79,9 +91,8 @@ class Preparation {
     warning.SetLineNumber(1 +
                           static_cast<int>(std::count(xml_.begin(), xml_.begin() + begin, '\n')));
     std::string path;
-    for (const std::string_view element : path_) path += "/" + std::string(element);
-    const std::string name = attributeOf(part, "name").value_or("");
-    warning.SetXmlPath(path + "/" + std::string(part.name) + "[@name=\"" + name + "\"]");
+    for (const std::string& address : addresses_) path += address;
+    warning.SetXmlPath(path + addressOf(part));
     result_.warnings.push_back(warning);
   }
 
@@ -93,6 +104,7 @@ class Preparation {
   std::string_view xml_;
   TagScanner scanner_;
   std::vector<std::string_view> path_;
+  std::vector<std::string> addresses_;  // of the path's elements
   PreparedText result_;
   std::size_t kept_ = 0;  ///< Up to here the text is in the result, or replaced.
 };
