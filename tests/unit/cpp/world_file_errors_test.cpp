@@ -52,7 +52,7 @@ const std::map<std::string, std::string> kErrors = {
      ":10:" + kLink + ", collision 'c': this name" + taken("collision", "link")},
     {"duplicate_include", ":9: include: the name 'item1'" + taken("model", "world")},
     {"duplicate_link", ":7:" + kLink + ": this name" + taken("link", "model")},
-    {"duplicate_model", ":8: world 'w', model 'm': this name" + taken("model", "world")},
+    {"duplicate_model", ":8: model: the name 'm'" + taken("model", "world")},
     {"empty", ": the XML is ill-formed: empty document"},
     {"friction", ":10:" + kLink +
                      ", collision 'c', surface/friction/ode/mu: The value [-1] is less than the "
@@ -201,7 +201,7 @@ TEST(WorldFileErrors, NameAFileThatCantBeRead) {
 TEST(WorldFileErrors, NameAModelThatIncludesItself) {
   const std::string path = (kFolder / "invalid_include_cycle.sdf").string();
   EXPECT_PRED2([](const auto& text, const auto& part) { return text.find(part) != text.npos; },
-               errorOf(path), "the model 'model://cycle_a' includes itself");
+               errorOf(path), "the model 'model://cycle_b' includes itself");
 }
 
 TEST(WorldFileErrors, SayThatNoPathsWereGiven) {

@@ -1,38 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sdf_cycles.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <vector>
 
 #include "core/model_paths.h"
 #include "core/sdf_errors.h"
 #include "core/sdf_parser.h"
-#include "core/xml_parts.h"
 
 namespace kiva {
 namespace {
 
-/// The uris of all includes, wherever they stand.
+/// All that may be the uri of an include. Not by way of the tags: libsdformat reads on behind what
+/// we take for no XML.
 std::set<std::string> urisOf(const std::string& xml) {
   std::set<std::string> uris;
-  TagScanner scanner(xml);
-  std::vector<std::string_view> path;
-  while (scanner.next()) {
-    if (!scanner.opens) {
-      if (!path.empty()) path.pop_back();
-      continue;
-    }
-    if (scanner.name == "uri" && !path.empty() && path.back() == "include" && !scanner.closes) {
-      const std::size_t begin = scanner.end;
-      if (!scanner.next()) break;
-      uris.insert(trimmed(std::string_view(xml).substr(begin, scanner.begin - begin)));
-      continue;
-    }
-    if (!scanner.closes) path.push_back(scanner.name);
+  for (std::size_t at = 0; (at = xml.find("model://", at)) != std::string::npos;) {
+    const std::size_t end = std::min(xml.find_first_of("<>[]\"' \t\r\n", at), xml.size());
+    uris.insert(xml.substr(at, end - at));
+    at = end;
   }
   return uris;
+}
+
+/// Meshes and such are files of another kind.
+bool isSdf(const std::string& path) {
+  const std::filesystem::path file(path);
+  return std::filesystem::is_directory(file) || file.extension() == ".sdf";
 }
 
 /// Walks from model to model, each once.
@@ -43,7 +40,8 @@ class Walk {
   void visit(const std::string& xml) {
     for (const std::string& uri : urisOf(xml)) {
       const std::string folder = findModel(uri, model_paths_);
-      if (folder.empty() || finished_.count(folder)) continue;  // The first is told elsewhere.
+      if (folder.empty() || !isSdf(folder) || finished_.count(folder))
+        continue;  // The first is told elsewhere.
       if (!open_.insert(folder).second) fail(uri);
       std::ifstream file(modelFile(folder), std::ios::binary);
       std::ostringstream text;
