@@ -31,10 +31,11 @@ std::string errorOf(const std::string& path) {
 const std::string kLink = " world 'w', model 'm', link 'l'";
 const std::string kGeometry = kLink + ", collision 'c', geometry";
 const std::string kJoint = " world 'w', model 'm', joint 'j'";
-const std::string kShapes = "expected box, sphere, cylinder, capsule, ellipsoid, plane";
+const std::string kShapes =
+    "expected box, sphere, cylinder, capsule, ellipsoid, plane, polyline, mesh";
 const std::string kNoBody =
     ": no body has this inertia; expected finite principal moments above 0 kg m², none larger than "
-    "the sum of the other two";
+    "the sum of the other two; this link has 1 kg m² instead";
 const std::string kNowhere =
     ": found no model for 'model://nowhere'; expected a folder of that name with a model.config "
     "in " +
@@ -51,7 +52,7 @@ const std::map<std::string, std::string> kErrors = {
      ":10:" + kLink + ", collision 'c': this name" + taken("collision", "link")},
     {"duplicate_include", ":9: include: the name 'item1'" + taken("model", "world")},
     {"duplicate_link", ":7:" + kLink + ": this name" + taken("link", "model")},
-    {"duplicate_model", ":8: world 'w', model 'm': this name" + taken("model", "world")},
+    {"duplicate_model", ":8: model: the name 'm'" + taken("model", "world")},
     {"empty", ": the XML is ill-formed: empty document"},
     {"friction", ":10:" + kLink +
                      ", collision 'c', surface/friction/ode/mu: The value [-1] is less than the "
@@ -70,8 +71,6 @@ const std::map<std::string, std::string> kErrors = {
     {"include_name", ":7: include: expected a text in <name>"},
     {"include_pose", ":7: pose: Pose values must be finite"},
     {"include_uri", ":6: include: expected a text in <uri>"},
-    {"inertia", ":8:" + kLink + ", inertial/inertia" + kNoBody},
-    {"inertia_zero", ":8:" + kLink + ", inertial/inertia" + kNoBody},
     {"joint_axis_missing", ":8:" + kJoint + ": expected an <axis>"},
     {"joint_axis_zero", ":12:" + kJoint + ", axis/xyz: expected an axis that points somewhere"},
     {"joint_child",
@@ -85,15 +84,9 @@ const std::map<std::string, std::string> kErrors = {
     {"joint_type", ":8:" + kJoint +
                        ": joints of type 'ball' are not supported; expected fixed, revolute, "
                        "continuous or prismatic"},
-    {"mass_nan", ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found nan"},
-    {"mass_negative", ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found -1"},
     {"mass_text",
      ":8:" + kLink + ", inertial/mass: 'heavy' is no value for <mass>; expected a number"},
-    {"mass_zero", ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found 0"},
-    {"mesh", ":9:" + kGeometry + "/mesh: <mesh> is not supported; " + kShapes},
     {"nested_include_missing", ":8: world 'w', model 'm', include/uri" + kNowhere},
-    {"nested_static",
-     ":7: world 'w', model 'm', model 'n': a static model in one that moves is not supported"},
     {"no_link", ":5: world 'w', model 'm': expected a <link> in <model>"},
     {"no_name",
      ":6: world 'w', model 'm', link: Required attribute[name] in element[link] is not "
@@ -105,7 +98,8 @@ const std::map<std::string, std::string> kErrors = {
     {"plugin_filename",
      ":5: world 'w', plugin 'p': Required attribute[filename] in "
      "element[plugin] is not specified in SDF"},
-    {"polyline", ":9:" + kGeometry + "/polyline: <polyline> is not supported; " + kShapes},
+    {"polyline",
+     ":9:" + kGeometry + "/polyline: expected three <point>s or more that span an area"},
     {"pose_nan", ":7:" + kLink + ", pose: Pose values must be finite"},
     {"pose_short", ":7:" + kLink +
                        ", pose: The value for //pose[@rotation_format='euler_rpy'] must have 6 "
@@ -134,10 +128,39 @@ const std::map<std::string, std::string> kErrors = {
     {"two_models", ": Root object can only contain one model"},
     {"two_worlds", ":3: expected one <world>, found several"},
     {"version", ": SDF version 3.3 is unknown; expected 1.0 to 1.9"},
-    {"visual_mesh",
-     ":8:" + kLink + ", visual 'v', geometry/mesh: <mesh> is not supported; " + kShapes},
     {"xml", ":6: the XML is ill-formed: mismatched element (XMLElement name=link)"},
 };
+
+const std::string kKilogram = "; this link has 1 kg and 1 kg m² instead";
+
+/// What costs a part of the world and a warning, not the world.
+const std::map<std::string, std::string> kWarnings = {
+    {"inertia", ":8:" + kLink + ", inertial/inertia" + kNoBody},
+    {"inertia_zero", ":8:" + kLink + ", inertial/inertia" + kNoBody},
+    {"mass_nan",
+     ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found nan" + kKilogram},
+    {"mass_negative",
+     ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found -1" + kKilogram},
+    {"mass_zero",
+     ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found 0" + kKilogram},
+    {"mesh",
+     ":9:" + kGeometry + "/mesh: this collision is left out: there is no mesh 'model://m/m.dae'"},
+    {"population",
+     ":5: world 'w', population 'p': this population is left out: the distribution 'heap' is "
+     "unknown; expected random, uniform, grid, linear-x, linear-y or linear-z"},
+    {"visual_mesh", ":8:" + kLink +
+                        ", visual 'v', geometry/mesh: this visual is left out: there is no mesh "
+                        "'model://m/m.dae'"},
+};
+
+TEST(WorldFileWarnings, NameFileLineEntityAndCause) {
+  for (const auto& [rule, message] : kWarnings) {
+    const std::string path = (kFolder / ("invalid_" + rule + ".sdf")).string();
+    std::vector<std::string> warnings;
+    EXPECT_EQ(loadWorld(path, kPaths, &warnings).models.size(), 1u) << rule;
+    EXPECT_EQ(warnings, std::vector<std::string>{path + message});
+  }
+}
 
 TEST(WorldFileErrors, NameFileLineEntityAndCause) {
   for (const auto& [rule, message] : kErrors) {
@@ -149,8 +172,8 @@ TEST(WorldFileErrors, NameFileLineEntityAndCause) {
 TEST(WorldFileErrors, NameTheFileOfTheModelThatIsIncluded) {
   EXPECT_EQ(errorOf((kFolder / "invalid_include_broken.sdf").string()),
             kBrokenModels +
-                "/broken/model.sdf:6: model 'broken', link 'l', inertial/mass: expected a mass "
-                "above 0 kg, found 0");
+                "/broken/model.sdf:6: model 'broken', link 'l', inertial/mass: 'heavy' is no "
+                "value for <mass>; expected a number");
 }
 
 TEST(WorldFileErrors, NameWhatIsMissingHoweverDeepItIs) {
@@ -163,8 +186,9 @@ TEST(WorldFileErrors, HaveAFixtureEach) {
     const std::string name = entry.path().stem().string();
     if (name.compare(0, 8, "invalid_") != 0) continue;
     const std::string rule = name.substr(8);
-    const bool has_its_own_test = rule == "include_broken" || rule == "deep_include_missing";
-    EXPECT_TRUE(has_its_own_test || kErrors.count(rule)) << name;
+    const bool has_its_own_test =
+        rule == "include_broken" || rule == "deep_include_missing" || rule == "include_cycle";
+    EXPECT_TRUE(has_its_own_test || kErrors.count(rule) || kWarnings.count(rule)) << name;
   }
 }
 
@@ -172,6 +196,12 @@ TEST(WorldFileErrors, NameAFileThatCantBeRead) {
   const std::string missing = (kFolder / "nowhere.sdf").string();
   EXPECT_EQ(errorOf(missing), missing + ": can't read this file: No such file or directory");
   EXPECT_EQ(errorOf(kFolder.string()), kFolder.string() + ": can't read this file: is a folder");
+}
+
+TEST(WorldFileErrors, NameAModelThatIncludesItself) {
+  const std::string path = (kFolder / "invalid_include_cycle.sdf").string();
+  EXPECT_PRED2([](const auto& text, const auto& part) { return text.find(part) != text.npos; },
+               errorOf(path), "the model 'model://cycle_b' includes itself");
 }
 
 TEST(WorldFileErrors, SayThatNoPathsWereGiven) {
@@ -189,15 +219,15 @@ TEST(WorldFileErrors, SayThatNoPathsWereGiven) {
 TEST(WorldFileErrors, KeepTheirLineBehindIncludesThatWereTakenOut) {
   const std::string xml =
       "<sdf version='1.9'>\n<world name='w'>\n<include>\n<uri>model://item</uri>\n</include>\n"
-      "<model name='m'>\n<link name='l'><inertial><mass>0</mass></inertial></link>\n</model>\n"
+      "<model name='m'>\n<link name='l'><inertial><mass>heavy</mass></inertial></link>\n</model>\n"
       "</world>\n</sdf>";
   try {
     parseWorld(xml, kPaths, "text");
     FAIL() << "no error";
   } catch (const DescriptionError& error) {
     EXPECT_STREQ(error.what(),
-                 "text:7: world 'w', model 'm', link 'l', inertial/mass: expected a mass above 0 "
-                 "kg, found 0");
+                 "text:7: world 'w', model 'm', link 'l', inertial/mass: 'heavy' is no value for "
+                 "<mass>; expected a number");
   }
 }
 
@@ -219,7 +249,7 @@ TEST(WorldFileErrors, SurviveVeryLongTexts) {
   const std::string model = "<model name='" + letters + "'>";
   for (const std::string& inside :
        {model + "</model>",
-        model + "<link name='l'><inertial><mass>0</mass></inertial></link></model>",
+        model + "<link name='l'><inertial><mass>heavy</mass></inertial></link></model>",
         "<model name='m'><link name='l'><inertial><mass>" + letters +
             "</mass></inertial></link></model>",
         "<model name='m'><link name='l'><pose relative_to='" + letters + "'/></link></model>",

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <ignition/math/Matrix3.hh>
@@ -366,6 +367,159 @@ TEST(NestedModels, MayBeMerged) {
       model("<link name='l'/><include merge='true'><uri>model://item</uri></include>");
   EXPECT_TRUE(m.findLink("body"));
   EXPECT_TRUE(m.nested_models.empty());
+}
+
+TEST(NestedModels, ThatAreStaticMakeWhatWrapsThemStatic) {
+  const std::string still = "<model name='n'><static>true</static><link name='k'/></model>";
+  EXPECT_TRUE(model(still).is_static);
+  EXPECT_FALSE(model(still + "<model name='o'><link name='k'/></model>").is_static);
+}
+
+TEST(NestedModels, ThatAreStaticInOnesThatMoveAreHeldToTheWorld) {
+  const ModelDescription m =
+      model("<link name='l'/><model name='n'><static>true</static><link name='k'/></model>");
+  EXPECT_FALSE(m.is_static);
+  EXPECT_EQ(m.joints.at(0).kind, Joint::Kind::kFixed);
+  EXPECT_EQ(m.joints.at(0).parent, "world");
+  EXPECT_EQ(m.joints.at(0).child, "n::k");
+}
+
+// --- equal models, populations, saved states
+
+std::string boxModel(const std::string& name, const std::string& pose, const std::string& size) {
+  return "<model name='" + name + "'>" + (pose.empty() ? "" : "<pose>" + pose + "</pose>") +
+         "<static>true</static><link name='l'><collision name='c'><geometry><box><size>" + size +
+         "</size></box></geometry></collision></link></model>";
+}
+
+TEST(EqualModels, ShareTheirDescriptionAndKeepNameAndPlace) {
+  const auto models = world(boxModel("a", "1 0 0 0 0 0.5", "1 2 3") +
+                            boxModel("b", "0 5 0 0 1 0", "1 2 3") + boxModel("c", "", "1 2 4"))
+                          .models;
+  ASSERT_EQ(models.size(), 3u);
+  EXPECT_EQ(models[0].name, "a");
+  expectNear(models[0].pose, Pose(1, 0, 0, 0, 0, 0.5));
+  EXPECT_EQ(models[1].name, "b");
+  expectNear(models[1].pose, Pose(0, 5, 0, 0, 1, 0));
+  EXPECT_EQ(models[0].description, models[1].description);
+  EXPECT_NE(models[0].description, models[2].description);
+}
+
+TEST(EqualModels, StandByTheirPlacementFrames) {
+  const auto placed = [](const std::string& name, const std::string& pose) {
+    return "<model name='" + name + "' placement_frame='f'><pose>" + pose +
+           "</pose><frame name='f'><pose>0 0 2 0 0 0</pose></frame><link name='l'/></model>";
+  };
+  const auto models = world(placed("a", "1 0 0 0 0 1") + placed("b", "0 3 0 1 0 0")).models;
+  expectNear(models.at(0).pose, Pose(1, 0, -2, 0, 0, 1));
+  expectNear(models.at(1).pose, Pose(0, 3, 0, 1, 0, 0) * Pose(0, 0, -2, 0, 0, 0));
+}
+
+TEST(EqualModels, HaveNamesOfTheirOwn) {
+  try {
+    world(boxModel("a", "", "1 1 1") + "\n" + boxModel("a", "", "1 1 1"));
+    FAIL() << "no error";
+  } catch (const DescriptionError& error) {
+    EXPECT_EQ(std::string(error.what()).find("text:2: model: the name 'a' is taken"), 0u)
+        << error.what();
+  }
+}
+
+TEST(StaticModels, ByTheThousandAreReadWithinSeconds) {
+  std::string equal, different;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string name = "m" + std::to_string(i), pose = std::to_string(i) + " 0 0 0 0 0";
+    equal += boxModel(name, pose, "1 1 1");
+    different += boxModel(name, pose, "1 1 " + std::to_string(i + 1));
+  }
+  for (const std::string& body : {equal, different}) {
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(world(body).models.at(999).pose.X(), 999);
+    const double took = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    EXPECT_LT(took, 4.0);  // Takes 0.1 and 1 s.
+  }
+}
+
+std::string population(const std::string& distribution, const std::string& rest) {
+  return "<population name='p'><model name='m'><pose>0 0 0.5 0 0 0</pose><link name='l'/></model>"
+         "<pose>10 0 0 0 0 1.5707963267948966</pose><distribution>" +
+         distribution + "</distribution>" + rest + "</population>";
+}
+
+TEST(Populations, StandInGrids) {
+  const auto models = world(population("<type>grid</type><rows>2</rows><cols>3</cols>"
+                                       "<step>2 1 0</step>",
+                                       "<model_count>6</model_count>"))
+                          .models;
+  ASSERT_EQ(models.size(), 6u);
+  EXPECT_EQ(models[0].name, "m_clone_0");
+  EXPECT_EQ(models[5].name, "m_clone_5");
+  expectNear(models[0].pose, Pose(10.5, -2, 0.5, 0, 0, M_PI / 2));
+  expectNear(models[5].pose, Pose(9.5, 2, 0.5, 0, 0, M_PI / 2));
+  EXPECT_EQ(models[0].description, models[5].description);
+}
+
+TEST(Populations, StandInRows) {
+  const auto models = world(population("<type>linear-x</type>",
+                                       "<model_count>4</model_count><box><size>8 1 1</size></box>"))
+                          .models;
+  ASSERT_EQ(models.size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    expectNear(models[i].pose, Pose(10, -3 + 2 * i, 0.5, 0, 0, M_PI / 2));
+  }
+}
+
+TEST(Populations, AreSpreadOverTheirRegionTheSameEachTime) {
+  for (const char* type : {"random", "uniform"}) {
+    const std::string text =
+        population("<type>" + std::string(type) + "</type>",
+                   "<model_count>50</model_count><cylinder><radius>3</radius><length>0</length>"
+                   "</cylinder>");
+    const auto models = world(text).models, again = world(text).models;
+    ASSERT_EQ(models.size(), 50u);
+    double farthest = 0;
+    for (int i = 0; i < 50; ++i) {
+      expectNear(models[i].pose, again[i].pose);
+      farthest = std::max(farthest, std::hypot(models[i].pose.X() - 10, models[i].pose.Y()));
+    }
+    EXPECT_LE(farthest, 3);
+    EXPECT_GT(farthest, 2);
+  }
+}
+
+TEST(Populations, MayBeOfIncludes) {
+  const auto models =
+      world("<population name='p'>" + include("item", "") +
+            "<model_count>2</model_count><distribution><type>linear-y</type></distribution>"
+            "<box><size>1 4 1</size></box></population>")
+          .models;
+  EXPECT_EQ(models.at(1).name, "item_clone_1");
+  expectNear(models.at(1).pose, Pose(0, 1, 0, 0, 0, 0));
+}
+
+TEST(SavedStates, PlaceTheirModels) {
+  const auto models = world(boxModel("a", "1 0 0 0 0 0", "1 1 1") + include("item", "") +
+                            "<state world_name='w'><sim_time>1 0</sim_time><model name='a'>"
+                            "<pose>4 5 6 0 0 1</pose><link name='l'><pose>9 9 9 0 0 0</pose></link>"
+                            "</model><model name='gone'><pose>1 1 1 0 0 0</pose></model></state>")
+                          .models;
+  ASSERT_EQ(models.size(), 2u);
+  expectNear(models[0].pose, Pose(4, 5, 6, 0, 0, 1));
+  expectNear(models[1].pose, Pose::Zero);
+}
+
+TEST(Worlds, MadeForGazeboMayHaveScriptedMaterialsActorsAndTheSun) {
+  const auto w = world(
+      include("sun", "") + include("ground_plane", "") +
+      "<scene><ambient>1 1 1 1</ambient></scene><gui><camera name='c'/></gui>"
+      "<physics type='ode'><max_step_size>0.001</max_step_size></physics>"
+      "<actor name='a'><broken></broken></actor>"
+      "<model name='m'><link name='l'><visual name='v'><geometry><box><size>1 1 1</size></box>"
+      "</geometry><material><script><name>Gazebo/Wood</name></script></material></visual></link>"
+      "</model>");
+  ASSERT_EQ(w.models.size(), 2u);
+  EXPECT_EQ(w.models[0].name, "ground_plane");
+  EXPECT_EQ(w.models[1].description->links[0].visuals.size(), 1u);
 }
 
 // --- worlds

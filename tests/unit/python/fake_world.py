@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import rospy
 from fake_ros import FakeRos
 from geometry_msgs.msg import Pose
+from nav_msgs.srv import GetMapResponse
 
 from warehouse_sim import models, poses
 
@@ -21,6 +22,7 @@ class FakeWorld(FakeRos):
         self.standing = dict.fromkeys(standing, Pose())
         self.refuses, self.pause = refuses, paused
         self.spawned_while_running = []
+        self.floor_map = GetMapResponse()
 
     def set_param(self, name, value):
         self.parameters[name] = value
@@ -35,11 +37,14 @@ class FakeWorld(FakeRos):
         pass
 
     def ServiceProxy(self, name, kind, persistent):  # noqa: N802 (rospy's name)
-        call = getattr(self, name.removeprefix("/gazebo/"))
+        call = getattr(self, name.removeprefix("/gazebo/").removeprefix("/warehouse/"))
         return _Proxy(call)
 
     def get_world_properties(self):
         return SimpleNamespace(model_names=list(self.standing))
+
+    def map(self):
+        return self.floor_map
 
     def get_model_state(self, name, frame):
         return SimpleNamespace(success=True, pose=self.standing[name])

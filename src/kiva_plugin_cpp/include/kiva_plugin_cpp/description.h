@@ -4,6 +4,7 @@
 // read once when a model is built. SI units and radians; poses are right-handed, z up (REP 103).
 #pragma once
 
+#include <array>
 #include <ignition/math/Pose3.hh>
 #include <ignition/math/Vector3.hh>
 #include <memory>
@@ -18,15 +19,27 @@ using Pose = ignition::math::Pose3d;
 using Quaternion = ignition::math::Quaterniond;
 using Vector3 = ignition::math::Vector3d;
 
-/// A primitive, centred on its own origin; cylinders and capsules stand along z.
+/// Triangles; shapes of one file share them.
+struct Mesh {
+  std::vector<Vector3> vertices;              ///< [m]
+  std::vector<std::array<int, 3>> triangles;  ///< Indices of vertices, counterclockwise outside.
+  Vector3 min, max;                           ///< The box around the vertices [m].
+};
+
+/// A primitive, centred on its own origin, or a mesh; cylinders and capsules stand along z.
 struct Shape {
-  enum class Kind { kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane };
+  enum class Kind { kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane, kMesh };
   Kind kind = Kind::kBox;
   Vector3 size{1, 1, 1};    ///< Box: full edge lengths [m]. Ellipsoid: the three radii [m].
   double radius = 0.5;      ///< Sphere, cylinder, capsule [m].
   double length = 1.0;      ///< Cylinder; capsule without its caps [m].
   Vector3 normal{0, 0, 1};  ///< Plane: unit normal in its own frame.
   double plane_size[2] = {100, 100};  ///< Plane: extent along x and y of its own frame [m].
+  /// Mesh: of a static model touched as it is, of another by its convex hull. Scale and unit are
+  /// applied. Null in a visual: nobody here looks at it.
+  std::shared_ptr<const Mesh> mesh;
+  std::string mesh_file;        ///< Mesh: the path it was read from; empty: extruded.
+  Vector3 mesh_scale{1, 1, 1};  ///< Mesh: what the file's lengths were multiplied by.
 };
 
 /// A shape that touches.

@@ -62,6 +62,15 @@ struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
 };
 
+/// Which cells of the grid are in the way of robots: those where a model that belongs to no
+/// warehouse reaches in, or would be hit by a loaded robot that turns there.
+struct Occupancy {
+  double x = 0, y = 0;        ///< The first cell's grid point, of the lowest x and y [m].
+  double spacing = 1;         ///< Edge of a cell [m].
+  int columns = 0, rows = 0;  ///< Cells along x and y that lie on the floor as a whole.
+  std::vector<char> taken;    ///< Row by row, x first.
+};
+
 /// One robot's status at the moment when it changed.
 struct StatusChange {
   double time = 0;
@@ -145,6 +154,7 @@ class World {
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;
   const Floor& floor() const;
+  Occupancy occupancy() const;
   double gridSpacing() const;  ///< [m]
 
   // --- sensing

@@ -22,20 +22,40 @@ namespace kiva {
 // --- descriptions
 
 template <class A>
+void describe(A& a, Mesh& m) {
+  DESCRIBED(Mesh, 112);
+  std::vector<int> corners;
+  for (const auto& triangle : m.triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  a(m.vertices, corners, m.min, m.max);
+  if constexpr (A::kReads) {
+    m.triangles.resize(corners.size() / 3);
+    for (std::size_t i = 0; i < m.triangles.size() * 3; ++i) m.triangles[i / 3][i % 3] = corners[i];
+  }
+}
+
+template <class A>
 void describe(A& a, Shape& s) {
-  DESCRIBED(Shape, 104);
-  a(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size);
+  DESCRIBED(Shape, 184);
+  a(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size, s.mesh_file, s.mesh_scale);
+  bool has_mesh = s.mesh != nullptr;
+  a(has_mesh);
+  if (!has_mesh) return;
+  Mesh mesh = A::kReads ? Mesh() : *s.mesh;
+  a(mesh);
+  if constexpr (A::kReads) s.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
 template <class A>
 void describe(A& a, Collision& c) {
-  DESCRIBED(Collision, 224);
+  DESCRIBED(Collision, 304);
   a(c.name, c.pose_in_link, c.shape, c.friction, c.restitution);
 }
 
 template <class A>
 void describe(A& a, Visual& v) {
-  DESCRIBED(Visual, 240);
+  DESCRIBED(Visual, 320);
   a(v.name, v.pose_in_link, v.shape, v.rgba);
 }
 
@@ -139,7 +159,7 @@ void describe(A& a, Fleet& f) {
 
 template <class A>
 void describe(A& a, Outline& o) {
-  DESCRIBED(Outline, 192);
+  DESCRIBED(Outline, 288);
   a(o.link, o.pose_in_link, o.shape);
 }
 

@@ -34,6 +34,12 @@ Vector3 halfExtents(const Shape& shape, const Quaternion& rotation) {
             std::sqrt(std::pow(ax[i] * shape.size.X(), 2) + std::pow(ay[i] * shape.size.Y(), 2) +
                       std::pow(az[i] * shape.size.Z(), 2));
         break;
+      case Shape::Kind::kMesh: {
+        const Vector3 size = shape.mesh->max - shape.mesh->min;
+        half[i] = 0.5 * (std::abs(ax[i]) * size.X() + std::abs(ay[i]) * size.Y() +
+                         std::abs(az[i]) * size.Z());
+        break;
+      }
       case Shape::Kind::kPlane:
         half[i] =
             0.5 * (std::abs(ax[i]) * shape.plane_size[0] + std::abs(ay[i]) * shape.plane_size[1]);
@@ -64,7 +70,11 @@ bool makeBoxOutline(const Shape& shape, const Quaternion& rotation, Footprint* o
 
 Bounds bounds(const Shape& shape, const Pose& pose) {
   const Vector3 half = halfExtents(shape, pose.Rot());
-  return {pose.Pos() - half, pose.Pos() + half};
+  Vector3 centre = pose.Pos();
+  if (shape.kind == Shape::Kind::kMesh) {
+    centre = pose.CoordPositionAdd((shape.mesh->min + shape.mesh->max) * 0.5);
+  }
+  return {centre - half, centre + half};
 }
 
 Bounds bounds(const ModelDescription& description) {
@@ -80,8 +90,8 @@ Bounds bounds(const ModelDescription& description) {
 Footprint makeFootprint(const Shape& shape, const Pose& pose) {
   Footprint out;
   const Bounds box = bounds(shape, pose);
-  out.x = pose.X();
-  out.y = pose.Y();
+  out.x = (box.min.X() + box.max.X()) / 2;
+  out.y = (box.min.Y() + box.max.Y()) / 2;
   out.z_min = box.min.Z();
   out.z_max = box.max.Z();
   const bool upright = std::abs(pose.Rot().ZAxis().Z()) >= kUpright;

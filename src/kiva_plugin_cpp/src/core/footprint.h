@@ -17,12 +17,13 @@ struct Bounds {
   bool empty() const { return min.X() > max.X(); }
 };
 
-/// Of a primitive at that pose; a plane has its own extent and no height.
+/// Of a shape at that pose; that of a mesh bounds the box around it; a plane has its own extent and
+/// no height.
 Bounds bounds(const Shape& shape, const Pose& pose);
 /// Of all the collisions of a model in its own frame, joints at zero.
 Bounds bounds(const ModelDescription& description);
 
-/// What a primitive at that pose in world covers on the floor. Not for planes.
+/// What a shape at that pose in world covers on the floor. Not for planes.
 Footprint makeFootprint(const Shape& shape, const Pose& pose);
 
 }  // namespace kiva

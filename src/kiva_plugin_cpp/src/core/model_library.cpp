@@ -16,13 +16,13 @@
 namespace kiva {
 namespace {
 
-void readModel(const sdf::Model& model, const std::string& file, sdf::Errors* warnings,
+void readModel(const sdf::Model& model, const Origin& origin, sdf::Errors* warnings,
                LibraryModel* result) {
   result->name = model.Name();
   result->pose = resolved(model.SemanticPose(), model.Element());
   result->placement = model.RawPose().Inverse() * result->pose;
   result->description =
-      std::make_shared<const ModelDescription>(describeModel(model, file, warnings));
+      std::make_shared<const ModelDescription>(describeModel(model, origin, warnings));
 }
 
 LibraryModel readFile(const std::string& folder, const std::string& file,
@@ -30,7 +30,8 @@ LibraryModel readFile(const std::string& folder, const std::string& file,
   LibraryModel result;
   SdfDocument document = parseSdf(readText(file), model_paths);
   if (const sdf::Model* model = document.root->Model()) {
-    readModel(*model, file, &document.warnings, &result);
+    readModel(*model, {file, model_paths}, &document.warnings, &result);
+    addMeshFiles(*result.description, &document.files);
   }
   for (const sdf::Error& warning : document.warnings) {
     result.warnings.push_back(describe(warning, file));
@@ -64,6 +65,14 @@ std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
   model = std::make_shared<const LibraryModel>(read(folder, model_paths));
   cache.put(key, model);
   return model;
+}
+
+void addMeshFiles(const ModelDescription& description, std::set<std::string>* files) {
+  for (const Link& link : description.links) {
+    for (const Collision& collision : link.collisions) {
+      if (!collision.shape.mesh_file.empty()) files->insert(collision.shape.mesh_file);
+    }
+  }
 }
 
 std::string readText(const std::string& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct LibraryModel {
 /// Throws DescriptionError.
 std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
                                                  const ModelPaths& model_paths);
+
+/// Adds the files of a model's meshes to `files`.
+void addMeshFiles(const ModelDescription& description, std::set<std::string>* files);
 
 /// The text of a file. Throws DescriptionError.
 std::string readText(const std::string& path);

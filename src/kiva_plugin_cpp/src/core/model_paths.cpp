@@ -11,6 +11,15 @@ namespace fs = std::filesystem;
 constexpr char kScheme[] = "model://";
 constexpr std::size_t kSchemeLength = sizeof(kScheme) - 1;
 
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+bool isFile(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 bool isModel(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path / "model.config", ignored) || fs::is_regular_file(path, ignored);
@@ -25,6 +34,23 @@ std::string findModel(const std::string& uri, const ModelPaths& paths) {
   for (const std::string& folder : paths) {
     const fs::path path = fs::path(folder) / uri.substr(kSchemeLength);
     if (isModel(path)) return path.string();
+  }
+  return "";
+}
+
+std::string findFile(const std::string& uri, const std::string& folder, const ModelPaths& paths) {
+  std::string path = uri;
+  for (const std::string scheme : {"model://", "package://", "file://"}) {
+    if (startsWith(uri, scheme)) path = uri.substr(scheme.size());
+  }
+  const bool is_in_models = path != uri && !startsWith(uri, "file://");
+  if (path.empty()) return "";
+  // `/` with an absolute path yields that path.
+  const fs::path beside = fs::path(folder) / path;
+  if (!is_in_models && isFile(beside)) return beside.lexically_normal().string();
+  for (const std::string& models : paths) {
+    const fs::path found = fs::path(models) / path;
+    if (isFile(found)) return found.lexically_normal().string();
   }
   return "";
 }

@@ -13,6 +13,10 @@ bool isModelUri(const std::string& uri);
 /// The folder, or the file, that `uri` names; empty if there is none.
 std::string findModel(const std::string& uri, const ModelPaths& paths);
 
+/// The file that the uri of a mesh names: `model://`, `package://`, `file://`, an absolute path, or
+/// one relative to `folder`; empty if there is none.
+std::string findFile(const std::string& uri, const std::string& folder, const ModelPaths& paths);
+
 /// What to tell a person who asked for a model that is in none of the folders.
 std::string modelNotFound(const std::string& uri, const ModelPaths& paths);
 

@@ -12,6 +12,7 @@
 #include "footprint.h"
 #include "load.h"
 #include "robots.h"
+#include "triangle_outline.h"
 #include "user_plugins.h"
 
 namespace kiva {
@@ -101,6 +102,19 @@ void freeSlot(Parts& parts, int slot) {
   parts.slot_of_name.erase(parts.models[slot]->name);
   parts.models[slot].reset();
   parts.free_slots.push_back(slot);
+}
+
+/// What lies flat on the ground, as the floor of a building does, is in nobody's way.
+void addTriangles(Model& model, Outline outline) {
+  const Mesh& mesh = *outline.shape.mesh;
+  const Pose pose =
+      model.pose * model.description->links[outline.link].pose_in_model * outline.pose_in_link;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    outline.triangle = static_cast<int>(i);
+    outline.corners = std::make_shared<Triangle>(cornersOf(mesh, outline.triangle, pose));
+    const Footprint flat = makeFootprint(*outline.corners);
+    if (flat.z_max > kFlat) model.outlines.push_back(outline);
+  }
 }
 
 /// Bodies that are in Bullet for as long as the model stands.
@@ -400,7 +414,12 @@ void addOutlines(Model& model) {
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (const Collision& collision : links[i].collisions) {
       if (collision.shape.kind == Shape::Kind::kPlane) continue;
-      model.outlines.push_back({static_cast<int>(i), collision.pose_in_link, collision.shape, -1});
+      const Outline outline{static_cast<int>(i), collision.pose_in_link, collision.shape};
+      if (collision.shape.kind == Shape::Kind::kMesh && model.isStatic()) {
+        addTriangles(model, outline);
+      } else {
+        model.outlines.push_back(outline);
+      }
     }
   }
 }
@@ -542,7 +561,14 @@ void appendFootprints(const Parts& parts, const Model& model, const Pose& to_fra
   for (const Outline& outline : model.outlines) {
     const Pose link =
         outline.link < 0 ? basePose(parts, model.index) : linkPose(parts, model, outline.link);
-    Footprint footprint = makeFootprint(outline.shape, to_frame * link * outline.pose_in_link);
+    const Pose pose = to_frame * link * outline.pose_in_link;
+    Footprint footprint;
+    if (outline.triangle >= 0) {
+      *outline.corners = cornersOf(*outline.shape.mesh, outline.triangle, pose);
+      footprint = makeFootprint(*outline.corners);
+    } else {
+      footprint = makeFootprint(outline.shape, pose);
+    }
     footprint.model = slot;
     footprint.group = group;
     if (footprint.kind == Footprint::Kind::kOther && model.in_physics) {

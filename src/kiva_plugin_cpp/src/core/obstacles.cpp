@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "ray.h"
+#include "triangle_outline.h"
 
 namespace kiva {
 namespace {
@@ -18,7 +19,9 @@ double halfX(const Footprint& f) {
   return f.kind == Footprint::Kind::kBox ? std::abs(f.c) * f.hx + std::abs(f.s) * f.hy : f.hx;
 }
 double halfY(const Footprint& f) {
-  return f.kind == Footprint::Kind::kBox ? std::abs(f.s) * f.hx + std::abs(f.c) * f.hy : f.hx;
+  return f.kind == Footprint::Kind::kBox        ? std::abs(f.s) * f.hx + std::abs(f.c) * f.hy
+         : f.kind == Footprint::Kind::kTriangle ? f.hy
+                                                : f.hx;
 }
 
 /// Separation of two boxes along the two axes of `a`: the larger gap of both.
@@ -80,6 +83,8 @@ double castOne(const Footprint& f, double x, double y, double z, double dx, doub
       const double up = z - 0.5 * (f.z_min + f.z_max);
       return castCircle(f, std::sqrt(std::max(0.0, f.hx * f.hx - up * up)), x, y, dx, dy);
     }
+    case Footprint::Kind::kTriangle:
+      return castTriangle(*f.triangle, x, y, z, dx, dy);
     case Footprint::Kind::kOther:
       // What has no body now, as a unit that nobody is near, is seen as its circle.
       if (!f.body) return castCircle(f, f.hx, x, y, dx, dy);
@@ -91,6 +96,8 @@ double castOne(const Footprint& f, double x, double y, double z, double dx, doub
 }  // namespace
 
 double gap(const Footprint& a, const Footprint& b) {
+  if (a.kind == Footprint::Kind::kTriangle) return gapToTriangle(*a.triangle, b);
+  if (b.kind == Footprint::Kind::kTriangle) return gapToTriangle(*b.triangle, a);
   const bool box_a = a.kind == Footprint::Kind::kBox, box_b = b.kind == Footprint::Kind::kBox;
   if (box_a && box_b) return std::max(gapAlongAxes(a, b), gapAlongAxes(b, a));
   if (box_a) return gapToCircle(a, b);

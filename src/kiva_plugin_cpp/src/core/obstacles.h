@@ -4,7 +4,9 @@
 // It answers two questions quickly: what is near, and what does a horizontal ray meet.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <ignition/math/Vector3.hh>
 #include <vector>
 
 #include "kiva_plugin_cpp/fleet.h"
@@ -16,10 +18,11 @@ namespace kiva {
 /// The outline of an upright shape on the floor and the heights it spans. In world [m].
 struct Footprint {
   enum class Kind : std::uint8_t {
-    kBox,     ///< Rectangle hx × hy, turned by (c, s).
-    kCircle,  ///< An upright cylinder of radius hx.
-    kSphere,  ///< A sphere of radius hx; narrower off its middle height.
-    kOther    ///< Bounded by a circle of radius hx; a ray asks `body` for the truth.
+    kBox,       ///< Rectangle hx × hy, turned by (c, s).
+    kCircle,    ///< An upright cylinder of radius hx.
+    kSphere,    ///< A sphere of radius hx; narrower off its middle height.
+    kTriangle,  ///< `triangle`, within a rectangle hx × hy along the world's axes.
+    kOther      ///< Bounded by a circle of radius hx; a ray asks `body` for the truth.
   };
   Kind kind = Kind::kBox;
   double x = 0, y = 0;
@@ -28,7 +31,8 @@ struct Footprint {
   double z_min = 0, z_max = 0;
   int model = -1;  ///< Whose it is: index in the world's models.
   int group = -1;  ///< Robot index for a robot and what it carries; rays of that robot pass.
-  const btCollisionObject* body = nullptr;  ///< For kOther.
+  const btCollisionObject* body = nullptr;  ///< For kOther; null: the circle is the truth.
+  const std::array<ignition::math::Vector3d, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
 };
 
 /// A lower bound of the distance between two outlines [m]; negative where they overlap.

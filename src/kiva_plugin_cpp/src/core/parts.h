@@ -31,7 +31,9 @@ struct Outline {
   int link = 0;
   Pose pose_in_link;
   Shape shape;
-  int handle = -1;  ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
+  int handle = -1;    ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
+  int triangle = -1;  ///< Of the mesh of a static model: each of them is an outline.
+  std::shared_ptr<std::array<Vector3, 3>> corners = nullptr;  ///< Of that triangle, in world.
 };
 
 struct JointedBody;

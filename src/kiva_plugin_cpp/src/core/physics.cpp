@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics.h"
 
+#include <LinearMath/btConvexHullComputer.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -58,6 +60,30 @@ std::unique_ptr<btCollisionShape> makeEllipsoid(const Shape& shape) {
   return ellipsoid;
 }
 
+/// The convex hull of a mesh that moves.
+std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
+  std::vector<btVector3> points;
+  for (const Vector3& vertex : mesh.vertices) points.push_back(toBullet(vertex));
+  btConvexHullComputer computer;
+  computer.compute(&points[0].x(), sizeof(btVector3), static_cast<int>(points.size()), 0, 0);
+  auto hull = std::make_unique<Foreseeing<btConvexHullShape>>();
+  for (int i = 0; i < computer.vertices.size(); ++i) hull->addPoint(computer.vertices[i], false);
+  hull->recalcLocalAabb();
+  hull->setMargin(kMargin);
+  return hull;
+}
+
+/// The triangles of a mesh that stands still, as they are.
+void setTriangles(const Mesh& mesh, BodyPart* part) {
+  part->triangles = std::make_unique<btTriangleMesh>();
+  for (const Vector3& vertex : mesh.vertices) {
+    part->triangles->findOrAddVertex(toBullet(vertex), false);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) part->triangles->addTriangleIndices(a, b, c);
+  part->shape = std::make_unique<btBvhTriangleMeshShape>(part->triangles.get(), true);
+  part->shape->setMargin(kMargin);
+}
+
 std::unique_ptr<btCollisionShape> makeShape(const Shape& shape) {
   switch (shape.kind) {
     case Shape::Kind::kBox:
@@ -72,15 +98,25 @@ std::unique_ptr<btCollisionShape> makeShape(const Shape& shape) {
       return makeEllipsoid(shape);
     case Shape::Kind::kPlane:
       return std::make_unique<btStaticPlaneShape>(toBullet(shape.normal), 0);
+    case Shape::Kind::kMesh:
+      return makeHull(*shape.mesh);
   }
   return nullptr;
 }
 
-bool isPlane(const Collision& collision) { return collision.shape.kind == Shape::Kind::kPlane; }
+/// What Bullet has no volume for is a static body of its own.
+bool isSurface(const Collision& collision, bool is_static) {
+  const Shape::Kind kind = collision.shape.kind;
+  return kind == Shape::Kind::kPlane || (kind == Shape::Kind::kMesh && is_static);
+}
 
-std::unique_ptr<BodyPart> makePart(const Collision& collision, int model) {
+std::unique_ptr<BodyPart> makePart(const Collision& collision, int model, bool is_static = false) {
   auto part = std::make_unique<BodyPart>();
-  part->shape = makeShape(collision.shape);
+  if (collision.shape.kind == Shape::Kind::kMesh && is_static) {
+    setTriangles(*collision.shape.mesh, part.get());
+  } else {
+    part->shape = makeShape(collision.shape);
+  }
   part->shape->setUserPointer(part.get());
   part->model = model;
   part->friction = collision.friction;
@@ -114,13 +150,13 @@ LinkBody finishBody(LinkBody body, const Link& link, const BodyContext& context,
   return body;
 }
 
-LinkBody makePlaneBody(const Link& link, int index, const Collision& plane,
-                       const BodyContext& context) {
+LinkBody makeSurface(const Link& link, int index, const Collision& surface,
+                     const BodyContext& context) {
   LinkBody out;
   out.link = index;
-  out.mass_frame = toBullet(plane.pose_in_link);
-  out.plane = makePart(plane, context.model);
-  btCollisionShape* shape = out.plane->shape.get();
+  out.mass_frame = toBullet(surface.pose_in_link);
+  out.surface = makePart(surface, context.model, context.is_static);
+  btCollisionShape* shape = out.surface->shape.get();
   return finishBody(std::move(out), link, context, shape);
 }
 
@@ -131,7 +167,7 @@ LinkBody makeBody(const Link& link, int index, const BodyContext& context) {
       context.is_static ? btTransform::getIdentity() : toBullet(link.inertial_pose_in_link);
   const btTransform in_body = out.mass_frame.inverse();
   for (const Collision& collision : link.collisions) {
-    if (isPlane(collision)) continue;
+    if (isSurface(collision, context.is_static)) continue;
     out.shape.add(collision, in_body * toBullet(collision.pose_in_link), context.model);
   }
   btCollisionShape* shape = out.shape.compound.get();
@@ -210,6 +246,14 @@ const BodyPart* partOf(const btCollisionShape* shape) {
   return static_cast<const BodyPart*>(shape->getUserPointer());
 }
 
+/// Of a mesh, what touches is one of its triangles, which knows no part.
+const BodyPart* partOf(const btCollisionObjectWrapper* wrapper) {
+  for (; wrapper; wrapper = wrapper->m_parent) {
+    if (const BodyPart* part = partOf(wrapper->getCollisionShape())) return part;
+  }
+  return nullptr;
+}
+
 int modelOfPart(const btCollisionObject* object, int part) {
   const btCollisionShape* shape = object->getCollisionShape();
   if (shape->isCompound() && part >= 0) {
@@ -222,8 +266,8 @@ int modelOfPart(const btCollisionObject* object, int part) {
 /// Gives a new contact the friction and restitution of the two parts that touch.
 bool combineMaterials(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
                       const btCollisionObjectWrapper* b, int, int) {
-  const BodyPart* part_a = partOf(a->getCollisionShape());
-  const BodyPart* part_b = partOf(b->getCollisionShape());
+  const BodyPart* part_a = partOf(a);
+  const BodyPart* part_b = partOf(b);
   if (part_a && part_b) {
     point.m_combinedFriction = part_a->friction * part_b->friction;
     point.m_combinedRestitution = part_a->restitution * part_b->restitution;
@@ -293,8 +337,8 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
     const Link& link = description.links[i];
     out.links.push_back(makeBody(link, static_cast<int>(i), context));
     for (const Collision& collision : link.collisions) {
-      if (!isPlane(collision)) continue;
-      out.planes.push_back(makePlaneBody(link, static_cast<int>(i), collision, context));
+      if (!isSurface(collision, description.is_static)) continue;
+      out.surfaces.push_back(makeSurface(link, static_cast<int>(i), collision, context));
     }
   }
   if (description.is_static) return out;
@@ -307,7 +351,7 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
 }
 
 void Physics::insert(ModelBodies& bodies) {
-  for (auto* list : {&bodies.links, &bodies.planes}) {
+  for (auto* list : {&bodies.links, &bodies.surfaces}) {
     for (LinkBody& link : *list) world_.addRigidBody(link.body.get(), link.group, link.mask);
   }
   for (auto& joint : bodies.joints) world_.addConstraint(joint.get(), true);
@@ -315,7 +359,7 @@ void Physics::insert(ModelBodies& bodies) {
 
 void Physics::remove(ModelBodies& bodies) {
   for (auto& joint : bodies.joints) world_.removeConstraint(joint.get());
-  for (auto* list : {&bodies.links, &bodies.planes}) {
+  for (auto* list : {&bodies.links, &bodies.surfaces}) {
     for (LinkBody& link : *list) world_.removeRigidBody(link.body.get());
   }
 }

@@ -24,6 +24,7 @@ enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4
 /// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
 /// friction a body.
 struct BodyPart {
+  std::unique_ptr<btTriangleMesh> triangles;  ///< Of a static mesh: what its shape is made of.
   std::unique_ptr<btCollisionShape> shape;
   int model = -1;
   double friction = 1;
@@ -42,7 +43,7 @@ struct BodyShape {
 /// A rigid body for one link. Bullet's body frame is the centre of mass along the principal axes.
 struct LinkBody {
   BodyShape shape;
-  std::unique_ptr<BodyPart> plane;  ///< Instead of `shape`: an unbounded plane.
+  std::unique_ptr<BodyPart> surface;  ///< Instead of `shape`: an unbounded plane, a static mesh.
   std::unique_ptr<btRigidBody> body;
   btTransform mass_frame;  ///< Centre of mass in the link.
   int link = 0;
@@ -55,8 +56,8 @@ struct LinkBody {
 };
 
 struct ModelBodies {
-  std::vector<LinkBody> links;   ///< One a link, in the description's order.
-  std::vector<LinkBody> planes;  ///< The links' unbounded planes; always static.
+  std::vector<LinkBody> links;     ///< One a link, in the description's order.
+  std::vector<LinkBody> surfaces;  ///< The links' unbounded planes and static meshes.
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
 };
 

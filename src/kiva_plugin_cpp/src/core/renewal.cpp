@@ -53,10 +53,10 @@ Addresses addresses(const Parts& parts) {
   for (std::size_t slot = 0; slot < parts.models.size(); ++slot) {
     if (!parts.models[slot] || !parts.models[slot]->in_physics) continue;
     const ModelBodies& bodies = parts.models[slot]->bodies;
-    for (const auto* list : {&bodies.links, &bodies.planes}) {
+    for (const auto* list : {&bodies.links, &bodies.surfaces}) {
       for (std::size_t i = 0; i < list->size(); ++i) {
         out[(*list)[i].body.get()] = {static_cast<int>(slot), static_cast<int>(i),
-                                      list == &bodies.planes};
+                                      list == &bodies.surfaces};
       }
     }
   }

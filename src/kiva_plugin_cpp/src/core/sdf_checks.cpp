@@ -45,22 +45,28 @@ void checkAxis(const sdf::ElementPtr& axis) {
   failAt(xyz, "expected an axis that points somewhere");
 }
 
-void check(const sdf::ElementPtr& element) {
+/// libsdformat refuses scripts that only a renderer could run.
+void dropScript(const sdf::ElementPtr& material) {
+  if (const sdf::ElementPtr script = material->FindElement("script")) material->RemoveChild(script);
+}
+
+void check(const sdf::ElementPtr& element, sdf::Errors* warnings) {
   const std::string& name = element->GetName();
   if (name == "world" || name == "link") checkNames(element);
   if (name == "model") checkModel(element);
-  if (name == "inertial") checkInertial(element);
+  if (name == "link") repairInertial(element, warnings);
+  if (name == "material") dropScript(element);
   if (name == "joint") checkJoint(element);
   if (name == "axis") checkAxis(element);
 }
 
 }  // namespace
 
-void checkElements(const sdf::ElementPtr& element) {
-  check(element);
+void checkElements(const sdf::ElementPtr& element, sdf::Errors* warnings) {
+  check(element, warnings);
   for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
     // What is inside a plugin is its own affair.
-    if (child->GetName() != "plugin") checkElements(child);
+    if (child->GetName() != "plugin") checkElements(child, warnings);
   }
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <sdf/Element.hh>
+#include <sdf/Types.hh>
 
 namespace kiva {
 
 /// What libsdformat lets pass, or refuses without an address, is found here before it looks.
-/// Throws SdfError at the first fault at or below `element`.
-void checkElements(const sdf::ElementPtr& element);
+/// Repairs what can do without, with a warning; throws SdfError at the first other fault at or
+/// below `element`.
+void checkElements(const sdf::ElementPtr& element, sdf::Errors* warnings);
 
 /// `child` of `element` if the document has it: libsdformat adds required ones that are missing.
 sdf::ElementPtr givenChild(const sdf::ElementPtr& element, const std::string& child);

@@ -7,6 +7,7 @@
 #include <sdf/Element.hh>
 #include <sdf/Param.hh>
 #include <sdf/parser.hh>
+#include <set>
 
 namespace kiva {
 namespace {
@@ -21,11 +22,75 @@ const sdf::ElementPtr& format() {
   return kFormat;
 }
 
+/// Parts that SDF allows to be left out and that take the room.
+constexpr const char* kLargeParts[] = {"actor",
+                                       "atmosphere",
+                                       "audio_sink",
+                                       "audio_source",
+                                       "battery",
+                                       "gripper",
+                                       "gui",
+                                       "heightmap",
+                                       "image",
+                                       "joint",
+                                       "light",
+                                       "material",
+                                       "particle_emitter",
+                                       "physics",
+                                       "polyline",
+                                       "population",
+                                       "projector",
+                                       "road",
+                                       "scene",
+                                       "sensor",
+                                       "state",
+                                       "surface",
+                                       "wind",
+                                       "spherical_coordinates"};
+
+std::set<std::string> absentParts(const std::string& text) {
+  std::set<std::string> absent;
+  for (const std::string name : kLargeParts) {
+    if (text.find("<" + name) == std::string::npos) absent.insert(name);
+  }
+  return absent;
+}
+
+bool isOptional(const sdf::Element& element) {
+  return element.GetRequired() == "0" || element.GetRequired() == "*";
+}
+
+void copyParam(const sdf::Param& from, sdf::Element* to, bool is_value) {
+  const std::string& type = from.GetTypeName();
+  const std::string value = from.GetDefaultAsString();
+  if (!is_value) return to->AddAttribute(from.GetKey(), type, value, from.GetRequired());
+  const auto least = from.GetMinValueAsString(), most = from.GetMaxValueAsString();
+  to->AddValue(type, value, from.GetRequired(), least.value_or(""), most.value_or(""));
+}
+
+sdf::ElementPtr copyWithout(const std::set<std::string>& absent, const sdf::ElementPtr& from) {
+  auto copy = std::make_shared<sdf::Element>();
+  copy->SetName(from->GetName());
+  copy->SetRequired(from->GetRequired());
+  copy->SetCopyChildren(from->GetCopyChildren());
+  copy->SetReferenceSDF(from->ReferenceSDF());
+  for (const sdf::ParamPtr& attribute : from->GetAttributes()) {
+    copyParam(*attribute, copy.get(), false);
+  }
+  if (from->GetValue()) copyParam(*from->GetValue(), copy.get(), true);
+  for (unsigned i = 0; i < from->GetElementDescriptionCount(); ++i) {
+    const sdf::ElementPtr part = from->GetElementDescription(i);
+    if (isOptional(*part) && absent.count(part->GetName())) continue;
+    copy->AddElementDescription(copyWithout(absent, part));
+  }
+  return copy;
+}
+
 }  // namespace
 
-sdf::SDFPtr emptyDocument() {
+sdf::SDFPtr emptyDocument(const std::string& text) {
   auto document = std::make_shared<sdf::SDF>();
-  document->Root(format()->Clone());
+  document->Root(copyWithout(absentParts(text), format()));
   return document;
 }
 

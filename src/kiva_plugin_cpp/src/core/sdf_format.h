@@ -8,8 +8,10 @@
 
 namespace kiva {
 
-/// An empty document, knowing what SDF allows in it.
-sdf::SDFPtr emptyDocument();
+/// An empty document, knowing what SDF allows in it; of its large optional parts, sensors for one,
+/// only those whose names occur in `text`. For libsdformat copies its description of an element,
+/// with all that might be inside, for each that it reads: most of its time goes there.
+sdf::SDFPtr emptyDocument(const std::string& text);
 
 /// A part of an address like `/sdf/model[@name="m"]/pose`.
 struct PathStep {

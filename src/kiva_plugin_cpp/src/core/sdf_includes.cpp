@@ -2,38 +2,19 @@
 #include "core/sdf_includes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <set>
-#include <sstream>
 #include <string_view>
 
 #include "core/model_paths.h"
 #include "core/sdf_errors.h"
 #include "core/tag_scanner.h"
+#include "core/xml_parts.h"
 
 namespace kiva {
 namespace {
 
 using Path = std::vector<std::string_view>;
-
-constexpr const char* kBlanks = " \t\r\n";
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
-}
-
-std::optional<Pose> parsePose(const std::string& text) {
-  std::istringstream in(text);
-  in.imbue(std::locale::classic());
-  double v[6];
-  for (double& value : v) {
-    if (!(in >> value) || !std::isfinite(value)) return std::nullopt;
-  }
-  if (!(in >> std::ws).eof()) return std::nullopt;
-  return Pose(v[0], v[1], v[2], v[3], v[4], v[5]);
-}
 
 std::optional<bool> parseFlag(const std::string& text) {
   if (text == "true" || text == "1") return true;
@@ -95,6 +76,38 @@ bool refersToOthers(const Path& path, std::string_view attributes) {
 
 bool isTop(const Path& path) { return path == Path{"sdf"} || path == Path{"sdf", "world"}; }
 
+/// What two models have in common that differ in name and place alone; nothing for one that is
+/// placed in another way.
+struct ModelText {
+  std::string common;
+  std::string name;
+  Pose pose;
+};
+
+std::optional<ModelText> readModelText(const XmlPart& model) {
+  const auto name = attributeOf(model, "name");
+  const auto parts = partsOf(model.inside);
+  if (!name || !isPlainName(*name) || !parts) return std::nullopt;
+  ModelText out{"", *name, Pose::Zero};
+  const XmlPart* pose = findPart(*parts, "pose");
+  std::size_t end = 0;  // Of what is in `common`.
+  if (pose) {
+    const auto numbers = parsePose(trimmed(pose->inside));
+    if (!numbers || !trimmed(pose->attributes).empty()) return std::nullopt;
+    out.pose = *numbers;
+    const auto begin = static_cast<std::size_t>(pose->whole.data() - model.inside.data());
+    out.common = model.inside.substr(0, begin);
+    end = begin + pose->whole.size();
+  }
+  out.common += model.inside.substr(end);
+  for (const char* attribute : {"canonical_link", "placement_frame"}) {
+    const bool has = model.attributes.find(attribute) != std::string_view::npos;
+    if (has)
+      out.common += std::string(" ") + attribute + attributeOf(model, attribute).value_or("");
+  }
+  return out;
+}
+
 /// Follows the elements and collects what is taken out.
 class Splitter {
  public:
@@ -117,7 +130,8 @@ class Splitter {
     path_.push_back(scanner_.name);
     if (refersToOthers(path_, scanner_.attributes)) return false;
     if (is_top && (scanner_.name == "model" || scanner_.name == "include")) {
-      if (scanner_.name == "model" || !take()) result_.order.push_back(SplitText::kOfRest);
+      const bool is_taken = scanner_.name == "include" ? takeInclude() : takeCopy();
+      if (!is_taken) result_.order.push_back(SplitText::kOfRest);
     }
     return true;
   }
@@ -128,22 +142,42 @@ class Splitter {
     return true;
   }
 
-  /// Takes the include that the scanner stands at, which then stands at its end.
-  bool take() {
+  bool takeInclude() {
     TagScanner ahead = scanner_;
     auto include = readInclude(xml_, &ahead);
-    if (!include) return false;
-    keepUpTo(scanner_.begin);
-    include->line = line_;
-    result_.order.push_back(static_cast<int>(result_.includes.size()));
-    result_.includes.push_back(std::move(*include));
-    const auto taken = xml_.substr(scanner_.begin, ahead.end - scanner_.begin);
-    const auto lines = std::count(taken.begin(), taken.end(), '\n');
-    result_.rest.append(lines, '\n');
-    line_ += static_cast<int>(lines);
-    kept_ = ahead.end;
-    scanner_ = ahead;
+    if (include) take(ahead, std::move(*include));
+    return include.has_value();
+  }
+
+  /// The first of several models that differ in name and place alone stays.
+  bool takeCopy() {
+    if (path_.size() < 3) return false;  // <sdf> itself holds one model.
+    TagScanner ahead = scanner_;
+    const auto part = takePart(xml_, &ahead);
+    const auto text = part ? readModelText(*part) : std::nullopt;
+    if (!text) return false;
+    const auto [original, is_new] = originals_.try_emplace(text->common, *text);
+    if (is_new) return false;
+    Include copy;
+    copy.copy_of = original->second.name;
+    copy.name = text->name;
+    copy.pose = text->pose * original->second.pose.Inverse();
+    take(ahead, std::move(copy));
     return true;
+  }
+
+  /// Takes what the scanner stands at, which then stands where `behind` does.
+  void take(const TagScanner& behind, Include include) {
+    keepUpTo(scanner_.begin);
+    include.line = line_;
+    result_.order.push_back(static_cast<int>(result_.includes.size()));
+    result_.includes.push_back(std::move(include));
+    const auto taken = xml_.substr(scanner_.begin, behind.end - scanner_.begin);
+    const auto lines = std::count(taken.begin(), taken.end(), '\n');
+    result_.rest.append(static_cast<std::size_t>(lines), '\n');
+    line_ += static_cast<int>(lines);
+    kept_ = behind.end;
+    scanner_ = behind;
   }
 
   void keepUpTo(std::size_t position) {
@@ -156,8 +190,9 @@ class Splitter {
   TagScanner scanner_;
   Path path_;
   SplitText result_;
-  std::size_t kept_ = 0;  ///< Up to here the text is in `rest`, or taken out.
-  int line_ = 1;          ///< Of `kept_`.
+  std::map<std::string, ModelText> originals_;  // by what their copies have in common with them
+  std::size_t kept_ = 0;                        ///< Up to here the text is in `rest`, or taken out.
+  int line_ = 1;                                ///< Of `kept_`.
 };
 
 bool isFieldOfInclude(const Path& path) {

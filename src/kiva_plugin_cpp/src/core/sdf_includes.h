@@ -2,7 +2,8 @@
 //
 // libsdformat copies its description of all of SDF for every `<include>` (20 to 40 ms), so a world
 // of 5000 shelves would take minutes. Most includes say no more than which model stands where:
-// those are taken out of the text here, and the model they name is read once.
+// those are taken out of the text here, and the model they name is read once. So are models whose
+// text has been there before.
 #pragma once
 
 #include <optional>
@@ -13,11 +14,14 @@
 
 namespace kiva {
 
-/// An `<include>` of a world that gives a uri and at most a name, a pose and a static flag.
+/// An `<include>` of a world that gives a uri and at most a name, a pose and a static flag; or a
+/// `<model>` that differs from one before it in name and pose alone.
 struct Include {
   std::string uri;
+  std::string copy_of;            ///< Instead of a uri: the name of a model in the rest.
   std::string name;               ///< Empty: that of the model.
-  std::optional<Pose> pose;       ///< In world; none: that of the model.
+  std::optional<Pose> pose;       ///< In world; none: that of the model. A copy's is relative to
+                                  ///< what it is a copy of, seen from the world.
   std::optional<bool> is_static;  ///< None: as the model has it.
   int line = 0;
 };

@@ -3,13 +3,15 @@
 
 #include <ignition/math/Inertial.hh>
 #include <sdf/Element.hh>
+#include <sdf/Types.hh>
 
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
 
-/// Throws SdfError if the mass in an `<inertial>` is not positive or no body can have its inertia.
-void checkInertial(const sdf::ElementPtr& inertial);
+/// Takes out of a link what is wrong with its `<inertial>`, with a warning: a mass that is not
+/// positive, an inertia that no body can have. SDF's defaults of 1 kg and 1 kg m² are left.
+void repairInertial(const sdf::ElementPtr& link, sdf::Errors* warnings);
 
 /// Into mass, principal moments and axes of `link`.
 void setInertia(const ignition::math::Inertiald& inertial, Link* link);

@@ -12,8 +12,9 @@
 namespace kiva {
 namespace {
 
-void addCollision(const sdf::Collision& from, Link* link, sdf::Errors* warnings) {
-  const auto shape = readShape(from.Element());
+void addCollision(const sdf::Collision& from, const Origin& origin, Link* link,
+                  sdf::Errors* warnings) {
+  const auto shape = readShape(from.Element(), origin, warnings);
   if (!shape) return;
   Collision collision;
   collision.name = from.Name();
@@ -23,8 +24,8 @@ void addCollision(const sdf::Collision& from, Link* link, sdf::Errors* warnings)
   link->collisions.push_back(collision);
 }
 
-void addVisual(const sdf::Visual& from, Link* link) {
-  const auto shape = readShape(from.Element());
+void addVisual(const sdf::Visual& from, const Origin& origin, Link* link, sdf::Errors* warnings) {
+  const auto shape = readShape(from.Element(), origin, warnings);
   if (!shape) return;
   Visual visual;
   visual.name = from.Name();
@@ -50,9 +51,11 @@ Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnin
   link.gravity = from.Element()->Get<bool>("gravity", true).first;
   setInertia(from.Inertial(), &link);
   for (uint64_t i = 0; i < from.CollisionCount(); ++i) {
-    addCollision(*from.CollisionByIndex(i), &link, warnings);
+    addCollision(*from.CollisionByIndex(i), scope.origin, &link, warnings);
   }
-  for (uint64_t i = 0; i < from.VisualCount(); ++i) addVisual(*from.VisualByIndex(i), &link);
+  for (uint64_t i = 0; i < from.VisualCount(); ++i) {
+    addVisual(*from.VisualByIndex(i), scope.origin, &link, warnings);
+  }
   warnOfSensors(from.Element(), warnings);
   return link;
 }

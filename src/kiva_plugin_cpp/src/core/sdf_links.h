@@ -6,13 +6,14 @@
 #include <sdf/Types.hh>
 #include <string>
 
+#include "core/sdf_shapes.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
 
 /// Where a nested model's parts go in the one that is flattened.
 struct Scope {
-  std::string where;   ///< What the document is called.
+  const Origin& origin;
   std::string prefix;  ///< `nested::`, empty for the outermost model.
   Pose pose;           ///< Of the nested model, in the outermost one.
 };

@@ -27,6 +27,19 @@ void addParameters(const sdf::ElementPtr& element, const std::string& path,
   }
 }
 
+/// What is static in a model that moves does not: its links from `first` on are fixed.
+void holdToWorld(std::size_t first, ModelDescription* description) {
+  for (std::size_t i = first; i < description->links.size(); ++i) {
+    const Link& link = description->links[i];
+    Joint joint;
+    joint.name = link.name + "::static";
+    joint.parent = "world";
+    joint.child = link.name;
+    joint.anchor_in_model = link.pose_in_model.Pos();
+    description->joints.push_back(joint);
+  }
+}
+
 /// The parts of `model`, then those of the models inside it.
 void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* description,
               sdf::Errors* warnings) {
@@ -36,19 +49,28 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
   for (uint64_t i = 0; i < model.JointCount(); ++i) {
     description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
   }
-  for (auto& plugin : readPlugins(model.Element(), scope.where)) {
+  for (auto& plugin : readPlugins(model.Element(), scope.origin.where)) {
     description->plugins.push_back(std::move(plugin));
   }
   for (uint64_t i = 0; i < model.ModelCount(); ++i) {
     const sdf::Model& nested = *model.ModelByIndex(i);
-    if (nested.Static() && !description->is_static) {
-      failAt(nested.Element(), "a static model in one that moves is not supported");
-    }
     const std::string name = scope.prefix + nested.Name();
     description->nested_models.push_back(name);
     const Pose pose = scope.pose * resolved(nested.SemanticPose(), nested.Element(), "__model__");
-    addModel(nested, {scope.where, name + "::", pose}, description, warnings);
+    const std::size_t first = description->links.size();
+    addModel(nested, {scope.origin, name + "::", pose}, description, warnings);
+    if (nested.Static() && !description->is_static) holdToWorld(first, description);
   }
+}
+
+/// A model that only wraps static ones is static.
+bool isStatic(const sdf::Model& model) {
+  if (model.Static()) return true;
+  if (model.LinkCount() > 0 || model.ModelCount() == 0) return false;
+  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
+    if (!isStatic(*model.ModelByIndex(i))) return false;
+  }
+  return true;
 }
 
 /// Puts the link that stands for the whole model first, the others as they came.
@@ -59,11 +81,11 @@ void putFirst(const std::string& canonical, std::vector<Link>* links) {
 
 }  // namespace
 
-ModelDescription describeModel(const sdf::Model& model, const std::string& where,
+ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
                                sdf::Errors* warnings) {
   ModelDescription description;
-  description.is_static = model.Static();
-  addModel(model, {where, "", Pose::Zero}, &description, warnings);
+  description.is_static = isStatic(model);
+  addModel(model, {origin, "", Pose::Zero}, &description, warnings);
   putFirst(model.CanonicalLinkAndRelativeName().second, &description.links);
   return description;
 }

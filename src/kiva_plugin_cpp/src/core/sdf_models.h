@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "core/sdf_links.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
 
-/// With nested models flattened. `where` is what errors of the plugins' parameters call the
-/// document, empty for one that has no name of its own. Throws SdfError.
-ModelDescription describeModel(const sdf::Model& model, const std::string& where,
+/// With nested models flattened. Throws SdfError.
+ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
                                sdf::Errors* warnings);
 
 /// The `<plugin>` elements of a model or a world.

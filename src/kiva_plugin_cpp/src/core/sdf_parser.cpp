@@ -9,6 +9,7 @@
 
 #include "core/model_paths.h"
 #include "core/sdf_checks.h"
+#include "core/sdf_cycles.h"
 #include "core/sdf_errors.h"
 #include "core/sdf_format.h"
 #include "core/sdf_includes.h"
@@ -89,15 +90,15 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
   std::string missing;
   const sdf::ParserConfig config = parserConfig(model_paths, &missing);
   const GlobalConfig global(config);
-  const sdf::SDFPtr document = emptyDocument();
   const std::string root = rootOf(text);
+  const sdf::SDFPtr document = emptyDocument(root == "robot" ? "" : text);
   sdf::Errors errors;
   SdfDocument parsed;
   const bool read = readInto(document, text, root == "robot", config, &errors);
   throwIfMissing(missing, model_paths, errors);
   throwErrors(errors, console.take(), &parsed.warnings);
   if (!read) failAtRoot(root);
-  checkElements(document->Root());
+  checkElements(document->Root(), &parsed.warnings);
   parsed.root = std::make_unique<sdf::Root>();
   const sdf::Errors load_errors = parsed.root->Load(document, config);
   throwErrors(load_errors, console.take(), &parsed.warnings);
@@ -114,6 +115,7 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
 
 SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   checkIncludes(text);
+  checkCycles(text, model_paths);
   try {
     return parse(text, model_paths);
   } catch (const SdfError&) {

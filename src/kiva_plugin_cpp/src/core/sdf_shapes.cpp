@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <ignition/math/Color.hh>
-#include <ignition/math/Vector2.hh>
 #include <limits>
 
+#include "core/extrusion.h"
+#include "core/mesh_file.h"
+#include "core/model_paths.h"
 #include "core/sdf_checks.h"
 #include "core/sdf_errors.h"
 
@@ -14,7 +17,8 @@ namespace kiva {
 namespace {
 
 using ignition::math::Color;
-using Vector2 = ignition::math::Vector2d;
+
+constexpr std::size_t kMostPoints = 2000;  // of a polyline
 
 sdf::ElementPtr required(const sdf::ElementPtr& parent, const std::string& name) {
   const sdf::ElementPtr child = givenChild(parent, name);
@@ -39,6 +43,76 @@ Vector3 lengths(const sdf::ElementPtr& parent, const std::string& name) {
   const Vector3 value = element->Get<Vector3>();
   for (const double part : {value.X(), value.Y(), value.Z()}) checkPositive(element, part);
   return value;
+}
+
+/// The document that an element stands in: its own file, or the text that was given.
+std::string folderOf(const sdf::ElementPtr& element, const Origin& origin) {
+  const std::string& file = element->FilePath();
+  const bool is_text = file.empty() || file[0] == '<';  // libsdformat's <data-string>
+  return std::filesystem::path(is_text ? origin.where : file).parent_path().string();
+}
+
+Vector3 scaleOf(const sdf::ElementPtr& mesh) {
+  const Vector3 scale = mesh->Get<Vector3>("scale", Vector3::One).first;
+  const bool is_fit = scale.IsFinite() && scale.X() * scale.Y() * scale.Z() != 0;
+  if (!is_fit) failAt(mesh->FindElement("scale"), "expected a finite scale other than 0");
+  return scale;
+}
+
+MeshRequest requestOf(const sdf::ElementPtr& mesh) {
+  MeshRequest request;
+  request.scale = scaleOf(mesh);
+  if (const sdf::ElementPtr submesh = givenChild(mesh, "submesh")) {
+    request.submesh = submesh->Get<std::string>("name");
+    request.is_centred = submesh->Get<bool>("center", false).first;
+  }
+  return request;
+}
+
+std::optional<Shape> readMeshShape(const sdf::ElementPtr& owner, const sdf::ElementPtr& mesh,
+                                   const Origin& origin, sdf::Errors* warnings) {
+  const std::string uri = required(mesh, "uri")->Get<std::string>();
+  MeshRequest request = requestOf(mesh);
+  const std::string part = "this " + owner->GetName() + " is left out: ";
+  request.file = findFile(uri, folderOf(mesh, origin), origin.model_paths);
+  if (request.file.empty()) {
+    warnings->push_back(noteAt(mesh, part + "there is no mesh '" + uri + "'"));
+    return std::nullopt;
+  }
+  Shape shape;
+  shape.kind = Shape::Kind::kMesh;
+  shape.mesh_file = request.file;
+  shape.mesh_scale = request.scale;
+  try {
+    if (owner->GetName() == "collision") shape.mesh = readMesh(request);
+  } catch (const DescriptionError& error) {
+    warnings->push_back(noteAt(mesh, part + "mesh " + request.file + ": " + error.what()));
+    return std::nullopt;
+  }
+  return shape;
+}
+
+std::vector<Vector2> pointsOf(const sdf::ElementPtr& polyline) {
+  std::vector<Vector2> points;
+  auto point = polyline->FindElement("point");
+  for (; point; point = point->GetNextElement("point")) {
+    points.push_back(point->Get<Vector2>());
+    if (!points.back().IsFinite()) failAt(point, "expected finite numbers");
+    if (points.size() > kMostPoints) failAt(polyline, "expected 2000 points at the most");
+  }
+  return points;
+}
+
+/// One `<polyline>` or several: each is extruded.
+void readPolylines(const sdf::ElementPtr& first, Shape* shape) {
+  auto mesh = std::make_shared<Mesh>();
+  for (auto polyline = first; polyline; polyline = polyline->GetNextElement("polyline")) {
+    const double height = length(polyline, "height");
+    if (extrude(pointsOf(polyline), height, mesh.get())) continue;
+    failAt(polyline, "expected three <point>s or more that span an area");
+  }
+  measure(mesh.get());
+  shape->mesh = mesh;
 }
 
 void readPlane(const sdf::ElementPtr& plane, Shape* shape) {
@@ -76,14 +150,15 @@ const ShapeReader kReaders[] = {
     {"ellipsoid", Shape::Kind::kEllipsoid,
      [](const sdf::ElementPtr& e, Shape* shape) { shape->size = lengths(e, "radii"); }},
     {"plane", Shape::Kind::kPlane, readPlane},
+    {"polyline", Shape::Kind::kMesh, readPolylines},
 };
 
 std::string supported() {
   std::string list;
   for (const ShapeReader& reader : kReaders) {
-    list += (list.empty() ? "" : ", ") + std::string(reader.element);
+    list += std::string(reader.element) + ", ";
   }
-  return list;
+  return list + "mesh";
 }
 
 /// A number in `lower`…`upper` at `parent`/`name`, if it is there.
@@ -106,11 +181,13 @@ sdf::ElementPtr descend(sdf::ElementPtr element, std::initializer_list<const cha
 
 }  // namespace
 
-std::optional<Shape> readShape(const sdf::ElementPtr& owner) {
+std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin,
+                               sdf::Errors* warnings) {
   const sdf::ElementPtr geometry = required(owner, "geometry");
   const sdf::ElementPtr element = geometry->GetFirstElement();
   if (!element) failAt(geometry, "expected a shape: " + supported());
   if (element->GetName() == "empty") return std::nullopt;
+  if (element->GetName() == "mesh") return readMeshShape(owner, element, origin, warnings);
   const auto reader =
       std::find_if(std::begin(kReaders), std::end(kReaders),
                    [&](const ShapeReader& known) { return element->GetName() == known.element; });

@@ -17,6 +17,7 @@
 #include "core/sdf_includes.h"
 #include "core/sdf_models.h"
 #include "core/sdf_parser.h"
+#include "core/sdf_preparation.h"
 
 namespace kiva {
 namespace {
@@ -29,12 +30,11 @@ struct ParsedText {
   FileStamps stamps;
 };
 
-ModelInstance instantiate(const sdf::Model& model, const std::string& where,
-                          sdf::Errors* warnings) {
+ModelInstance instantiate(const sdf::Model& model, const Origin& origin, sdf::Errors* warnings) {
   ModelInstance instance;
   instance.name = model.Name();
   instance.pose = resolved(model.SemanticPose(), model.Element());
-  instance.description = std::make_shared<ModelDescription>(describeModel(model, where, warnings));
+  instance.description = std::make_shared<ModelDescription>(describeModel(model, origin, warnings));
   return instance;
 }
 
@@ -53,13 +53,13 @@ void setPhysics(const sdf::World& from, WorldDescription* world) {
   }
 }
 
-void describeWorld(const sdf::World& from, const std::string& where, WorldDescription* world,
+void describeWorld(const sdf::World& from, const Origin& origin, WorldDescription* world,
                    sdf::Errors* warnings) {
   world->name = from.Name();
   setPhysics(from, world);
-  world->plugins = readPlugins(from.Element(), where);
+  world->plugins = readPlugins(from.Element(), origin.where);
   for (uint64_t i = 0; i < from.ModelCount(); ++i) {
-    world->models.push_back(instantiate(*from.ModelByIndex(i), where, warnings));
+    world->models.push_back(instantiate(*from.ModelByIndex(i), origin, warnings));
   }
   for (uint64_t i = 0; i < from.ActorCount(); ++i) {
     warnings->push_back(noteAt(from.ActorByIndex(i)->Element(), "actors are left out"));
@@ -70,15 +70,19 @@ ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
                      const std::string& where) {
   SdfDocument document = parseSdf(text, model_paths);
   const sdf::Root& root = *document.root;
+  const Origin origin{where, model_paths};
   ParsedText parsed;
   parsed.is_world = root.WorldCount() > 0;
   if (root.WorldCount() > 1) failAt(root.Element(), "expected one <world>, found several");
   if (parsed.is_world) {
-    describeWorld(*root.WorldByIndex(0), where, &parsed.world, &document.warnings);
+    describeWorld(*root.WorldByIndex(0), origin, &parsed.world, &document.warnings);
   } else if (root.Model()) {
-    parsed.world.models.push_back(instantiate(*root.Model(), where, &document.warnings));
+    parsed.world.models.push_back(instantiate(*root.Model(), origin, &document.warnings));
   }
   parsed.warnings = std::move(document.warnings);
+  for (const ModelInstance& model : parsed.world.models) {
+    addMeshFiles(*model.description, &document.files);
+  }
   parsed.stamps = FileStamps(document.files);
   return parsed;
 }
@@ -107,11 +111,17 @@ class Reading {
   /// `parse` is given the text without its includes. Throws DescriptionError.
   template <typename Parse>
   ParsedText read(const std::string& xml, Parse parse) {
-    const SplitText split = takeIncludes(xml);
+    PreparedText prepared = prepare(xml);
+    const SplitText split = takeIncludes(prepared.xml);
     try {
       ParsedText parsed = *parse(split.rest);
+      for (const sdf::Error& warning : prepared.warnings) warn(describe(warning, where_));
       for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
       parsed.world.models = merge(split, std::move(parsed.world.models));
+      for (ModelInstance& model : parsed.world.models) {
+        const auto saved = prepared.poses.find(model.name);
+        if (saved != prepared.poses.end()) model.pose = saved->second;
+      }
       return parsed;
     } catch (const SdfError& error) {
       throw DescriptionError(describe(error.error(), where_));
@@ -126,13 +136,20 @@ class Reading {
   /// In the order of the text.
   std::vector<ModelInstance> merge(const SplitText& split, std::vector<ModelInstance> rest) {
     if (split.includes.empty()) return rest;
-    for (const ModelInstance& model : rest) names_.insert(model.name);
+    std::map<std::string, ModelInstance> originals;
+    for (const ModelInstance& model : rest) originals[model.name] = model;
+    for (const auto& [name, model] : originals) names_.insert(name);
     std::vector<ModelInstance> models;
     models.reserve(split.includes.size() + rest.size());
     auto of_rest = rest.begin();
     for (const int index : split.order) {
       if (index != SplitText::kOfRest) {
-        addInclude(split.includes[index], &models);
+        const Include& include = split.includes[index];
+        if (include.copy_of.empty()) {
+          addInclude(include, &models);
+        } else {
+          add(include, copyOf(originals.at(include.copy_of), include), &models);
+        }
       } else if (of_rest != rest.end()) {
         models.push_back(std::move(*of_rest++));
       }
@@ -147,7 +164,11 @@ class Reading {
       warn(at(include) + "'" + include.uri + "' holds no model and is left out");
       return;
     }
-    models->push_back(instance(include, model));
+    add(include, instance(include, model), models);
+  }
+
+  void add(const Include& include, ModelInstance model, std::vector<ModelInstance>* models) {
+    models->push_back(std::move(model));
     if (names_.insert(models->back().name).second) return;
     throw DescriptionError(at(include) + "the name '" + models->back().name +
                            "' is taken; expected every <model> in <world> to have a name of its "
@@ -167,7 +188,12 @@ class Reading {
   }
 
   std::string at(const Include& include) const {
-    return where_ + ":" + std::to_string(include.line) + ": include: ";
+    const std::string what = include.copy_of.empty() ? "include" : "model";
+    return where_ + ":" + std::to_string(include.line) + ": " + what + ": ";
+  }
+
+  static ModelInstance copyOf(const ModelInstance& original, const Include& include) {
+    return {include.name, *include.pose * original.pose, original.description};
   }
 
   static ModelInstance instance(const Include& include, const LibraryModel& model) {

@@ -16,6 +16,7 @@
 #include "farewell.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
+#include "map_service.h"
 #include "outbox.h"
 #include "performance.h"
 #include "reporter.h"
@@ -80,6 +81,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   StateServices state_services(root, node, engine);
   Performance performance(node, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
+  MapService map_service(root, engine);
 
   announce(world, settings, rtf);
   engine.start();

@@ -23,7 +23,7 @@ class Creation:
     def replace(self, layout):
         """All of the layout, or nothing but its floor. Raises EngineError."""
         with self._engine.paused():
-            self.clear()
+            self.clear(floor=layout.has_own_floor)
             try:
                 self._spawn(models.of_layout(layout))
             except EngineError as error:

@@ -4,6 +4,7 @@
 from contextlib import contextmanager
 
 from geometry_msgs.msg import Pose
+from nav_msgs.srv import GetMap
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import (
@@ -44,7 +45,7 @@ class Engine:
 
     def _call(self, service, kind, *args):
         if service not in self._proxies:
-            name = f"/gazebo/{service}"
+            name = service if service.startswith("/") else f"/gazebo/{service}"
             self._proxies[service] = self._ros.ServiceProxy(name, kind, persistent=True)
         try:
             return self._proxies[service](*args)
@@ -61,6 +62,10 @@ class Engine:
         if not answer.success:
             raise EngineError(f"{name}: {answer.status_message}")
         return tuple(poses.planar_of([answer.pose])[0])
+
+    def map(self):
+        """nav_msgs/OccupancyGrid of the floor, one cell a grid point: what others' models take."""
+        return self._call("/warehouse/map", GetMap).map
 
     def spawn(self, xml, name):
         """Adds all models of an SDF text, or none. Raises EngineError.

@@ -68,6 +68,7 @@ class Layout:
     belts: np.ndarray = _none(3)  # x y yaw
     drops: np.ndarray = _none(2)  # x y, before the belt of the same index
     streets: tuple = ()
+    has_own_floor: bool = True  # False: it stands on the floor of the world
 
 
 def plan(request):

@@ -45,10 +45,11 @@ def kind_and_number(name):
 
 
 def of_layout(layout):
-    """The Parts of a Layout: the floor first, and items after the units on which they lie."""
+    """The Parts of a Layout: its own floor first, items after the units on which they lie."""
     on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
+    floor = [Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size))]
     return [
-        Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size)),
+        *(floor if layout.has_own_floor else []),
         *_numbered("conveyor_belt", layout.belts[:, :2], layout.belts[:, 2]),
         *_numbered("storage_unit", layout.units),
         *_numbered("item", on_unit + layout.item_place),

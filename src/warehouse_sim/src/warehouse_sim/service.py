@@ -8,8 +8,10 @@ from std_msgs.msg import Header
 
 from warehouse_msgs.srv import CreateWarehouseResponse
 from warehouse_sim import hints, models, survey
+from warehouse_sim.cells import Cells
 from warehouse_sim.creation import Creation
 from warehouse_sim.engine import Engine, EngineError
+from warehouse_sim.fit import fit
 from warehouse_sim.layout import plan
 from warehouse_sim.request import RequestError, resolve
 
@@ -19,10 +21,15 @@ GREETED = "~greeted"
 
 
 class WarehouseService:
-    """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation."""
+    """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
 
-    def __init__(self, ros, tell):
+    In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
+    that is there, if there is one.
+    """
+
+    def __init__(self, ros, tell, keeps_floor=False):
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
+        self._keeps_floor = keeps_floor
 
     def handle(self, request):
         """CreateWarehouse: a refused request changes nothing."""
@@ -41,8 +48,8 @@ class WarehouseService:
     def create(self, name, number=0, counts=(0, 0, 0)):
         """Returns what stands then. Raises RequestError, EngineError."""
         wanted = resolve(name, *counts)
-        layout = plan(wanted)
         with self._lock, Engine(self._ros) as engine:
+            layout = self._layout(wanted, engine)
             self._ros.set_param(BUILDING, name)
             try:
                 Creation(engine, self._tell).replace(layout)
@@ -53,6 +60,10 @@ class WarehouseService:
         width, length = layout.floor.size
         title = f"{name}: " if name else ""
         return f"{title}{wanted} on a {width:g} x {length:g} m floor"
+
+    def _layout(self, wanted, engine):
+        cells = Cells.of_map(engine.map()) if self._keeps_floor else None
+        return fit(wanted, cells) if cells and cells.taken.size else plan(wanted)
 
     def _remember(self, name, number, floor):
         self._ros.set_param("/warehouse/name", name)

@@ -4,6 +4,7 @@
 from dataclasses import dataclass, field
 
 from warehouse_sim import models, routes
+from warehouse_sim.cells import Cells
 
 BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
 
@@ -17,6 +18,7 @@ class Survey:
     item: dict = field(default_factory=dict)
     conveyor_belt: dict = field(default_factory=dict)
     others: dict = field(default_factory=dict)
+    taken: set = None  # grid points in the way of which others are; None: not known
 
     def __str__(self):
         nouns = {"kiva": "robot", "storage_unit": "storage unit", "item": "item"}
@@ -28,9 +30,11 @@ class Survey:
     def obstacles(self):
         """Grid points that no robot may pass, with a load or without, but for those of robots."""
         belts = [p for pose in self.conveyor_belt.values() for p in routes.covered(*pose, *BELT)]
-        # How large the others are is not known; a person and a wall's end reach this far.
-        others = [p for x, y, _ in self.others.values() for p in routes.covered(x, y, 0, 1, 1)]
-        return {*belts, *others}
+        return {*belts, *(self._guessed() if self.taken is None else self.taken)}
+
+    def _guessed(self):
+        """How large the others are is not known; a person and a wall's end reach this far."""
+        return [p for x, y, _ in self.others.values() for p in routes.covered(x, y, 0, 1, 1)]
 
 
 def of_models(poses):
@@ -48,4 +52,8 @@ def of_models(poses):
 def of_engine(engine, without=("item",)):
     """A Survey of the running world. Poses of the kinds `without` are left out, to save time."""
     kinds = {name: models.kind_and_number(name)[0] for name in engine.names()}
-    return of_models({n: None if k in without else engine.pose(n) for n, k in kinds.items()})
+    survey = of_models({n: None if k in without else engine.pose(n) for n, k in kinds.items()})
+    grid = engine.map()
+    if abs(grid.info.resolution - 1) < 1e-6:
+        survey.taken = Cells.of_map(grid).points()
+    return survey
