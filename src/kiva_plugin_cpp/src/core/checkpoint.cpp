@@ -13,7 +13,7 @@ namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -63,13 +63,13 @@ void describeSetting(A& a, Parts& parts) {
 /// What changes from step to step.
 template <class A>
 void describeMotion(A& a, Parts& parts, PhysicsState& physics) {
-  a(parts.steps, parts.total_steps);
+  a(parts.steps, parts.total_steps, parts.dt_since, parts.dt_since_time);
   for (auto& model : parts.models) {
     if (model) a(*model);
   }
   a(parts.fleet, parts.units, parts.items);
   a(parts.bodies, parts.models_with_plugins, parts.engaged, parts.touching, parts.scans_due);
-  a(parts.top_speed);
+  a(parts.top_speed, parts.interventions);
   a(physics);
 }
 

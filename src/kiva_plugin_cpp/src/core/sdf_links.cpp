@@ -34,13 +34,6 @@ void addVisual(const sdf::Visual& from, Link* link) {
   link->visuals.push_back(visual);
 }
 
-void warnOfSensors(const sdf::ElementPtr& link, sdf::Errors* warnings) {
-  auto sensor = link->FindElement("sensor");
-  for (; sensor; sensor = sensor->GetNextElement("sensor")) {
-    warnings->push_back(noteAt(sensor, "sensors are left out; robots scan by the plugin 'laser'"));
-  }
-}
-
 }  // namespace
 
 Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnings) {
@@ -53,7 +46,6 @@ Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnin
     addCollision(*from.CollisionByIndex(i), &link, warnings);
   }
   for (uint64_t i = 0; i < from.VisualCount(); ++i) addVisual(*from.VisualByIndex(i), &link);
-  warnOfSensors(from.Element(), warnings);
   return link;
 }
 
