@@ -38,7 +38,7 @@ NAMES = (
     "ä\u2028🤖",
     "%s%n%d",
     "../../etc/passwd",
-    "x" * 100000,
+    "x" * 10000,
     "a::" * 1000,
     "\x00\x01",
 )
@@ -73,7 +73,7 @@ class Fuzzer:
         if kind.endswith("]"):
             inner = kind[: kind.index("[")]
             size = kind[kind.index("[") + 1 : -1]
-            count = int(size) if size else self._random.choice((0, 1, 2, 7, 1000))
+            count = int(size) if size else self._random.choice((0, 1, 2, 7, 30))
             return [self._value(name, inner, None) for _ in range(count)]
         if kind in ("time", "duration"):
             return self._time(kind)
@@ -85,7 +85,7 @@ class Fuzzer:
             value = self._random.choice((*NUMBERS, self._random.uniform(-10, 10)))
             too_large = kind == "float32" and math.isfinite(value) and abs(value) > 3e38
             return 3e38 if too_large else value
-        if "int" in kind or kind in ("byte", "char"):
+        if "/" not in kind and "int" in kind or kind in ("byte", "char"):
             return self._whole(kind)
         if default is None:
             default = roslib.message.get_message_class(kind)()

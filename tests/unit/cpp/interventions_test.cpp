@@ -256,5 +256,34 @@ TEST_F(Interventions, ACollisionTellsHowItHappened) {
   EXPECT_NEAR(event.impact.impulse, 10 * 2, 4);
 }
 
+// --- checkpoints
+
+TEST_F(Interventions, ACheckpointHoldsWhatIsUnderWay) {
+  const std::string door = replaced(
+      cube(false), "</link>",
+      "</link><link name='leaf'><pose>1 0 0 0 0 0</pose><gravity>false</gravity></link><joint "
+      "name='hinge' type='revolute'><parent>body</parent><child>leaf</child><axis><xyz>0 0 1</xyz>"
+      "</axis></joint>");
+  w.spawnText(door, "door", 0, 0, 0, 2);
+  w.world.setStepSize(0.002);
+  push("door", "body", {3, 0, 0}, 0.2, 0.5);
+  w.world.apply(Effort{"door", "hinge", 0.5, {0, kForever}});
+  JointSettings settings = w.world.joint("door", "hinge")->settings;
+  settings.damping = 0.1;
+  w.world.setJoint("door", "hinge", settings);
+  w.run(0.3);
+  const std::string saved = w.world.checkpoint();
+  const double time = w.world.time();
+  w.run(1);
+  const std::uint64_t hash = w.world.stateHash();
+  const Pose pose = w.world.state("door", "leaf")->pose;
+  w.world.restore(saved);
+  EXPECT_DOUBLE_EQ(w.world.time(), time);
+  EXPECT_EQ(w.world.joint("door", "hinge")->settings.damping, 0.1);
+  w.run(1);
+  EXPECT_EQ(w.world.state("door", "leaf")->pose, pose);
+  EXPECT_EQ(w.world.stateHash(), hash);
+}
+
 }  // namespace
 }  // namespace kiva::test

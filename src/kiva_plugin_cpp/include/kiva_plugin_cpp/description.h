@@ -134,7 +134,8 @@ struct ModelInstance {
   std::string name;
   Pose pose;  ///< In world.
   std::shared_ptr<const ModelDescription> description;
-  std::string robot_namespace{};  ///< Told to its plugins as `robotNamespace`, unless they have one.
+  std::string
+      robot_namespace{};  ///< Told to its plugins as `robotNamespace`, unless they have one.
 };
 
 struct WorldDescription {

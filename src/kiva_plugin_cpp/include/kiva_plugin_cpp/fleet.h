@@ -144,17 +144,6 @@ struct Fleet {
   Column<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
   Column<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
   Column<std::uint64_t> look_again;  ///< Step at which something could have come near.
-/// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
-/// on the floor.
-struct Stance {
-  double height = 0;      ///< Of the axle's middle, above where it is then [m].
-  double roll = 0;        ///< About the heading [rad].
-  double pitch = 0;       ///< About the axle, front down [rad].
-  double climb_rate = 0;  ///< [m/s] upwards.
-  double roll_rate = 0;   ///< Turning about the chassis' own x axis,
-  double pitch_rate = 0;  ///< and about its y axis [rad/s].
-};
-
 
   // The reference of the current leg: [m] along the heading, [rad], or [m] of tower.
   Column<double> reference, reference_speed;

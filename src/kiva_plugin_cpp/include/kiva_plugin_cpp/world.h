@@ -118,7 +118,7 @@ struct WorldOptions {
   std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
   /// Every robot is a Bullet body at all times, slowly: the reference that the arrays are held to.
   bool always_in_bullet = false;
-  PluginFactory plugins;       ///< Asked before libraries are looked for.
+  PluginFactory plugins;  ///< Asked before libraries are looked for.
 };
 
 class World {

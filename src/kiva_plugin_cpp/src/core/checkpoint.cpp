@@ -56,7 +56,8 @@ void describeSetting(A& a, Parts& parts) {
   if constexpr (!A::kReads) table = tableOf(parts);
   a(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(parts, std::move(table));
-  a(parts.name, parts.gravity, parts.options, parts.dt, parts.grid_spacing, parts.floor);
+  a(parts.name, parts.gravity, parts.options, parts.dt, parts.grid_spacing, parts.floor,
+    parts.floor_friction);
   a(parts.free_slots, parts.next_serial, parts.world_plugin_descriptions);
 }
 

@@ -76,7 +76,7 @@ void describe(A& a, PluginDescription& p) {
 
 template <class A>
 void describe(A& a, SensorDescription& s) {
-  DESCRIBED(SensorDescription, 320);
+  DESCRIBED(SensorDescription, 328);
   a(s.name, s.type, s.link, s.pose_in_link, s.update_rate, s.parameters, s.plugins);
 }
 
@@ -125,10 +125,16 @@ void describe(A& a, Robot& r) {
 }
 
 template <class A>
+void describe(A& a, Stance& s) {
+  DESCRIBED(Stance, 48);
+  a(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
+}
+
+template <class A>
 void describe(A& a, Fleet& f) {
-  DESCRIBED(Fleet, 816);
+  DESCRIBED(Fleet, 840);
   a(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
-  a(f.tower, f.unit, f.status, f.state, f.awake, f.engaged, f.look_again);
+  a(f.stance, f.tower, f.unit, f.status, f.state, f.awake, f.engaged, f.look_again);
   a(f.reference, f.reference_speed, f.goal, f.deceleration);
   a(f.cruising, f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed, f.acceleration,
     f.cruise_until);
@@ -157,7 +163,7 @@ void describe(A& a, JointState& s) {
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 416);
+  DESCRIBED(Model, 432);
   a(m.name, m.kind, m.serial, m.spawn_pose);
   a.mostly(m.pose, m.spawn_pose);
   a(m.index, m.in_physics, m.engaged_until, m.disturbed, m.joints, m.robot_namespace);
@@ -238,13 +244,13 @@ void describe(A& a, Command& c) {
 
 template <class A>
 void describe(A& a, Impact& i) {
-  DESCRIBED(Impact, 64);
+  DESCRIBED(Impact, 80);
   a(i.point, i.normal, i.speed, i.impulse);
 }
 
 template <class A>
 void describe(A& a, Event& e) {
-  DESCRIBED(Event, 176);
+  DESCRIBED(Event, 192);
   a(e.time, e.kind, e.model, e.other, e.text, e.impact);
 }
 
@@ -255,7 +261,7 @@ void describe(A& a, Period& p) {
 
 template <class A>
 void describe(A& a, Wrench& w) {
-  DESCRIBED(Wrench, 128);
+  DESCRIBED(Wrench, 144);
   a(w.model, w.link, w.force, w.torque, w.period);
 }
 
@@ -267,7 +273,7 @@ void describe(A& a, Effort& e) {
 
 template <class A>
 void describe(A& a, Light& l) {
-  DESCRIBED(Light, 216);
+  DESCRIBED(Light, 240);
   a(l.name, l.kind, l.pose, l.diffuse, l.specular, l.attenuation_constant, l.attenuation_linear,
     l.attenuation_quadratic, l.direction, l.cast_shadows);
 }

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <sstream>
 
 #include "ros/convert.h"
 
@@ -129,6 +131,32 @@ void DiffDrive::reset(kiva::World&) {
     wheel.asked = 0;
     wheel.applied = kNaN;
   }
+}
+
+std::string DiffDrive::save() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const kiva::Pose& pose = encoder_.pose;
+  std::ostringstream out;
+  out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].asked
+      << ' ' << wheels_[kRight].asked << ' ' << pose.X() << ' ' << pose.Y() << ' '
+      << pose.Rot().Yaw();
+  return out.str();
+}
+
+void DiffDrive::restore(kiva::World& world, const std::string& state) {
+  reset(world);
+  std::istringstream words(state);
+  double values[7] = {};
+  for (double& value : values) {  // streams read no hexadecimal floats
+    std::string word;
+    words >> word;
+    value = std::strtod(word.c_str(), nullptr);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  command_ = {values[0], values[1]};
+  wheels_[kLeft].asked = values[2];
+  wheels_[kRight].asked = values[3];
+  encoder_.pose = kiva::Pose(values[4], values[5], 0, 0, 0, values[6]);
 }
 
 /// Siegwart, Nourbakhsh & Scaramuzza, Introduction to Autonomous Mobile Robots (2011), 5.2.4.

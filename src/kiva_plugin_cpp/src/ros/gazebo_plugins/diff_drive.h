@@ -20,6 +20,8 @@ class DiffDrive : public GazeboPlugin {
   void beforeStep(kiva::World& world, double dt) override;
   void afterStep(const kiva::World& world, double dt) override;
   void reset(kiva::World& world) override;
+  std::string save() const override;
+  void restore(kiva::World& world, const std::string& state) override;
 
  private:
   enum Side { kLeft, kRight };
@@ -53,7 +55,7 @@ class DiffDrive : public GazeboPlugin {
   Schedule schedule_;
   kiva::EntityState encoder_;  ///< Odometry from the wheels' turns; the twist as the base sees it.
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   Command command_;  ///< Guarded by mutex_.
   ros::Publisher odometry_, transforms_, joints_;
   ros::Subscriber commands_;  ///< The last: no message comes to what is half destroyed.
