@@ -59,6 +59,10 @@ class Collector:
         with self._came:
             self.messages.clear()
 
+    def connections(self):
+        """How many publishers it hears."""
+        return self._subscriber.get_num_connections()
+
     def close(self):
         self._subscriber.unregister()
 

@@ -119,13 +119,13 @@ TEST_F(Spawn, RefusesARobotThatLiesOrFloats) {
   EXPECT_PRED2(contains, refusal(kivaText(), "kiva2", Pose(3, 0, 2, 0, 0, 0)), "on the floor");
 }
 
-TEST_F(Spawn, RefusesAnUnknownPluginAndNamesIt) {
-  const std::string plugin = "<plugin name='own' filename='libnowhere.so'/>";
+TEST_F(Spawn, RefusesALibraryWithoutAPluginAndNamesIt) {
+  const std::string plugin = "<plugin name='own' filename='libkiva_core.so'/>";
   for (const auto& [kind, name] : {std::pair{"kiva", "kiva2"},
                                    {"storage_unit", "storage_unit2"},
                                    {"item", "item2"},
                                    {"wall", "wall2"}}) {
-    EXPECT_PRED2(contains, refusal(withElement(modelText(kind), plugin), name), "libnowhere.so");
+    EXPECT_PRED2(contains, refusal(withElement(modelText(kind), plugin), name), "libkiva_core.so");
   }
 }
 

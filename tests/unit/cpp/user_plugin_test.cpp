@@ -105,12 +105,19 @@ TEST_F(UserPlugin, WhatThePluginThrowsIsTheReason) {
   EXPECT_PRED2(contains, refusal(patrol(""), "wall", "wall1"), "patrol is for robots");
 }
 
-TEST_F(UserPlugin, AMissingLibraryIsNamedWithTheFoldersSearched) {
+TEST_F(UserPlugin, AMissingLibraryIsOneWarningThatNamesItAndWhatWasSearched) {
   setPath("/nowhere:/tmp");
-  const std::string reason = refusal("<plugin name='own' filename='libmissing.so'/>");
-  EXPECT_PRED2(contains, reason, "libmissing.so");
-  EXPECT_PRED2(contains, reason, "KIVA_PLUGIN_PATH='/nowhere:/tmp'");
-  EXPECT_PRED2(contains, reason, "plugin 'own'");
+  const std::string missing = "<plugin name='own' filename='libmissing.so'><x>1</x></plugin>";
+  w.spawnText(withElement(kivaText(), missing), "kiva1", 0, 0);
+  w.spawnText(withElement(modelText("wall"), missing), "wall1", 3, 0);
+  const auto warnings = w.world.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_PRED2(contains, warnings[0], "libmissing.so");
+  EXPECT_PRED2(contains, warnings[0], "KIVA_PLUGIN_PATH='/nowhere:/tmp'");
+  EXPECT_PRED2(contains, warnings[0], "plugin 'own'");
+  w.movx(1, 1);
+  w.runUntilIdle(1);
+  w.expectAt(1, 1, 0);
 }
 
 TEST_F(UserPlugin, AFileThatIsNoLibraryIsNamed) {
@@ -128,12 +135,106 @@ TEST_F(UserPlugin, ALibraryWithoutAPluginIsNamed) {
 }
 
 TEST_F(UserPlugin, AWorldWithAFaultyPluginIsRefused) {
-  for (const std::string& faulty :
-       {patrol(""), std::string("<plugin name='own' filename='libmissing.so'/>")}) {
-    Floorplan plan;
-    plan.more = faulty;
-    EXPECT_THROW(Warehouse{plan}, DescriptionError);
+  Floorplan plan;
+  plan.more = patrol("");
+  EXPECT_THROW(Warehouse{plan}, DescriptionError);
+}
+
+TEST_F(UserPlugin, AWorldWithoutItsPluginIsAWarning) {
+  Floorplan plan;
+  plan.more = "<plugin name='own' filename='libmissing.so'/>";
+  Warehouse other(plan);
+  EXPECT_EQ(other.world.takeWarnings().size(), 1u);
+}
+
+// --- a table of plugins that is asked first
+
+/// Notes what it was given; refuses what it is told to.
+struct Noting : Plugin {
+  Noting(bool is_strict, std::map<std::string, std::string>* seen)
+      : is_strict_(is_strict), seen_(seen) {}
+  void load(World&, const std::string& model, const Parameters& parameters) override {
+    (*seen_)[model] = parameters.text("robotNamespace", "none");
+    parameters.number("size", 1, 0, 9);
   }
+  bool isStrict() const override { return is_strict_; }
+  void reset(World&) override { (*seen_)["reset"] = "yes"; }
+
+ private:
+  bool is_strict_;
+  std::map<std::string, std::string>* seen_;
+};
+
+class PluginTable : public UserPlugin {
+ protected:
+  PluginTable() {
+    plan.options.plugins = [this](const std::string& file, const SensorDescription* in) {
+      sensor = in ? in->name : "";
+      const bool known = file == "libstrict.so" || file == "liblenient.so";
+      return known ? std::make_shared<Noting>(file == "libstrict.so", &seen) : nullptr;
+    };
+  }
+  static std::string plugin(const std::string& file, const std::string& parameters = "") {
+    return "<plugin name='p' filename='" + file + "'>" + parameters + "</plugin>";
+  }
+
+  Floorplan plan;
+  std::string sensor;
+  std::map<std::string, std::string> seen;
+};
+
+TEST_F(PluginTable, TellsEachTheNamespaceOfItsModel) {
+  Warehouse other(plan);
+  auto wall = instance(withElement(modelText("wall"), plugin("libstrict.so")), "wall1");
+  wall.robot_namespace = "/mine";
+  other.world.spawn(wall);
+  EXPECT_EQ(seen.at("wall1"), "/mine");
+  wall = instance(withElement(modelText("wall"), plugin("libstrict.so",
+                                                        "<robotNamespace>own"
+                                                        "</robotNamespace>")),
+                  "wall2", Pose(3, 0, 0, 0, 0, 0));
+  wall.robot_namespace = "/mine";
+  other.world.spawn(wall);
+  EXPECT_EQ(seen.at("wall2"), "own");
+}
+
+TEST_F(PluginTable, KivasTakeANamespaceTooThoughTheirPluginsHaveNoUseForIt) {
+  Warehouse other(plan);
+  other.spawnText(replaced(kivaText(), "</plugin>", "<robotNamespace>x</robotNamespace></plugin>"),
+                  "kiva1", 0, 0);
+  EXPECT_TRUE(other.world.has("kiva1"));
+}
+
+TEST_F(PluginTable, FindsThoseInSensors) {
+  Warehouse other(plan);
+  other.spawnText(
+      "<sdf version='1.9'><model name='m'><link name='l'><sensor name='eye' type='ray'>" +
+          plugin("libstrict.so") + "</sensor></link></model></sdf>",
+      "m", 0, 0);
+  EXPECT_EQ(sensor, "eye");
+  EXPECT_EQ(seen.at("m"), "none");
+}
+
+TEST_F(PluginTable, WhatALenientOneThrowsIsAWarning) {
+  Warehouse other(plan);
+  const auto wall = [&](const std::string& file, const std::string& parameters) {
+    return withElement(modelText("wall"), plugin(file, parameters));
+  };
+  other.spawnText(wall("liblenient.so", "<size>huge</size>"), "wall1", 0, 0);
+  other.spawnText(wall("liblenient.so", "<colour>red</colour>"), "wall2", 3, 0);
+  const auto warnings = other.world.takeWarnings();
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_PRED2(contains, warnings[0], "'size' is 'huge'");
+  EXPECT_PRED2(contains, warnings[1], "colour");
+  EXPECT_THROW(other.spawnText(wall("libstrict.so", "<size>huge</size>"), "wall3", 6, 0),
+               DescriptionError);
+}
+
+TEST_F(PluginTable, TellsOfAReset) {
+  Warehouse other(plan);
+  other.spawnText(withElement(modelText("wall"), plugin("libstrict.so")), "wall1", 0, 0);
+  other.world.reset(false);
+  EXPECT_EQ(seen.count("reset"), 1u);
 }
 
 // --- when they are called

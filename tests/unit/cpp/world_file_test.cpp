@@ -799,7 +799,7 @@ TEST(Warnings, NameWhatIsLeftOutOnceEach) {
   const std::string text = worldOf(
       "\n<actor name='a'><skin><filename>a.dae</filename></skin></actor>"
       "\n<model name='m'><strange/><link name='l'>"
-      "\n<sensor name='s' type='imu'/><collision name='c'><geometry>" +
+      "\n<collision name='c'><geometry>" +
       kBall +
       "</geometry>"
       "\n<surface><friction><ode><mu>1</mu><mu2>2</mu2></ode></friction></surface></collision>"
@@ -815,13 +815,25 @@ TEST(Warnings, NameWhatIsLeftOutOnceEach) {
                           "text:3: " + m +
                               "strange: XML Element[strange], child of element[model], not "
                               "defined in SDF",
-                          "text:4: " + m +
-                              "link 'l', sensor 's': sensors are left out; robots scan by the "
-                              "plugin 'laser'",
                           "text:5: " + m +
                               "link 'l', collision 'c', surface/friction/ode: mu2 is left out: "
                               "friction is the same in every direction",
                       }));
+}
+
+TEST(Sensors, HoldWhatTheirPluginsNeed) {
+  const auto models = parseModels(
+      sdf("<model name='m'><link name='l'><sensor name='s' type='ray'><pose>0 0 1 0 0 0</pose>"
+          "<update_rate>7</update_rate><ray><scan><horizontal><samples>9</samples></horizontal>"
+          "</scan></ray><plugin name='p' filename='lib.so'><topicName>t</topicName></plugin>"
+          "</sensor></link></model>"),
+      kPaths, "text");
+  const SensorDescription& sensor = models.at(0).description->sensors.at(0);
+  EXPECT_EQ(sensor.name + sensor.type + sensor.link, "srayl");
+  EXPECT_EQ(sensor.update_rate, 7);
+  EXPECT_EQ(sensor.pose_in_link.Z(), 1);
+  EXPECT_EQ(sensor.parameters.whole("ray/scan/horizontal/samples", 0, 0, 99), 9);
+  EXPECT_EQ(sensor.plugins.at(0).parameters.text("topicName", ""), "t");
 }
 
 TEST(Warnings, OfAModelComeOnceHoweverOftenItStands) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "kiva_plugin_cpp/description.h"
+
 namespace kiva {
 
 /// What a client may ask of a robot.
@@ -16,6 +18,14 @@ struct Command {
   int direction = 0;          ///< Rotate: +1 counterclockwise, -1 clockwise.
   int lift = 0;               ///< Lift: 1 carry, 0 drop.
   std::int32_t shelf_id = 0;  ///< Lift: the storage unit's number.
+};
+
+/// How two bodies met.
+struct Impact {
+  Vector3 point;       ///< In world [m].
+  Vector3 normal;      ///< Unit vector in world, from `other` towards `model`.
+  double speed = 0;    ///< With which they approached along the normal [m/s].
+  double impulse = 0;  ///< Along the normal, in the step of the contact [Ns].
 };
 
 /// Something that happened. Values as in warehouse_msgs/Event.
@@ -36,6 +46,7 @@ struct Event {
   std::string model;
   std::string other;
   std::string text;  ///< For a person.
+  Impact impact{};   ///< Of a collision.
 };
 
 }  // namespace kiva

@@ -93,17 +93,50 @@ struct PluginDescription {
   Parameters parameters;
 };
 
+/// A `<sensor>` of a link: what the plugins in it need to know.
+struct SensorDescription {
+  std::string name;
+  std::string type;  ///< As SDF has it: ray, imu, contact, …
+  std::string link;
+  Pose pose_in_link;
+  double update_rate = 0;  ///< [Hz] of simulated time, 0 = every step.
+  Parameters parameters;   ///< The text of every element in it, by path: `ray/range/max`.
+  std::vector<PluginDescription> plugins;
+};
+
+/// Kept and told; nothing is rendered.
+struct Light {
+  enum class Kind { kPoint, kSpot, kDirectional };
+  std::string name;
+  Kind kind = Kind::kPoint;
+  Pose pose;                         ///< In world.
+  double diffuse[4] = {1, 1, 1, 1};  ///< Red, green, blue, alpha; each in 0…1.
+  double specular[4] = {0.1, 0.1, 0.1, 1};
+  double attenuation_constant = 1;
+  double attenuation_linear = 0;     ///< [1/m]
+  double attenuation_quadratic = 0;  ///< [1/m²]
+  Vector3 direction{0, 0, -1};
+  bool cast_shadows = false;
+};
+
 /// What a model is, wherever it stands and whatever it is called.
 struct ModelDescription {
   bool is_static = false;
   std::vector<Link> links;  ///< The first is the canonical link.
   std::vector<Joint> joints;
   std::vector<PluginDescription> plugins;
+  std::vector<SensorDescription> sensors;
   std::vector<std::string> nested_models;  ///< Names of the models inside, `a::b` for deeper ones.
 
   const Link* findLink(const std::string& name) const {
     for (const Link& link : links) {
       if (link.name == name) return &link;
+    }
+    return nullptr;
+  }
+  const Joint* findJoint(const std::string& name) const {
+    for (const Joint& joint : joints) {
+      if (joint.name == name) return &joint;
     }
     return nullptr;
   }
@@ -114,6 +147,8 @@ struct ModelInstance {
   std::string name;
   Pose pose;  ///< In world.
   std::shared_ptr<const ModelDescription> description;
+  std::string
+      robot_namespace{};  ///< Told to its plugins as `robotNamespace`, unless they have one.
 };
 
 struct WorldDescription {
@@ -122,6 +157,7 @@ struct WorldDescription {
   double step_size = 0.001;       ///< [s], > 0.
   double real_time_factor = 1.0;  ///< Simulated seconds a wall second; 0 = as fast as it goes.
   std::vector<ModelInstance> models;
+  std::vector<Light> lights;
   std::vector<PluginDescription> plugins;
 };
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace kiva {
 
@@ -34,7 +35,14 @@ class Parameters {
   int whole(const std::string& key, int fallback, int lower, int upper) const;
   std::string text(const std::string& key, const std::string& fallback) const;
 
-  /// Throws DescriptionError if a key was never asked for, and lists those that were.
+  /// `true`, `false`, 1 or 0 at `key`, or `fallback`.
+  bool flag(const std::string& key, bool fallback) const;
+  /// That many numbers with blanks between them at `key`, or `fallback`; all finite.
+  std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback) const;
+
+  /// The keys that nobody asked for; `robotNamespace`, which every plugin gets, is not among them.
+  std::vector<std::string> unread() const;
+  /// Throws DescriptionError if there is one, and lists those that were asked for.
   void rejectUnread() const;
 
  private:

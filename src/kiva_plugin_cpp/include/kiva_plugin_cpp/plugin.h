@@ -8,6 +8,7 @@
 //   IGNITION_ADD_PLUGIN(Mine, kiva::Plugin)
 //
 // Libraries are searched in the folders of KIVA_PLUGIN_PATH, then where the dynamic linker looks.
+// One that is in neither is left out with a warning.
 #pragma once
 
 #include <string>
@@ -38,6 +39,13 @@ class Plugin {
   /// Goes back to what save() gave, once all models stand as they did then. A model that was gone
   /// meanwhile comes back with a new plugin: load() is called before, and what it posts is dropped.
   virtual void restore(World& /*world*/, const std::string& /*state*/) {}
+
+  /// The world went back to where it began, perhaps its time too.
+  virtual void reset(World& /*world*/) {}
+
+  /// Whether what it throws, and parameters that nobody read, refuse the model; else they are a
+  /// warning, and a plugin that threw is left out.
+  virtual bool isStrict() const { return true; }
 };
 
 }  // namespace kiva

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -18,8 +20,11 @@
 #include "kiva_plugin_cpp/command.h"
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/interventions.h"
 
 namespace kiva {
+
+class Plugin;
 
 /// What a model is to the warehouse; told by its name (`kiva1`, `storage_unit1`, `item1`,
 /// `conveyor_belt1`) and, for robots, by the motion plugin.
@@ -86,11 +91,43 @@ class CheckpointError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a joint is like, and what its motor is asked for.
+struct JointSettings {
+  double damping = 0;       ///< [Nm s/rad] or [N s/m], >= 0.
+  double friction = 0;      ///< Dry friction [Nm] or [N], >= 0; a motor takes its place.
+  double lower = -1e16;     ///< [rad] or [m].
+  double upper = 1e16;      ///< [rad] or [m].
+  double motor_speed = 0;   ///< [rad/s] or [m/s].
+  double motor_effort = 0;  ///< The most that the motor may use [Nm] or [N]; 0 = no motor.
+};
+
+/// A joint as it is now.
+struct JointState {
+  double position = 0;  ///< [rad], counting full turns, or [m].
+  double rate = 0;      ///< [rad/s] or [m/s].
+  JointSettings settings;
+};
+
+/// A point at which two collisions touch. Names are `model::link::collision`; in world.
+struct ContactPoint {
+  std::string collision1, collision2;
+  Vector3 position;  ///< [m]
+  Vector3 normal;    ///< Unit vector, from the second towards the first.
+  double depth = 0;  ///< How far they overlap [m], >= 0.
+  Vector3 force;     ///< On the first, in the last step [N].
+};
+
+/// Makes the plugin of that file name, or null if it knows none. `sensor`: the one that it sits
+/// in, null for a plugin of a model or a world; it lives as long as the plugin.
+using PluginFactory = std::function<std::shared_ptr<Plugin>(const std::string& filename,
+                                                            const SensorDescription* sensor)>;
+
 struct WorldOptions {
   std::uint64_t seed = 1;      ///< Of everything random.
   std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
   /// Every robot is a Bullet body at all times, slowly: the reference that the arrays are held to.
   bool always_in_bullet = false;
+  PluginFactory plugins;  ///< Asked before libraries are looked for.
 };
 
 class World {
@@ -103,13 +140,18 @@ class World {
 
   // --- time
   void step();
-  double time() const;  ///< Simulated [s]: steps() * stepSize() since the last reset of time.
-  std::uint64_t steps() const;
-  double stepSize() const;         ///< [s]
+  double time() const;          ///< Simulated [s], since the last reset of time.
+  std::uint64_t steps() const;  ///< Since then.
+  double stepSize() const;      ///< [s]
+  /// From the next step on; throws std::invalid_argument unless 1e-6 <= seconds <= 1.
+  void setStepSize(double seconds);
   const Vector3& gravity() const;  ///< [m/s²]
+  /// Throws std::invalid_argument if it is not finite or above 1000 m/s².
+  void setGravity(const Vector3& gravity);
+  std::uint64_t seed() const;  ///< Of everything random.
   const std::string& name() const;
   /// Everything back to where it was spawned, at rest, tower down, without commands; units and
-  /// items too. Time goes back to 0 as well if `time_too`.
+  /// items too. What clients apply ends. Time goes back to 0 as well if `time_too`.
   void reset(bool time_too);
 
   // --- commands
@@ -138,11 +180,40 @@ class World {
   /// Moves a model and everything fixed to it, at that velocity. Returns false if there is no such
   /// model; throws DescriptionError if the state is not finite or too far away.
   bool setState(const std::string& model, const EntityState& state);
+  /// Moves a link and everything that joints hold to it, the link at that velocity. Returns false
+  /// if there is no such link; throws as setState.
+  bool setLinkState(const std::string& model, const std::string& link, const EntityState& state);
   /// All models at once, in the order of modelNames().
   void states(std::vector<EntityState>* out) const;
+  /// Every `model::link`, models in the order of modelNames().
+  void linkStates(std::vector<std::string>* names, std::vector<EntityState>* states) const;
+  /// Gives the link of that name this mass, centre of mass, inertia and gravity flag. Returns false
+  /// if there is no such link; throws std::invalid_argument if no body can be like that.
+  bool setLinkInertia(const std::string& model, const Link& link);
+
+  // --- joints
+  /// Nothing if there is no such joint; a fixed one is always at 0.
+  std::optional<JointState> joint(const std::string& model, const std::string& joint) const;
+  /// Returns false if there is no such joint; throws std::invalid_argument where a number is out of
+  /// range, and for the joints of a robot, which its plugins drive.
+  bool setJoint(const std::string& model, const std::string& joint, const JointSettings& settings);
+  /// Puts joints at positions [rad] or [m], with what hangs on them, at rest. All or none: throws
+  /// std::invalid_argument that names the joint that can't be put there.
+  void setJointPositions(const std::string& model, const std::map<std::string, double>& positions);
+
+  // --- what clients apply
+  const Interventions& interventions() const;
   /// For the next step only. Returns false if there is no such link or it does not move.
   bool applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                    const Vector3& torque);
+  /// For a period. They return false if there is no such link or joint, or it does not move.
+  bool apply(const Wrench& wrench);
+  bool apply(const Effort& effort);
+  void clearWrenches(const std::string& model, const std::string& link);
+  void clearEfforts(const std::string& model, const std::string& joint);
+  void setLight(const Light& light);  ///< A new one, or in place of the one of that name.
+  bool removeLight(const std::string& name);
+  void setOde(const OdeSettings& settings);
 
   // --- the warehouse
   const Fleet& fleet() const;
@@ -164,8 +235,10 @@ class World {
   /// fleet. Valid until the next step or until a robot is removed.
   const std::vector<int>& scansDue() const;
   /// Distance [m] from a point in world, level, in the direction `yaw`, to the first body that
-  /// stands on the floor; +inf = none within `range`.
-  double rayCast(const Vector3& from, double yaw, double range) const;
+  /// stands on the floor; +inf = none within `range`. `but`: a model that the ray passes.
+  double rayCast(const Vector3& from, double yaw, double range, const std::string& but = "") const;
+  /// Where that model touches others now, itself the first of each pair.
+  std::vector<ContactPoint> contacts(const std::string& model) const;
 
   // --- checkpoints
   /// The whole state as bytes: time, models and what is in motion, commands under way and pending,
@@ -183,6 +256,8 @@ class World {
   // --- what happened since the last call
   std::vector<Event> takeEvents();
   std::vector<StatusChange> takeStatusChanges();
+  /// What was left out, a plugin that nobody knows say; each once.
+  std::vector<std::string> takeWarnings();
 
   /// The parts, for the plugins that come with the world; see src/core/parts.h.
   struct Parts;

@@ -29,8 +29,13 @@ WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_path
 /// Throws DescriptionError.
 /// Equal texts share their descriptions through a cache, so that a thousand equal robots are
 /// parsed once.
+/// `lights`, if given, receives the document's lights, which then need no model beside them.
 std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
                                        const std::string& where,
-                                       std::vector<std::string>* warnings = nullptr);
+                                       std::vector<std::string>* warnings = nullptr,
+                                       std::vector<Light>* lights = nullptr);
+
+/// Whether a text is URDF: its root is a `<robot>`.
+bool isUrdf(const std::string& xml);
 
 }  // namespace kiva

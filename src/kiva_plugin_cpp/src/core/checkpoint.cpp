@@ -64,13 +64,13 @@ void describeSetting(A& a, Parts& parts) {
 /// What changes from step to step.
 template <class A>
 void describeMotion(A& a, Parts& parts, PhysicsState& physics) {
-  a(parts.steps, parts.total_steps);
+  a(parts.steps, parts.total_steps, parts.dt_since, parts.dt_since_time);
   for (auto& model : parts.models) {
     if (model) a(*model);
   }
   a(parts.fleet, parts.units, parts.items);
   a(parts.bodies, parts.models_with_plugins, parts.engaged, parts.touching, parts.scans_due);
-  a(parts.top_speed);
+  a(parts.top_speed, parts.interventions);
   a(physics);
 }
 

@@ -52,8 +52,12 @@ void halt(Parts& parts, const Model& model, const Model& other) {
 void begin(Parts& parts, const Contact& contact) {
   Model* a = parts.models[contact.model_a].get();
   Model* b = parts.models[contact.model_b].get();
-  if (robotIn(parts, *a) < 0) std::swap(a, b);
-  parts.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name);
+  Impact impact{contact.point, contact.normal, contact.speed, contact.impulse};
+  if (robotIn(parts, *a) < 0) {
+    std::swap(a, b);
+    impact.normal = -impact.normal;
+  }
+  parts.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name, impact);
   halt(parts, *a, *b);
   halt(parts, *b, *a);
 }

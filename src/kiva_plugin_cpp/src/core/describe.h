@@ -95,9 +95,15 @@ void describe(A& a, PluginDescription& p) {
 }
 
 template <class A>
+void describe(A& a, SensorDescription& s) {
+  DESCRIBED(SensorDescription, 328);
+  a(s.name, s.type, s.link, s.pose_in_link, s.update_rate, s.parameters, s.plugins);
+}
+
+template <class A>
 void describe(A& a, ModelDescription& m) {
-  DESCRIBED(ModelDescription, 104);
-  a(m.is_static, m.links, m.joints, m.plugins, m.nested_models);
+  DESCRIBED(ModelDescription, 128);
+  a(m.is_static, m.links, m.joints, m.plugins, m.sensors, m.nested_models);
 }
 
 // --- the fleet
@@ -164,11 +170,23 @@ void describe(A& a, Outline& o) {
 }
 
 template <class A>
+void describe(A& a, JointSettings& s) {
+  DESCRIBED(JointSettings, 48);
+  a(s.damping, s.friction, s.lower, s.upper, s.motor_speed, s.motor_effort);
+}
+
+template <class A>
+void describe(A& a, JointState& s) {
+  DESCRIBED(JointState, 64);
+  a(s.position, s.rate, s.settings);
+}
+
+template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 376);
+  DESCRIBED(Model, 432);
   a(m.name, m.kind, m.serial, m.spawn_pose);
   a.mostly(m.pose, m.spawn_pose);
-  a(m.index, m.in_physics, m.engaged_until, m.disturbed);
+  a(m.index, m.in_physics, m.engaged_until, m.disturbed, m.joints, m.robot_namespace);
   bool has_outlines = !m.outlines.empty();
   a(has_outlines);
   if (m.kind == ModelKind::kRobot) {
@@ -245,9 +263,58 @@ void describe(A& a, Command& c) {
 }
 
 template <class A>
+void describe(A& a, Impact& i) {
+  DESCRIBED(Impact, 80);
+  a(i.point, i.normal, i.speed, i.impulse);
+}
+
+template <class A>
 void describe(A& a, Event& e) {
-  DESCRIBED(Event, 112);
-  a(e.time, e.kind, e.model, e.other, e.text);
+  DESCRIBED(Event, 192);
+  a(e.time, e.kind, e.model, e.other, e.text, e.impact);
+}
+
+template <class A>
+void describe(A& a, Period& p) {
+  a(p.start, p.end);
+}
+
+template <class A>
+void describe(A& a, Wrench& w) {
+  DESCRIBED(Wrench, 144);
+  a(w.model, w.link, w.force, w.torque, w.period);
+}
+
+template <class A>
+void describe(A& a, Effort& e) {
+  DESCRIBED(Effort, 88);
+  a(e.model, e.joint, e.effort, e.period);
+}
+
+template <class A>
+void describe(A& a, Light& l) {
+  DESCRIBED(Light, 240);
+  a(l.name, l.kind, l.pose, l.diffuse, l.specular, l.attenuation_constant, l.attenuation_linear,
+    l.attenuation_quadratic, l.direction, l.cast_shadows);
+}
+
+template <class A>
+void describe(A& a, OdeSettings& o) {
+  DESCRIBED(OdeSettings, 72);
+  a(o.auto_disable_bodies, o.sor_pgs_precon_iters, o.sor_pgs_iters, o.sor_pgs_w,
+    o.sor_pgs_rms_error_tol, o.contact_surface_layer, o.contact_max_correcting_vel, o.cfm, o.erp,
+    o.max_contacts);
+}
+
+template <class A>
+void describe(A& a, Interventions& i) {
+  std::vector<Light> lights;
+  for (const auto& [name, light] : i.lights) lights.push_back(light);
+  a(i.wrenches, i.efforts, lights, i.ode);
+  if constexpr (A::kReads) {
+    i.lights.clear();
+    for (Light& light : lights) i.lights[light.name] = std::move(light);
+  }
 }
 
 template <class A>
@@ -275,8 +342,8 @@ void describe(A& a, Floor& f) {
 
 template <class A>
 void describe(A& a, WorldOptions& o) {
-  DESCRIBED(WorldOptions, 16);
-  a(o.seed, o.drive, o.always_in_bullet);
+  DESCRIBED(WorldOptions, 48);
+  a(o.seed, o.drive, o.always_in_bullet);  // the table of plugins stays the world's own
 }
 
 #undef DESCRIBED

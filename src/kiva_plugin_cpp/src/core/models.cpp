@@ -8,8 +8,11 @@
 #include "../plugins/fleet_plugin.h"
 #include "collisions.h"
 #include "commands.h"
+#include "cruise.h"
 #include "engagement.h"
 #include "footprint.h"
+#include "intervene.h"
+#include "joints.h"
 #include "load.h"
 #include "robots.h"
 #include "triangle_outline.h"
@@ -19,6 +22,7 @@ namespace kiva {
 namespace {
 
 constexpr double kMaxCoordinate = 1e5;  // [m]; beyond, a double grows too coarse for contacts
+constexpr double kMaxSpeed = 1e4;       // [m/s, rad/s]; bodies beyond pass through each other
 constexpr double kFlat = 0.005;         // [m]; what rises less above the ground is floor
 
 [[noreturn]] void refuse(const ModelInstance& instance, const std::string& why) {
@@ -32,8 +36,10 @@ void checkPose(const std::string& name, const Pose& pose) {
 }
 
 void checkTwist(const std::string& name, const Twist& twist) {
-  if (twist.linear.IsFinite() && twist.angular.IsFinite()) return;
-  throw DescriptionError("model '" + name + "': its velocity must be finite");
+  const bool is_finite = twist.linear.IsFinite() && twist.angular.IsFinite();
+  if (is_finite && std::max(twist.linear.Length(), twist.angular.Length()) <= kMaxSpeed) return;
+  throw DescriptionError("model '" + name +
+                         "': its velocity must be finite and at most 10 km/s and 10,000 rad/s");
 }
 
 void checkInstance(const Parts& parts, const ModelInstance& instance) {
@@ -93,6 +99,7 @@ int takeSlot(Parts& parts, const ModelInstance& instance) {
   model->kind = classify(instance);
   model->serial = parts.next_serial++;
   model->spawn_pose = model->pose = instance.pose;
+  model->robot_namespace = instance.robot_namespace;
   parts.models[slot] = std::move(model);
   parts.slot_of_name[instance.name] = slot;
   return slot;
@@ -123,7 +130,10 @@ void addBodies(Parts& parts, int slot) {
   model.bodies = buildBodies(parts, slot);
   parts.physics.insert(model.bodies);
   model.in_physics = true;
-  if (!model.isStatic()) parts.bodies.push_back(slot);
+  if (!model.isStatic()) {
+    parts.bodies.push_back(slot);
+    initJoints(model);
+  }
   if (model.kind != ModelKind::kFloor) addOutlines(model);
 }
 
@@ -131,13 +141,6 @@ double massOf(const ModelDescription& description) {
   double mass = 0;
   for (const Link& link : description.links) mass += link.mass;
   return mass;
-}
-
-/// Leaves a unit to Bullet until it stands on its legs again.
-void letFall(Parts& parts, Model& model) {
-  engage(parts, model);
-  for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
-  model.disturbed = true;
 }
 
 void addUnit(Parts& parts, int slot) {
@@ -206,29 +209,29 @@ void addByKind(Parts& parts, int slot) {
   }
 }
 
-void loadPlugins(Parts& parts, int slot) {
-  Model& model = *parts.models[slot];
-  for (const PluginDescription& plugin : model.description->plugins) {
-    const std::string& where = plugin.parameters.where();
-    if (const FleetPlugin* ours = findFleetPlugin(parts, plugin.filename)) {
-      if (model.kind == ModelKind::kRobot) continue;
-      throw DescriptionError(where + ": " + ours->filename() +
-                             " works on a model that has libkiva_motion.so too");
-    }
-    if (isGridPlugin(plugin.filename)) {
-      throw DescriptionError(where + ": libkiva_grid.so is a plugin of a world, not of a model");
-    }
-    model.plugins.push_back(loadUserPlugin(plugin.filename, where));
-    model.plugins.back()->load(*parts.world, model.name, plugin.parameters);
-    plugin.parameters.rejectUnread();
+/// Whether a plugin of that file comes with the world and is dealt with elsewhere.
+bool isOurs(const Parts& parts, const Model& model, const PluginDescription& plugin) {
+  const std::string& where = plugin.parameters.where();
+  if (const FleetPlugin* ours = findFleetPlugin(parts, plugin.filename)) {
+    if (model.kind == ModelKind::kRobot) return true;
+    throw DescriptionError(where + ": " + ours->filename() +
+                           " works on a model that has libkiva_motion.so too");
   }
-  if (!model.plugins.empty()) parts.models_with_plugins.push_back(slot);
+  if (isGridPlugin(plugin.filename)) {
+    throw DescriptionError(where + ": libkiva_grid.so is a plugin of a world, not of a model");
+  }
+  return false;
 }
 
-void hideOutlines(Parts& parts, Model& model) {
-  for (Outline& outline : model.outlines) {
-    if (outline.handle >= 0) parts.obstacles.remove(outline.handle);
-    outline.handle = -1;
+void loadPlugin(Parts& parts, Model& model, const PluginDescription& description,
+                const SensorDescription* sensor) {
+  if (isOurs(parts, model, description)) return;
+  Parameters parameters = description.parameters;
+  if (!model.robot_namespace.empty() && !parameters.has("robotNamespace")) {
+    parameters.set("robotNamespace", model.robot_namespace);
+  }
+  if (auto plugin = loadPlugin(parts, model.name, description.filename, parameters, sensor)) {
+    model.plugins.push_back(std::move(plugin));
   }
 }
 
@@ -301,23 +304,11 @@ void eraseFrom(std::vector<int>& slots, int slot) {
   slots.erase(std::remove(slots.begin(), slots.end(), slot), slots.end());
 }
 
-/// Something has come or was moved: all robots look around again before they go on.
-void alarm(Parts& parts) {
-  std::fill(parts.fleet.look_again.begin(), parts.fleet.look_again.end(), 0);
-  std::fill(parts.fleet.cruise_until.begin(), parts.fleet.cruise_until.end(), 0);
-}
-
-/// A body that sleeps on something falls once that is gone.
-void wakeBodies(Parts& parts) {
-  for (int slot : parts.bodies) {
-    for (LinkBody& link : parts.models[slot]->bodies.links) link.body->activate();
-  }
-}
-
 void dismantle(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
   model.plugins.clear();
   forgetContacts(parts, slot);
+  forgetInterventions(parts, model.name);
   if (model.in_physics) parts.physics.remove(model.bodies);
   model.in_physics = false;
   for (auto* slots : {&parts.bodies, &parts.engaged, &parts.models_with_plugins}) {
@@ -328,7 +319,7 @@ void dismantle(Parts& parts, int slot) {
   const bool was_floor = model.kind == ModelKind::kFloor;
   freeSlot(parts, slot);
   if (was_floor) measureFloor(parts);
-  wakeBodies(parts);
+  wakeBodies(parts);  // what sleeps on something falls once that is gone
 }
 
 EntityState bodyState(const LinkBody& link) {
@@ -359,6 +350,14 @@ bool hasFreeBodies(const Model& model) {
          model.kind != ModelKind::kRobot;
 }
 
+void setBodyState(LinkBody& link, const EntityState& to) {
+  link.place(toBullet(to.pose));
+  const Vector3 arm = fromBullet(link.body->getWorldTransform().getOrigin()) - to.pose.Pos();
+  link.body->setLinearVelocity(toBullet(to.twist.linear + to.twist.angular.Cross(arm)));
+  link.body->setAngularVelocity(toBullet(to.twist.angular));
+  link.body->activate(true);
+}
+
 void moveBodies(Model& model, const EntityState& to) {
   const btTransform move = toBullet(to.pose) * toBullet(canonicalState(model).pose).inverse();
   for (LinkBody& link : model.bodies.links) {
@@ -370,12 +369,63 @@ void moveBodies(Model& model, const EntityState& to) {
   }
 }
 
+/// Puts the bodies of a model together anew, where and as fast as they are.
+void rebuildBodies(Parts& parts, int slot) {
+  Model& model = *parts.models[slot];
+  std::vector<EntityState> states;
+  for (const LinkBody& link : model.bodies.links) states.push_back(bodyState(link));
+  parts.physics.remove(model.bodies);
+  model.bodies = buildBodies(parts, slot);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    setBodyState(model.bodies.links[i], states[i]);
+  }
+  parts.physics.insert(model.bodies);
+  restoreLimits(model);
+}
+
+/// What follows from another mass of something that is no body of its own.
+void reweigh(Parts& parts, int slot, double added) {
+  Model& model = *parts.models[slot];
+  if (model.kind == ModelKind::kRobot) {
+    stopCruise(parts.fleet, model.index);
+    weighRobot(*model.description, &parts.fleet.robots[model.index]);
+    rebuildBody(parts, model.index);
+  } else if (model.kind == ModelKind::kStorageUnit) {
+    addMass(parts, model.index, added);
+    if (!model.in_physics) return;
+    const EntityState state = bodyState(model.bodies.links.front());
+    disengage(parts, model);
+    letFall(parts, model);
+    setBodyState(model.bodies.links.front(), state);
+  } else if (model.kind == ModelKind::kItem) {
+    Item& item = parts.items[model.index];
+    item.mass += added;
+    if (item.unit >= 0) addMass(parts, item.unit, added);
+  }
+}
+
 void placeStatic(Parts& parts, Model& model, const Pose& pose) {
   parts.physics.remove(model.bodies);
   const int slot = parts.slot_of_name.at(model.name);
   const LinkBody& any = model.bodies.links.front();
   model.bodies = parts.physics.build(*model.description, pose, slot, any.group, any.mask);
   parts.physics.insert(model.bodies);
+}
+
+/// `model::link::collision` of a part. A body of several links' parts knows their names only.
+std::string collisionName(const Parts& parts, const btCollisionObject* body, const BodyPart* part) {
+  const Model& model = *parts.models[part ? part->model : body->getUserIndex()];
+  const auto& links = model.description->links;
+  const std::string name = part ? part->collision : "";
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const bool own = hasFreeBodies(model) || model.isStatic();
+    const bool is_body =
+        own && i < model.bodies.links.size() && model.bodies.links[i].body.get() == body;
+    const bool has = std::any_of(links[i].collisions.begin(), links[i].collisions.end(),
+                                 [&](const Collision& c) { return c.name == name; });
+    if (own ? is_body : has) return model.name + "::" + links[i].name + "::" + name;
+  }
+  return model.name + "::" + (links.empty() ? "" : links.front().name) + "::" + name;
 }
 
 void placeUnit(Parts& parts, Model& model, const EntityState& state) {
@@ -433,13 +483,26 @@ ModelBodies buildBodies(const Parts& parts, int slot) {
                              slot, group, ~0);
 }
 
+void loadPlugins(Parts& parts, Model& model) {
+  const auto description = model.description;  // a plugin may give the model another
+  for (const PluginDescription& plugin : description->plugins) {
+    loadPlugin(parts, model, plugin, nullptr);
+  }
+  for (const SensorDescription& sensor : description->sensors) {
+    for (const PluginDescription& plugin : sensor.plugins) {
+      loadPlugin(parts, model, plugin, &sensor);
+    }
+  }
+}
+
 void spawnModel(Parts& parts, const ModelInstance& instance) {
   checkInstance(parts, instance);
   const int slot = takeSlot(parts, instance);
   try {
     addByKind(parts, slot);
     updateOutlines(parts, *parts.models[slot]);
-    loadPlugins(parts, slot);
+    loadPlugins(parts, *parts.models[slot]);
+    if (!parts.models[slot]->plugins.empty()) parts.models_with_plugins.push_back(slot);
   } catch (const DescriptionError&) {
     dismantle(parts, slot);
     throw;
@@ -483,6 +546,68 @@ void placeModel(Parts& parts, int slot, const EntityState& state) {
   wakeBodies(parts);
 }
 
+void placeLink(Parts& parts, int slot, int link, const EntityState& state) {
+  Model& model = *parts.models[slot];
+  const Pose way = state.pose * linkPose(parts, model, link).Inverse();
+  if (!hasFreeBodies(model)) {
+    return placeModel(parts, slot, {way * modelState(parts, model).pose, state.twist});
+  }
+  checkPose(model.name, state.pose);
+  checkTwist(model.name, state.twist);
+  for (int held : linksHeldTo(*model.description, link)) {
+    LinkBody& body = model.bodies.links[held];
+    body.place(toBullet(way) * body.linkPose());
+    body.body->activate(true);
+  }
+  setBodyState(model.bodies.links[link], state);
+  updateOutlines(parts, model);
+  wakeBodies(parts);
+  alarm(parts);
+}
+
+void reweighLink(Parts& parts, int slot, int link, const Link& like) {
+  Model& model = *parts.models[slot];
+  auto changed = std::make_shared<ModelDescription>(*model.description);
+  Link& to = changed->links[link];
+  const double added = like.mass - to.mass;
+  to.mass = like.mass;
+  to.inertial_pose_in_link = like.inertial_pose_in_link;
+  to.principal_moments = like.principal_moments;
+  to.gravity = like.gravity;
+  const bool has_bodies = hasFreeBodies(model) && model.kind != ModelKind::kStorageUnit;
+  model.description = changed;
+  if (has_bodies) rebuildBodies(parts, slot);
+  if (!model.isStatic()) reweigh(parts, slot, added);
+  updateOutlines(parts, model);
+}
+
+void letFall(Parts& parts, Model& model) {
+  engage(parts, model);
+  for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
+  model.disturbed = true;
+}
+
+void alarm(Parts& parts) {
+  std::fill(parts.fleet.look_again.begin(), parts.fleet.look_again.end(), 0);
+  std::fill(parts.fleet.cruise_until.begin(), parts.fleet.cruise_until.end(), 0);
+}
+
+void wakeBodies(Parts& parts) {
+  for (int slot : parts.bodies) {
+    for (LinkBody& link : parts.models[slot]->bodies.links) link.body->activate();
+  }
+}
+
+std::vector<ContactPoint> contactsOf(const Parts& parts, int slot) {
+  std::vector<ContactPoint> out;
+  for (const TouchPoint& touch : parts.physics.touchPoints(slot)) {
+    out.push_back({collisionName(parts, touch.body_a, touch.part_a),
+                   collisionName(parts, touch.body_b, touch.part_b), touch.point, touch.normal,
+                   touch.depth, touch.impulse / parts.dt});
+  }
+  return out;
+}
+
 void resetModel(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
   ++parts.units_revision;
@@ -497,6 +622,7 @@ void resetModel(Parts& parts, int slot) {
     parts.physics.remove(model.bodies);
     model.bodies = buildBodies(parts, slot);
     parts.physics.insert(model.bodies);
+    initJoints(model);
     updateOutlines(parts, model);
     return;
   }
@@ -604,7 +730,9 @@ void updateOutlines(Parts& parts, Model& model) {
     return updateMover(parts, mover);
   }
   std::vector<Footprint> footprints;
-  appendFootprints(parts, model, Pose::Zero, -1, &footprints);
+  const int slot = parts.slot_of_name.at(model.name);
+  const int group = model.kind == ModelKind::kOther ? ownGroup(slot) : -1;
+  appendFootprints(parts, model, Pose::Zero, group, &footprints);
   for (std::size_t k = 0; k < footprints.size(); ++k) {
     int& handle = model.outlines[k].handle;
     if (handle < 0) {

@@ -2,6 +2,7 @@
 #include "kiva_plugin_cpp/parameters.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -40,15 +41,16 @@ std::string range(Number lower, Number upper) {
   return out.str();
 }
 
+std::string prefix(const std::string& where) { return where.empty() ? "" : where + ": "; }
+
 template <typename Number>
 Number readNumber(const Parameters& parameters, const std::string& key, const std::string& given,
                   const char* what, Number lower, Number upper) {
   const auto value = parse<Number>(trimmed(given));
   // Written so that NaN, which compares with nothing, is refused too.
   if (value && *value >= lower && *value <= upper) return *value;
-  const std::string where = parameters.where().empty() ? "" : parameters.where() + ": ";
-  throw DescriptionError(where + "parameter '" + key + "' is '" + trimmed(given) + "', expected " +
-                         what + " " + range(lower, upper));
+  throw DescriptionError(prefix(parameters.where()) + "parameter '" + key + "' is '" +
+                         trimmed(given) + "', expected " + what + " " + range(lower, upper));
 }
 
 template <typename Keys>
@@ -76,15 +78,44 @@ std::string Parameters::text(const std::string& key, const std::string& fallback
   return given ? trimmed(*given) : fallback;
 }
 
-void Parameters::rejectUnread() const {
-  std::set<std::string> unread;
-  for (const auto& [key, text] : values_) {
-    if (read_.count(key) == 0) unread.insert(key);
+bool Parameters::flag(const std::string& key, bool fallback) const {
+  const std::string* given = find(key);
+  if (!given) return fallback;
+  const std::string text = trimmed(*given);
+  if (text == "true" || text == "1") return true;
+  if (text == "false" || text == "0") return false;
+  throw DescriptionError(prefix(where_) + "parameter '" + key + "' is '" + text +
+                         "', expected true or false");
+}
+
+std::vector<double> Parameters::numbers(const std::string& key,
+                                        const std::vector<double>& fallback) const {
+  const std::string* given = find(key);
+  if (!given) return fallback;
+  std::vector<double> out;
+  std::istringstream words(*given);
+  for (std::string word; words >> word;) {
+    const auto value = parse<double>(word);
+    if (value && std::isfinite(*value)) out.push_back(*value);
   }
-  if (unread.empty()) return;
-  const std::string where = where_.empty() ? "" : where_ + ": ";
+  if (out.size() == fallback.size()) return out;
+  throw DescriptionError(prefix(where_) + "parameter '" + key + "' is '" + trimmed(*given) +
+                         "', expected " + std::to_string(fallback.size()) + " numbers");
+}
+
+std::vector<std::string> Parameters::unread() const {
+  std::vector<std::string> out;
+  for (const auto& [key, text] : values_) {
+    if (read_.count(key) == 0 && key != "robotNamespace") out.push_back(key);
+  }
+  return out;
+}
+
+void Parameters::rejectUnread() const {
+  const std::vector<std::string> unknown = unread();
+  if (unknown.empty()) return;
   const std::string known = read_.empty() ? "it takes none" : "it takes " + listed(read_);
-  throw DescriptionError(where + "unknown parameter " + listed(unread) + "; " + known);
+  throw DescriptionError(prefix(where_) + "unknown parameter " + listed(unknown) + "; " + known);
 }
 
 const std::string* Parameters::find(const std::string& key) const {

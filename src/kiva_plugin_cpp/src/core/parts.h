@@ -8,11 +8,14 @@
 //   sensing     scans, and what lies ahead
 //   collisions  contacts that should not be
 //   checkpoint  all of it as bytes, and back
+//   joints      motors, damping and positions of ordinary models' joints
+//   intervene   what clients apply for a while
 #pragma once
 
 #include <array>
 #include <deque>
 #include <memory>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -54,6 +57,8 @@ struct Model {
       jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<Outline> outlines;
   std::vector<std::shared_ptr<Plugin>> plugins;
+  std::vector<JointState> joints;  ///< In the description's order; of a model with free bodies.
+  std::string robot_namespace;     ///< What its plugins were told.
 
   bool isStatic() const { return description->is_static; }
 };
@@ -86,6 +91,8 @@ struct World::Parts {
   Vector3 gravity;
   WorldOptions options;
   double dt = 0.001;              // [s]
+  double dt_since_time = 0;       // [s]: when the present step size began,
+  std::uint64_t dt_since = 0;     // and after how many steps
   double grid_spacing = 1;        // [m]
   std::uint64_t steps = 0;        // since the last reset of time
   std::uint64_t total_steps = 0;  // ever; what schedules count by
@@ -126,8 +133,11 @@ struct World::Parts {
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;
   std::vector<Contact> contacts;  // scratch
+  Interventions interventions;
+  std::vector<std::string> warnings;
+  std::set<std::string> warned;
 
-  double time() const { return static_cast<double>(steps) * dt; }
+  double time() const { return dt_since_time + static_cast<double>(steps - dt_since) * dt; }
   double gravityDown() const { return -gravity.Z(); }
   Model& modelOf(int robot) { return *models[fleet.robots[robot].model]; }
   const Model& modelOf(int robot) const { return *models[fleet.robots[robot].model]; }
@@ -137,7 +147,9 @@ struct World::Parts {
   }
 
   void report(Event::Kind kind, const std::string& model, const std::string& other,
-              const std::string& text);
+              const std::string& text, const Impact& impact = {});
+  /// Tells what was left out, once for each `subject`.
+  void warn(const std::string& subject, const std::string& text);
   /// Sets what the robot reports, and records it if it is new.
   void setStatus(int robot, Status status, State state);
 };

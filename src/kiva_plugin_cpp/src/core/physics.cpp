@@ -121,6 +121,7 @@ std::unique_ptr<BodyPart> makePart(const Collision& collision, int model, bool i
   part->model = model;
   part->friction = collision.friction;
   part->restitution = collision.restitution;
+  part->collision = collision.name;
   return part;
 }
 
@@ -254,13 +255,22 @@ const BodyPart* partOf(const btCollisionObjectWrapper* wrapper) {
   return nullptr;
 }
 
-int modelOfPart(const btCollisionObject* object, int part) {
+/// The part of a body that a contact is with; null for a plane, which has but one.
+const BodyPart* touchedPart(const btCollisionObject* object, int part) {
   const btCollisionShape* shape = object->getCollisionShape();
-  if (shape->isCompound() && part >= 0) {
-    const auto* compound = static_cast<const btCompoundShape*>(shape);
-    if (part < compound->getNumChildShapes()) return partOf(compound->getChildShape(part))->model;
-  }
-  return object->getUserIndex();
+  if (!shape->isCompound()) return partOf(shape);
+  const auto* compound = static_cast<const btCompoundShape*>(shape);
+  if (part < 0 || part >= compound->getNumChildShapes()) return nullptr;
+  return partOf(compound->getChildShape(part));
+}
+
+int modelOfPart(const btCollisionObject* object, int part) {
+  const BodyPart* touched = touchedPart(object, part);
+  return touched ? touched->model : object->getUserIndex();
+}
+
+bool isTouching(const btManifoldPoint& point) {
+  return point.getDistance() <= 0 || point.getAppliedImpulse() > 0;
 }
 
 /// Gives a new contact the friction and restitution of the two parts that touch.
@@ -374,7 +384,38 @@ bool Physics::anyAwake() const {
 
 void Physics::step(double dt) {
   if (!anyAwake()) return;
+  noteVelocities();
   world_.stepSimulation(dt, 0);
+}
+
+void Physics::setGravity(const Vector3& gravity) {
+  world_.setGravity(toBullet(gravity));  // of bodies that are awake
+  auto& bodies = world_.getNonStaticRigidBodies();
+  for (int i = 0; i < bodies.size(); ++i) {
+    if ((bodies[i]->getFlags() & BT_DISABLE_WORLD_GRAVITY) == 0) {
+      bodies[i]->setGravity(toBullet(gravity));
+    }
+  }
+}
+
+void Physics::noteVelocities() {
+  auto& bodies = world_.getNonStaticRigidBodies();
+  before_.resize(bodies.size());
+  for (int i = 0; i < bodies.size(); ++i) {
+    bodies[i]->setUserIndex2(i);
+    before_[i] = {bodies[i]->getLinearVelocity(), bodies[i]->getAngularVelocity()};
+  }
+}
+
+double Physics::approach(const btCollisionObject* a, const btCollisionObject* b,
+                         const btVector3& point, const btVector3& normal) const {
+  const auto velocity = [&](const btCollisionObject* body) {
+    const int index = body->isStaticObject() ? -1 : body->getUserIndex2();
+    if (index < 0 || index >= static_cast<int>(before_.size())) return btVector3(0, 0, 0);
+    const btVector3 arm = point - body->getWorldTransform().getOrigin();
+    return before_[index].linear + before_[index].angular.cross(arm);
+  };
+  return std::max(0.0, (velocity(b) - velocity(a)).dot(normal));
 }
 
 void Physics::contacts(std::vector<Contact>* out) const {
@@ -384,15 +425,29 @@ void Physics::contacts(std::vector<Contact>* out) const {
         const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
-      if (point.getDistance() > 0 && point.getAppliedImpulse() <= 0) continue;
+      if (!isTouching(point)) continue;
       int a = modelOfPart(manifold->getBody0(), point.m_index0);
       int b = modelOfPart(manifold->getBody1(), point.m_index1);
       if (a == b) continue;
+      const double sign = a > b ? -1 : 1;
       if (a > b) std::swap(a, b);
-      const bool known = std::any_of(out->begin(), out->end(), [a, b](const Contact& c) {
+      auto pair = std::find_if(out->begin(), out->end(), [a, b](const Contact& c) {
         return c.model_a == a && c.model_b == b;
       });
-      if (!known) out->push_back({a, b});
+      if (pair == out->end()) {
+        out->push_back({});
+        pair = out->end() - 1;
+        pair->model_a = a;
+        pair->model_b = b;
+      }
+      const double impulse = point.getAppliedImpulse();
+      pair->impulse += impulse;
+      if (impulse <= pair->most) continue;
+      pair->most = impulse;
+      pair->point = fromBullet(point.getPositionWorldOnB());
+      pair->normal = fromBullet(point.m_normalWorldOnB) * sign;
+      pair->speed = approach(manifold->getBody0(), manifold->getBody1(),
+                             point.getPositionWorldOnB(), point.m_normalWorldOnB);
     }
   }
 }
@@ -404,6 +459,40 @@ std::vector<btPersistentManifold*> Physics::manifolds() const {
 }
 
 void Physics::findContacts() { world_.performDiscreteCollisionDetection(); }
+
+std::vector<TouchPoint> Physics::touchPoints(int model) const {
+  std::vector<TouchPoint> out;
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold* manifold =
+        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+    for (int p = 0; p < manifold->getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold->getContactPoint(p);
+      if (!isTouching(point)) continue;
+      const int a = modelOfPart(manifold->getBody0(), point.m_index0);
+      const int b = modelOfPart(manifold->getBody1(), point.m_index1);
+      if (a == b || (a != model && b != model)) continue;
+      const btVector3 impulse = point.m_normalWorldOnB * point.m_appliedImpulse +
+                                point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+                                point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+      TouchPoint touch{manifold->getBody0(),
+                       manifold->getBody1(),
+                       touchedPart(manifold->getBody0(), point.m_index0),
+                       touchedPart(manifold->getBody1(), point.m_index1),
+                       fromBullet(point.getPositionWorldOnB()),
+                       fromBullet(point.m_normalWorldOnB),
+                       std::max(0.0, -point.getDistance()),
+                       fromBullet(impulse)};
+      if (b == model) {
+        std::swap(touch.body_a, touch.body_b);
+        std::swap(touch.part_a, touch.part_b);
+        touch.normal = -touch.normal;
+        touch.impulse = -touch.impulse;
+      }
+      out.push_back(touch);
+    }
+  }
+  return out;
+}
 
 double Physics::cast(const Vector3& from, const Vector3& direction, double range) const {
   const btVector3 start = toBullet(from), end = toBullet(from + direction * range);

@@ -6,6 +6,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "box_contacts.h"
@@ -29,6 +30,7 @@ struct BodyPart {
   int model = -1;
   double friction = 1;
   double restitution = 0;
+  std::string collision;  ///< Its name.
 };
 
 /// A Bullet shape with the parts it is made of.
@@ -61,8 +63,25 @@ struct ModelBodies {
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
 };
 
+/// Two models that touch; the point, the normal and the speed are those of the hardest contact.
 struct Contact {
   int model_a = -1, model_b = -1;
+  Vector3 point;       ///< In world.
+  Vector3 normal;      ///< From b to a.
+  double speed = 0;    ///< Of approach before the step [m/s].
+  double impulse = 0;  ///< Of all their contacts in the step [Ns].
+  double most = -1;    ///< Of the hardest one.
+};
+
+/// One point of contact between two collisions.
+struct TouchPoint {
+  const btCollisionObject* body_a;
+  const btCollisionObject* body_b;
+  const BodyPart* part_a;
+  const BodyPart* part_b;
+  Vector3 point, normal;  ///< In world, the normal from b to a.
+  double depth = 0;       ///< [m], >= 0.
+  Vector3 impulse;        ///< On a in the last step, with friction [Ns].
 };
 
 class Physics {
@@ -78,17 +97,24 @@ class Physics {
 
   /// One step; costs nothing where no body is awake.
   void step(double dt);
+  /// For what is in the world and what will be.
+  void setGravity(const Vector3& gravity);
   /// Pairs of models that touch now, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
   /// The pairs of bodies that Bullet keeps contacts of, with their contacts.
   std::vector<btPersistentManifold*> manifolds() const;
   /// Finds the contacts of this moment, as a step does at its beginning.
   void findContacts();
+  /// Every point at which that model touches another now, itself being a.
+  std::vector<TouchPoint> touchPoints(int model) const;
   /// First body on a ray, as a fraction of `range`; +inf = none.
   double cast(const Vector3& from, const Vector3& direction, double range) const;
 
  private:
   bool anyAwake() const;
+  void noteVelocities();
+  double approach(const btCollisionObject* a, const btCollisionObject* b, const btVector3& point,
+                  const btVector3& normal) const;
 
   BoxBoxContacts::Creator box_contacts_;
   btDefaultCollisionConfiguration configuration_;
@@ -96,6 +122,11 @@ class Physics {
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_;
+
+  struct Velocity {
+    btVector3 linear, angular;
+  };
+  std::vector<Velocity> before_;  ///< The step, by a body's second user index.
 };
 
 }  // namespace kiva

@@ -28,6 +28,15 @@ Descriptions usersOwn(const Parts& parts, const Descriptions& all) {
   return own;
 }
 
+/// Those of a model and of its sensors.
+Descriptions usersOwn(const Parts& parts, const Model& model) {
+  Descriptions own = usersOwn(parts, model.description->plugins);
+  for (const SensorDescription& sensor : model.description->sensors) {
+    own.insert(own.end(), sensor.plugins.begin(), sensor.plugins.end());
+  }
+  return own;
+}
+
 bool isSame(const Descriptions& a, const Descriptions& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -37,26 +46,27 @@ bool isSame(const Descriptions& a, const Descriptions& b) {
   return true;
 }
 
-Plugins load(World& world, const std::string& model, const Descriptions& descriptions) {
-  Plugins plugins;
-  for (const PluginDescription& plugin : descriptions) {
-    plugins.push_back(loadUserPlugin(plugin.filename, plugin.parameters.where()));
-    plugins.back()->load(world, model, plugin.parameters);
-  }
-  return plugins;
-}
-
 void adoptModel(Parts& parts, const Parts& before, Model& model) {
-  const Descriptions own = usersOwn(parts, model.description->plugins);
   const Model* known = before.find(model.name);
-  const bool same = known && isSame(own, usersOwn(before, known->description->plugins));
-  model.plugins = same ? known->plugins : load(*parts.world, model.name, own);
+  const bool same = known && known->robot_namespace == model.robot_namespace &&
+                    isSame(usersOwn(parts, model), usersOwn(before, *known));
+  if (same) {
+    model.plugins = known->plugins;
+  } else {
+    loadPlugins(parts, model);
+  }
 }
 
 void adoptWorld(Parts& parts, const Parts& before) {
   const Descriptions& own = parts.world_plugin_descriptions;
-  const bool same = isSame(own, before.world_plugin_descriptions);
-  parts.world_plugins = same ? before.world_plugins : load(*parts.world, "", own);
+  if (isSame(own, before.world_plugin_descriptions)) {
+    parts.world_plugins = before.world_plugins;
+    return;
+  }
+  for (const PluginDescription& plugin : own) {
+    auto loaded = loadPlugin(parts, "", plugin.filename, plugin.parameters, nullptr);
+    if (loaded) parts.world_plugins.push_back(std::move(loaded));
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engagement.h"
+#include "joints.h"
 #include "models.h"
 
 namespace kiva {
@@ -125,6 +126,7 @@ void buildModel(Parts& parts, int slot, const std::vector<BodyState>& states) {
     writeBody(states[i], *model.bodies.links[i].body);
   }
   parts.physics.insert(model.bodies);
+  restoreLimits(model);
 }
 
 /// First what is in Bullet for good, in the order in which it came, then what visits.

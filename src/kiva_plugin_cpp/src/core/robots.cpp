@@ -46,20 +46,6 @@ void checkPose(const Model& model) {
   }
 }
 
-/// Mass and inertia about z through the model's origin.
-void weighRobot(const ModelDescription& description, Robot* robot) {
-  robot->mass = robot->inertia = 0;
-  for (const Link& link : description.links) {
-    const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
-    const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
-    const double own = up.X() * up.X() * link.principal_moments.X() +
-                       up.Y() * up.Y() * link.principal_moments.Y() +
-                       up.Z() * up.Z() * link.principal_moments.Z();
-    robot->mass += link.mass;
-    robot->inertia += own + link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
-  }
-}
-
 Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   const Bounds box = bounds(description);
   if (box.empty()) throw DescriptionError("a robot needs a collision shape");
@@ -100,6 +86,19 @@ void reindex(Parts& parts, int from, int to) {
 bool isRobot(const ModelDescription& description) {
   return std::any_of(description.plugins.begin(), description.plugins.end(),
                      [](const PluginDescription& p) { return p.filename == kMotionPlugin; });
+}
+
+void weighRobot(const ModelDescription& description, Robot* robot) {
+  robot->mass = robot->inertia = 0;
+  for (const Link& link : description.links) {
+    const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
+    const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
+    const double own = up.X() * up.X() * link.principal_moments.X() +
+                       up.Y() * up.Y() * link.principal_moments.Y() +
+                       up.Z() * up.Z() * link.principal_moments.Z();
+    robot->mass += link.mass;
+    robot->inertia += own + link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
+  }
 }
 
 void addRobot(Parts& parts, int slot) {

@@ -8,6 +8,8 @@ namespace kiva {
 /// Whether the description is a Kiva robot's: it names the motion plugin.
 bool isRobot(const ModelDescription& description);
 
+/// Takes its mass and its inertia about z through the model's origin from the links.
+void weighRobot(const ModelDescription& description, Robot* robot);
 /// Makes a robot of the model in that slot, by its plugins' parameters. Throws DescriptionError.
 void addRobot(Parts& parts, int slot);
 /// Takes it out of the fleet; what it carries is put down.

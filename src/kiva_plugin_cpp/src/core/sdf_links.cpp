@@ -35,13 +35,6 @@ void addVisual(const sdf::Visual& from, const Origin& origin, Link* link, sdf::E
   link->visuals.push_back(visual);
 }
 
-void warnOfSensors(const sdf::ElementPtr& link, sdf::Errors* warnings) {
-  auto sensor = link->FindElement("sensor");
-  for (; sensor; sensor = sensor->GetNextElement("sensor")) {
-    warnings->push_back(noteAt(sensor, "sensors are left out; robots scan by the plugin 'laser'"));
-  }
-}
-
 }  // namespace
 
 Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnings) {
@@ -56,7 +49,6 @@ Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnin
   for (uint64_t i = 0; i < from.VisualCount(); ++i) {
     addVisual(*from.VisualByIndex(i), scope.origin, &link, warnings);
   }
-  warnOfSensors(from.Element(), warnings);
   return link;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/sdf_errors.h"
 #include "core/sdf_links.h"
+#include "core/sdf_sensors.h"
 
 namespace kiva {
 namespace {
@@ -45,6 +46,9 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
               sdf::Errors* warnings) {
   for (uint64_t i = 0; i < model.LinkCount(); ++i) {
     description->links.push_back(describeLink(*model.LinkByIndex(i), scope, warnings));
+    for (SensorDescription& sensor : describeSensors(*model.LinkByIndex(i), scope)) {
+      description->sensors.push_back(std::move(sensor));
+    }
   }
   for (uint64_t i = 0; i < model.JointCount(); ++i) {
     description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
@@ -98,11 +102,16 @@ std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
     PluginDescription plugin;
     plugin.name = child->Get<std::string>("name");
     plugin.filename = child->Get<std::string>("filename");
-    plugin.parameters = Parameters(address(noteAt(child, ""), where));
-    addParameters(child, "", &plugin.parameters);
+    plugin.parameters = readParameters(child, where);
     plugins.push_back(std::move(plugin));
   }
   return plugins;
+}
+
+Parameters readParameters(const sdf::ElementPtr& element, const std::string& where) {
+  Parameters parameters(address(noteAt(element, ""), where));
+  addParameters(element, "", &parameters);
+  return parameters;
 }
 
 Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,

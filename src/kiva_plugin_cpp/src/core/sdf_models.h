@@ -23,6 +23,9 @@ ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
 std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
                                            const std::string& where);
 
+/// The text of every element in `element`, by path. `where` as above.
+Parameters readParameters(const sdf::ElementPtr& element, const std::string& where);
+
 /// `pose` in the frame of what holds `element`, or in the frame `to`. Throws SdfError.
 Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,
               const std::string& to = "");

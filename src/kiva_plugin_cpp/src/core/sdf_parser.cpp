@@ -113,6 +113,8 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
 
 }  // namespace
 
+bool isUrdf(const std::string& xml) { return rootOf(xml) == "robot"; }
+
 SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   checkIncludes(text);
   checkCycles(text, model_paths);

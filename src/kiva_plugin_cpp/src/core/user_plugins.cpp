@@ -34,15 +34,25 @@ std::string linkerError(const std::string& library) {
   return "";
 }
 
-}  // namespace
+/// Whether the linker found no such file at all; one that lacks another library is broken.
+bool isMissing(const std::string& library, const std::string& error) {
+  return !std::filesystem::exists(library) && error.rfind(library + ":", 0) == 0;
+}
 
-std::shared_ptr<Plugin> loadUserPlugin(const std::string& filename, const std::string& where) {
+/// Null, with the reason, if there is no such library.
+std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::string& where,
+                                    std::string* why) {
   const std::string library = locate(filename);
   const std::string error = linkerError(library);
+  const std::string searched =
+      " (searched KIVA_PLUGIN_PATH='" + pluginPath() + "' and where the dynamic linker looks)";
+  if (!error.empty() && isMissing(library, error)) {
+    *why = "there is no library '" + filename + "'" + searched;
+    return nullptr;
+  }
   if (!error.empty()) {
     throw DescriptionError(where + ": plugin library '" + filename + "' can't be loaded: " + error +
-                           " (searched KIVA_PLUGIN_PATH='" + pluginPath() +
-                           "' and where the dynamic linker looks)");
+                           searched);
   }
   // One loader for all, for as long as the program runs: a library must outlive its objects.
   static ignition::plugin::Loader loader;
@@ -53,6 +63,42 @@ std::shared_ptr<Plugin> loadUserPlugin(const std::string& filename, const std::s
   }
   throw DescriptionError(where + ": library '" + filename +
                          "' holds no class registered with IGNITION_ADD_PLUGIN(…, kiva::Plugin)");
+}
+
+/// What is misspelt is an error, but for plugins that take the parameters of others.
+void checkUnread(Parts& parts, const Plugin& plugin, const std::string& filename,
+                 const Parameters& parameters) {
+  if (plugin.isStrict()) return parameters.rejectUnread();
+  std::string list;
+  for (const std::string& key : parameters.unread()) list += (list.empty() ? "" : ", ") + key;
+  if (list.empty()) return;
+  parts.warn(filename + list, parameters.where() + ": " + filename + " makes no use of " + list);
+}
+
+}  // namespace
+
+std::shared_ptr<Plugin> loadPlugin(Parts& parts, const std::string& model,
+                                   const std::string& filename, const Parameters& parameters,
+                                   const SensorDescription* sensor) {
+  const std::string& where = parameters.where();
+  std::string why;
+  std::shared_ptr<Plugin> plugin;
+  if (parts.options.plugins) plugin = parts.options.plugins(filename, sensor);
+  if (!plugin) plugin = fromLibrary(filename, where, &why);
+  if (!plugin) {
+    parts.warn(filename, where + ": the plugin is left out: " + why);
+    return nullptr;
+  }
+  try {
+    plugin->load(*parts.world, model, parameters);
+    checkUnread(parts, *plugin, filename, parameters);
+    return plugin;
+  } catch (const std::exception& error) {
+    if (plugin->isStrict()) throw;
+    parts.warn(model + filename + error.what(),
+               where + ": the plugin is left out: " + error.what());
+    return nullptr;
+  }
 }
 
 }  // namespace kiva

@@ -4,13 +4,17 @@
 #include <memory>
 #include <string>
 
-#include "kiva_plugin_cpp/plugin.h"
+#include "parts.h"
 
 namespace kiva {
 
-/// The plugin class of a user's library, found by its file name in the folders of
-/// KIVA_PLUGIN_PATH, else by the dynamic linker. Throws DescriptionError that names what was
-/// searched. `where` is put before the message.
-std::shared_ptr<Plugin> loadUserPlugin(const std::string& filename, const std::string& where);
+/// Makes the plugin of that file name and loads it: the table of the world's options is asked, then
+/// a user's library is looked for in the folders of KIVA_PLUGIN_PATH and by the dynamic linker.
+/// Null, with a warning, if there is none. `model` is empty for a plugin of the world, `sensor`
+/// null for one that sits in none. Throws DescriptionError if it is there but can't be loaded, or
+/// refuses.
+std::shared_ptr<Plugin> loadPlugin(Parts& parts, const std::string& model,
+                                   const std::string& filename, const Parameters& parameters,
+                                   const SensorDescription* sensor);
 
 }  // namespace kiva

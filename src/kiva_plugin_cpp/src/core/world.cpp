@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiva_plugin_cpp/world.h"
 
+#include <algorithm>
 #include <cmath>
+#include <ignition/math/MassMatrix3.hh>
 #include <limits>
+#include <stdexcept>
 
 #include "../plugins/fleet_plugin.h"
 #include "checkpoint.h"
 #include "collisions.h"
 #include "commands.h"
+#include "cruise.h"
 #include "engagement.h"
+#include "intervene.h"
+#include "joints.h"
 #include "load.h"
 #include "models.h"
 #include "parts.h"
@@ -18,16 +24,22 @@
 namespace kiva {
 namespace {
 
+constexpr double kMostGravity = 1000;                 // [m/s²]
+constexpr double kLeastStep = 1e-6;                   // [s]
+constexpr double kMostStep = 1;                       // [s]
+constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
+constexpr double kLeastMoment = 1e-12;                // [kg m²]
+constexpr double kMostArm = 1000;                     // [m]
+
 void loadWorldPlugins(Parts& parts, const std::vector<PluginDescription>& plugins) {
   for (const PluginDescription& plugin : plugins) {
     if (isGridPlugin(plugin.filename)) {
       configureGrid(parts, plugin.parameters);
-    } else {
-      parts.world_plugins.push_back(loadUserPlugin(plugin.filename, plugin.parameters.where()));
-      parts.world_plugins.back()->load(*parts.world, "", plugin.parameters);
+      plugin.parameters.rejectUnread();
+    } else if (auto own = loadPlugin(parts, "", plugin.filename, plugin.parameters, nullptr)) {
+      parts.world_plugins.push_back(std::move(own));
       parts.world_plugin_descriptions.push_back(plugin);
     }
-    plugin.parameters.rejectUnread();
   }
 }
 
@@ -52,6 +64,22 @@ void afterStep(Parts& parts) {
   forEachUserPlugin(parts, [&](Plugin& p) { p.afterStep(*parts.world, parts.dt); });
 }
 
+/// -1 = none.
+int linkIndex(const Model* model, const std::string& name) {
+  if (!model) return -1;
+  const auto& links = model->description->links;
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    if (links[i].name == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// Whatever robots foresaw holds no more.
+void beginAnew(Parts& parts) {
+  for (int i = 0; i < parts.fleet.size(); ++i) stopCruise(parts.fleet, i);
+  alarm(parts);
+}
+
 int shelfId(const Parts& parts, int robot) {
   const int unit = parts.fleet.unit[robot];
   return unit < 0 ? 0 : parts.units[unit].id;
@@ -74,8 +102,12 @@ World::Parts::~Parts() {
 }
 
 void World::Parts::report(Event::Kind kind, const std::string& model, const std::string& other,
-                          const std::string& text) {
-  events.push_back({time(), kind, model, other, text});
+                          const std::string& text, const Impact& impact) {
+  events.push_back({time(), kind, model, other, text, impact});
+}
+
+void World::Parts::warn(const std::string& subject, const std::string& text) {
+  if (warned.insert(subject).second) warnings.push_back(text);
 }
 
 void World::Parts::setStatus(int robot, Status status, State state) {
@@ -94,6 +126,7 @@ void World::Parts::setStatus(int robot, Status status, State state) {
 World::World(const WorldDescription& description, const WorldOptions& options)
     : parts_(std::make_unique<Parts>(description, options)) {
   parts_->world = this;
+  for (const Light& light : description.lights) setLight(light);
   spawn(description.models);
   loadWorldPlugins(*parts_, description.plugins);
 }
@@ -104,11 +137,14 @@ void World::step() {
   Parts& parts = *parts_;
   acceptCommands(parts);
   forEachUserPlugin(parts, [&](Plugin& p) { p.beforeStep(*this, parts.dt); });
+  intervene(parts);
   updateEngagement(parts);
   command(parts);
   drive(parts);
+  driveJoints(parts);
   parts.physics.step(parts.dt);
   settle(parts);
+  readJoints(parts);
   ++parts.steps;
   ++parts.total_steps;
   findDueScans(parts);
@@ -120,12 +156,43 @@ double World::time() const { return parts_->time(); }
 std::uint64_t World::steps() const { return parts_->steps; }
 double World::stepSize() const { return parts_->dt; }
 const Vector3& World::gravity() const { return parts_->gravity; }
+std::uint64_t World::seed() const { return parts_->options.seed; }
 const std::string& World::name() const { return parts_->name; }
 
+void World::setStepSize(double seconds) {
+  if (!(seconds >= kLeastStep && seconds <= kMostStep)) {
+    throw std::invalid_argument("the step size must be from 1e-6 to 1 s");
+  }
+  if (seconds == parts_->dt) return;
+  parts_->dt_since_time = time();
+  parts_->dt_since = parts_->steps;
+  parts_->dt = seconds;
+  parts_->scan_rounds_revision = ~0ull;  // those were counted in the old steps, as was
+  beginAnew(*parts_);                    // when to look around again
+}
+
+void World::setGravity(const Vector3& gravity) {
+  if (!gravity.IsFinite() || gravity.Length() > kMostGravity) {
+    throw std::invalid_argument("gravity must be finite and at most 1000 m/s²");
+  }
+  if (gravity == parts_->gravity) return;
+  parts_->gravity = gravity;
+  parts_->physics.setGravity(gravity);
+  wakeBodies(*parts_);
+  beginAnew(*parts_);
+}
+
 void World::reset(bool time_too) {
-  for (int slot : slotsInOrder(*parts_)) resetModel(*parts_, slot);
-  parts_->touching.clear();
-  if (time_too) parts_->steps = 0;
+  Parts& parts = *parts_;
+  for (int slot : slotsInOrder(parts)) resetModel(parts, slot);
+  parts.touching.clear();
+  parts.interventions.wrenches.clear();
+  parts.interventions.efforts.clear();
+  if (time_too) {
+    parts.steps = parts.dt_since = 0;
+    parts.dt_since_time = 0;
+  }
+  forEachUserPlugin(parts, [&](Plugin& plugin) { plugin.reset(*this); });
 }
 
 void World::post(const Command& command) { parts_->commands.push_back(command); }
@@ -190,21 +257,108 @@ void World::states(std::vector<EntityState>* out) const {
   }
 }
 
+bool World::setLinkState(const std::string& model, const std::string& link,
+                         const EntityState& state) {
+  const int index = linkIndex(parts_->find(model), link);
+  if (index < 0) return false;
+  placeLink(*parts_, parts_->slot_of_name.at(model), index, state);
+  return true;
+}
+
+void World::linkStates(std::vector<std::string>* names, std::vector<EntityState>* states) const {
+  names->clear();
+  states->clear();
+  for (int slot : slotsInOrder(*parts_)) {
+    const Model& model = *parts_->models[slot];
+    for (const Link& link : model.description->links) {
+      names->push_back(model.name + "::" + link.name);
+      states->push_back(*linkState(*parts_, model, link.name));
+    }
+  }
+}
+
+bool World::setLinkInertia(const std::string& model, const Link& link) {
+  const int index = linkIndex(parts_->find(model), link.name);
+  if (index < 0) return false;
+  const ignition::math::MassMatrix3d inertia(link.mass, link.principal_moments, Vector3::Zero);
+  const bool is_usable =
+      link.mass >= kLeastMass && link.mass <= kMostMass && link.principal_moments.IsFinite() &&
+      link.principal_moments.Min() >= kLeastMoment && link.inertial_pose_in_link.IsFinite() &&
+      link.inertial_pose_in_link.Pos().Abs().Max() <= kMostArm;
+  if (!is_usable || !inertia.IsValid()) {
+    throw std::invalid_argument(
+        "no body is like that; expected a mass above 0 kg, principal moments above 0 kg m², none "
+        "larger than the sum of the other two, and a centre of mass near the link");
+  }
+  reweighLink(*parts_, parts_->slot_of_name.at(model), index, link);
+  return true;
+}
+
+std::optional<JointState> World::joint(const std::string& model, const std::string& joint) const {
+  const Model* found = parts_->find(model);
+  const int index = found ? findJoint(*found, joint) : -1;
+  if (index < 0) return std::nullopt;
+  return jointState(*parts_, *found, index);
+}
+
+bool World::setJoint(const std::string& model, const std::string& joint,
+                     const JointSettings& settings) {
+  Model* found = parts_->find(model);
+  const int index = found ? findJoint(*found, joint) : -1;
+  if (index < 0) return false;
+  kiva::setJoint(*found, index, settings);
+  return true;
+}
+
+void World::setJointPositions(const std::string& model,
+                              const std::map<std::string, double>& positions) {
+  Model* found = parts_->find(model);
+  if (!found) throw std::invalid_argument("there is no model '" + model + "'");
+  placeJoints(*parts_, *found, positions);
+}
+
+const Interventions& World::interventions() const { return parts_->interventions; }
+
 bool World::applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                         const Vector3& torque) {
-  Model* found = parts_->find(model);
-  if (!found || found->isStatic() || !found->in_physics) return false;
-  const auto& links = found->description->links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i].name != link || i >= found->bodies.links.size()) continue;
-    btRigidBody& body = *found->bodies.links[i].body;
-    body.activate(true);
-    body.applyCentralForce(toBullet(force));
-    body.applyTorque(toBullet(torque));
-    return true;
-  }
-  return false;
+  const int index = linkIndex(parts_->find(model), link);
+  if (index < 0) return false;
+  return pushLink(*parts_, parts_->slot_of_name.at(model), index, force, torque);
 }
+
+bool World::apply(const Wrench& wrench) {
+  const Model* found = parts_->find(wrench.model);
+  if (linkIndex(found, wrench.link) < 0 || found->isStatic()) return false;
+  parts_->interventions.wrenches.push_back(wrench);
+  return true;
+}
+
+bool World::apply(const Effort& effort) {
+  const Model* found = parts_->find(effort.model);
+  if (!found || findJoint(*found, effort.joint) < 0 || found->joints.empty()) return false;
+  parts_->interventions.efforts.push_back(effort);
+  return true;
+}
+
+void World::clearWrenches(const std::string& model, const std::string& link) {
+  auto& all = parts_->interventions.wrenches;
+  const auto on = [&](const Wrench& w) { return w.model == model && w.link == link; };
+  all.erase(std::remove_if(all.begin(), all.end(), on), all.end());
+}
+
+void World::clearEfforts(const std::string& model, const std::string& joint) {
+  auto& all = parts_->interventions.efforts;
+  const auto on = [&](const Effort& e) { return e.model == model && e.joint == joint; };
+  all.erase(std::remove_if(all.begin(), all.end(), on), all.end());
+}
+
+void World::setLight(const Light& light) { parts_->interventions.lights[light.name] = light; }
+
+bool World::removeLight(const std::string& name) {
+  return parts_->interventions.lights.erase(name) > 0;
+}
+
+void World::setOde(const OdeSettings& settings) { parts_->interventions.ode = settings; }
 
 const Fleet& World::fleet() const { return parts_->fleet; }
 const std::vector<StorageUnit>& World::storageUnits() const { return parts_->units; }
@@ -229,10 +383,22 @@ void World::scan(int robot, std::vector<float>* ranges) const {
 
 const std::vector<int>& World::scansDue() const { return parts_->scans_due; }
 
-double World::rayCast(const Vector3& from, double yaw, double range) const {
+double World::rayCast(const Vector3& from, double yaw, double range, const std::string& but) const {
+  const Model* passed = parts_->find(but);
+  int group = -1;
+  if (passed) {
+    const bool is_robot = passed->kind == ModelKind::kRobot;
+    group = is_robot ? passed->index : ownGroup(parts_->slot_of_name.at(but));
+  }
   return parts_->obstacles
-      .cast(from.X(), from.Y(), from.Z(), std::cos(yaw), std::sin(yaw), range, -1)
+      .cast(from.X(), from.Y(), from.Z(), std::cos(yaw), std::sin(yaw), range, group)
       .range;
+}
+
+std::vector<ContactPoint> World::contacts(const std::string& model) const {
+  const auto at = parts_->slot_of_name.find(model);
+  if (at == parts_->slot_of_name.end()) return {};
+  return contactsOf(*parts_, at->second);
 }
 
 std::string World::checkpoint() { return kiva::checkpoint(*parts_); }
@@ -242,6 +408,8 @@ void World::restore(const std::string& checkpoint) {
   Restored next = readCheckpoint(checkpoint);
   const std::vector<PluginState> before = savePlugins(*parts_);
   next.parts->world = this;
+  next.parts->options.plugins = parts_->options.plugins;
+  next.parts->warned = parts_->warned;
   next.parts->models_revision = parts_->models_revision + 1;
   next.parts->units_revision = parts_->units_revision + 1;
   parts_.swap(next.parts);
@@ -264,6 +432,12 @@ std::vector<Event> World::takeEvents() {
 std::vector<StatusChange> World::takeStatusChanges() {
   std::vector<StatusChange> out;
   out.swap(parts_->status_changes);
+  return out;
+}
+
+std::vector<std::string> World::takeWarnings() {
+  std::vector<std::string> out;
+  out.swap(parts_->warnings);
   return out;
 }
 

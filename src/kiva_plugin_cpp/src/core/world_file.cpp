@@ -18,6 +18,7 @@
 #include "core/sdf_models.h"
 #include "core/sdf_parser.h"
 #include "core/sdf_preparation.h"
+#include "core/sdf_sensors.h"
 
 namespace kiva {
 namespace {
@@ -61,6 +62,11 @@ void describeWorld(const sdf::World& from, const Origin& origin, WorldDescriptio
   for (uint64_t i = 0; i < from.ModelCount(); ++i) {
     world->models.push_back(instantiate(*from.ModelByIndex(i), origin, warnings));
   }
+  for (uint64_t i = 0; i < from.LightCount(); ++i) {
+    const sdf::Light& light = *from.LightByIndex(i);
+    const Pose pose = resolved(light.SemanticPose(), light.Element());
+    world->lights.push_back(describeLight(light, pose));
+  }
   for (uint64_t i = 0; i < from.ActorCount(); ++i) {
     warnings->push_back(noteAt(from.ActorByIndex(i)->Element(), "actors are left out"));
   }
@@ -78,6 +84,8 @@ ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
     describeWorld(*root.WorldByIndex(0), origin, &parsed.world, &document.warnings);
   } else if (root.Model()) {
     parsed.world.models.push_back(instantiate(*root.Model(), origin, &document.warnings));
+  } else if (root.Light()) {
+    parsed.world.lights.push_back(describeLight(*root.Light(), root.Light()->RawPose()));
   }
   parsed.warnings = std::move(document.warnings);
   for (const ModelInstance& model : parsed.world.models) {
@@ -233,12 +241,15 @@ WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_path
 }
 
 std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
-                                       const std::string& where,
-                                       std::vector<std::string>* warnings) {
+                                       const std::string& where, std::vector<std::string>* warnings,
+                                       std::vector<Light>* lights) {
   ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
     return cachedRest(rest, model_paths);
   });
-  if (parsed.world.models.empty()) throw DescriptionError(where + ": expected a <model> in <sdf>");
+  const bool has_lights = lights && !parsed.world.lights.empty();
+  if (has_lights) *lights = std::move(parsed.world.lights);
+  if (parsed.world.models.empty() && !has_lights)
+    throw DescriptionError(where + ": expected a <model> in <sdf>");
   return std::move(parsed.world.models);
 }
 

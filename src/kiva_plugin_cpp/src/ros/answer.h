@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ros/ros.h>
+
+#include <boost/function.hpp>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -27,6 +30,20 @@ bool answer(const std::string& service, Response& response, Body body) {
     response.status_message = service + ": Failure - " + error.what();
   }
   return true;
+}
+
+/// Advertises a service with such responses: `body(request, response)` returns the status text.
+/// `label`: what the service is called in texts.
+template <typename Service, typename Body>
+ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const std::string& label,
+                         Body body) {
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  const boost::function<bool(Request&, Response&)> call = [label, body](Request& request,
+                                                                        Response& response) {
+    return answer(label, response, [&] { return std::string(body(request, response)); });
+  };
+  return node.advertiseService<Request, Response>(name, call);
 }
 
 }  // namespace kiva_ros

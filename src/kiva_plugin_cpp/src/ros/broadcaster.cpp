@@ -24,6 +24,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience&
       transforms_(root, audience),
       clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kClockQueue, kLatched)),
       events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
+      collisions_(root.advertise<warehouse_msgs::Collision>("/warehouse/collisions", kEventQueue)),
       objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
                                                                 kLatched)),
       units_(root.advertise<warehouse_msgs::UnitStates>("/warehouse/unit_states", kStreamQueue,
@@ -38,6 +39,9 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience&
       advertiseCounted<gazebo_msgs::ModelStates>(root, "/model_states", kStreamQueue, count_models);
   gazebo_model_states_ =
       advertiseCounted<gazebo_msgs::ModelStates>(node, "model_states", kStreamQueue, count_models);
+  link_states_ = advertiseCounted<gazebo_msgs::LinkStates>(
+      node, "link_states", kStreamQueue,
+      [&audience](int change) { audience.count(Audience::Topic::kLinkStates, change); });
   thread_ = std::thread([this] {
     while (const auto snapshot = outbox_.pop()) publish(*snapshot);
   });
@@ -67,30 +71,49 @@ void Broadcaster::publish(const Snapshot& s) {
   if (s.units) units_.publish(*s.units);
   if (s.fleet) fleet_.publish(*s.fleet);
   if (s.models) publishModels(*s.models);
+  if (s.links) publishLinks(*s.links);
+  for (const Mail::Letter& letter : s.mail) letter();
 }
 
 void Broadcaster::publishEvent(const kiva::Event& event) {
   events_.publish(toMessage(event));
   if (event.kind == kiva::Event::Kind::kCollision) {
+    collisions_.publish(toCollision(event));
     ROS_WARN("Collision: %s", event.text.c_str());
   } else if (event.kind == kiva::Event::Kind::kRefused) {
     ROS_DEBUG("%s: refused: %s", event.model.c_str(), event.text.c_str());
   }
 }
 
+namespace {
+
+/// Names only where they changed.
+template <typename Message>
+void fill(const ModelStates& from, std::shared_ptr<const std::vector<std::string>>* names,
+          Message* out) {
+  if (*names != from.names) {
+    *names = from.names;
+    out->name = *from.names;
+  }
+  out->pose.clear();
+  out->twist.clear();
+  for (const kiva::EntityState& state : from.states) {
+    out->pose.push_back(toMessage(state.pose));
+    out->twist.push_back(toMessage(state.twist));
+  }
+}
+
+}  // namespace
+
 void Broadcaster::publishModels(const ModelStates& models) {
-  if (names_ != models.names) {
-    names_ = models.names;
-    models_.name = *names_;
-  }
-  models_.pose.clear();
-  models_.twist.clear();
-  for (const kiva::EntityState& state : models.states) {
-    models_.pose.push_back(toMessage(state.pose));
-    models_.twist.push_back(toMessage(state.twist));
-  }
+  fill(models, &names_, &models_);
   model_states_.publish(models_);
   gazebo_model_states_.publish(models_);
+}
+
+void Broadcaster::publishLinks(const ModelStates& links) {
+  fill(links, &link_names_, &links_);
+  link_states_.publish(links_);
 }
 
 }  // namespace kiva_ros

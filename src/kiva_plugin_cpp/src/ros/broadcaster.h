@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gazebo_msgs/LinkStates.h>
 #include <gazebo_msgs/ModelStates.h>
 #include <ros/ros.h>
 
@@ -30,13 +31,17 @@ class Broadcaster {
   void publish(const Snapshot& snapshot);
   void publishEvent(const kiva::Event& event);
   void publishModels(const ModelStates& models);
+  void publishLinks(const ModelStates& links);
 
   Outbox& outbox_;
   RobotTopics robots_;
   Transforms transforms_;
-  ros::Publisher clock_, events_, fleet_, objects_, units_, model_states_, gazebo_model_states_;
-  std::shared_ptr<const std::vector<std::string>> names_;  ///< Those in models_.
-  gazebo_msgs::ModelStates models_;                        ///< Kept, since its names seldom change.
+  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_;
+  ros::Publisher model_states_, gazebo_model_states_, link_states_;
+  // Kept, since their names seldom change.
+  std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.
+  gazebo_msgs::ModelStates models_;
+  gazebo_msgs::LinkStates links_;
   std::thread thread_;
 };
 

@@ -102,6 +102,20 @@ warehouse_msgs::Event toMessage(const kiva::Event& event) {
   return out;
 }
 
+warehouse_msgs::Collision toCollision(const kiva::Event& event) {
+  warehouse_msgs::Collision out;
+  out.header = header(event.time, "world");
+  out.model = event.model;
+  out.other = event.other;
+  out.point.x = event.impact.point.X();
+  out.point.y = event.impact.point.Y();
+  out.point.z = event.impact.point.Z();
+  out.normal = toMessage(event.impact.normal);
+  out.speed = event.impact.speed;
+  out.impulse = event.impact.impulse;
+  return out;
+}
+
 warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status) {
   warehouse_msgs::KivaStatus out;
   out.header = header(status.time, "world");
@@ -203,6 +217,14 @@ warehouse_msgs::UnitStates unitStates(const kiva::World& world) {
 
 kiva::Pose fromMessage(const geometry_msgs::Pose& pose) {
   return {vectorFrom(pose.position, "position"), rotationFrom(pose.orientation)};
+}
+
+kiva::Vector3 fromMessage(const geometry_msgs::Vector3& vector, const char* what) {
+  return vectorFrom(vector, what);
+}
+
+kiva::Vector3 fromMessage(const geometry_msgs::Point& point, const char* what) {
+  return vectorFrom(point, what);
 }
 
 kiva::Twist fromMessage(const geometry_msgs::Twist& twist) {

@@ -8,9 +8,11 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
+#include <geometry_msgs/Wrench.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 #include <std_msgs/Header.h>
+#include <warehouse_msgs/Collision.h>
 #include <warehouse_msgs/Event.h>
 #include <warehouse_msgs/FleetState.h>
 #include <warehouse_msgs/KivaStatus.h>
@@ -35,6 +37,8 @@ geometry_msgs::Pose toMessage(const kiva::Pose& pose);
 geometry_msgs::Twist toMessage(const kiva::Twist& twist);
 geometry_msgs::Transform toTransform(const kiva::Pose& pose);
 warehouse_msgs::Event toMessage(const kiva::Event& event);
+/// Of a collision's event.
+warehouse_msgs::Collision toCollision(const kiva::Event& event);
 warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status);
 sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser, double time);
 nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
@@ -49,6 +53,8 @@ warehouse_msgs::UnitStates unitStates(const kiva::World& world);
 /// A quaternion of zeros is identity, as clients expect. Throws std::invalid_argument if a number
 /// is not finite.
 kiva::Pose fromMessage(const geometry_msgs::Pose& pose);
+kiva::Vector3 fromMessage(const geometry_msgs::Vector3& vector, const char* what);
+kiva::Vector3 fromMessage(const geometry_msgs::Point& point, const char* what);
 kiva::Twist fromMessage(const geometry_msgs::Twist& twist);
 kiva::EntityState fromMessage(const gazebo_msgs::ModelState& state);
 kiva::Command fromMessage(const warehouse_msgs::MoveTo& message);

@@ -8,7 +8,7 @@
 namespace kiva_ros {
 
 Engine::Engine(kiva::World& world, Reporter& reporter, double rtf)
-    : world_(world), reporter_(reporter), pacer_(world.stepSize(), rtf) {}
+    : world_(world), reporter_(reporter), pacer_(world.stepSize(), rtf), target_factor_(rtf) {}
 
 void Engine::start() {
   running_ = true;
@@ -53,6 +53,13 @@ void Engine::pause(bool paused) {
     if (paused_ != paused) startClocks();
     paused_ = paused;
   });
+}
+
+void Engine::retime(double step_size, double rtf) {
+  pacer_ = Pacer(step_size, rtf);
+  target_factor_ = rtf;
+  reporter_.retime(step_size, rtf);
+  startClocks();
 }
 
 void Engine::startClocks() {

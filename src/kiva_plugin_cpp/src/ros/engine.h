@@ -45,8 +45,10 @@ class Engine {
   auto move(Request request);
 
   void pause(bool paused);
+  /// From the step thread: another step size, or another pace (as in the constructor).
+  void retime(double step_size, double rtf);
   bool paused() const { return paused_; }
-  double targetFactor() const { return pacer_.targetFactor(); }
+  double targetFactor() const { return target_factor_; }
   /// Simulated seconds a wall second, measured over the last second.
   double realTimeFactor() const { return real_time_factor_; }
 
@@ -64,6 +66,7 @@ class Engine {
   kiva::World& world_;
   Reporter& reporter_;
   Pacer pacer_;
+  std::atomic<double> target_factor_;
   std::thread thread_;
   std::atomic<bool> failed_{false};
 

@@ -9,10 +9,26 @@ std::pair<std::string, std::string> splitScoped(const std::string& name) {
   return {name.substr(0, at), name.substr(at + 2)};
 }
 
-std::optional<kiva::EntityState> frameState(const kiva::World& world, const std::string& frame) {
-  for (const char* inertial : {"", "world", "map", "/map"}) {
-    if (frame == inertial) return kiva::EntityState{};
+std::optional<std::pair<std::string, std::string>> findJoint(const kiva::World& world,
+                                                             const std::string& name) {
+  const auto has = [&world](const std::string& model, const std::string& joint) {
+    const auto description = world.description(model);
+    return description && description->findJoint(joint);
+  };
+  const auto scoped = splitScoped(name);
+  if (has(scoped.first, scoped.second)) return scoped;
+  for (const std::string& model : world.modelNames()) {
+    if (has(model, name)) return std::make_pair(model, name);
   }
+  return std::nullopt;
+}
+
+bool isInertial(const std::string& frame) {
+  return frame.empty() || frame == "world" || frame == "map" || frame == "/map";
+}
+
+std::optional<kiva::EntityState> frameState(const kiva::World& world, const std::string& frame) {
+  if (isInertial(frame)) return kiva::EntityState{};
   const auto [model, link] = splitScoped(frame);
   return world.state(model, link);
 }

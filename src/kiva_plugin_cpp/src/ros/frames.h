@@ -15,6 +15,14 @@ namespace kiva_ros {
 /// `model::link`, or a model alone, as its two names.
 std::pair<std::string, std::string> splitScoped(const std::string& name);
 
+/// The model and the name in it of a joint: `model::joint`, or the first model's that has one of
+/// that name. Nothing if there is none.
+std::optional<std::pair<std::string, std::string>> findJoint(const kiva::World& world,
+                                                             const std::string& name);
+
+/// Whether that is a name of the world's own frame.
+bool isInertial(const std::string& frame);
+
 /// The state of a frame in world; nothing if there is no such frame.
 std::optional<kiva::EntityState> frameState(const kiva::World& world, const std::string& frame);
 

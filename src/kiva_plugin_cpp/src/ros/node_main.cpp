@@ -3,7 +3,6 @@
 // The node /gazebo: a warehouse world behind Gazebo's ROS 1 names.
 #include <ros/ros.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -14,11 +13,17 @@
 #include "commands.h"
 #include "engine.h"
 #include "farewell.h"
+#include "gazebo_plugins/table.h"
+#include "joint_services.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
+#include "light_services.h"
+#include "link_services.h"
+#include "mail.h"
 #include "map_service.h"
 #include "outbox.h"
 #include "performance.h"
+#include "physics_services.h"
 #include "reporter.h"
 #include "settings.h"
 #include "simulation_services.h"
@@ -30,8 +35,6 @@ namespace {
 using namespace kiva_ros;
 
 constexpr int kCallbackThreads = 4;  // each may wait for the step thread
-// Simulated time may fly; a client that gets a thousand clocks a second does little else.
-constexpr auto kClockGap = std::chrono::milliseconds(4);
 
 volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
 
@@ -62,23 +65,26 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
-  const Settings settings = readSettings(node);
+  Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
+  Mail mail;  // outlives the plugins
+  settings.world.plugins = pluginTable(root, mail);
   kiva::World world(description, settings.world);
   const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
 
-  Reporter::Rates rates = settings.rates;
-  if (rtf == 0) rates.clock_gap = kClockGap;
-
   Audience audience;
   Outbox outbox;
-  Reporter reporter(world, rates, audience, outbox);
+  Reporter reporter(world, settings.rates, rtf, audience, mail, outbox);
   Engine engine(world, reporter, rtf);
   audience.onArrival([&engine] { engine.post([](kiva::World&) {}); });
   Broadcaster broadcaster(root, node, audience, outbox);
   Commands commands(root, engine);
   SimulationServices simulation_services(node, engine);
   StateServices state_services(root, node, engine);
+  LinkServices link_services(node, engine);
+  JointServices joint_services(node, engine);
+  LightServices light_services(node, engine);
+  PhysicsServices physics_services(node, world, engine);
   Performance performance(node, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
   MapService map_service(root, engine);

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kFleetRate = 10;   // [Hz]
 constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
+// Simulated time may fly; a client that gets a thousand clocks a second does little else.
+constexpr auto kClockGap = std::chrono::milliseconds(4);
 constexpr auto kPictureInterval = std::chrono::milliseconds(100);
 constexpr auto kUnheardInterval = std::chrono::milliseconds(400);
 
@@ -49,15 +51,20 @@ RobotPose poseOf(const kiva::World& world, int i) {
 
 }  // namespace
 
-Reporter::Reporter(const kiva::World& world, const Rates& rates, Audience& audience, Outbox& outbox)
-    : audience_(audience),
-      outbox_(outbox),
-      clock_gap_(rates.clock_gap),
-      clock_every_(stepsPer(rates.clock, world.stepSize())),
-      models_every_(stepsPer(rates.model_states, world.stepSize())),
-      fleet_every_(stepsPer(kFleetRate, world.stepSize())),
-      robots_every_(stepsPer(kRobotsRate, world.stepSize())),
-      heartbeat_every_(stepsPer(kHeartbeatSlots, world.stepSize())) {}
+Reporter::Reporter(const kiva::World& world, const Rates& rates, double rtf, Audience& audience,
+                   Mail& mail, Outbox& outbox)
+    : rates_(rates), audience_(audience), mail_(mail), outbox_(outbox) {
+  retime(world.stepSize(), rtf);
+}
+
+void Reporter::retime(double step_size, double rtf) {
+  clock_gap_ = rtf == 0 ? kClockGap : WallClock::duration(0);
+  clock_every_ = stepsPer(rates_.clock, step_size);
+  models_every_ = stepsPer(rates_.model_states, step_size);
+  fleet_every_ = stepsPer(kFleetRate, step_size);
+  robots_every_ = stepsPer(kRobotsRate, step_size);
+  heartbeat_every_ = stepsPer(kHeartbeatSlots, step_size);
+}
 
 void Reporter::afterStep(kiva::World& world) {
   Snapshot out;
@@ -65,6 +72,7 @@ void Reporter::afterStep(kiva::World& world) {
   addNews(world, &out);
   addPeriodic(world, &out);
   addPictures(world, &out);
+  out.mail = mail_.take();
   last_steps_ = world.steps();
   send(std::move(out));
 }
@@ -103,6 +111,7 @@ void Reporter::send(Snapshot snapshot) {
 }
 
 void Reporter::addNews(kiva::World& world, Snapshot* out) {
+  for (const std::string& warning : world.takeWarnings()) ROS_WARN("%s", warning.c_str());
   out->events = world.takeEvents();
   out->statuses = world.takeStatusChanges();
   for (const kiva::Event& event : out->events) {
@@ -161,7 +170,10 @@ void Reporter::addPeriodic(const kiva::World& world, Snapshot* out) {
     addOdometry(world, out);
     addTransforms(world, out);
   }
-  if (steps % models_every_ == 0) addModelStates(world, out);
+  if (steps % models_every_ == 0) {
+    addModelStates(world, out);
+    addLinkStates(world, out);
+  }
   if (!scan_ids_.empty()) addScans(world, out);
 }
 
@@ -209,6 +221,18 @@ void Reporter::addModelStates(const kiva::World& world, Snapshot* out) {
   out->models.emplace();
   out->models->names = names_;
   world.states(&out->models->states);
+}
+
+void Reporter::addLinkStates(const kiva::World& world, Snapshot* out) {
+  if (!audience_.listensTo(Audience::Topic::kLinkStates)) return;
+  std::vector<std::string> names;
+  out->links.emplace();
+  world.linkStates(&names, &out->links->states);
+  if (link_names_revision_ != world.modelsRevision()) {
+    link_names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+    link_names_revision_ = world.modelsRevision();
+  }
+  out->links->names = link_names_;
 }
 
 void Reporter::addPictures(const kiva::World& world, Snapshot* out) {

@@ -11,6 +11,7 @@
 
 #include "audience.h"
 #include "kiva_plugin_cpp/world.h"
+#include "mail.h"
 #include "outbox.h"
 #include "pacer.h"
 
@@ -23,12 +24,14 @@ namespace kiva_ros {
 class Reporter {
  public:
   struct Rates {
-    double clock = 100;                ///< [Hz], 0 = every step.
-    double model_states = 50;          ///< [Hz], 0 = every step.
-    WallClock::duration clock_gap{0};  ///< Least wall time between two clocks.
+    double clock = 100;        ///< [Hz], 0 = every step.
+    double model_states = 50;  ///< [Hz], 0 = every step.
   };
 
-  Reporter(const kiva::World& world, const Rates& rates, Audience& audience, Outbox& outbox);
+  /// `rtf`: as the engine's; where time flies, clocks are thinned out by the wall clock.
+  Reporter(const kiva::World& world, const Rates& rates, double rtf, Audience& audience, Mail& mail,
+           Outbox& outbox);
+  void retime(double step_size, double rtf);
 
   void afterStep(kiva::World& world);
   /// After requests were served between steps. `moved`: models may stand elsewhere than before.
@@ -51,13 +54,16 @@ class Reporter {
   void addForNewcomers(const kiva::World& world, Snapshot* out);
   void addScans(const kiva::World& world, Snapshot* out) const;
   void addModelStates(const kiva::World& world, Snapshot* out);
+  void addLinkStates(const kiva::World& world, Snapshot* out);
   void addPictures(const kiva::World& world, Snapshot* out);
 
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
+  const Rates rates_;
   Audience& audience_;
+  Mail& mail_;
   Outbox& outbox_;
-  const WallClock::duration clock_gap_;
+  WallClock::duration clock_gap_{0};  ///< Least wall time between two clocks.
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_,
       heartbeat_every_;  // steps
 
@@ -67,6 +73,8 @@ class Reporter {
   std::set<std::string> robots_;                           ///< Names of those in the last roster.
   std::shared_ptr<const std::vector<std::string>> names_;  ///< All models',
   std::uint64_t names_revision_ = kNever;                  ///< at that revision.
+  std::shared_ptr<const std::vector<std::string>> link_names_;
+  std::uint64_t link_names_revision_ = kNever;
 
   static constexpr int kHeartbeatSlots = 10;  ///< Each robot has one, so that load is level.
   std::array<WallClock::time_point, kHeartbeatSlots> heard_;

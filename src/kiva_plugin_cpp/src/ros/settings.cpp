@@ -2,10 +2,11 @@
 #include "settings.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+
+#include "packages.h"
 
 namespace kiva_ros {
 namespace {
@@ -56,29 +57,10 @@ std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string&
   refuse(node, name, XmlRpc::XmlRpcValue(drive), "traction, jointed or nothing");
 }
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
-
-Paths split(const std::string& list) {
-  Paths out;
-  std::istringstream folders(list);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (!folder.empty()) out.push_back(folder);
-  }
-  return out;
-}
-
 /// Where the worlds of package warehouse_sim are: in the source tree, or where it was installed.
 std::string packagedWorlds() {
-  for (const fs::path folder : split(environment("ROS_PACKAGE_PATH"))) {
-    for (const char* package : {"warehouse_sim", "src/warehouse_sim"}) {
-      const fs::path worlds = folder / package / "worlds";
-      if (fs::is_directory(worlds)) return worlds.string();
-    }
-  }
-  return "";
+  const std::string package = findPackage("warehouse_sim");
+  return package.empty() ? "" : package + "/worlds";
 }
 
 /// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.

@@ -18,8 +18,6 @@ SimulationServices::SimulationServices(ros::NodeHandle& node, Engine& engine) : 
   advertise(node, "reset_world", [reset] { reset(false); });
   servers_.push_back(
       node.advertiseService("get_world_properties", &SimulationServices::getWorld, this));
-  servers_.push_back(
-      node.advertiseService("get_physics_properties", &SimulationServices::getPhysics, this));
 }
 
 void SimulationServices::advertise(ros::NodeHandle& node, const std::string& name,
@@ -47,20 +45,6 @@ bool SimulationServices::getWorld(gazebo_msgs::GetWorldProperties::Request&,
     });
     response.rendering_enabled = false;
     return "GetWorldProperties: got properties";
-  });
-}
-
-/// The settings of ODE have no meaning here and stay zero.
-bool SimulationServices::getPhysics(gazebo_msgs::GetPhysicsProperties::Request&,
-                                    gazebo_msgs::GetPhysicsProperties::Response& response) {
-  return answer("GetPhysicsProperties", response, [&] {
-    engine_.run([&](kiva::World& world) {
-      response.time_step = world.stepSize();
-      response.gravity = toMessage(world.gravity());
-    });
-    response.pause = engine_.paused();
-    response.max_update_rate = engine_.targetFactor() / response.time_step;
-    return "GetPhysicsProperties: got properties";
   });
 }
 

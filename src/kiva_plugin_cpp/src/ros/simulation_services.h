@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gazebo_msgs/GetPhysicsProperties.h>
 #include <gazebo_msgs/GetWorldProperties.h>
 #include <ros/ros.h>
 #include <std_srvs/Empty.h>
@@ -14,8 +13,8 @@
 
 namespace kiva_ros {
 
-/// The simulation as a whole: pause_physics, unpause_physics, reset_simulation, reset_world,
-/// get_world_properties and get_physics_properties of Gazebo's node.
+/// The simulation as a whole: pause_physics, unpause_physics, reset_simulation, reset_world
+/// and get_world_properties of Gazebo's node.
 class SimulationServices {
  public:
   SimulationServices(ros::NodeHandle& node, Engine& engine);
@@ -24,8 +23,6 @@ class SimulationServices {
   void advertise(ros::NodeHandle& node, const std::string& name, std::function<void()> act);
   bool getWorld(gazebo_msgs::GetWorldProperties::Request& request,
                 gazebo_msgs::GetWorldProperties::Response& response);
-  bool getPhysics(gazebo_msgs::GetPhysicsProperties::Request& request,
-                  gazebo_msgs::GetPhysicsProperties::Response& response);
 
   Engine& engine_;
   std::vector<ros::ServiceServer> servers_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kiva_plugin_cpp/world.h"
+#include "mail.h"
 
 namespace kiva_ros {
 
@@ -37,6 +38,7 @@ struct RobotPose {
   double tower = 0;                ///< Above its rest [m].
 };
 
+/// Of all models, or of all links.
 struct ModelStates {
   std::shared_ptr<const std::vector<std::string>> names;  ///< The same object while none changes.
   std::vector<kiva::EntityState> states;
@@ -53,25 +55,30 @@ struct Snapshot {
   std::vector<kiva::StatusChange> statuses;
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;
+  std::vector<Mail::Letter> mail;
 
   // Periodic: the next one is as good.
   bool clock = false;
   std::optional<warehouse_msgs::FleetState> fleet;
   std::optional<ModelStates> models;
+  std::optional<ModelStates> links;
   std::vector<Scan> scans;
   std::vector<RobotPose> odometry;
   std::vector<RobotPose> transforms;
 
   bool hasOwed() const {
-    return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units;
+    return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units ||
+           !mail.empty();
   }
   bool hasPeriodic() const {
-    return clock || fleet || models || !scans.empty() || !odometry.empty() || !transforms.empty();
+    return clock || fleet || models || links || !scans.empty() || !odometry.empty() ||
+           !transforms.empty();
   }
   void dropPeriodic() {
     clock = false;
     fleet.reset();
     models.reset();
+    links.reset();
     scans.clear();
     odometry.clear();
     transforms.clear();

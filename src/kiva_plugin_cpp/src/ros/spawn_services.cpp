@@ -6,67 +6,93 @@
 #include "answer.h"
 #include "convert.h"
 #include "frames.h"
+#include "packages.h"
 
 namespace kiva_ros {
 namespace {
 
 /// The frame composes with `initial_pose`, and that with the poses of the document.
 void place(const kiva::World& world, const std::string& frame_name, const kiva::Pose& initial_pose,
-           std::vector<kiva::ModelInstance>* models) {
+           SpawnServices::Document* document) {
   const auto frame = frameState(world, frame_name);
   if (!frame) {
     throw Refusal(
         "SpawnModel: reference reference_frame not found, did you forget to scope the link by "
         "model name?");
   }
-  for (kiva::ModelInstance& model : *models) model.pose = frame->pose * initial_pose * model.pose;
+  const kiva::Pose origin = frame->pose * initial_pose;
+  for (kiva::ModelInstance& model : document->models) model.pose = origin * model.pose;
+  for (kiva::Light& light : document->lights) light.pose = origin * light.pose;
 }
 
-void checkNames(const kiva::World& world, const std::vector<kiva::ModelInstance>& models) {
-  for (const kiva::ModelInstance& model : models) {
-    if (!world.has(model.name)) continue;
-    const std::string which = models.size() > 1 ? " (" + model.name + ")" : "";
+bool hasLight(const kiva::World& world, const kiva::Light& light) {
+  return world.interventions().lights.count(light.name) > 0;
+}
+
+void checkNames(const kiva::World& world, const SpawnServices::Document& document) {
+  const auto check = [&](const std::string& name, bool is_taken) {
+    if (!is_taken) return;
+    const bool several = document.models.size() + document.lights.size() > 1;
+    const std::string which = several ? " (" + name + ")" : "";
     throw Refusal("SpawnModel: Failure - entity already exists." + which);
-  }
+  };
+  for (const kiva::ModelInstance& model : document.models) check(model.name, world.has(model.name));
+  if (!document.models.empty()) return;  // beside models, a light that is there stays as it is
+  for (const kiva::Light& light : document.lights) check(light.name, hasLight(world, light));
 }
 
 }  // namespace
 
 SpawnServices::SpawnServices(ros::NodeHandle& node, Engine& engine, kiva::ModelPaths model_paths)
     : engine_(engine), model_paths_(std::move(model_paths)) {
-  servers_.push_back(node.advertiseService("spawn_sdf_model", &SpawnServices::spawn, this));
+  using gazebo_msgs::SpawnModel;
+  servers_.push_back(serve<SpawnModel>(
+      node, "spawn_sdf_model", "SpawnModel",
+      [this](auto& request, auto&) { return spawn(request, request.model_xml); }));
+  servers_.push_back(
+      serve<SpawnModel>(node, "spawn_urdf_model", "SpawnModel", [this](auto& request, auto&) {
+        if (!kiva::isUrdf(request.model_xml)) {
+          throw Refusal("SpawnModel: Failure - model format is not URDF.");
+        }
+        return spawn(request, resolvePackages(request.model_xml));
+      }));
   servers_.push_back(node.advertiseService("delete_model", &SpawnServices::remove, this));
 }
 
-bool SpawnServices::spawn(gazebo_msgs::SpawnModel::Request& request,
-                          gazebo_msgs::SpawnModel::Response& response) {
-  return answer("SpawnModel", response, [&] {
-    const kiva::Pose initial_pose = fromMessage(request.initial_pose);
-    std::vector<kiva::ModelInstance> models = parse(request);
-    engine_.run([&](kiva::World& world) {
-      place(world, request.reference_frame, initial_pose, &models);
-      checkNames(world, models);
-      world.spawn(models);
-    });
-    return "SpawnModel: Successfully spawned entity";
+std::string SpawnServices::spawn(const gazebo_msgs::SpawnModel::Request& request,
+                                 const std::string& xml) {
+  const kiva::Pose initial_pose = fromMessage(request.initial_pose);
+  Document document = parse(request, xml);
+  engine_.run([&](kiva::World& world) {
+    place(world, request.reference_frame, initial_pose, &document);
+    checkNames(world, document);
+    world.spawn(document.models);
+    for (const kiva::Light& light : document.lights) {
+      if (!hasLight(world, light)) world.setLight(light);
+    }
   });
+  return "SpawnModel: Successfully spawned entity";
 }
 
 /// Off the step thread, since a large document takes longer than a step may.
-std::vector<kiva::ModelInstance> SpawnServices::parse(
-    const gazebo_msgs::SpawnModel::Request& request) {
+SpawnServices::Document SpawnServices::parse(const gazebo_msgs::SpawnModel::Request& request,
+                                             const std::string& xml) {
   std::vector<std::string> warnings;
+  Document out;
   std::unique_lock<std::mutex> lock(parsing_);
-  std::vector<kiva::ModelInstance> models =
-      kiva::parseModels(request.model_xml, model_paths_, "model_xml", &warnings);
+  out.models = kiva::parseModels(xml, model_paths_, "model_xml", &warnings, &out.lights);
   lock.unlock();
   for (const std::string& warning : warnings) {
     ROS_WARN("SpawnModel '%s': %s", request.model_name.c_str(), warning.c_str());
   }
-  if (models.empty()) throw Refusal("SpawnModel: Failure - model_xml holds no model");
-  // One model goes by the name that was asked for; several keep those of their document.
-  if (models.size() == 1) models.front().name = request.model_name;
-  return models;
+  // One goes by the name that was asked for; several keep those of their document.
+  if (out.models.size() == 1) {
+    out.models.front().name = request.model_name;
+  } else if (out.models.empty() && out.lights.size() == 1) {
+    out.lights.front().name = request.model_name;
+  }
+  for (kiva::ModelInstance& model : out.models) model.robot_namespace = request.robot_namespace;
+  return out;
 }
 
 bool SpawnServices::remove(gazebo_msgs::DeleteModel::Request& request,

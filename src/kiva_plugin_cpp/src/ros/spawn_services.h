@@ -13,17 +13,22 @@
 
 namespace kiva_ros {
 
-/// Models come and go: spawn_sdf_model and delete_model of Gazebo's node.
+/// Models come and go: spawn_sdf_model, spawn_urdf_model and delete_model of Gazebo's node.
 class SpawnServices {
  public:
   SpawnServices(ros::NodeHandle& node, Engine& engine, kiva::ModelPaths model_paths);
 
+  /// What a request asks for.
+  struct Document {
+    std::vector<kiva::ModelInstance> models;
+    std::vector<kiva::Light> lights;
+  };
+
  private:
-  bool spawn(gazebo_msgs::SpawnModel::Request& request,
-             gazebo_msgs::SpawnModel::Response& response);
+  std::string spawn(const gazebo_msgs::SpawnModel::Request& request, const std::string& xml);
   bool remove(gazebo_msgs::DeleteModel::Request& request,
               gazebo_msgs::DeleteModel::Response& response);
-  std::vector<kiva::ModelInstance> parse(const gazebo_msgs::SpawnModel::Request& request);
+  Document parse(const gazebo_msgs::SpawnModel::Request& request, const std::string& xml);
 
   Engine& engine_;
   const kiva::ModelPaths model_paths_;

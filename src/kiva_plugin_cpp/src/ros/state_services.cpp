@@ -43,7 +43,6 @@ StateServices::StateServices(ros::NodeHandle& root, ros::NodeHandle& node, Engin
     : engine_(engine) {
   servers_ = {root.advertiseService("/get_model_state", &StateServices::getModel, this),
               node.advertiseService("get_model_state", &StateServices::getModel, this),
-              node.advertiseService("get_link_state", &StateServices::getLink, this),
               node.advertiseService("get_model_properties", &StateServices::getProperties, this),
               node.advertiseService("set_model_state", &StateServices::setModel, this)};
   set_model_ = node.subscribe("set_model_state", kSetQueue, &StateServices::setModelByTopic, this,
@@ -66,28 +65,6 @@ bool StateServices::getModel(gazebo_msgs::GetModelState::Request& request,
       response.twist = toMessage(seen.twist);
     });
     return "GetModelState: got properties";
-  });
-}
-
-bool StateServices::getLink(gazebo_msgs::GetLinkState::Request& request,
-                            gazebo_msgs::GetLinkState::Response& response) {
-  return answer("GetLinkState", response, [&] {
-    const auto [model, link] = splitScoped(request.link_name);
-    const auto seen = engine_.run([&, model = model, link = link](kiva::World& world) {
-      const auto state = link.empty() ? std::nullopt : world.state(model, link);
-      if (!state) {
-        throw Refusal(
-            "GetLinkState: link not found, did you forget to scope the link by model name?");
-      }
-      return seenFrom(world, request.reference_frame, *state,
-                      "GetLinkState: reference reference_frame not found, did you forget to scope "
-                      "the link by model name?");
-    });
-    response.link_state.link_name = request.link_name;
-    response.link_state.reference_frame = request.reference_frame;
-    response.link_state.pose = toMessage(seen.pose);
-    response.link_state.twist = toMessage(seen.twist);
-    return "GetLinkState: got state";
   });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gazebo_msgs/GetLinkState.h>
 #include <gazebo_msgs/GetModelProperties.h>
 #include <gazebo_msgs/GetModelState.h>
 #include <gazebo_msgs/SetModelState.h>
@@ -17,7 +16,7 @@
 namespace kiva_ros {
 
 /// Where models are, what they are made of, and putting them elsewhere: get_model_state (at the
-/// root as well), get_link_state, get_model_properties, set_model_state and its topic.
+/// root as well), get_model_properties, set_model_state and its topic.
 class StateServices {
  public:
   StateServices(ros::NodeHandle& root, ros::NodeHandle& node, Engine& engine);
@@ -25,8 +24,6 @@ class StateServices {
  private:
   bool getModel(gazebo_msgs::GetModelState::Request& request,
                 gazebo_msgs::GetModelState::Response& response);
-  bool getLink(gazebo_msgs::GetLinkState::Request& request,
-               gazebo_msgs::GetLinkState::Response& response);
   bool getProperties(gazebo_msgs::GetModelProperties::Request& request,
                      gazebo_msgs::GetModelProperties::Response& response);
   bool setModel(gazebo_msgs::SetModelState::Request& request,

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gazebo_msgs/ContactsState.h>
+
+#include <set>
+#include <string>
+
+#include "gazebo_plugin.h"
+
+namespace kiva_ros {
+
+/// libgazebo_ros_bumper.so in a <sensor type="contact">: what its collisions touch, in world.
+class Bumper : public GazeboPlugin {
+ public:
+  using GazeboPlugin::GazeboPlugin;
+  void load(kiva::World& world, const std::string& model,
+            const kiva::Parameters& parameters) override;
+  void afterStep(const kiva::World& world, double dt) override;
+
+ private:
+  std::set<std::string> collisions_;  ///< `model::link::collision`
+  std::string frame_;
+  Schedule schedule_;
+  ros::Publisher publisher_;
+};
+
+}  // namespace kiva_ros

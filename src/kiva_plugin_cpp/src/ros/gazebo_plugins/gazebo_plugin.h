@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the stand-ins for gazebo_ros' plugins share. They run on the step thread; what they publish
+// goes by mail.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "kiva_plugin_cpp/plugin.h"
+#include "kiva_plugin_cpp/world.h"
+#include "ros/mail.h"
+
+namespace kiva_ros {
+
+struct PluginContext {
+  ros::NodeHandle& root;
+  Mail& mail;
+  const kiva::SensorDescription* sensor;  ///< Null for a plugin of a model.
+};
+
+/// Tells when something is due at a rate of simulated time, also after time went back.
+class Schedule {
+ public:
+  /// 0 = every step.
+  explicit Schedule(double rate = 0) : period_(rate > 0 ? 1 / rate : 0) {}
+  bool isDue(double now);
+
+ private:
+  double period_;
+  double next_ = 0, last_ = 0;
+};
+
+/// Normally distributed noise with mean 0 and deviation 1; the same for the same arguments, so that
+/// a run can be repeated from anywhere in it.
+double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index);
+
+class GazeboPlugin : public kiva::Plugin {
+ public:
+  explicit GazeboPlugin(const PluginContext& context)
+      : root_(context.root), mail_(context.mail), sensor_(context.sensor) {}
+  bool isStrict() const override { return false; }
+
+ protected:
+  /// Reads `robotNamespace`; topics are in it from now on. `fallback`: where there is none.
+  void enter(const kiva::World& world, const std::string& model, const kiva::Parameters& parameters,
+             const std::string& fallback);
+  /// Reads what plugins of Gazebo take and ours have no use for.
+  static void skip(const kiva::Parameters& parameters, std::initializer_list<const char*> keys);
+  /// A frame's name behind the prefix that holds for this namespace; `prefix_by_namespace`: the
+  /// namespace itself is one where the parameter tf_prefix is not set.
+  std::string frame(const std::string& name, bool prefix_by_namespace = false) const;
+  /// The sensor that this plugin sits in. Throws DescriptionError if there is none of such a type.
+  const kiva::SensorDescription& sensor(const kiva::Parameters& parameters,
+                                        const std::string& types) const;
+  /// A link's name, given with its model's or without. Throws DescriptionError if there is none.
+  std::string link(const kiva::Parameters& parameters, const std::string& key) const;
+
+  ros::NodeHandle& node() { return *node_; }
+  const std::string& model() const { return model_; }
+  const kiva::ModelDescription& description() const { return *description_; }
+  std::uint64_t seed() const { return seed_; }
+
+  template <typename Message>
+  void publish(const ros::Publisher& publisher, Message message) {
+    mail_.post([publisher, message = std::move(message)] { publisher.publish(message); });
+  }
+
+ private:
+  ros::NodeHandle& root_;
+  Mail& mail_;
+  const kiva::SensorDescription* sensor_;
+  std::unique_ptr<ros::NodeHandle> node_;
+  std::string namespace_, model_;
+  std::shared_ptr<const kiva::ModelDescription> description_;
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace kiva_ros

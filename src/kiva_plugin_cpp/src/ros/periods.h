@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/duration.h>
+#include <ros/time.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "kiva_plugin_cpp/world.h"
+
+namespace kiva_ros {
+
+/// As Gazebo's clients ask for it: a start in the past is now, a negative duration is for ever, and
+/// anything acts for one step at least.
+inline kiva::Period periodOf(const kiva::World& world, const ros::Time& start_time,
+                             const ros::Duration& duration) {
+  const double start = std::max(start_time.toSec(), world.time());
+  const double length = duration.toSec();
+  const double end = length < 0 ? std::numeric_limits<double>::infinity()
+                                : start + std::max(length, world.stepSize());
+  return {start, end};
+}
+
+/// Throws std::invalid_argument where a force would leave nothing but infinities behind.
+inline void checkSize(double size, const std::string& what) {
+  constexpr double kMost = 1e9;  // [N, Nm]
+  if (!(size <= kMost)) throw std::invalid_argument("the " + what + " must be below 1e9 N or Nm");
+}
+
+}  // namespace kiva_ros
