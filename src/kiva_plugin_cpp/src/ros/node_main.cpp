@@ -20,6 +20,7 @@
 #include "performance.h"
 #include "reporter.h"
 #include "settings.h"
+#include "showcase.h"
 #include "simulation_services.h"
 #include "spawn_services.h"
 #include "state_services.h"
@@ -79,6 +80,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   SimulationServices simulation_services(node, engine);
   StateServices state_services(root, node, engine);
   Performance performance(node, engine);
+  Showcase showcase(root, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
 
   announce(world, settings, rtf);

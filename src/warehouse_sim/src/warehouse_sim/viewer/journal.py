@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The last events, numbered, for readers that come late or read slowly."""
+
+import threading
+from collections import deque
+
+KEPT = 2000
+
+
+class Journal:
+    """Events as dicts with a running `id`. Any thread may add, any may read."""
+
+    def __init__(self, kept=KEPT):
+        self._lock, self._events, self.last_id = threading.Lock(), deque(maxlen=kept), 0
+
+    def add(self, event):
+        """Takes a warehouse_msgs/Event in; returns its entry."""
+        with self._lock:
+            self.last_id += 1
+            entry = entry_of(event) | {"id": self.last_id}
+            self._events.append(entry)
+            return entry
+
+    def since(self, number, model=None, limit=KEPT):
+        """The newest `limit` of the entries with an id above `number`, oldest first."""
+        if number >= self.last_id:
+            return []
+        with self._lock:
+            found = [
+                e
+                for e in self._events
+                if e["id"] > number and (model is None or model in (e["model"], e["other"]))
+            ]
+        return found[-limit:]
+
+
+KINDS = (
+    "ACCEPTED REFUSED DONE BLOCKED LIFTED DROPPED COLLISION SPAWNED DELETED".split()
+)  # by Event.kind
+
+
+def entry_of(event):
+    kind = KINDS[event.kind] if event.kind < len(KINDS) else str(event.kind)
+    return {
+        "time": round(event.header.stamp.to_sec(), 3),
+        "kind": kind,
+        "model": event.model,
+        "other": event.other,
+        "text": event.text,
+    }
