@@ -124,9 +124,7 @@ def _add_robots(out, desk):
         offset: int = Offset,
     ):
         """Robots with their poses and status."""
-        found = [
-            r for r in await desk.robots() if name in r.name and status in (None, r.status)
-        ]
+        found = [r for r in await desk.robots() if name in r.name and status in (None, r.status)]
         return {"total": len(found), "robots": found[offset : offset + limit]}
 
     @out.get("/robots/{number}", response_model=schemas.Robot, responses=_problems(404))

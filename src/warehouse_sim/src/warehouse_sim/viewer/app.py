@@ -22,6 +22,7 @@ from warehouse_sim.viewer.simulation import Simulation
 THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
 MOST_SOCKETS = 50
 MOST_MESSAGE = 64 * 1024  # from a page [bytes]
+FRESH = {"cache-control": "no-cache"}
 TRY_AGAIN = 1013  # a WebSocket's close code
 
 
@@ -65,10 +66,10 @@ class Viewer:
         app.include_router(api.router(self.desk))
         self._add_sockets(app)
         self._add_files(app)
-        app.add_event_handler("startup", self._start)
         return Gate(app, token, rate)
 
-    async def _start(self):
+    def start(self):
+        """Begins to serve pages, in the running asyncio loop."""
         self._loop = asyncio.get_running_loop()
         self._running = asyncio.create_task(self.hub.run())
 
@@ -97,7 +98,9 @@ class Viewer:
 
     def _add_files(self, app):
         def page(name):
-            return lambda: FileResponse(f"{self._web}/{name}", headers={"cache-control": "no-cache"})
+            return lambda: FileResponse(
+                f"{self._web}/{name}", headers={"cache-control": "no-cache"}
+            )
 
         app.get("/", include_in_schema=False)(page("index.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
@@ -110,12 +113,20 @@ class FreshFiles(StaticFiles):
 
     def file_response(self, *args, **kwargs):
         response = super().file_response(*args, **kwargs)
-        response.headers["cache-control"] = "no-cache"
+        response.headers.update(FRESH)
         return response
 
 
 class Server(uvicorn.Server):
     """Ends at once when told to: pages come back by themselves."""
+
+    def __init__(self, config, viewer):
+        super().__init__(config)
+        self._viewer = viewer
+
+    async def startup(self, sockets=None):
+        await super().startup(sockets)
+        self._viewer.start()
 
     def handle_exit(self, sig, frame):
         self.should_exit = self.force_exit = True
@@ -135,12 +146,12 @@ def listen(host, port):
     return out
 
 
-def server_of(application):
-    """A Server for it; run it with the sockets to listen at."""
+def server_of(viewer, token="", rate=100):
+    """A Server for a Viewer; run it with the sockets to listen at."""
     return Server(
         uvicorn.Config(
-            application,
-            lifespan="on",
+            viewer.application(token, rate),
+            lifespan="off",
             log_level="warning",
             access_log=False,
             server_header=False,
@@ -148,5 +159,6 @@ def server_of(application):
             ws_max_size=MOST_MESSAGE,
             # Numbers hardly shrink, and it would cost more than all else here.
             ws_per_message_deflate=False,
-        )
+        ),
+        viewer,
     )

@@ -10,8 +10,9 @@ from urllib.parse import parse_qs, urlsplit
 
 MOST_BODY = 64 * 1024  # [bytes]
 COOKIE = "warehouse_token"
+CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
-    (b"content-security-policy", b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"),
+    (b"content-security-policy", CONTENT),
     (b"x-content-type-options", b"nosniff"),
     (b"referrer-policy", b"no-referrer"),
 ]

@@ -4,7 +4,12 @@
 import threading
 from collections import deque
 
+from warehouse_msgs.msg import Event
+
 KEPT = 2000
+KINDS = {
+    value: name for name, value in vars(Event).items() if name.isupper() and isinstance(value, int)
+}
 
 
 class Journal:
@@ -34,16 +39,24 @@ class Journal:
         return found[-limit:]
 
 
-KINDS = (
-    "ACCEPTED REFUSED DONE BLOCKED LIFTED DROPPED COLLISION SPAWNED DELETED".split()
-)  # by Event.kind
+KINDS = [
+    "ACCEPTED",
+    "REFUSED",
+    "DONE",
+    "BLOCKED",
+    "LIFTED",
+    "DROPPED",
+    "COLLISION",
+    "SPAWNED",
+    "DELETED",
+]  # by Event.kind
 
 
 def entry_of(event):
-    kind = KINDS[event.kind] if event.kind < len(KINDS) else str(event.kind)
+    """An Event as the API tells it, but for its id."""
     return {
         "time": round(event.header.stamp.to_sec(), 3),
-        "kind": kind,
+        "kind": KINDS.get(event.kind, str(event.kind)),
         "model": event.model,
         "other": event.other,
         "text": event.text,

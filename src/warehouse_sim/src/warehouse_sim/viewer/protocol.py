@@ -23,7 +23,8 @@ import numpy as np
 VERSION = 1
 UPDATE, SCAN = 1, 2
 
-# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; KivaStatus's status and state.
+# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
+# KivaStatus.
 ROBOT = np.dtype(
     [
         ("index", "<u4"),
