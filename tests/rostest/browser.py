@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
-OPTIONS = [
+OPTIONS = (
     "--headless",
     "--no-sandbox",
     "--use-gl=angle",
@@ -21,7 +21,7 @@ OPTIONS = [
     "--disable-sync",
     "--hide-scrollbars",
     "--window-size=1280,720",
-]
+)
 
 
 class Browser:

@@ -39,19 +39,6 @@ class Journal:
         return found[-limit:]
 
 
-KINDS = [
-    "ACCEPTED",
-    "REFUSED",
-    "DONE",
-    "BLOCKED",
-    "LIFTED",
-    "DROPPED",
-    "COLLISION",
-    "SPAWNED",
-    "DELETED",
-]  # by Event.kind
-
-
 def entry_of(event):
     """An Event as the API tells it, but for its id."""
     return {
