@@ -10,8 +10,10 @@ const HALO = { inner: 0.40, outer: 0.49 }; // half edges of the frame around a r
 const WHEEL_RADIUS = 0.1, WHEEL_TRACK = 0.52; // [m], as in worlds/models/kiva
 const SLATS = 6, SLAT_WAY = 1.66, BELT_TOP = 0.592, BELT_SPEED = 0.4; // [m], [m/s]
 
+// Thousands of matrices a frame: these are reused.
 const scratch = new THREE.Matrix4();
 const local = new THREE.Matrix4();
+const turn = new THREE.Matrix4();
 
 export class Actors {
   constructor(stage, world) {
@@ -91,7 +93,7 @@ export class Actors {
   placeRobots(robots) {
     const { shown } = this.world;
     for (const i of robots) {
-      const [x, y, yaw] = [shown[3 * i], shown[3 * i + 1], shown[3 * i + 2]];
+      const x = shown[3 * i], y = shown[3 * i + 1], yaw = shown[3 * i + 2];
       this.roll(i, x, y, yaw);
       planar(scratch, x, y, yaw).toArray(this.base.robot, 16 * i);
       for (const mesh of [this.chassis, this.halo]) mesh?.setMatrixAt(i, scratch);
@@ -105,20 +107,20 @@ export class Actors {
 
   /** Turns the wheels by the way from where the robot was drawn last. */
   roll(i, x, y, yaw) {
-    const old = this.base.robot.subarray(16 * i);
-    const [c, s] = [old[0], old[1]]; // of the old heading
-    const ahead = c * (x - old[12]) + s * (y - old[13]);
+    const old = this.base.robot, at = 16 * i;
+    const c = old[at], s = old[at + 1]; // of the old heading
+    const ahead = c * (x - old[at + 12]) + s * (y - old[at + 13]);
     const turned = Math.asin(Math.max(-1, Math.min(1, c * Math.sin(yaw) - s * Math.cos(yaw))));
-    [-1, 1].forEach((side, wheel) => {
-      this.rolled[2 * i + wheel] += (ahead + side * turned * WHEEL_TRACK / 2) / WHEEL_RADIUS;
-    });
+    const apart = turned * WHEEL_TRACK / 2;
+    this.rolled[2 * i] += (ahead - apart) / WHEEL_RADIUS;
+    this.rolled[2 * i + 1] += (ahead + apart) / WHEEL_RADIUS;
   }
 
   placeJoints(i, tower) {
     this.joints.forEach((joint, which) => {
       if (!joint) return;
       local.copy(joint.place);
-      if (which < 2) local.multiply(aboutY(this.rolled[2 * i + which]));
+      if (which < 2) local.multiply(turn.makeRotationY(this.rolled[2 * i + which]));
       else local.elements[14] += tower;
       joint.mesh.setMatrixAt(i, local.premultiply(scratch));
     });
@@ -222,10 +224,6 @@ function touch(meshes) {
 function planar(matrix, x, y, yaw) {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   return matrix.set(c, -s, 0, x, s, c, 0, y, 0, 0, 1, 0, 0, 0, 0, 1);
-}
-
-function aboutY(angle) {
-  return new THREE.Matrix4().makeRotationY(angle);
 }
 
 function poseMatrix(poses, i) {

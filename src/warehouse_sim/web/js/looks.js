@@ -3,12 +3,12 @@
 
 import * as THREE from '/three/build/three.module.js';
 
-const ROUND = 14; // segments of a circle
+const ROUND = 12; // segments of a circle
 
 function primitive(kind, [x, y, z]) {
   let out;
   if (kind === 1 || kind === 4) {
-    out = new THREE.SphereBufferGeometry(0.5, ROUND, ROUND / 2).scale(x, y, z);
+    out = new THREE.SphereBufferGeometry(0.5, ROUND, 6).scale(x, y, z);
   } else if (kind === 2) {
     out = new THREE.CylinderBufferGeometry(x / 2, x / 2, z, ROUND).rotateX(Math.PI / 2);
   } else if (kind === 3) {
@@ -22,7 +22,7 @@ function primitive(kind, [x, y, z]) {
 }
 
 function capsule(radius, length) {
-  const ball = (z) => new THREE.SphereBufferGeometry(radius, ROUND, ROUND / 2).translate(0, 0, z);
+  const ball = (z) => new THREE.SphereBufferGeometry(radius, ROUND, 6).translate(0, 0, z);
   const rod = new THREE.CylinderBufferGeometry(radius, radius, length, ROUND).rotateX(Math.PI / 2);
   return [rod, ball(length / 2), ball(-length / 2)];
 }

@@ -19,7 +19,7 @@ export class Navigator {
     const tilt = above ? 1e-4 : 0.85; // from the vertical [rad]
     const half = Math.tan(camera.fov * Math.PI / 360);
     const across = (x1 - x0) / (2 * half * camera.aspect * width);
-    const along = (y1 - y0) * (above ? 1 : 0.85) / (2 * half * height);
+    const along = (y1 - y0) * (above ? 1 : Math.cos(tilt)) / (2 * half * height);
     // Seen at a slant, the near edge is wider than the middle.
     const distance = (above ? 1.05 : 1.18) * Math.max(across, along) + 1;
     this.look(centre, distance, tilt);

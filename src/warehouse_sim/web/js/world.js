@@ -84,13 +84,13 @@ export class World {
   advance(now) {
     const moved = [...this.moving];
     const duration = 1.15 * Math.min(250, Math.max(50, this.interval));
+    const { pose, from, shown } = this;
     for (const i of moved) {
       const part = Math.min(1, (now - this.since[i]) / duration);
-      for (let axis = 0; axis < 3; ++axis) {
-        const at = 3 * i + axis;
-        const way = this.pose[at] - this.from[at];
-        this.shown[at] = this.from[at] + part * (axis === 2 ? wrapped(way) : way);
-      }
+      const at = 3 * i;
+      shown[at] = from[at] + part * (pose[at] - from[at]);
+      shown[at + 1] = from[at + 1] + part * (pose[at + 1] - from[at + 1]);
+      shown[at + 2] = from[at + 2] + part * wrapped(pose[at + 2] - from[at + 2]);
       if (part === 1) this.moving.delete(i);
     }
     return moved;

@@ -2,7 +2,9 @@
 """The web application: the page, its WebSocket, the API; and the server it runs in."""
 
 import asyncio
+import os
 import socket
+import threading
 from contextlib import suppress
 
 import uvicorn
@@ -118,7 +120,9 @@ class FreshFiles(StaticFiles):
 
 
 class Server(uvicorn.Server):
-    """Ends at once when told to: pages come back by themselves."""
+    """Ends when told to: pages come back by themselves."""
+
+    GRACE = 1.0  # for a service call to a world that may be gone already [s, wall]
 
     def __init__(self, config, viewer):
         super().__init__(config)
@@ -130,6 +134,9 @@ class Server(uvicorn.Server):
 
     def handle_exit(self, sig, frame):
         self.should_exit = self.force_exit = True
+        end = threading.Timer(self.GRACE, os._exit, (0,))
+        end.daemon = True
+        end.start()
 
 
 def listen(host, port):
