@@ -158,9 +158,9 @@ class Hub:
     async def _send_forever(self, page):
         with suppress(WebSocketDisconnect, RuntimeError):
             while True:
-                await self._send_news(page)
+                if page.in_flight < IN_FLIGHT:
+                    await self._send_news(page)
                 async with self._turn:
-                    await self._turn.wait_for(lambda: page.in_flight < IN_FLIGHT)
                     await self._turn.wait()
 
     async def _send_news(self, page):

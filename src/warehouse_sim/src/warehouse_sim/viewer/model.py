@@ -98,30 +98,30 @@ class Model:
         )
 
     def _take_units(self, states):
-        """A carried unit's row holds its pose on its carrier, which changes only while that stands.
-
-        So it costs nothing to send while it is driven about, and never lags behind its robot.
-        """
         self.stamp = max(self.stamp, states.header.stamp.to_sec())
         pose, carrier = poses.rows(states.pose).copy(), np.array(states.carrier, int)
         robot = np.array([self._robot_of.get(n, -1) for n in carrier.tolist()], int)
-        carried = np.flatnonzero(robot >= 0)
         carrier[robot < 0] = 0
-        fleet = self._fleet
+        carried = np.flatnonzero(carrier)
         if len(carried):
-            on = robot[carried]
-            frame = _planar(np.asarray(fleet.x)[on], np.asarray(fleet.y)[on], fleet.yaw[on])
-            inner = poses.compose(poses.inverse(frame), pose[carried])
-            drives = ~self._stands(on)
-            known = self.units.rows["carrier"][carried] == carrier[carried]
-            inner[~known & drives] = _centred(inner[~known & drives])
-            keep = known & drives
-            inner[keep] = self.units.rows["pose"][carried[keep]]
-            pose[carried] = inner
+            pose[carried] = self._on_carriers(carried, robot[carried], pose[carried])
         moved = self.units.set(self.tick, pose=pose, carrier=carrier)
         loose = self.loose.rows["pose"].copy()
         loose[list(states.loose_item)] = poses.rows(states.loose_pose)
         return self.loose.set(self.tick, pose=loose) or moved
+
+    def _on_carriers(self, units, robots, pose):
+        """Poses of carried units on their robots; they change only while the robot stands.
+
+        So a unit costs nothing to send while it is driven about, and never lags behind its robot.
+        """
+        x, y, yaw = (np.asarray(c)[robots] for c in (self._fleet.x, self._fleet.y, self._fleet.yaw))
+        inner = poses.compose(poses.inverse(_planar(x, y, yaw)), pose)
+        drives = ~self._stands(robots)
+        known = self.units.rows["carrier"][units] == self._kiva_id[robots]
+        inner[drives & ~known] = _centred(inner[drives & ~known])
+        inner[drives & known] = self.units.rows["pose"][units[drives & known]]
+        return inner
 
     def _stands(self, robots):
         speeds = np.abs([self._fleet.vx, self._fleet.vy, self._fleet.yaw_rate])
