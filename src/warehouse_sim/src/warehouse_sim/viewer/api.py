@@ -6,6 +6,7 @@ from typing import Literal
 
 from fastapi import APIRouter, HTTPException, Path, Query
 from fastapi.responses import JSONResponse
+from starlette.routing import Match
 
 from warehouse_sim.viewer import catalogue, schemas
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
@@ -14,7 +15,11 @@ PATIENCE = 3.0  # for the first messages, when nobody looked for long [s, wall]
 
 
 def _problems(*codes):
+    """Answers beside the good one: what may always come, and these."""
     return {code: {"model": schemas.Problem} for code in (*codes, 401, 403, 429, 503)}
+
+
+SENT = (400, 409, 413)  # wherever something is sent
 
 
 Limit = Query(100, ge=1, le=schemas.MOST_ROWS, description="rows in the answer")
@@ -67,6 +72,16 @@ class Desk:
             raise HTTPException(503, str(error)) from error
 
 
+async def not_allowed(request, error):
+    """405 with all methods of the path: its routes are one for each."""
+    routes = [
+        route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE
+    ]
+    methods = sorted(set().union(*(getattr(route, "methods", None) or () for route in routes)))
+    headers = {"allow": ", ".join(methods)}
+    return JSONResponse({"detail": error.detail}, error.status_code, headers=headers)
+
+
 def router(desk):
     """All routes below /api/v1."""
     out = APIRouter(prefix="/api/v1")
@@ -99,7 +114,7 @@ def _add_warehouse(out, desk):
             **await desk.do("state"),
         }
 
-    @out.post("/warehouse", response_model=schemas.Done, responses=_problems(409, 413))
+    @out.post("/warehouse", response_model=schemas.Done, responses=_problems(*SENT))
     async def create_warehouse(wanted: schemas.NewWarehouse):
         """Builds a warehouse in place of the one that stands."""
         counts = (wanted.robots, wanted.items, wanted.shelves)
@@ -135,13 +150,13 @@ def _add_robots(out, desk):
     @out.post(
         "/robots/{number}/commands",
         response_model=schemas.Outcome,
-        responses=_problems(404, 409, 413) | {202: {"model": schemas.Outcome}},
+        responses=_problems(404, *SENT) | {202: {"model": schemas.Outcome}},
     )
     async def command_robot(
         command: schemas.Command,
         number: int = Number,
         wait: Literal["answer", "end"] = Query("answer", description="for what to wait"),
-        timeout: float = Query(10, gt=0, le=300, description="[s, wall]; then: pending"),
+        timeout: float = Query(10, ge=0.01, le=300, description="[s, wall]; then: pending"),
     ):
         """Sends a command. A refused one answers 409 with the reason."""
         await desk.robot(number)
@@ -185,7 +200,7 @@ def _add_things(out, desk, kind, noun):
 
 def _add_simulation(out, desk):
     def offer(path, action, body=None):
-        answers = {"response_model": schemas.Done, "responses": _problems(409, 413)}
+        answers = {"response_model": schemas.Done, "responses": _problems(*SENT)}
         if body is None:
 
             async def act():

@@ -43,8 +43,9 @@ class Viewer:
 
     def _on_event(self, event):
         entry = self.journal.add(event)
-        if self._loop:
-            self._loop.call_soon_threadsafe(self._note, event, entry)
+        with suppress(RuntimeError):  # the loop has ended
+            if self._loop:
+                self._loop.call_soon_threadsafe(self._note, event, entry)
 
     def _note(self, event, entry):
         self.model.note(event)
@@ -66,6 +67,7 @@ class Viewer:
             openapi_url="/api/v1/openapi.json",
         )
         app.include_router(api.router(self.desk))
+        app.add_exception_handler(405, api.not_allowed)
         self._add_sockets(app)
         self._add_files(app)
         return Gate(app, token, rate)

@@ -48,8 +48,9 @@ class Hub:
 
     def news(self):
         """Something came that a page may want to show."""
-        if self._loop:
-            self._loop.call_soon_threadsafe(self._news.set)
+        with suppress(RuntimeError):  # the loop has ended
+            if self._loop:
+                self._loop.call_soon_threadsafe(self._news.set)
 
     @property
     def pages(self):

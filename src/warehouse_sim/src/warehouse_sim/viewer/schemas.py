@@ -3,19 +3,53 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, Extra, Field, confloat, conint, constr
+from pydantic import BaseModel, ConstrainedFloat, Extra, Field, StrictBool, conint, constr
+from pydantic.errors import DictError
 
 INT32 = 2**31 - 1
 MOST_ROWS = 1000  # of a list, in one answer
 
 Int32 = conint(ge=-INT32 - 1, le=INT32, strict=True)
-Finite = confloat(allow_inf_nan=False)
-Name = constr(max_length=100, regex=r"^[ -~]*$")
+Name = constr(max_length=100, regex=r"^[ -~]*$", strict=True)
+Label = constr(min_length=1, max_length=100, regex=r"^[A-Za-z0-9_.-]+$", strict=True)
+
+
+class Number(ConstrainedFloat):
+    """A finite number; no text that looks like one."""
+
+    allow_inf_nan = False
+
+    @classmethod
+    def __get_validators__(cls):
+        yield cls._check
+        yield from super().__get_validators__()
+
+    @classmethod
+    def _check(cls, value):
+        # An integer too large for a float would be an error of ours further on.
+        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > 1e300:
+            raise ValueError("a finite number was expected")
+        return value
+
+
+class Factor(Number):
+    ge, le = 0, 1000
+
+
+class Seconds(Number):
+    ge, le = 0.001, 1e6
 
 
 class _Body(BaseModel):
     class Config:
         extra = Extra.forbid
+
+    @classmethod
+    def validate(cls, value):
+        # pydantic would take a list of pairs, an empty one too.
+        if isinstance(value, list):
+            raise DictError
+        return super().validate(value)
 
 
 # --- in
@@ -23,22 +57,22 @@ class Mov(_Body):
     """Go to (x, y): along x first, then along y."""
 
     command: Literal["mov"]
-    x: Finite = Field(description="[m]")
-    y: Finite = Field(description="[m]")
+    x: Number = Field(description="[m]")
+    y: Number = Field(description="[m]")
 
 
 class MovX(_Body):
     """Go along the world's x axis."""
 
     command: Literal["movx"]
-    distance: Finite = Field(description="[m], signed, a whole number of cells")
+    distance: Number = Field(description="[m], signed, a whole number of cells")
 
 
 class MovY(_Body):
     """Go along the world's y axis."""
 
     command: Literal["movy"]
-    distance: Finite = Field(description="[m], signed, a whole number of cells")
+    distance: Number = Field(description="[m], signed, a whole number of cells")
 
 
 class Rot(_Body):
@@ -72,7 +106,7 @@ class NewWarehouse(_Body):
 
 
 class Reset(_Body):
-    time_too: bool = Field(True, description="false: models alone go back to where they came")
+    time_too: StrictBool = Field(True, description="false: models alone go back to where they came")
 
 
 class Step(_Body):
@@ -80,17 +114,15 @@ class Step(_Body):
 
 
 class Speed(_Body):
-    factor: confloat(ge=0, le=1000, allow_inf_nan=False) = Field(
-        description="simulated seconds a wall second; 0: as fast as it goes"
-    )
+    factor: Factor = Field(description="simulated seconds a wall second; 0: as fast as it goes")
 
 
 class Checkpoint(_Body):
-    name: constr(min_length=1, max_length=100, regex=r"^[A-Za-z0-9_.-]+$")
+    name: Label
 
 
 class Undo(_Body):
-    seconds: confloat(gt=0, le=1e6, allow_inf_nan=False) = Field(description="[s], simulated")
+    seconds: Seconds = Field(description="[s], simulated")
 
 
 # --- out
