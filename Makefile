@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo test build deps bench lint format install clean
+.PHONY: help run demo test test-api build deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -17,7 +17,7 @@ BUILD = cmake --build build -j$(JOBS) -- --no-print-directory
 DEVEL := . devel/setup.bash; exec setpriv --pdeathsig TERM
 
 help:  ## list the targets
-	@sed -nE 's/^([a-z]+):[^#]*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' Makefile | expand -t 18
 
 run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
@@ -30,6 +30,9 @@ demo: build  ## watch robots fetch storage units, meet head on and recover
 test: build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
+
+test-api: build  ## let schemathesis look for wrong answers of the HTTP API
+	@scripts/fuzz_api $(ARGS)
 
 build: deps build/Makefile  ## compile everything but the tests
 	@$(BUILD)

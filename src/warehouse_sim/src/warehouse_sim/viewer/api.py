@@ -4,7 +4,7 @@
 import asyncio
 from typing import Literal
 
-from fastapi import APIRouter, HTTPException, Path, Query
+from fastapi import APIRouter, Body, HTTPException, Path, Query
 from fastapi.responses import JSONResponse
 from starlette.routing import Match
 
@@ -153,7 +153,7 @@ def _add_robots(out, desk):
         responses=_problems(404, *SENT) | {202: {"model": schemas.Outcome}},
     )
     async def command_robot(
-        command: schemas.Command,
+        command: schemas.Command = Body(discriminator="command"),
         number: int = Number,
         wait: Literal["answer", "end"] = Query("answer", description="for what to wait"),
         timeout: float = Query(10, ge=0.01, le=300, description="[s, wall]; then: pending"),
@@ -179,6 +179,7 @@ def _add_things(out, desk, kind, noun):
         limit: int = Limit,
         offset: int = Offset,
     ):
+        """Those with a fitting name, and where each is."""
         tracked = await desk.things(kind)
         found = catalogue.find(tracked, name, storage_unit)
         rows = [catalogue.thing(tracked, i) for i in found[offset : offset + limit]]
@@ -191,6 +192,7 @@ def _add_things(out, desk, kind, noun):
         responses=_problems(404),
     )
     async def get_one(number: int = Number):
+        """One, and where it is."""
         tracked = await desk.things(kind)
         try:
             return catalogue.thing(tracked, tracked.names.index(f"{noun}{number}"))
@@ -199,7 +201,7 @@ def _add_things(out, desk, kind, noun):
 
 
 def _add_simulation(out, desk):
-    def offer(path, action, body=None):
+    def offer(action, about, body=None):
         answers = {"response_model": schemas.Done, "responses": _problems(*SENT)}
         if body is None:
 
@@ -210,14 +212,13 @@ def _add_simulation(out, desk):
             async def act(wanted: body):
                 return {"message": await desk.do(action, *wanted.dict().values())}
 
-        act.__doc__ = getattr(type(desk.simulation), action).__doc__
-        out.post(f"/simulation/{path}", name=action, **answers)(act)
+        out.post(f"/simulation/{action}", name=action, description=about, **answers)(act)
 
-    offer("pause", "pause")
-    offer("resume", "resume")
-    offer("reset", "reset", schemas.Reset)
-    offer("step", "step", schemas.Step)
-    offer("speed", "speed", schemas.Speed)
-    offer("checkpoint", "checkpoint", schemas.Checkpoint)
-    offer("restore", "restore", schemas.Checkpoint)
-    offer("undo", "undo", schemas.Undo)
+    offer("pause", "Time stands still.")
+    offer("resume", "Time goes on.")
+    offer("reset", "Everything goes back to where it came.", schemas.Reset)
+    offer("step", "While paused: so many steps of the physics.", schemas.Step)
+    offer("speed", "How fast simulated time passes.", schemas.Speed)
+    offer("checkpoint", "Keeps the world as it is.", schemas.Checkpoint)
+    offer("restore", "Goes back to a checkpoint.", schemas.Checkpoint)
+    offer("undo", "Goes back so many simulated seconds.", schemas.Undo)

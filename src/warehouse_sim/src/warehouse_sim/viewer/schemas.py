@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the HTTP API takes and gives. SI units, radians, frame world."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import BaseModel, ConstrainedFloat, Extra, Field, StrictBool, conint, constr
 from pydantic.errors import DictError
@@ -92,7 +92,7 @@ class LiftCommand(_Body):
     shelf_id: Int32 = Field(description="the number in storage_unit<id>")
 
 
-Command = Annotated[Mov | MovX | MovY | Rot | LiftCommand, Field(discriminator="command")]
+Command = Mov | MovX | MovY | Rot | LiftCommand
 
 
 class NewWarehouse(_Body):
