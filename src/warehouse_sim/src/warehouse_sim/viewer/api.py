@@ -24,6 +24,7 @@ SENT = (400, 409, 413)  # wherever something is sent
 
 Limit = Query(100, ge=1, le=schemas.MOST_ROWS, description="rows in the answer")
 Offset = Query(0, ge=0, le=schemas.INT32, description="rows to leave out before them")
+Command = Body(discriminator="command")
 Number = Path(ge=1, le=schemas.INT32, description="the number in the model's name")
 Text = Query("", max_length=100, description="a part of the name")
 
@@ -153,7 +154,7 @@ def _add_robots(out, desk):
         responses=_problems(404, *SENT) | {202: {"model": schemas.Outcome}},
     )
     async def command_robot(
-        command: schemas.Command = Body(discriminator="command"),
+        command: schemas.Command = Command,
         number: int = Number,
         wait: Literal["answer", "end"] = Query("answer", description="for what to wait"),
         timeout: float = Query(10, ge=0.01, le=300, description="[s, wall]; then: pending"),
