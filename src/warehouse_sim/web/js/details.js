@@ -63,8 +63,8 @@ export class Details {
   factsOf(thing) {
     const [x, y, z, yaw] = this.world.placeOf(thing);
     const { index } = thing, { scene } = this.world;
-    const out = [['position', `${x.toFixed(2)}, ${y.toFixed(2)} m`]];
-    if (Math.abs(z) > 0.005) out.push(['height', `${z.toFixed(2)} m`]);
+    const out = [['position', `${metres(x)}, ${metres(y)} m`]];
+    if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
     out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
     if (thing.kind === 'robot') {
       out.push(['does', STATE[this.world.state[index]]]);
@@ -133,6 +133,7 @@ export class Details {
   }
 }
 
+const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00
 const link = (name) => ({ link: name });
 const numberOf = (name) => Number(name.match(/\d+$/)[0]);
 

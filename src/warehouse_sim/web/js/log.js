@@ -48,7 +48,7 @@ export class EventLog {
     const out = make('li', { onclick: () => this.select(model), title: text },
       make('span', { textContent: time.toFixed(1) }), make('span', { textContent: kind }),
       make('span', { textContent: model }),
-      make('span', { textContent: [other, text].filter(Boolean).join(': ') }));
+      make('span', { textContent: text.includes(other) ? text : [other, text].filter(Boolean).join(': ') }));
     if (TROUBLE.includes(kind)) out.dataset.trouble = '';
     return out;
   }

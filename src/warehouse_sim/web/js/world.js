@@ -110,7 +110,7 @@ export class World {
   placeOf({ kind, index }) {
     if (kind === 'robot') {
       const [x, y, yaw] = this.shown.subarray(3 * index, 3 * index + 3);
-      return [x, y, 0, yaw];
+      return [x, y, 0, wrapped(yaw)];
     }
     if (kind === 'scenery') return planar(this.sceneryPose, index);
     if (kind === 'item') return this.placeOfItem(index);
