@@ -78,6 +78,46 @@ def test_a_page_gets_the_scene_before_the_rows_that_refer_to_it():
     asyncio.run(scenario())
 
 
+class Talker(Socket):
+    """A page that says these texts, and then nothing."""
+
+    def __init__(self, said):
+        super().__init__()
+        self.said = list(said)
+
+    async def receive_text(self):
+        if self.said:
+            return self.said.pop(0)
+        return await asyncio.Future()
+
+
+def stays(said):
+    """Whether the hub goes on listening after a page said that."""
+
+    async def scenario():
+        listening = asyncio.create_task(hub_of(World())._listen_forever(Page(Talker(said), 0)))
+        for _ in range(100):
+            await settle()
+        ended = listening.done()
+        listening.cancel()
+        return not ended
+
+    return asyncio.run(scenario())
+
+
+def test_a_page_that_talks_nonsense_or_too_much_is_let_go():
+    assert stays(['{"ack": 1}', '{"watch": {"scans": [1], "paths": [2]}}'])
+    for nonsense in (
+        "no json",
+        "[1]",
+        '{"ack": "many"}',
+        '{"watch": 3}',
+        '{"watch": {"scans": 1}}',
+    ):
+        assert stays([nonsense]) is (nonsense == "[1]")
+    assert not stays(['{"ack": 1}'] * 300)
+
+
 def test_events_come_once():
     async def scenario():
         journal, socket, world = Journal(), Socket(), World()

@@ -100,15 +100,15 @@ struct Robot {
   std::deque<Leg> legs;     ///< Those of the current command, the first under way.
   int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
   bool leg_started = false;
-  double overdue = 0;        ///< Since the profile ended without the robot being there [s].
-  bool look_now = false;     ///< A leg begins: look ahead before it drives off.
-  double seen_distance = 0;  ///< What the laser saw last on this leg [m], 0 = nothing yet,
-  double seen_from = 0;      ///< from where on the leg [m],
-  int seen_model = -1;       ///< and what it was.
-  int ray_fan = -1;          ///< Index of its laser's directions among the world's.
-  bool stopping = false;     ///< The command is ending in BLOCKED, as soon as the robot stands.
-  bool halting = false;      ///< The same, with locked wheels.
-  std::string blocked_by;    ///< A model's name, or empty.
+  double overdue = 0;          ///< Since the profile ended without the robot being there [s].
+  bool look_now = false;       ///< A leg begins: look ahead before it drives off.
+  double seen_distance = 0;    ///< What the laser saw last on this leg [m], 0 = nothing yet,
+  double seen_from = 0;        ///< from where on the leg [m],
+  int seen_model = -1;         ///< and what it was.
+  int ray_fan = -1;            ///< Index of its laser's directions among the world's.
+  bool stopping = false;       ///< The command is ending in BLOCKED, as soon as the robot stands.
+  bool halting = false;        ///< The same, with locked wheels.
+  std::string blocked_by;      ///< A model's name, or empty.
   std::string blocked_reason;  ///< Why, for a person.
 };
 
@@ -133,11 +133,11 @@ struct Fleet {
   std::vector<double> deceleration;  ///< With which it is to end.
 
   // Of robots that follow their references exactly, see src/core/cruise.h.
-  std::vector<std::int64_t> cruising;             ///< -1 = is one, 0 = is none: a mask.
-  std::vector<double> per_x, per_y, per_yaw;      ///< What a unit of reference moves the chassis.
-  std::vector<double> per_wheel[2];               ///< And its wheels.
-  std::vector<double> top_speed, acceleration;    ///< Of the reference.
-  std::vector<double> cruise_until;               ///< Step to which nothing can come near.
+  std::vector<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
+  std::vector<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis.
+  std::vector<double> per_wheel[2];             ///< And its wheels.
+  std::vector<double> top_speed, acceleration;  ///< Of the reference.
+  std::vector<double> cruise_until;             ///< Step to which nothing can come near.
   std::vector<Robot> robots;
 
   Profile profile(int i) const { return {reference[i], reference_speed[i]}; }

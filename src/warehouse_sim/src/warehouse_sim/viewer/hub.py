@@ -13,12 +13,15 @@ from contextlib import suppress
 from starlette.websockets import WebSocketDisconnect
 
 from warehouse_sim.viewer import protocol
+from warehouse_sim.viewer.gate import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
 SCENE_GAP = 1.0  # likewise between two scenes, of a megabyte where there are many items [s, wall]
 STATUS_GAP = 1.0  # between two looks at the simulation's own state [s, wall]
 OFFERS_GAP = 5.0  # between two looks at which services there are [s, wall]
 IN_FLIGHT = 3  # updates a page may owe an answer to
+MOST_WISHES = 100  # of a page [1/s]
+NONSENSE = (ValueError, TypeError, KeyError, AttributeError)  # what reading it leads to
 MOST_SCANS = 20  # robots whose scans are shown at once, by all pages
 
 
@@ -137,8 +140,10 @@ class Hub:
             self._hear_wishes()
 
     async def _listen_forever(self, page):
-        with suppress(WebSocketDisconnect):
-            while True:
+        """Until the page goes, or says what no page would."""
+        limit = RateLimit(MOST_WISHES)
+        with suppress(WebSocketDisconnect, *NONSENSE):
+            while limit.allows(page):
                 await self._obey(page, json.loads(await page.socket.receive_text()))
 
     async def _obey(self, page, wish):
