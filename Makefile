@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo test test-sanitizers build deps bench lint format install clean
+.PHONY: help run demo test test-api test-sanitizers build deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -30,6 +30,9 @@ demo: build  ## watch robots fetch storage units, meet head on and recover
 test: build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
+
+test-api: build  ## let schemathesis look for wrong answers of the HTTP API
+	@scripts/fuzz_api $(ARGS)
 
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers

@@ -4,4 +4,5 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=["warehouse_sim"], package_dir={"": "src"}))
+packages = ["warehouse_sim", "warehouse_sim.viewer"]
+setup(**generate_distutils_setup(packages=packages, package_dir={"": "src"}))

@@ -26,6 +26,7 @@
 #include "physics_services.h"
 #include "reporter.h"
 #include "settings.h"
+#include "showcase.h"
 #include "simulation_services.h"
 #include "spawn_services.h"
 #include "state_services.h"
@@ -86,6 +87,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   LightServices light_services(node, engine);
   PhysicsServices physics_services(node, world, engine);
   Performance performance(node, engine);
+  Showcase showcase(root, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
   MapService map_service(root, engine);
 

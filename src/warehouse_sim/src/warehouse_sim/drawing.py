@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse from above, drawn by matplotlib without a screen."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from warehouse_msgs.msg import KivaStatus
+from warehouse_sim import markers, poses, tracking
+
+# Footprints [m], as in worlds/models.
+ROBOT, UNIT, ITEM = (0.76, 0.64), (0.8, 0.8), (0.20, 0.15)
+HEADING = np.array([(0.30, 0.0), (0.06, 0.18), (0.06, -0.18)])
+STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
+STATUS |= {"blocked": KivaStatus.STATUS_BLOCKED}
+LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]
+HEAD = 0.4  # room for the title [inches]
+MOST_NAMES = 60  # robots with their number beside them
+
+
+@dataclass
+class Moment:
+    """The messages that describe the warehouse at one time; `scenery` may be None."""
+
+    objects: object = None  # WarehouseObjects
+    states: object = None  # UnitStates of the same revision
+    fleet: object = None  # FleetState
+    scenery: object = None  # Scenery
+    blocked: set = field(default_factory=set)  # names of robots whose last command ended so
+
+    @property
+    def complete(self):
+        parts = (self.objects, self.states, self.fleet)
+        return all(parts) and self.objects.revision == self.states.revision
+
+
+class Drawing:
+    """A figure of one size, for one picture or the frames of a film."""
+
+    def __init__(self, moment, dpi=110, title=""):
+        self.bounds, self._title = bounds(moment), title
+        x0, x1, y0, y1 = self.bounds
+        scale = LONGEST / max(x1 - x0, y1 - y0)
+        size = np.maximum(np.array([x1 - x0, y1 - y0]) * scale, SHORTEST) + (0.2, HEAD)
+        # Films want even numbers of pixels.
+        self.figure = Figure(np.round(size * dpi / 2) * 2 / dpi, dpi=dpi, facecolor="white")
+        self._canvas = FigureCanvasAgg(self.figure)
+        top = 1 - HEAD / self.figure.get_size_inches()[1]
+        self._axes = self.figure.add_axes((0.01, 0.01, 0.98, top - 0.01))
+
+    def draw(self, moment):
+        """Draws a Moment in place of what was drawn."""
+        axes = self._axes
+        axes.clear()
+        axes.set_axis_off()
+        axes.set_aspect("equal")
+        axes.set_xlim(self.bounds[:2])
+        axes.set_ylim(self.bounds[2:])
+        self._floor()
+        if moment.scenery:
+            _scenery(axes, moment.scenery)
+        _robots(axes, moment)
+        _loads(axes, moment)
+        self._heading(moment)
+
+    def pixels(self):
+        """(height, width, 3) bytes."""
+        self._canvas.draw()
+        return np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
+
+    def save(self, path):
+        """Writes the picture; its format follows the path's suffix."""
+        self.figure.savefig(path, facecolor="white")
+
+    def _floor(self):
+        x0, x1, y0, y1 = self.bounds
+        self._axes.fill((x0, x1, x1, x0), (y0, y0, y1, y1), color=markers.FLOOR, zorder=0)
+        xs, ys = np.arange(np.ceil(x0 - 0.5) + 0.5, x1), np.arange(np.ceil(y0 - 0.5) + 0.5, y1)
+        lines = [[(x, y0), (x, y1)] for x in xs] + [[(x0, y), (x1, y)] for y in ys]
+        self._axes.add_collection(LineCollection(lines, colors=[markers.GRID], linewidths=0.5))
+
+    def _heading(self, moment):
+        counts = np.bincount(_status(moment), minlength=3)
+        colours = {name: markers.STATUS_COLOURS[number] for name, number in STATUS.items()}
+        keys = [
+            Patch(color=c, label=f"{name} {counts[STATUS[name]]}") for name, c in colours.items()
+        ]
+        self.figure.legends.clear()
+        self.figure.legend(handles=keys, loc="upper right", ncol=3, frameon=False)
+        text = f"{self._title}  {moment.fleet.stamp.to_sec():.1f} s".strip()
+        self._axes.set_title(text, loc="left", fontsize=12)
+
+
+def bounds(moment):
+    """min_x, max_x, min_y, max_y [m] of the floor; if unknown, around what stands there."""
+    if moment.scenery and moment.scenery.floor[0] < moment.scenery.floor[1]:
+        return tuple(moment.scenery.floor)
+    fleet = moment.fleet
+    at = [*zip(fleet.x, fleet.y), *poses.rows(moment.states.pose)[:, :2]] or [(0, 0)]
+    low, high = np.min(at, 0) - 2.5, np.max(at, 0) + 2.5
+    return low[0], high[0], low[1], high[1]
+
+
+def _status(moment):
+    # rospy reads uint8[] as bytes.
+    status = np.frombuffer(bytes(moment.fleet.status), np.uint8).copy()
+    status[[f"kiva{n}" in moment.blocked for n in moment.fleet.kiva_id]] = STATUS["blocked"]
+    return status
+
+
+def _robots(axes, moment):
+    fleet = moment.fleet
+    at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
+    colours = markers.STATUS_COLOURS[_status(moment)]
+    body = _placed(_rectangle(ROBOT), at, yaw)
+    axes.add_collection(
+        PolyCollection(body, facecolors=colours, edgecolors="black", linewidths=0.6)
+    )
+    axes.add_collection(PolyCollection(_placed(HEADING, at, yaw), facecolors="white", zorder=4))
+    if len(at) <= MOST_NAMES:
+        for (x, y), number in zip(at, fleet.kiva_id):
+            axes.text(x, y + 0.44, str(number), ha="center", va="bottom", fontsize=7, zorder=6)
+
+
+def _loads(axes, moment):
+    """Units, above their carriers yet letting them show; and items on them."""
+    units = tracking.storage_units(moment.objects, moment.states)
+    items = tracking.items(moment.objects, moment.states)
+    for tracked, size, face, layer in (
+        (units, UNIT, (*markers.BOARD[:3], 0.55), 3),
+        (items, ITEM, markers.ITEM, 5),
+    ):
+        outlines = _placed(_rectangle(size), tracked.pose[:, :2], poses.yaw(tracked.pose))
+        edges = np.where(tracked.carrier[:, None] > 0, (0, 0, 0, 1), markers.POST)
+        look = {"edgecolors": edges, "linewidths": 0.8} if tracked is units else {}
+        _add(axes, outlines, facecolors=[face], zorder=layer, **look)
+
+
+def _scenery(axes, scenery):
+    """The footprint of every shape of what else stands there, the lower ones first."""
+    for look, pose in zip(scenery.model_look, poses.rows(scenery.pose)):
+        shapes = scenery.looks[look]
+        links = poses.rows(shapes.link_pose)[list(shapes.shape_link)]
+        model = np.broadcast_to(pose, links.shape)
+        at = poses.compose(model, poses.compose(links, poses.rows(shapes.shape_pose)))
+        size = np.reshape(shapes.shape_size, (-1, 3))
+        colours = np.reshape(shapes.shape_colour, (-1, 4))
+        for i in np.argsort(at[:, 2]):
+            extent = np.abs(size[i] @ _axes_of(at[i]))[:2]
+            outline = _placed(_rectangle(extent), at[i : i + 1, :2], poses.yaw(pose[None]))
+            _add(axes, outline, facecolors=[colours[i]], zorder=2)
+
+
+def _axes_of(pose):
+    """Rows: which of a model's axes a shape's own lie along, for shapes in line with them."""
+    turned = poses.rotate(np.repeat(pose[None, 3:], 3, axis=0), np.eye(3))
+    heading = poses.yaw(pose[None])[0]
+    c, s = np.cos(heading), np.sin(heading)
+    return turned @ np.array([(c, -s, 0), (s, c, 0), (0, 0, 1)])
+
+
+def _add(axes, outlines, **look):
+    axes.add_collection(PolyCollection(outlines, **look))
+
+
+def _rectangle(size):
+    return np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) * np.asarray(size) / 2
+
+
+def _placed(points, at, yaw):
+    """(n, m, 2): points (m, 2) on each of the things at (n, 2), turned by yaw (n,) [rad]."""
+    c, s = np.cos(yaw)[:, None], np.sin(yaw)[:, None]
+    x, y = points.T
+    return np.stack([c * x - s * y, s * x + c * y], axis=2) + np.asarray(at)[:, None]

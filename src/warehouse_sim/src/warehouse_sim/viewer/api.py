@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The HTTP API: what ROS offers, for those who speak no ROS. Described at /api/v1/openapi.json."""
+
+import asyncio
+from typing import Literal
+
+from fastapi import APIRouter, Body, HTTPException, Path, Query
+from fastapi.responses import JSONResponse
+from starlette.routing import Match
+
+from warehouse_sim.viewer import catalogue, schemas
+from warehouse_sim.viewer.simulation import AwayError, RefusedError
+
+PATIENCE = 3.0  # for the first messages, when nobody looked for long [s, wall]
+
+
+def _problems(*codes):
+    """Answers beside the good one: what may always come, and these."""
+    return {code: {"model": schemas.Problem} for code in (*codes, 401, 403, 429, 503)}
+
+
+SENT = (400, 409, 413)  # wherever something is sent
+
+
+Limit = Query(100, ge=1, le=schemas.MOST_ROWS, description="rows in the answer")
+Offset = Query(0, ge=0, le=schemas.INT32, description="rows to leave out before them")
+Command = Body(discriminator="command")
+Number = Path(ge=1, le=schemas.INT32, description="the number in the model's name")
+Text = Query("", max_length=100, description="a part of the name")
+
+
+class Desk:
+    """What the API's answers are made from."""
+
+    def __init__(self, feed, model, journal, simulation, commander):
+        self.feed, self.model, self.journal = feed, model, journal
+        self.simulation, self.commander = simulation, commander
+
+    async def look(self):
+        """Waits until the world has told enough. Raises HTTPException."""
+        self.feed.look()
+        for _ in range(int(PATIENCE / 0.05)):
+            if self.feed.complete:
+                return
+            await asyncio.sleep(0.05)
+        raise HTTPException(503, "the world tells nothing; does it run?")
+
+    async def robots(self):
+        await self.look()
+        return catalogue.robots(self.feed["fleet"], self.model.is_blocked)
+
+    async def robot(self, number):
+        """Raises HTTPException."""
+        found = [r for r in await self.robots() if r.id == number]
+        if not found:
+            raise HTTPException(404, f"no robot kiva{number}")
+        return found[0]
+
+    async def things(self, kind):
+        await self.look()
+        return catalogue.things(kind, *(self.feed.units_and_objects or self._no_things()))
+
+    def _no_things(self):
+        raise HTTPException(503, "the world is being rebuilt; ask again")
+
+    async def do(self, action, *args):
+        """Calls a method of Simulation. Raises HTTPException."""
+        try:
+            return await asyncio.to_thread(getattr(self.simulation, action), *args)
+        except RefusedError as error:
+            raise HTTPException(409, str(error)) from error
+        except AwayError as error:
+            raise HTTPException(503, str(error)) from error
+
+
+async def not_allowed(request, error):
+    """405 with all methods of the path: its routes are one for each."""
+    routes = [
+        route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE
+    ]
+    methods = sorted(set().union(*(getattr(route, "methods", None) or () for route in routes)))
+    headers = {"allow": ", ".join(methods)}
+    return JSONResponse({"detail": error.detail}, error.status_code, headers=headers)
+
+
+def router(desk):
+    """All routes below /api/v1."""
+    out = APIRouter(prefix="/api/v1")
+    _add_warehouse(out, desk)
+    _add_robots(out, desk)
+    _add_things(out, desk, "storage_units", "storage_unit")
+    _add_things(out, desk, "items", "item")
+    _add_simulation(out, desk)
+    return out
+
+
+def _add_warehouse(out, desk):
+    @out.get("/warehouse", response_model=schemas.Warehouse, responses=_problems())
+    async def get_warehouse():
+        """What stands there, and how time passes."""
+        await desk.look()
+        objects, performance = desk.feed["objects"], desk.feed["performance"]
+        name, number = await desk.do("warehouse")
+        lacks = await desk.do("offers")
+        return {
+            "name": name,
+            "id": number,
+            "robots": len(objects.kiva_id),
+            "storage_units": len(objects.storage_units),
+            "items": len(objects.items),
+            "belts": len(objects.belts),
+            "time": desk.feed["fleet"].stamp.to_sec(),
+            "real_time_factor": performance.real_time_factor if performance else 0.0,
+            "lacks": {action: lack for action, lack in lacks.items() if lack},
+            **await desk.do("state"),
+        }
+
+    @out.post("/warehouse", response_model=schemas.Done, responses=_problems(*SENT))
+    async def create_warehouse(wanted: schemas.NewWarehouse):
+        """Builds a warehouse in place of the one that stands."""
+        counts = (wanted.robots, wanted.items, wanted.shelves)
+        return {"message": await desk.do("create", wanted.name, wanted.id, *counts)}
+
+    @out.get("/events", response_model=schemas.Events, responses=_problems())
+    async def get_events(
+        since: int = Query(0, ge=0, le=2**53, description="the last id you know"),
+        model: str = Query("", max_length=100, description="of this model alone"),
+        limit: int = Limit,
+    ):
+        """The newest events, oldest first."""
+        return {"events": desk.journal.since(since, model or None, limit)}
+
+
+def _add_robots(out, desk):
+    @out.get("/robots", response_model=schemas.Robots, responses=_problems())
+    async def get_robots(
+        status: Literal["IDLE", "BUSY", "BLOCKED"] | None = None,
+        name: str = Text,
+        limit: int = Limit,
+        offset: int = Offset,
+    ):
+        """Robots with their poses and status."""
+        found = [r for r in await desk.robots() if name in r.name and status in (None, r.status)]
+        return {"total": len(found), "robots": found[offset : offset + limit]}
+
+    @out.get("/robots/{number}", response_model=schemas.Robot, responses=_problems(404))
+    async def get_robot(number: int = Number):
+        """One robot."""
+        return await desk.robot(number)
+
+    @out.post(
+        "/robots/{number}/commands",
+        response_model=schemas.Outcome,
+        responses=_problems(404, *SENT) | {202: {"model": schemas.Outcome}},
+    )
+    async def command_robot(
+        command: schemas.Command = Command,
+        number: int = Number,
+        wait: Literal["answer", "end"] = Query("answer", description="for what to wait"),
+        timeout: float = Query(10, ge=0.01, le=300, description="[s, wall]; then: pending"),
+    ):
+        """Sends a command. A refused one answers 409 with the reason."""
+        await desk.robot(number)
+        fields = command.dict(exclude={"command"})
+        topic = f"/{command.command}"
+        if not desk.commander.ready(topic):
+            raise HTTPException(503, f"nobody hears {topic}; does the world run?")
+        outcome = await desk.commander.send(topic, number, fields, wait == "end", timeout)
+        if outcome.kind == "refused":
+            raise HTTPException(409, outcome.events[-1]["text"])
+        answer = {"outcome": outcome.kind, "events": outcome.events}
+        return JSONResponse(answer, 202) if outcome.kind == "pending" else answer
+
+
+def _add_things(out, desk, kind, noun):
+    @out.get(f"/{kind}", name=f"get_{kind}", response_model=schemas.Things, responses=_problems())
+    async def get_all(
+        name: str = Text,
+        storage_unit: str = Query("", max_length=100, description="that lie on this unit"),
+        limit: int = Limit,
+        offset: int = Offset,
+    ):
+        """Those with a fitting name, and where each is."""
+        tracked = await desk.things(kind)
+        found = catalogue.find(tracked, name, storage_unit)
+        rows = [catalogue.thing(tracked, i) for i in found[offset : offset + limit]]
+        return {"total": len(found), "things": rows}
+
+    @out.get(
+        f"/{kind}/{{number}}",
+        name=f"get_{noun}",
+        response_model=schemas.Thing,
+        responses=_problems(404),
+    )
+    async def get_one(number: int = Number):
+        """One, and where it is."""
+        tracked = await desk.things(kind)
+        try:
+            return catalogue.thing(tracked, tracked.names.index(f"{noun}{number}"))
+        except ValueError:
+            raise HTTPException(404, f"no {noun}{number}") from None
+
+
+def _add_simulation(out, desk):
+    def offer(action, about, body=None):
+        answers = {"response_model": schemas.Done, "responses": _problems(*SENT)}
+        if body is None:
+
+            async def act():
+                return {"message": await desk.do(action)}
+        else:
+
+            async def act(wanted: body):
+                return {"message": await desk.do(action, *wanted.dict().values())}
+
+        out.post(f"/simulation/{action}", name=action, description=about, **answers)(act)
+
+    offer("pause", "Time stands still.")
+    offer("resume", "Time goes on.")
+    offer("reset", "Everything goes back to where it came.", schemas.Reset)
+    offer("step", "While paused: so many steps of the physics.", schemas.Step)
+    offer("speed", "How fast simulated time passes.", schemas.Speed)
+    offer("checkpoint", "Keeps the world as it is.", schemas.Checkpoint)
+    offer("restore", "Goes back to a checkpoint.", schemas.Checkpoint)
+    offer("undo", "Goes back so many simulated seconds.", schemas.Undo)

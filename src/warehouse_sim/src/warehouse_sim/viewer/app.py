@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The web application: the page, its WebSocket, the API; and the server it runs in."""
+
+import asyncio
+import os
+import socket
+import threading
+from contextlib import suppress
+
+import uvicorn
+from fastapi import FastAPI, WebSocket
+from fastapi.responses import FileResponse
+from fastapi.staticfiles import StaticFiles
+
+from warehouse_sim.viewer import api, stream
+from warehouse_sim.viewer.commander import Commander
+from warehouse_sim.viewer.feed import Feed
+from warehouse_sim.viewer.gate import Gate
+from warehouse_sim.viewer.hub import Hub
+from warehouse_sim.viewer.journal import Journal
+from warehouse_sim.viewer.model import Model
+from warehouse_sim.viewer.simulation import Simulation
+
+THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
+MOST_SOCKETS = 50
+MOST_MESSAGE = 64 * 1024  # from a page [bytes]
+FRESH = {"cache-control": "no-cache"}
+TRY_AGAIN = 1013  # a WebSocket's close code
+
+
+class Viewer:
+    """Everything behind one address. `ros` is rospy, `web` the folder of the page."""
+
+    def __init__(self, ros, web):
+        self.journal, self.model = Journal(), Model()
+        self.simulation, self.commander = Simulation(ros), Commander(ros)
+        self._loop = None
+        self.feed = Feed(ros, self._on_event, self._on_news)
+        self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
+        parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
+        self.desk = api.Desk(*parts)
+        self._web, self._sockets = web, 0
+
+    def _on_event(self, event):
+        entry = self.journal.add(event)
+        with suppress(RuntimeError):  # the loop has ended
+            if self._loop:
+                self._loop.call_soon_threadsafe(self._note, event, entry)
+
+    def _note(self, event, entry):
+        self.model.note(event)
+        self.commander.note(entry)
+        self.hub.news()
+
+    def _on_news(self):
+        self.hub.news()
+
+    def application(self, token="", rate=100):
+        """The ASGI application."""
+        app = FastAPI(
+            title="Kiva warehouse",
+            version="1",
+            description="The simulated warehouse over HTTP. States and events come as JSON over "
+            "the WebSocket /api/v1/stream?rate=2.",
+            docs_url=None,
+            redoc_url=None,
+            openapi_url="/api/v1/openapi.json",
+        )
+        app.include_router(api.router(self.desk))
+        app.add_exception_handler(405, api.not_allowed)
+        self._add_sockets(app)
+        self._add_files(app)
+        return Gate(app, token, rate)
+
+    def start(self):
+        """Begins to serve pages, in the running asyncio loop."""
+        self._loop = asyncio.get_running_loop()
+        self._running = asyncio.create_task(self.hub.run())
+
+    def _add_sockets(self, app):
+        @app.websocket("/live")
+        async def live(socket: WebSocket):
+            await self._admit(socket, self.hub.serve)
+
+        @app.websocket("/api/v1/stream")
+        async def json_stream(socket: WebSocket, rate: float = 2.0):
+            rate = min(10.0, max(0.1, rate)) if rate == rate else 2.0
+            await self._admit(socket, lambda s: stream.serve(s, self.desk, rate))
+
+    async def _admit(self, socket, serve):
+        await socket.accept()
+        if self._sockets >= MOST_SOCKETS:
+            await socket.close(TRY_AGAIN)
+            return
+        self._sockets += 1
+        try:
+            await serve(socket)
+        finally:
+            self._sockets -= 1
+            with suppress(RuntimeError):
+                await socket.close()
+
+    def _add_files(self, app):
+        def page(name):
+            return lambda: FileResponse(
+                f"{self._web}/{name}", headers={"cache-control": "no-cache"}
+            )
+
+        app.get("/", include_in_schema=False)(page("index.html"))
+        app.get("/docs", include_in_schema=False)(page("docs.html"))
+        app.mount("/three", StaticFiles(directory=THREE, check_dir=False))
+        app.mount("/web", FreshFiles(directory=self._web))
+
+
+class FreshFiles(StaticFiles):
+    """Files that a browser asks for again, so that page and server are of one version."""
+
+    def file_response(self, *args, **kwargs):
+        response = super().file_response(*args, **kwargs)
+        response.headers.update(FRESH)
+        return response
+
+
+class Server(uvicorn.Server):
+    """Ends when told to: pages come back by themselves."""
+
+    GRACE = 1.0  # for a service call to a world that may be gone already [s, wall]
+
+    def __init__(self, config, viewer):
+        super().__init__(config)
+        self._viewer = viewer
+
+    async def startup(self, sockets=None):
+        await super().startup(sockets)
+        self._viewer.start()
+
+    def handle_exit(self, sig, frame):
+        self.should_exit = self.force_exit = True
+        end = threading.Timer(self.GRACE, os._exit, (0,))
+        end.daemon = True
+        end.start()
+
+
+def listen(host, port):
+    """A listening socket. Raises OSError if the port is taken or the host is not this machine's."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    out = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        out.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        out.bind((host, port))
+        out.listen(128)
+    except OSError:
+        out.close()
+        raise
+    return out
+
+
+def server_of(viewer, token="", rate=100):
+    """A Server for a Viewer; run it with the sockets to listen at."""
+    return Server(
+        uvicorn.Config(
+            viewer.application(token, rate),
+            lifespan="off",
+            log_level="warning",
+            access_log=False,
+            server_header=False,
+            proxy_headers=False,
+            ws_max_size=MOST_MESSAGE,
+            # Numbers hardly shrink, and it would cost more than all else here.
+            ws_per_message_deflate=False,
+        ),
+        viewer,
+    )

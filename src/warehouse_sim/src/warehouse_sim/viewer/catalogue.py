@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots, storage units, items and the warehouse, as the HTTP API tells them."""
+
+import numpy as np
+
+from warehouse_msgs.msg import KivaStatus
+from warehouse_sim import tracking
+from warehouse_sim.models import kind_and_number
+from warehouse_sim.viewer import schemas
+
+STATUS = ("IDLE", "BUSY", "BLOCKED")
+STATE = ("IDLE", "MOVING_X", "MOVING_Y", "ROTATING", "LIFTING", "BLOCKED")
+
+
+def robots(fleet, is_blocked):
+    """Every Robot of a FleetState; is_blocked(id) tells whose last command ended so."""
+    status, state = bytes(fleet.status), bytes(fleet.state)
+    return [
+        schemas.Robot(
+            name=f"kiva{number}",
+            id=number,
+            status=STATUS[KivaStatus.STATUS_BLOCKED if is_blocked(number) else status[i]],
+            state=STATE[state[i]],
+            x=fleet.x[i],
+            y=fleet.y[i],
+            yaw=fleet.yaw[i],
+            storage_unit=f"storage_unit{fleet.shelf_id[i]}" if fleet.shelf_id[i] else "",
+        )
+        for i, number in enumerate(map(int, fleet.kiva_id))
+    ]
+
+
+def things(kind, objects, states):
+    """A tracking.Tracked; `kind` is "storage_units" or "items"."""
+    return getattr(tracking, kind)(objects, states)
+
+
+def find(tracked, text="", unit=""):
+    """Indices of those whose name contains a text, and that lie on that unit if one is named."""
+    return [
+        i
+        for i, name in enumerate(tracked.names)
+        if text in name and (not unit or tracked.unit[i] == unit)
+    ]
+
+
+def thing(tracked, i):
+    """One of them as a Thing."""
+    carrier = tracked.carrier[i]
+    return schemas.Thing(
+        name=tracked.names[i],
+        id=kind_and_number(tracked.names[i])[1],
+        pose=dict(zip(schemas.Pose.__fields__, np.asarray(tracked.pose[i]).tolist())),
+        storage_unit=tracked.unit[i],
+        carrier=f"kiva{carrier}" if carrier else "",
+    )

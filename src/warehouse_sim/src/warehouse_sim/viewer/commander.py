@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sends commands to robots and tells what becomes of each.
+
+Events name the robot but not the command: while one command of a robot waits here for its end, the
+next for the same robot is sent all the same, and refused by the world, since the robot is not idle.
+A command that somebody else sends at the same moment can be taken for ours; the world serves both.
+"""
+
+import asyncio
+from dataclasses import dataclass, field
+
+from warehouse_sim.state import COMMANDS
+
+ANSWERS, ENDS = ("ACCEPTED", "REFUSED"), ("REFUSED", "DONE", "BLOCKED")
+
+
+@dataclass
+class Outcome:
+    """`kind` of the last event that matters, in small letters; or pending, if none came in time."""
+
+    kind: str = "pending"
+    events: list = field(default_factory=list)  # entries of the Journal
+
+
+class Commander:
+    """Lives in an asyncio loop. `ros` is rospy."""
+
+    def __init__(self, ros):
+        self._publishers = {t: ros.Publisher(t, k, queue_size=100) for t, k in COMMANDS.items()}
+        self._locks, self._listeners = {}, set()
+
+    def ready(self, topic):
+        """Whether the world hears that topic."""
+        return self._publishers[topic].get_num_connections() > 0
+
+    def note(self, entry):
+        """Takes an event in, in the loop."""
+        for model, events in list(self._listeners):
+            if entry["model"] == model:
+                events.put_nowait(entry)
+
+    async def send(self, topic, kiva_id, fields, until_end, timeout):
+        """Publishes a command and waits, at most `timeout` wall seconds, for its answer or end."""
+        lock = self._locks.setdefault(kiva_id, asyncio.Lock())
+        outcome, events = Outcome(), asyncio.Queue()
+        listener = (f"kiva{kiva_id}", events)
+        self._listeners.add(listener)
+        try:
+            async with asyncio.timeout(timeout):
+                async with lock:
+                    _drain(events)
+                    self._publishers[topic].publish(COMMANDS[topic](kiva_id=kiva_id, **fields))
+                    await _follow(events, outcome, ANSWERS)
+                if until_end and outcome.kind == "accepted":
+                    await _follow(events, outcome, ENDS)
+        except TimeoutError:
+            pass
+        finally:
+            self._listeners.discard(listener)
+        return outcome
+
+
+async def _follow(events, outcome, kinds):
+    while True:
+        entry = await events.get()
+        outcome.events.append(entry)
+        if entry["kind"] in kinds:
+            outcome.kind = entry["kind"].lower()
+            return
+
+
+def _drain(events):
+    while not events.empty():
+        events.get_nowait()

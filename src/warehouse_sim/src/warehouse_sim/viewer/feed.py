@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the world publishes, heard only while somebody looks."""
+
+import threading
+import time
+
+from rospy.numpy_msg import numpy_msg
+from sensor_msgs.msg import LaserScan
+
+from gazebo_msgs.msg import PerformanceMetrics
+from warehouse_msgs.msg import (
+    Event,
+    FleetPaths,
+    FleetState,
+    Scenery,
+    UnitStates,
+    WarehouseObjects,
+)
+
+TOPICS = {
+    "fleet": ("/warehouse/fleet", numpy_msg(FleetState)),
+    "objects": ("/warehouse/objects", WarehouseObjects),
+    "states": ("/warehouse/unit_states", numpy_msg(UnitStates)),
+    "scenery": ("/warehouse/scenery", Scenery),
+    "performance": ("/gazebo/performance_metrics", PerformanceMetrics),
+}
+LINGER = 10.0  # after the last look, before the ears are closed [s, wall]
+
+
+class Feed:
+    """The newest message of each topic; None where none came since somebody looked.
+
+    `ros` is rospy. `on_event(Event)` and `on_news()` are called in ROS's threads.
+    """
+
+    def __init__(self, ros, on_event, on_news):
+        self._ros, self._on_news, self._lock = ros, on_news, threading.Lock()
+        self._messages, self._subscribers, self._extras = {}, {}, {}
+        self._looked = 0.0
+        ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
+
+    def __getitem__(self, name):
+        return self._messages.get(name)
+
+    @property
+    def units_and_objects(self):
+        """(WarehouseObjects, UnitStates) if both are there and fit each other, else None."""
+        objects, states = self["objects"], self["states"]
+        fit = objects and states and objects.revision == states.revision
+        return (objects, states) if fit else None
+
+    def look(self):
+        """Somebody looks: what is published is heard for a while."""
+        with self._lock:
+            self._looked = time.monotonic()
+            for name in TOPICS.keys() - self._subscribers.keys():
+                self._subscribers[name] = self._subscribe(name, *TOPICS[name])
+
+    def rest(self):
+        """Stops to listen if nobody has looked for a while. True if it did."""
+        with self._lock:
+            if not self._subscribers or time.monotonic() - self._looked < LINGER:
+                return False
+            for subscriber in self._subscribers.values():
+                subscriber.unregister()
+            self._subscribers.clear()
+            self._messages.clear()
+            return True
+
+    @property
+    def complete(self):
+        """Whether there is all that a picture needs."""
+        return bool(self.units_and_objects and self["fleet"] and self["scenery"])
+
+    def want(self, paths, scans):
+        """Hears the paths or not, and the scans of exactly these robots (ids)."""
+        wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        if paths:
+            wanted["paths"] = ("/warehouse/paths", FleetPaths)
+        with self._lock:
+            for name in self._extras.keys() - wanted.keys():
+                self._extras.pop(name).unregister()
+                self._messages.pop(name, None)
+            for name in wanted.keys() - self._extras.keys():
+                self._extras[name] = self._subscribe(name, *wanted[name])
+
+    def _subscribe(self, name, topic, kind):
+        return self._ros.Subscriber(topic, kind, self._keep, callback_args=name, queue_size=1)
+
+    def _keep(self, message, name):
+        self._messages[name] = message
+        self._on_news()

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The last events, numbered, for readers that come late or read slowly."""
+
+import threading
+from collections import deque
+
+from warehouse_msgs.msg import Event
+
+KEPT = 2000
+KINDS = {
+    value: name for name, value in vars(Event).items() if name.isupper() and isinstance(value, int)
+}
+
+
+class Journal:
+    """Events as dicts with a running `id`. Any thread may add, any may read."""
+
+    def __init__(self, kept=KEPT):
+        self._lock, self._events, self.last_id = threading.Lock(), deque(maxlen=kept), 0
+
+    def add(self, event):
+        """Takes a warehouse_msgs/Event in; returns its entry."""
+        with self._lock:
+            self.last_id += 1
+            entry = entry_of(event) | {"id": self.last_id}
+            self._events.append(entry)
+            return entry
+
+    def since(self, number, model=None, limit=KEPT):
+        """The newest `limit` of the entries with an id above `number`, oldest first."""
+        if number >= self.last_id:
+            return []
+        with self._lock:
+            found = [
+                e
+                for e in self._events
+                if e["id"] > number and (model is None or model in (e["model"], e["other"]))
+            ]
+        return found[-limit:]
+
+
+def entry_of(event):
+    """An Event as the API tells it, but for its id."""
+    return {
+        "time": round(event.header.stamp.to_sec(), 3),
+        "kind": KINDS.get(event.kind, str(event.kind)),
+        "model": event.model,
+        "other": event.other,
+        "text": event.text,
+    }

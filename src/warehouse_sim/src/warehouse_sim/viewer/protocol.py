@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What goes to the page in binary: little-endian, every number at a multiple of its size.
+
+    u32 kind   1 = update
+    u32 tick           of this update
+    f64 stamp          simulated time [s]
+    u32 revision       of the scene whose indices are used
+    u32 n, m, k, s     rows of: robots, storage units, loose items, scenery
+    rows               as ROBOT, BODY, BODY, BODY below; each begins with its u32 index
+
+    u32 kind   2 = scan
+    u32 kiva_id
+    f32 angle_min, angle_increment [rad]
+    f32 ranges [m]     to the end; infinity = no return
+
+web/js/protocol.js reads it.
+"""
+
+import struct
+
+import numpy as np
+
+VERSION = 1
+UPDATE, SCAN = 1, 2
+
+# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
+# KivaStatus.
+ROBOT = np.dtype(
+    [
+        ("index", "<u4"),
+        ("x", "<f4"),
+        ("y", "<f4"),
+        ("yaw", "<f4"),
+        ("shelf", "<i4"),
+        ("status", "u1"),
+        ("state", "u1"),
+        ("unused", "<u2"),
+    ]
+)
+# x y z [m] qx qy qz qw in world; or, where a robot carries it, in that robot's frame.
+BODY = np.dtype([("index", "<u4"), ("pose", "<f4", 7), ("carrier", "<i4")])
+
+_UPDATE_HEAD = struct.Struct("<IIdIIIII4x")
+_SCAN_HEAD = struct.Struct("<IIff")
+
+
+def update(tick, stamp, revision, tables):
+    """Bytes of an update; `tables` are four arrays of rows in the order above."""
+    head = _UPDATE_HEAD.pack(UPDATE, tick, stamp, revision, *map(len, tables))
+    return b"".join([head, *(rows.tobytes() for rows in tables)])
+
+
+def scan(kiva_id, angle_min, angle_increment, ranges):
+    """Bytes of a robot's scan."""
+    head = _SCAN_HEAD.pack(SCAN, kiva_id, angle_min, angle_increment)
+    return head + np.asarray(ranges, "<f4").tobytes()

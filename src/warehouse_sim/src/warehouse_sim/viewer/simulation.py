@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The simulation as its services offer it: pause, step, speed, checkpoints; build a warehouse."""
+
+import importlib
+
+from gazebo_msgs.srv import GetPhysicsProperties
+
+# What is offered under which service; types by name, since not every engine has them all.
+SERVICES = {
+    "pause": ("/gazebo/pause_physics", "std_srvs", "Empty"),
+    "resume": ("/gazebo/unpause_physics", "std_srvs", "Empty"),
+    "reset": ("/gazebo/reset_simulation", "std_srvs", "Empty"),
+    "reset_poses": ("/gazebo/reset_world", "std_srvs", "Empty"),
+    "step": ("/gazebo/step", "warehouse_msgs", "Step"),
+    "speed": ("/gazebo/set_physics_properties", "gazebo_msgs", "SetPhysicsProperties"),
+    "checkpoint": ("/warehouse/checkpoint", "warehouse_msgs", "Checkpoint"),
+    "restore": ("/warehouse/restore", "warehouse_msgs", "Checkpoint"),
+    "undo": ("/warehouse/undo", "warehouse_msgs", "Undo"),
+    "create": ("/warehouse/create_warehouse_models", "warehouse_msgs", "CreateWarehouse"),
+}
+
+
+class RefusedError(RuntimeError):
+    """The world said no, or can't; the message tells a person why."""
+
+
+class AwayError(RuntimeError):
+    """The world does not answer."""
+
+
+class Simulation:
+    """One client of those services; calls block. `ros` is rospy."""
+
+    def __init__(self, ros):
+        self._ros = ros
+
+    # --- what can be done
+    def offers(self):
+        """{action: why it can't be done, or None}."""
+        return {action: self._lack(action) for action in SERVICES}
+
+    def _lack(self, action):
+        name, package, kind = SERVICES[action]
+        if _type(package, kind) is None:
+            return f"this version knows no {package}/{kind}"
+        try:
+            code, *_ = self._ros.get_master().lookupService(name)
+        except OSError as error:
+            return f"the ROS master does not answer: {error}"
+        return None if code == 1 else f"the engine offers no {name}"
+
+    def state(self):
+        """{"paused": …, "target_factor": simulated seconds a wall second, 0 = full speed}."""
+        now = self._physics()
+        return {"paused": now.pause, "target_factor": now.max_update_rate * now.time_step}
+
+    def warehouse(self):
+        """(name, id) of the warehouse that stands; empty if it was built by nobody."""
+        get = self._ros.get_param
+        return str(get("/warehouse/name", "")), int(get("/warehouse/id", 0))
+
+    # --- doing it; each returns what the world says of it. Raises RefusedError, AwayError.
+    def pause(self):
+        return self._do("pause")
+
+    def resume(self):
+        return self._do("resume")
+
+    def reset(self, time_too=True):
+        return self._do("reset" if time_too else "reset_poses")
+
+    def step(self, steps):
+        return self._do("step", steps=steps)
+
+    def speed(self, factor):
+        """Simulated seconds a wall second, 0 = as fast as it goes."""
+        now = self._physics()
+        return self._do(
+            "speed",
+            time_step=now.time_step,
+            max_update_rate=factor / now.time_step,
+            gravity=now.gravity,
+            ode_config=now.ode_config,
+        )
+
+    def checkpoint(self, name):
+        return self._do("checkpoint", name=name)
+
+    def restore(self, name):
+        return self._do("restore", name=name)
+
+    def undo(self, seconds):
+        return self._do("undo", seconds=seconds)
+
+    def create(self, name, number, robots, items, shelves):
+        fields = {"robots": robots, "items": items, "shelves": shelves}
+        return self._do("create", warehouse_name=name, warehouse_id=number, **fields)
+
+    def _physics(self):
+        return self._call("/gazebo/get_physics_properties", GetPhysicsProperties, {})
+
+    def _do(self, action, **fields):
+        lack = self._lack(action)
+        if lack:
+            raise RefusedError(lack)
+        name, package, kind = SERVICES[action]
+        answer = self._call(name, _type(package, kind), fields)
+        message = getattr(answer, "message", getattr(answer, "status_message", ""))
+        if not getattr(answer, "success", True):
+            raise RefusedError(message or f"{name} failed and says no more")
+        return message
+
+    def _call(self, name, kind, fields):
+        try:
+            return self._ros.ServiceProxy(name, kind)(**fields)
+        except (self._ros.ServiceException, self._ros.ROSException, OSError) as error:
+            raise AwayError(f"{name}: {error}") from error
+
+
+def _type(package, kind):
+    """The service type, or None if this installation has none such."""
+    try:
+        return getattr(importlib.import_module(f"{package}.srv"), kind, None)
+    except ImportError:
+        return None

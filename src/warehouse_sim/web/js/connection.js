@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The WebSocket, which comes back by itself.
+
+import { decode } from './protocol.js';
+
+const RETRY = [500, 1000, 2000, 4000]; // [ms]
+
+export class Connection {
+  /** handlers: {update, scan, scene, status, events, paths} for what comes, state(live). */
+  constructor(handlers) {
+    this.handlers = handlers;
+    this.failures = 0;
+    this.bytes = 0; // received since the start
+    this.wishes = null;
+    this.open();
+  }
+
+  open() {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.socket = new WebSocket(`${scheme}://${location.host}/live`);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onopen = () => this.greet();
+    this.socket.onmessage = (message) => this.take(message.data);
+    this.socket.onclose = () => this.again();
+  }
+
+  greet() {
+    this.failures = 0;
+    this.handlers.state(true);
+    if (this.wishes) this.send({ watch: this.wishes });
+  }
+
+  again() {
+    this.handlers.state(false);
+    setTimeout(() => this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
+  }
+
+  take(data) {
+    this.bytes += data.byteLength ?? data.length;
+    if (typeof data === 'string') {
+      const message = JSON.parse(data);
+      this.handlers[message.type](message);
+      return;
+    }
+    const message = decode(data);
+    this.handlers[message.kind](message);
+    // The next ones come only to who has seen these.
+    if (message.kind === 'update') this.send({ ack: 1 });
+  }
+
+  /** Asks for scans and paths of robots, by id. */
+  watch(wishes) {
+    this.wishes = wishes;
+    this.send({ watch: wishes });
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+}

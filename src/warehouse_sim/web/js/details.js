@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is selected: its facts, and what it can be told to do.
+
+import { command } from './api.js';
+import { $, make } from './dom.js';
+import { STATE, STATUS } from './world.js';
+
+const LIFT = { drop: 0, carry: 1 };
+
+export class Details {
+  /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command. */
+  constructor(world, select, say) {
+    Object.assign(this, { world, select, say, name: null, robot: null });
+    $('left').onclick = () => this.turn(1);
+    $('right').onclick = () => this.turn(-1);
+    $('carry').onclick = () => this.lift('carry');
+    $('drop').onclick = () => this.lift('drop');
+    $('fetch').onclick = () => this.sendRobotHere();
+    $('close').onclick = () => select(null);
+  }
+
+  get thing() {
+    return this.name && this.world.indexOf.get(this.name);
+  }
+
+  /** Index of the selected robot, or -1. */
+  get selectedRobot() {
+    return this.thing?.kind === 'robot' ? this.thing.index : -1;
+  }
+
+  show(name) {
+    this.name = name;
+    if (this.selectedRobot >= 0) this.robot = name; // the last one, to be sent elsewhere
+    $('details-panel').hidden = !name;
+    $('answer').hidden = true;
+    this.shownFacts = null;
+    this.refresh();
+  }
+
+  refresh() {
+    const { thing } = this;
+    if (!this.name) return;
+    $('name').textContent = this.name;
+    const isRobot = thing?.kind === 'robot';
+    $('orders').hidden = !isRobot;
+    for (const id of ['scan', 'path']) $(id).hidden = !isRobot;
+    $('badge').hidden = !isRobot;
+    if (isRobot) this.refreshRobot(thing.index);
+    $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
+    $('fetch').textContent = `Send ${this.robot} beneath it`;
+    this.facts(thing ? this.factsOf(thing) : [['', 'is no longer there']]);
+  }
+
+  refreshRobot(i) {
+    const status = STATUS[this.world.status[i]];
+    $('badge').className = `badge ${status}`;
+    $('badge').textContent = status;
+    const load = this.world.shelf[i], over = this.world.unitOver(i);
+    able('carry', load ? 'it carries one' : over < 0 ? 'no storage unit stands over it' : '');
+    able('drop', load ? '' : 'it carries none');
+  }
+
+  factsOf(thing) {
+    const [x, y, z, yaw] = this.world.placeOf(thing);
+    const { index } = thing, { scene } = this.world;
+    const out = [['position', `${metres(x)}, ${metres(y)} m`]];
+    if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
+    out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
+    if (thing.kind === 'robot') {
+      out.push(['does', STATE[this.world.state[index]]]);
+      const load = this.world.loadOf(index);
+      out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
+      if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);
+    }
+    if (thing.kind === 'unit') {
+      const carrier = this.world.carrier[index];
+      out.push(['carried by', carrier ? link(`kiva${carrier}`) : 'nobody']);
+      out.push(['items', this.world.itemsOf[index].length
+        ? this.world.itemsOf[index].map((i) => scene.items[i]).join(', ') : 'none']);
+    }
+    if (thing.kind === 'item') {
+      const unit = scene.item_unit[index];
+      out.push(['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]);
+    }
+    return out;
+  }
+
+  facts(facts) {
+    const text = JSON.stringify(facts);
+    if (text === this.shownFacts) return;
+    this.shownFacts = text;
+    $('facts').replaceChildren(...facts.flatMap(([what, value]) => [
+      make('dt', { textContent: what }), make('dd', {}, typeof value === 'object' ? make('button',
+        { textContent: value.link, onclick: () => this.select(value.link) }) : value)]));
+  }
+
+  // --- commands; `at` is where in the window the answer belongs
+  go(x, y, at) {
+    return this.order(this.name, 'mov', { x, y }, at);
+  }
+
+  turn(direction) {
+    return this.order(this.name, 'rot', { direction });
+  }
+
+  lift(what) {
+    const i = this.selectedRobot;
+    if (i < 0 || $(what).disabled) return null;
+    const over = this.world.unitOver(i);
+    const shelf = what === 'drop' ? this.world.shelf[i] : numberOf(this.world.scene.units[over]);
+    return this.order(this.name, 'lift', { status: LIFT[what], shelf_id: shelf });
+  }
+
+  sendRobotHere() {
+    const [x, y] = this.world.placeOf(this.thing);
+    return this.order(this.robot, 'mov', { x: Math.round(x), y: Math.round(y) });
+  }
+
+  async order(robot, name, fields, at) {
+    const answer = (text, kind) => {
+      if (kind === 'refused' || kind === 'blocked') this.say(`${robot}: ${text}`, kind, at);
+      if (![this.name, this.robot].includes(robot)) return;
+      Object.assign($('answer'), { hidden: false, textContent: `${name}: ${text}` });
+      $('answer').dataset.kind = kind;
+    };
+    answer('sent', 'sent');
+    try {
+      const { outcome, events } = await command(numberOf(robot), name, fields);
+      answer([outcome, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
+    } catch (error) {
+      answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
+    }
+  }
+}
+
+const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00
+const link = (name) => ({ link: name });
+const numberOf = (name) => Number(name.match(/\d+$/)[0]);
+
+function able(id, lack) {
+  $(id).dataset.title ??= $(id).title;
+  $(id).disabled = Boolean(lack);
+  $(id).title = lack ? `${$(id).dataset.title} – not now: ${lack}` : $(id).dataset.title;
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The API's description as a page on which each request can be tried.
+
+import { $, make } from './dom.js';
+
+const OPENAPI = '/api/v1/openapi.json';
+
+async function show() {
+  const api = await (await fetch(OPENAPI)).json();
+  $('about').textContent = api.info.description;
+  for (const [path, methods] of Object.entries(api.paths)) {
+    for (const [method, operation] of Object.entries(methods)) {
+      $('operations').append(section(api, path, method, operation));
+    }
+  }
+}
+
+function section(api, path, method, operation) {
+  return make('details', {},
+    make('summary', {},
+      make('span', { className: `method ${method}`, textContent: method.toUpperCase() }),
+      make('code', { textContent: path }),
+      make('span', { className: 'dim', textContent: operation.description ?? operation.summary })),
+    form(api, path, method, operation));
+}
+
+function form(api, path, method, { parameters = [], requestBody, responses }) {
+  const out = make('form', {}, ...parameters.map(field));
+  const body = requestBody?.content['application/json'].schema;
+  if (body) {
+    const text = JSON.stringify(example(api, body), null, 2);
+    out.append(make('p', { className: 'dim', textContent: `body: ${told(api, body)}` }),
+      make('textarea', { name: 'body', value: text, spellcheck: false }));
+  }
+  const answer = make('pre', { hidden: true });
+  out.append(make('p', { className: 'dim', textContent: `answers: ${Object.keys(responses).join(', ')}` }),
+    make('button', { textContent: 'Try it' }), answer);
+  out.onsubmit = async (event) => {
+    event.preventDefault();
+    answer.hidden = false;
+    answer.textContent = await attempt(out, path, method, parameters);
+  };
+  return out;
+}
+
+function field({ name, in: place, required, description = '', schema }) {
+  const limits = [schema.enum?.join(' | '), schema.default !== undefined && `default ${schema.default}`];
+  const about = [description, ...limits].filter(Boolean).join('; ');
+  return make('label', {}, make('code', { textContent: name }),
+    make('input', { name: `${place}:${name}`, required, value: required ? '1' : '' }),
+    make('small', { className: 'dim', textContent: about }));
+}
+
+async function attempt(form, path, method, parameters) {
+  let url = path;
+  const query = new URLSearchParams();
+  for (const { name, in: place } of parameters) {
+    const { value } = form.elements[`${place}:${name}`];
+    if (place === 'path') url = url.replace(`{${name}}`, encodeURIComponent(value));
+    else if (value) query.set(name, value);
+  }
+  const body = form.elements.body?.value;
+  const headers = body ? { 'content-type': 'application/json' } : {};
+  const text = String(query) ? `${url}?${query}` : url;
+  try {
+    const answer = await fetch(text, { method: method.toUpperCase(), headers, body });
+    const told = JSON.stringify(await answer.json(), null, 2);
+    return `${method.toUpperCase()} ${text}\n${answer.status} ${answer.statusText}\n${told}`;
+  } catch (error) {
+    return error.message;
+  }
+}
+
+function resolve(api, { oneOf, ...schema }) {
+  if (schema.$ref) return api.components.schemas[schema.$ref.split('/').at(-1)];
+  return oneOf ? { anyOf: oneOf } : schema;
+}
+
+/** A body to begin with. */
+function example(api, schema) {
+  const { anyOf, properties = {} } = resolve(api, schema);
+  if (anyOf) return example(api, anyOf[0]);
+  return Object.fromEntries(Object.entries(properties).map(([name, property]) => (
+    [name, property.default ?? property.enum?.[0] ?? property.const
+      ?? { string: 'small', boolean: true }[property.type] ?? 1])));
+}
+
+/** The fields of a body, in words; of each of its variants if it has some. */
+function told(api, schema) {
+  const { anyOf, properties = {}, required = [] } = resolve(api, schema);
+  if (anyOf) return anyOf.map((variant) => told(api, variant)).join(' or ');
+  const fields = Object.entries(properties).map(([name, property]) => (
+    `${name}${required.includes(name) ? '' : '?'}: ${property.enum?.join(' | ') ?? property.type}`));
+  return `{ ${fields.join(', ')} }`;
+}
+
+show();

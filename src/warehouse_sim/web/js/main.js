@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page: what comes from the server goes to the World and from there into picture and panels.
+
+import { Actors } from './actors.js';
+import { Bar } from './bar.js';
+import { Connection } from './connection.js';
+import { Details } from './details.js';
+import { $, isPressed, press } from './dom.js';
+import { Keys } from './keys.js';
+import { RobotList } from './list.js';
+import { EventLog } from './log.js';
+import { Navigator } from './navigator.js';
+import { Overlays } from './overlays.js';
+import { Picker } from './picker.js';
+import { Pointer } from './pointer.js';
+import { VERSION } from './protocol.js';
+import { Stage } from './stage.js';
+import { Tip } from './tip.js';
+import { World } from './world.js';
+
+const PANELS_EVERY = 250; // [ms]
+
+class Page {
+  constructor() {
+    this.world = new World();
+    this.tip = new Tip();
+    const select = (name) => this.select(name);
+    const say = (text, kind, at) => this.tip.say(text, kind, at);
+    this.bar = new Bar(say);
+    this.list = new RobotList(this.world, select);
+    this.log = new EventLog(select);
+    this.details = new Details(this.world, select, say);
+    this.selected = null;
+    this.floor = '';
+    this.paths = {};
+    this.scans = new Map();
+    this.openStage();
+    this.addButtons();
+    this.keys = new Keys((step) => this.next(step), () => this.select(null));
+    setInterval(() => this.refreshPanels(), PANELS_EVERY);
+    this.connection = new Connection({
+      state: (live) => this.bar.showLink(live),
+      scene: (scene) => this.takeScene(scene),
+      update: (update) => this.takeUpdate(update),
+      status: (status) => this.bar.showStatus(status),
+      events: ({ events }) => this.takeEvents(events),
+      paths: ({ paths }) => this.takePaths(paths),
+      scan: (scan) => this.takeScan(scan),
+    });
+  }
+
+  /** Without WebGL list and commands work all the same. */
+  openStage() {
+    try {
+      this.stage = new Stage($('stage'), (now) => this.beforeDraw(now));
+    } catch (error) {
+      this.tip.say(`no picture: this browser offers no WebGL (${error.message})`, 'refused');
+      return;
+    }
+    this.actors = new Actors(this.stage, this.world);
+    this.overlays = new Overlays(this.stage, this.world);
+    this.picker = new Picker(this.stage, this.actors);
+    this.navigator = new Navigator(this.stage);
+    this.pointer = new Pointer(this, this.picker, this.overlays);
+  }
+
+  // --- from the server
+  takeScene(scene) {
+    if (scene.protocol !== VERSION) location.reload();
+    this.world.setScene(scene);
+    this.scans.clear();
+    this.buildPicture(scene);
+    this.select(this.world.indexOf.has(this.selected) ? this.selected : null);
+    this.list.search($('search').value);
+  }
+
+  buildPicture({ floor, grid }) {
+    if (!this.stage) return;
+    this.actors.build();
+    this.overlays.trails.clear();
+    if (String(floor) === this.floor) return;
+    this.floor = String(floor);
+    this.stage.setFloor(floor, grid);
+    this.navigator.see();
+  }
+
+  takeUpdate(update) {
+    if (update.revision !== this.world.scene.revision) return; // of a scene that is past
+    const changed = this.world.apply(update, performance.now());
+    this.bar.showTime(update.stamp);
+    if (!this.stage) return;
+    this.actors.paint(changed.robots);
+    this.actors.placeUnits(changed.units);
+    this.actors.placeLoose(changed.loose);
+    this.actors.placeScenery(changed.scenery);
+    this.overlays.trails.note(changed.robots);
+    this.stage.invalidate();
+  }
+
+  takeEvents(events) {
+    this.log.add(events);
+    if (events.some((e) => [e.model, e.other].includes(this.selected))) {
+      this.log.drawOwn(this.selected);
+    }
+  }
+
+  takePaths(paths) {
+    this.paths = paths;
+    this.showExtras();
+  }
+
+  takeScan(scan) {
+    this.scans.set(scan.id, scan);
+    this.showExtras();
+  }
+
+  // --- the picture
+  beforeDraw(now) {
+    const moved = this.world.advance(now);
+    this.actors.placeRobots(moved);
+    this.navigator.advance();
+    if (moved.length) {
+      this.actors.runBelts(Math.min(0.1, (now - (this.drawn ?? now)) / 1000));
+      this.showExtras();
+    }
+    this.drawn = now;
+    return moved.length > 0;
+  }
+
+  /** What belongs to the selected: its mark, path and scan. */
+  showExtras() {
+    if (!this.stage) return;
+    const thing = this.details.thing;
+    const place = thing ? this.world.placeOf(thing) : null;
+    this.overlays.select(place, { item: 0.3, scenery: 1.4 }[thing?.kind] ?? 1);
+    const robot = this.details.selectedRobot;
+    const id = this.world.scene.robots[robot];
+    const path = robot >= 0 && isPressed($('path')) && this.paths[id];
+    this.overlays.showPath(place?.slice(0, 2), path || []);
+    const scan = robot >= 0 && isPressed($('scan')) && this.scans.get(id);
+    this.overlays.showScan(scan || null, place);
+  }
+
+  // --- the person
+  select(name) {
+    this.selected = name;
+    this.details.show(name);
+    this.list.choose(name);
+    this.log.drawOwn(name);
+    this.watch();
+    this.follow(isPressed($('follow')));
+    this.showExtras();
+    this.stage?.invalidate();
+  }
+
+  /** Asks the server for what the selected needs. */
+  watch() {
+    const robot = this.details.selectedRobot;
+    const id = this.world.scene.robots[robot];
+    const want = (button) => (robot >= 0 && isPressed($(button)) ? [id] : []);
+    this.connection?.watch({ scans: want('scan'), paths: want('path') });
+  }
+
+  next(step) {
+    const { rows } = this.list;
+    if (!rows.length) return;
+    const at = rows.findIndex((i) => this.list.nameOf(i) === this.selected);
+    this.select(this.list.nameOf(rows[(at + step + rows.length) % rows.length]));
+  }
+
+  follow(on) {
+    press($('follow'), on && Boolean(this.details.thing));
+    const thing = this.details.thing;
+    this.navigator?.follow(on && thing ? () => this.world.placeOf(thing) : null);
+  }
+
+  addButtons() {
+    const toggle = (id, then) => {
+      $(id).onclick = () => {
+        press($(id), !isPressed($(id)));
+        then(isPressed($(id)));
+      };
+    };
+    toggle('follow', (on) => this.follow(on));
+    for (const id of ['scan', 'path']) {
+      toggle(id, () => {
+        this.watch();
+        this.showExtras();
+      });
+    }
+    toggle('trails', (on) => this.showTrails(on));
+    toggle('xray', (on) => this.actors?.setSeeThrough(on));
+    $('home').onclick = () => this.see(false);
+    $('top').onclick = () => this.see(true);
+    $('theme').onclick = () => this.changeTheme();
+    for (const button of document.querySelectorAll('[data-sheet]')) {
+      button.onclick = () => this.openSheet(button.dataset.sheet);
+    }
+  }
+
+  see(above) {
+    this.follow(false);
+    this.navigator?.see(above);
+  }
+
+  showTrails(on) {
+    if (!this.stage) return;
+    this.overlays.trails.clear();
+    this.overlays.trails.object.visible = on;
+    this.stage.invalidate();
+  }
+
+  changeTheme() {
+    const theme = document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark';
+    document.documentElement.dataset.theme = theme;
+    localStorage.setItem('theme', theme);
+    this.stage?.setTheme(theme);
+    this.overlays?.setTheme(theme);
+  }
+
+  /** On a narrow window one panel at a time is open. */
+  openSheet(id) {
+    for (const sheet of document.querySelectorAll('.sheet')) {
+      sheet.classList.toggle('open', sheet.id === id && !sheet.classList.contains('open'));
+    }
+    this.list.draw();
+  }
+
+  refreshPanels() {
+    if (document.hidden) return;
+    this.list.refresh();
+    this.details.refresh();
+  }
+}
+
+window.page = new Page(); // for a look from the console

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+// Before anything is drawn, so that nothing flashes: what was chosen here last, or the system's.
+{
+  const light = matchMedia('(prefers-color-scheme: light)').matches;
+  document.documentElement.dataset.theme = localStorage.getItem('theme') || (light ? 'light' : 'dark');
+}
