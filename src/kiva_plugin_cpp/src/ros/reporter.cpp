@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFleetRate = 10;   // [Hz]
 constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
+constexpr double kStatusRate = 10;  // [Hz], while somebody listens
 constexpr auto kPictureInterval = std::chrono::milliseconds(100);
 constexpr auto kUnheardInterval = std::chrono::milliseconds(400);
 
@@ -57,7 +58,7 @@ Reporter::Reporter(const kiva::World& world, const Rates& rates, Audience& audie
       models_every_(stepsPer(rates.model_states, world.stepSize())),
       fleet_every_(stepsPer(kFleetRate, world.stepSize())),
       robots_every_(stepsPer(kRobotsRate, world.stepSize())),
-      heartbeat_every_(stepsPer(kHeartbeatSlots, world.stepSize())) {}
+      heartbeat_every_(stepsPer(kStatusRate * kHeartbeatSlots, world.stepSize())) {}
 
 void Reporter::afterStep(kiva::World& world) {
   Snapshot out;
@@ -136,12 +137,14 @@ void Reporter::addClock(const kiva::World& world, Snapshot* out) {
   out->clock = true;
 }
 
-/// Of every robot once a simulated second. Where that is often by the wall clock, those that
-/// nobody listens to only refresh what is latched.
+/// Of robots somebody listens to at kStatusRate; of every robot once a simulated second, or where
+/// that is often by the wall clock less often, to refresh what is latched.
 void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
-  const int slot = static_cast<int>(world.steps() / heartbeat_every_ % kHeartbeatSlots);
+  const std::uint64_t beat = world.steps() / heartbeat_every_;
+  const int slot = static_cast<int>(beat % kHeartbeatSlots);
+  const bool second = beat / kHeartbeatSlots % static_cast<int>(kStatusRate) == 0;
   const auto now = WallClock::now();
-  const bool all = now >= heard_[slot] + kUnheardInterval;
+  const bool all = second && now >= heard_[slot] + kUnheardInterval;
   if (all) heard_[slot] = now;
   for (int i = 0; i < world.fleet().size(); ++i) {
     const int id = world.fleet().robots[i].id;
