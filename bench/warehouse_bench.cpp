@@ -143,6 +143,7 @@ void run(const Options& options) {
   const long steps = std::lround(options.seconds / world.stepSize());
   Shares shares;
   const auto chunk = [&] {
+    const double begin = bench::cpuTime();
     for (long s = 0; s < steps; ++s) {
       if (s % kStepsPerLook == 0) {
         dispatcher.dispatch(world);
@@ -151,7 +152,9 @@ void run(const Options& options) {
       world.step();
       if (options.scans) readScans(world, &ranges);
     }
-    std::fprintf(stderr, "  simulated %.0f s: %s\n", world.time(), shares.text().c_str());
+    const double factor = options.seconds / (bench::cpuTime() - begin);
+    std::fprintf(stderr, "  simulated %.0f s: RTF %.2f%s\n", world.time(), factor,
+                 shares.text().c_str());
   };
   chunk();  // from the start, where all stand still, to how a warehouse is
   shares = {};
