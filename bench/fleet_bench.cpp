@@ -4,52 +4,38 @@
 // second a side at 1 m/s, one second a quarter turn; a laser of 20 rays over 180°, 5 m, 10 Hz; 1 ms
 // steps. Prints the real-time factor, the median of five chunks of simulated time.
 //
-//   fleet_bench [--no-lasers] [--drive jointed] [--seconds 2] N…
-#include <algorithm>
-#include <chrono>
+//   fleet_bench [--no-lasers] [--drive jointed] [--seconds S] N…
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "chunks.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
+#include "square.h"
 
 namespace {
 
-constexpr double kLattice = 3.0;  // [m]
-constexpr int kChunks = 5;
+constexpr char kHelp[] = "fleet_bench [--no-lasers] [--drive jointed] [--seconds S] N…\n";
 
 // With which a jointed robot's square takes as long as the workload's.
 const std::pair<const char*, const char*> kJointedChanges[] = {
     {"acceleration", "3.5"}, {"speed", "2.0"}, {"quarter_turn_time", "0.82"}};
 
-struct Options {
-  bool lasers = true;
+struct Options : bench::Options {
   std::string drive = "traction";
-  double seconds = 2;  // of simulated time a chunk
-  std::vector<int> robots;
 };
 
 Options parse(int argc, char** argv) {
   Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--no-lasers") {
-      options.lasers = false;
-    } else if (word == "--drive" && i + 1 < argc) {
-      options.drive = argv[++i];
-    } else if (word == "--seconds" && i + 1 < argc) {
-      options.seconds = std::atof(argv[++i]);
-    } else {
-      options.robots.push_back(std::atoi(argv[i]));
-    }
-  }
+  static_cast<bench::Options&>(options) = bench::parse(argc, argv, kHelp);
+  const auto& words = options.others;
+  if (words.empty()) return options;
+  if (words.size() != 2 || words[0] != "--drive") bench::usage(kHelp);
+  options.drive = words[1];
   return options;
 }
 
@@ -143,49 +129,36 @@ void readLasers(const kiva::World& world, std::vector<float>* ranges) {
   for (int i : world.scansDue()) world.scan(i, ranges);
 }
 
-/// Of this process [s].
-double cpuTime() {
-  timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+void spawn(kiva::World& world, const Options& options, int robots) {
+  const auto description = kiva::parseModels(robotText(options), {}, "kiva").front().description;
+  const bench::Lattice lattice(robots);
+  for (int i = 0; i < robots; ++i) {
+    const kiva::Pose pose(lattice.x(i), lattice.y(i), 0, 0, 0, 0);
+    world.spawn({"kiva" + std::to_string(i + 1), pose, description});
+  }
 }
 
 void run(const Options& options, int robots) {
-  const int columns = static_cast<int>(std::ceil(std::sqrt(robots)));
-  const double size = columns * kLattice + 6;
-  kiva::World world(kiva::parseWorld(floorAndWalls(size), {}, "bench"));
-  const auto description = kiva::parseModels(robotText(options), {}, "kiva").front().description;
-  const double corner = std::round(-columns * kLattice / 2);
-  for (int i = 0; i < robots; ++i) {
-    const kiva::Pose pose(corner + i % columns * kLattice, corner + i / columns * kLattice, 0, 0, 0,
-                          0);
-    world.spawn({"kiva" + std::to_string(i + 1), pose, description});
-  }
+  kiva::World world(kiva::parseWorld(floorAndWalls(bench::Lattice(robots).size()), {}, "bench"));
+  spawn(world, options, robots);
   Squares squares(robots);
   std::vector<float> ranges;
-  std::vector<double> factors;
-  double speed = 0, cpu = 0;
+  double speed = 0;
   constexpr int kSample = 10;  // steps between two looks at the speed
   const long steps = std::lround(options.seconds / world.stepSize());
-  for (int chunk = 0; chunk < kChunks; ++chunk) {
-    const auto begin = std::chrono::steady_clock::now();
-    cpu -= cpuTime();
+  const auto factors = bench::measure(options.seconds, [&] {
     for (long s = 0; s < steps; ++s) {
       squares.command(world);
       world.step();
       if (options.lasers) readLasers(world, &ranges);
-      if (s % kSample == 0) speed += kSample * meanSpeed(world.fleet()) / (steps * kChunks);
+      if (s % kSample == 0) {
+        speed += kSample * meanSpeed(world.fleet()) / static_cast<double>(steps * bench::kChunks);
+      }
     }
     world.takeEvents();
-    cpu += cpuTime();
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    factors.push_back(options.seconds / took.count());
-  }
-  std::sort(factors.begin(), factors.end());
-  const double each = 1e6 * cpu / (static_cast<double>(steps) * kChunks * robots);
-  std::printf("%-9s %7d robots  lasers %-3s  RTF %8.2f  CPU %.4f us a robot and step  %.2f m/s\n",
-              options.drive.c_str(), robots, options.lasers ? "on" : "off", factors[kChunks / 2],
-              each, speed);
+  });
+  bench::print(options.drive, robots, options.lasers, factors,
+               ", \"speed\": " + std::to_string(speed));
 }
 
 }  // namespace

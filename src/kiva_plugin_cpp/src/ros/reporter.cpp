@@ -14,6 +14,7 @@ constexpr double kFleetRate = 10;   // [Hz]
 constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
 // Simulated time may fly; a client that gets a thousand clocks a second does little else.
 constexpr auto kClockGap = std::chrono::milliseconds(4);
+constexpr double kStatusRate = 10;  // [Hz], while somebody listens
 constexpr auto kPictureInterval = std::chrono::milliseconds(100);
 constexpr auto kUnheardInterval = std::chrono::milliseconds(400);
 
@@ -63,7 +64,7 @@ void Reporter::retime(double step_size, double rtf) {
   models_every_ = stepsPer(rates_.model_states, step_size);
   fleet_every_ = stepsPer(kFleetRate, step_size);
   robots_every_ = stepsPer(kRobotsRate, step_size);
-  heartbeat_every_ = stepsPer(kHeartbeatSlots, step_size);
+  heartbeat_every_ = stepsPer(kStatusRate * kHeartbeatSlots, step_size);
 }
 
 void Reporter::afterStep(kiva::World& world) {
@@ -145,12 +146,14 @@ void Reporter::addClock(const kiva::World& world, Snapshot* out) {
   out->clock = true;
 }
 
-/// Of every robot once a simulated second. Where that is often by the wall clock, those that
-/// nobody listens to only refresh what is latched.
+/// Of robots somebody listens to at kStatusRate; of every robot once a simulated second, or where
+/// that is often by the wall clock less often, to refresh what is latched.
 void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
-  const int slot = static_cast<int>(world.steps() / heartbeat_every_ % kHeartbeatSlots);
+  const std::uint64_t beat = world.steps() / heartbeat_every_;
+  const int slot = static_cast<int>(beat % kHeartbeatSlots);
+  const bool second = beat / kHeartbeatSlots % static_cast<int>(kStatusRate) == 0;
   const auto now = WallClock::now();
-  const bool all = now >= heard_[slot] + kUnheardInterval;
+  const bool all = second && now >= heard_[slot] + kUnheardInterval;
   if (all) heard_[slot] = now;
   for (int i = 0; i < world.fleet().size(); ++i) {
     const int id = world.fleet().robots[i].id;

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse under ROS: a session of its own, what its clients get, and what its nodes need."""
+
+import contextlib
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xmlrpc.client
+from pathlib import Path
+
+import programs
+import rosgraph
+import rospy
+import rosservice
+
+from warehouse_msgs.srv import CreateWarehouse
+
+PATIENCE = 120  # [s]
+TICK = os.sysconf("SC_CLK_TCK")
+
+
+class Session:
+    """A master and a warehouse of its own."""
+
+    def __init__(self, **arguments):
+        self._words = [f"{name}:={value}" for name, value in arguments.items()]
+
+    def __enter__(self):
+        port = random.randrange(21000, 29000)
+        os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
+        self._home = tempfile.TemporaryDirectory(prefix="bench_ros_")
+        os.environ["ROS_HOME"] = self._home.name
+        command = ["roslaunch", "-p", str(port), "--sigint-timeout=3", "--sigterm-timeout=1"]
+        command += ["warehouse_sim", "warehouse.launch", *self._words]
+        print(f"$ {' '.join(command)}", file=sys.stderr, flush=True)
+        self._launch = subprocess.Popen(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+        )
+        self._wait(rosgraph.is_master_online, "the master")
+        name = "/warehouse/create_warehouse_models"
+        self._wait(lambda: name in rosservice.get_service_list(), "the warehouse")
+        return self
+
+    def __exit__(self, *_):
+        self._launch.send_signal(signal.SIGINT)
+        try:
+            self._launch.wait(30)
+        except subprocess.TimeoutExpired:
+            os.killpg(self._launch.pid, signal.SIGKILL)
+        self._home.cleanup()
+
+    def _wait(self, condition, what):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if self._launch.poll() is not None:
+                break
+            with contextlib.suppress(OSError, rosservice.ROSServiceException):
+                if condition():
+                    return
+            time.sleep(0.2)
+        raise programs.FailedError(f"{what} did not come up")
+
+    def create(self, name):
+        """Seconds from call to reply."""
+        call = rospy.ServiceProxy("/warehouse/create_warehouse_models", CreateWarehouse)
+        begin = time.monotonic()
+        reply = call(warehouse_name=name)
+        if not reply.success:
+            raise programs.FailedError(f"create_warehouse_models {name}: {reply.message}")
+        return time.monotonic() - begin
+
+    def topics_stand(self, prefix, count):
+        """Seconds until so many topics with that prefix are known; None if they never are."""
+        master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
+        begin = time.monotonic()
+        while time.monotonic() < begin + PATIENCE:
+            topics = master.getPublishedTopics("/bench", "/")[2]
+            if sum(topic.startswith(prefix) for topic, _ in topics) >= count:
+                return time.monotonic() - begin
+            time.sleep(1)
+        return None
+
+    def nodes(self):
+        """Process ids by program name: all that roslaunch started, and itself."""
+        out, pids = {}, [self._launch.pid]
+        while pids:
+            pid = pids.pop()
+            out[pid] = _command(pid)
+            pids += _children(pid)
+        return out
+
+    def memory(self):
+        """Of all nodes together [MB]; what they share is counted once."""
+        return sum(_memory(pid) for pid in self.nodes()) / 1e3
+
+    def cpu(self):
+        """CPU seconds by program name."""
+        return {name: _cpu(pid) for pid, name in self.nodes().items()}
+
+
+def _command(pid):
+    with contextlib.suppress(OSError):
+        words = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
+        return next((Path(w).name for w in words if not w.endswith(("python3", "python"))), "?")
+    return "?"
+
+
+def _children(pid):
+    with contextlib.suppress(OSError):
+        return list(map(int, Path(f"/proc/{pid}/task/{pid}/children").read_text().split())) + [
+            int(child)
+            for task in Path(f"/proc/{pid}/task").iterdir()
+            if task.name != str(pid)
+            for child in (task / "children").read_text().split()
+        ]
+    return []
+
+
+def _memory(pid):
+    with contextlib.suppress(OSError):
+        for line in Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines():
+            if line.startswith("Pss:"):
+                return int(line.split()[1])
+    return 0
+
+
+def _cpu(pid):
+    with contextlib.suppress(OSError):
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / TICK
+    return 0.0
+
+
+def client(session, seconds, *options):
+    """What one client of the whole fleet gets, and each program's share of a core meanwhile."""
+    before, begin = session.cpu(), time.monotonic()
+    command = [programs.BUILT / "fleet_client", "--seconds", seconds, *options]
+    out = programs.figures(command)[0]
+    took, after = time.monotonic() - begin, session.cpu()
+    out["cores"] = {name: (used - before.get(name, 0)) / took for name, used in after.items()}
+    out["memory_mb"] = session.memory()
+    return out
+
+
+def listening(seconds):
+    """Creates `huge`, and lets one client follow and command it in real time."""
+    with Session(size="empty", rtf=1) as session:
+        out = {"create_s": session.create("huge")}
+        out["topics_s"] = session.topics_stand("/items/item", 20000)
+        before = session.memory()
+        return out | client(session, seconds) | {"memory_before_mb": before}
+
+
+def unheard(seconds):
+    """The same as fast as it goes, while nobody listens to a single robot."""
+    with Session(size="huge", rtf=0) as session:
+        session.topics_stand("/items/item", 20000)
+        return client(session, seconds, "--no-listen")
+
+
+def recreations(count):
+    """Memory after the second and after the last of so many creations [MB]."""
+    with Session(size="huge", rtf=1) as session:
+        memory = []
+        for i in range(count):
+            session.create("huge")
+            session.topics_stand("/items/item", 20000)
+            memory.append(session.memory())
+            print(f"  creation {i + 1}: {memory[-1]:.0f} MB", file=sys.stderr, flush=True)
+        return {"memory_second_mb": memory[1], "memory_last_mb": memory[-1]}
