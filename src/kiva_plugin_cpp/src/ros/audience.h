@@ -18,7 +18,7 @@ namespace kiva_ros {
 
 class Audience {
  public:
-  enum class Topic { kFleet, kModelStates, kTransforms };
+  enum class Topic { kFleet, kModelStates, kTransforms, kStateHash };
   enum class RobotTopic { kStatus, kScan, kOdometry };
 
   /// Called, in any thread, when a listener came.
@@ -44,8 +44,8 @@ class Audience {
   void noteArrival(int change, std::atomic<bool>* arrived);
 
   std::function<void()> on_arrival_;
-  std::atomic<bool> arrived_[3] = {}, robots_arrived_[3] = {};
-  std::atomic<int> counts_[3] = {};
+  std::atomic<bool> arrived_[4] = {}, robots_arrived_[3] = {};
+  std::atomic<int> counts_[4] = {};
   std::atomic<std::uint64_t> robots_revision_{0};
   mutable std::mutex mutex_;
   std::map<int, int> listeners_[3];  ///< By robot's id; guarded by mutex_.

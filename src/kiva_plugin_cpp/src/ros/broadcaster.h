@@ -12,6 +12,7 @@
 #include "audience.h"
 #include "outbox.h"
 #include "robot_topics.h"
+#include "sockets.h"
 #include "transforms.h"
 
 namespace kiva_ros {
@@ -34,7 +35,9 @@ class Broadcaster {
   Outbox& outbox_;
   RobotTopics robots_;
   Transforms transforms_;
-  ros::Publisher clock_, events_, fleet_, objects_, units_, model_states_, gazebo_model_states_;
+  Sockets sockets_;
+  ros::Publisher clock_, events_, fleet_, objects_, units_, hash_, model_states_,
+      gazebo_model_states_;
   std::shared_ptr<const std::vector<std::string>> names_;  ///< Those in models_.
   gazebo_msgs::ModelStates models_;                        ///< Kept, since its names seldom change.
   std::thread thread_;

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "audience.h"
 #include "broadcaster.h"
+#include "checkpoints.h"
 #include "commands.h"
 #include "engine.h"
 #include "farewell.h"
@@ -18,11 +20,14 @@
 #include "kiva_plugin_cpp/world_file.h"
 #include "outbox.h"
 #include "performance.h"
+#include "recorder.h"
+#include "replayer.h"
 #include "reporter.h"
 #include "settings.h"
 #include "simulation_services.h"
 #include "spawn_services.h"
 #include "state_services.h"
+#include "step_service.h"
 
 namespace {
 
@@ -64,6 +69,8 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   const Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
   kiva::World world(description, settings.world);
+  std::optional<Replayer> replayer;
+  if (!settings.replay.empty()) replayer.emplace(settings.replay).begin(world);
   const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
 
   Reporter::Rates rates = settings.rates;
@@ -72,14 +79,27 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   Audience audience;
   Outbox outbox;
   Reporter reporter(world, rates, audience, outbox);
-  Engine engine(world, reporter, rtf);
+  Engine engine(world, reporter, rtf, settings.lockstep);
   audience.onArrival([&engine] { engine.post([](kiva::World&) {}); });
   Broadcaster broadcaster(root, node, audience, outbox);
-  Commands commands(root, engine);
+  std::optional<Commands> commands;
+  if (!replayer) commands.emplace(root, engine);  // a replay has its own
+  StepService step_service(node, engine);
   SimulationServices simulation_services(node, engine);
   StateServices state_services(root, node, engine);
   Performance performance(node, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
+  // A replay takes the checkpoints that were taken when it was recorded, and no others.
+  Checkpoints checkpoints(root, world, engine, replayer ? 0 : settings.autosave);
+  engine.add(checkpoints);
+  if (replayer) {
+    replayer->onKeyframe([&engine](kiva::World& w, const std::string& checkpoint) {
+      engine.restoreHere(w, checkpoint);
+    });
+    engine.add(*replayer);
+  }
+  std::optional<Recorder> recorder;
+  if (!settings.record.empty()) engine.add(recorder.emplace(settings.record));
 
   announce(world, settings, rtf);
   engine.start();
@@ -88,6 +108,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   serveUntilStopped();
   spinner.stop();
   engine.stop();
+  if (recorder) recorder->finish(world);
   broadcaster.stop();
   if (ros::ok()) withdrawTopics();
   ros::shutdown();

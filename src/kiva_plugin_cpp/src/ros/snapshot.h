@@ -7,6 +7,7 @@
 #include <warehouse_msgs/UnitStates.h>
 #include <warehouse_msgs/WarehouseObjects.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,8 @@ struct Snapshot {
   std::vector<kiva::StatusChange> statuses;
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;
+  std::string state_hash;           ///< Empty: not due.
+  std::function<void()> published;  ///< To be called when this and all before is with the sockets.
 
   // Periodic: the next one is as good.
   bool clock = false;
@@ -63,7 +66,8 @@ struct Snapshot {
   std::vector<RobotPose> transforms;
 
   bool hasOwed() const {
-    return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units;
+    return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units ||
+           !state_hash.empty() || published;
   }
   bool hasPeriodic() const {
     return clock || fleet || models || !scans.empty() || !odometry.empty() || !transforms.empty();
