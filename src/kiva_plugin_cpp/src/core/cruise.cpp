@@ -10,11 +10,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kNear = 0.008;       // [m]: nearer than this, somebody else decides
+constexpr double kNear = 0.008;              // [m]: nearer than this, somebody else decides
 constexpr double kHorizons[] = {0.3, 0.08};  // [s] for which the way may be found free
-constexpr double kRetry = 0.05;       // [s] after which one looks again that had somebody near
-constexpr double kPushed = 0.5;       // [m/s] by which a robot may be faster than it drives
-constexpr double kMargin = 2;         // of force to spare: a profile's last steps are uneven
+constexpr double kRetry = 0.05;  // [s] after which one looks again that had somebody near
+constexpr double kPushed = 0.5;  // [m/s] by which a robot may be faster than it drives
+constexpr double kMargin = 2;    // of force to spare: a profile's last steps are uneven
 
 /// Whether the chassis is just as fast as its reference says.
 bool keepsUp(const Fleet& f, int i, const Motion& per) {
@@ -69,8 +69,8 @@ bool isWayFree(const Parts& parts, int robot, double way, double time) {
   };
   const auto approaches = [&](const Mover& other, int index) {
     if (index == robot) return false;
-    const double speed = std::max(f.robots[index].drive.speed,
-                                  std::hypot(f.vx[index], f.vy[index]) + kPushed);
+    const double speed =
+        std::max(f.robots[index].drive.speed, std::hypot(f.vx[index], f.vy[index]) + kPushed);
     Footprint circle;
     circle.kind = Footprint::Kind::kCircle;
     circle.x = f.x[index];

@@ -89,7 +89,8 @@ class Obstacles {
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
     const auto ask = [&](int handle) {
-      return handle >= 0 ? meets(entries_[handle].footprint) : approaches(movers_[~handle].mover, ~handle);
+      return handle >= 0 ? meets(entries_[handle].footprint)
+                         : approaches(movers_[~handle].mover, ~handle);
     };
     const Range r = range(x - reach, x + reach, y - reach, y + reach);
     for (int cy = r.y0; cy <= r.y1; ++cy) {

@@ -104,8 +104,8 @@ struct World::Parts {
   std::vector<ScanRound> scan_rounds;
   std::uint64_t scan_rounds_revision = ~0ull;  // of the models that scan_rounds were made for
   std::vector<int> scans_due;                  // robots whose scan is due at this step
-  std::vector<int> active;               // robots that are stepped one by one
-  double top_speed = 0;                  // [m/s] of the fastest robot there was
+  std::vector<int> active;                     // robots that are stepped one by one
+  double top_speed = 0;                        // [m/s] of the fastest robot there was
   Floor floor;
 
   std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;

@@ -99,7 +99,8 @@ void setRays(Parts& parts, Robot* robot) {
 
 void castScan(const Parts& parts, int robot, std::vector<RayHit>* hits) {
   const double range = parts.fleet.robots[robot].laser.max_range;
-  castRays(parts, robot, [range](int) { return range; }, hits);
+  castRays(
+      parts, robot, [range](int) { return range; }, hits);
 }
 
 bool blocks(const Parts& parts, int robot, int model) {

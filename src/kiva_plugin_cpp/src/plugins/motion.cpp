@@ -47,8 +47,8 @@ Motion alongLine(const Leg& leg, double top_speed, double acceleration) {
 
 bool arrived(const Fleet& f, int i, const OnLine& at) {
   const Robot& r = f.robots[i];
-  return f.reference[i] == f.goal[i] &&
-         std::abs(at.along - f.goal[i]) < tolerance(r).distance && stands(f, i);
+  return f.reference[i] == f.goal[i] && std::abs(at.along - f.goal[i]) < tolerance(r).distance &&
+         stands(f, i);
 }
 
 /// Ends a leg that the wheels can't drive, as against a wall that no laser saw.

@@ -142,7 +142,7 @@ double Checkpoints::undoHere(kiva::World& world, double seconds_back) {
 
 void Checkpoints::afterStep(kiva::World& world) {
   ++step_;
-  if (autosave_ == 0 || step_ % save_every_ != 0) return;
+  if (autosave_ == 0 || world.steps() % save_every_ != 0) return;
   engine_.noteCheckpoint();
   ring_.push_back({step_, world.checkpoint()});
   if (ring_.size() > autosave_) ring_.pop_front();
