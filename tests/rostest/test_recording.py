@@ -70,6 +70,11 @@ class Recording(unittest.TestCase):
             self.assertEqual(topics["/movx"].message_count, 2)
             self.assertEqual(topics["/rot"].msg_type, "warehouse_msgs/Rotate")
             self.assertEqual(topics["/warehouse/state_hash"].msg_type, "std_msgs/String")
+            (_, last, _) = list(bag.read_messages(["/tf"]))[-1]
+            self.assertEqual(
+                [t.child_frame_id for t in last.transforms],
+                ["kiva1/base_link", "kiva2/base_link", "kiva9/base_link"],
+            )
             hashes = [m.data for _, m, _ in bag.read_messages(["/warehouse/state_hash"])]
         for line in hashes:
             self.assertRegex(line, r"^\d+ [0-9a-f]{16}$")

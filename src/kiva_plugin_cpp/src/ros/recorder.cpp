@@ -4,8 +4,10 @@
 #include <std_msgs/Empty.h>
 #include <std_msgs/String.h>
 #include <std_msgs/UInt8MultiArray.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "convert.h"
@@ -14,6 +16,23 @@ namespace kiva_ros {
 namespace {
 
 constexpr double kHashRate = 1;  // [Hz]
+constexpr double kPoseRate = 2;  // [Hz]
+
+std::uint64_t stepsPer(double rate, double step_size) {
+  return static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * step_size))));
+}
+
+tf2_msgs::TFMessage posesOf(const kiva::World& world) {
+  tf2_msgs::TFMessage out;
+  out.transforms.resize(world.fleet().robots.size());
+  for (int i = 0; i < world.fleet().size(); ++i) {
+    geometry_msgs::TransformStamped& robot = out.transforms[i];
+    robot.header = header(world.time(), "world");
+    robot.child_frame_id = world.fleet().robots[i].name + "/base_link";
+    robot.transform = toTransform(world.basePose(i));
+  }
+  return out;
+}
 
 std_msgs::String hashOf(const kiva::World& world) {
   std_msgs::String out;
@@ -41,7 +60,8 @@ Recorder::Recorder(const std::string& path) {
 bool Recorder::beforeStep(kiva::World& world) {
   if (step_ == 0) {
     step_size_ = world.stepSize();
-    hash_every_ = std::max<std::uint64_t>(1, std::llround(1 / (kHashRate * step_size_)));
+    hash_every_ = stepsPer(kHashRate, step_size_);
+    poses_every_ = stepsPer(kPoseRate, step_size_);
   }
   if (changed_) {
     write(kKeyframeTopic, keyframe(world.checkpoint()));  // commands that wait are in it
@@ -58,6 +78,7 @@ void Recorder::afterStep(kiva::World& world) {
   ++step_;
   index_ = 0;
   if (step_ % hash_every_ == 0) write(kHashTopic, hashOf(world));
+  if (step_ % poses_every_ == 0) write("/tf", posesOf(world));
 }
 
 void Recorder::finish(const kiva::World& world) {

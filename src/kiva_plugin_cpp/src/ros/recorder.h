@@ -32,9 +32,9 @@ class Recorder : public StepHook {
 
   rosbag::Bag bag_;
   double step_size_ = 1;
-  std::uint64_t hash_every_ = 0;  ///< Steps.
-  std::uint64_t step_ = 0;        ///< Recorded so far.
-  std::uint32_t index_ = 0;       ///< Of the next message within this step.
+  std::uint64_t hash_every_ = 0, poses_every_ = 0;  ///< Steps.
+  std::uint64_t step_ = 0;                          ///< Recorded so far.
+  std::uint32_t index_ = 0;                         ///< Of the next message within this step.
   std::vector<kiva::Command> commands_;
   bool changed_ = true, checkpointed_ = false;
 };

@@ -4,6 +4,7 @@
 //
 //   /mov /movx /movy /rot /lift  the commands
 //   /warehouse/state_hash        of every simulated second, and of the end
+//   /tf                          where the robots are, twice a second: for RViz
 //   /warehouse/keyframe          std_msgs/UInt8MultiArray: a checkpoint, at the beginning and
 //                                whenever models came, went or were moved from outside
 //   /warehouse/checkpointed      std_msgs/Empty: a checkpoint was taken, which leaves its trace

@@ -12,6 +12,11 @@
 namespace kiva_ros {
 namespace {
 
+/// Whether it tells how the world was after a step.
+bool isReport(const rosbag::MessageInstance& message) {
+  return message.getTopic() == kHashTopic || message.getTopic() == "/tf";
+}
+
 std::string checkpointIn(const rosbag::MessageInstance& message) {
   const auto keyframe = message.instantiate<std_msgs::UInt8MultiArray>();
   if (!keyframe) throw std::runtime_error("a keyframe of another type");
@@ -74,9 +79,9 @@ void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message)
 
 void Replayer::afterStep(kiva::World& world) {
   ++step_;
-  while (isDue() && next_->getTopic() == kHashTopic) {
-    compare(world, next_->instantiate<std_msgs::String>()->data);
-    ++next_;
+  for (; isDue() && isReport(*next_); ++next_) {
+    const auto hash = next_->instantiate<std_msgs::String>();
+    if (hash) compare(world, hash->data);
   }
 }
 
