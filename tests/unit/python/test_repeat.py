@@ -5,44 +5,44 @@ import numpy as np
 
 from kiva_plugin_cpp import COMMAND, EventKind, Kind, World
 
-ROBOTS = 100
+SIDE = 10  # robots along x and y
+SPACING = 3  # [m]
 MINUTES = 10
+PAUSE = 4  # [s] between commands
 
 
-def commands(random, world):
-    """A random command for each robot; many are refused, and some drive robots together."""
-    out = np.zeros(ROBOTS, COMMAND)
-    out["kiva_id"] = world.fleet.kiva_id
-    out["kind"] = random.choice(list(Kind), ROBOTS, p=[0.3, 0.2, 0.2, 0.1, 0.2])
-    to_place = out["kind"] == Kind.MOVE_TO
-    low_x, high_x, low_y, high_y = world.floor
-    out["x"] = np.where(
-        to_place,
-        random.integers(int(low_x), int(high_x), ROBOTS),
-        random.integers(-3, 4, ROBOTS),
-    )
-    out["y"] = np.where(
-        to_place,
-        random.integers(int(low_y), int(high_y), ROBOTS),
-        random.integers(-3, 4, ROBOTS),
-    )
-    out["direction"] = random.choice([-1, 1], ROBOTS)
-    out["lift"] = random.integers(0, 2, ROBOTS)
-    # Whatever unit is nearest: the robot may well stand beneath it.
-    units = world.storage_units
-    dx = world.fleet.x[:, None] - units["x"]
-    dy = world.fleet.y[:, None] - units["y"]
-    out["shelf_id"] = units["shelf_id"][np.hypot(dx, dy).argmin(axis=1)]
+def hall():
+    """A hundred robots, far enough apart that they meet now and then; ten stand beneath a unit."""
+    world = World(seed=7)
+    for i in range(SIDE * SIDE):
+        x, y = SPACING * (i % SIDE - SIDE / 2), SPACING * (i // SIDE - SIDE / 2)
+        world.spawn_model("kiva", f"kiva{i + 1}", x, y)
+        if i % (SIDE + 1) == 0:
+            world.spawn_model("storage_unit", f"storage_unit{i // (SIDE + 1) + 1}", x, y)
+    world.events()
+    return world
+
+
+def commands(random):
+    """A random command for each robot; those that can't be are refused."""
+    out = np.zeros(SIDE * SIDE, COMMAND)
+    out["kiva_id"] = np.arange(len(out)) + 1
+    kinds = [Kind.MOVE_X, Kind.MOVE_Y, Kind.ROTATE, Kind.LIFT]
+    out["kind"] = random.choice(kinds, len(out), p=[0.4, 0.4, 0.1, 0.1])
+    out["x"] = out["y"] = random.integers(-2, 3, len(out))
+    out["direction"] = random.choice([-1, 1], len(out))
+    out["lift"] = random.integers(0, 2, len(out))
+    out["shelf_id"] = (out["kiva_id"] - 1) // (SIDE + 1) + 1  # the one it began beneath
     return out
 
 
-def hashes(minutes):
+def hashes():
     """Of every second, and how many events of each kind there were."""
-    world, random = World.preset("large", seed=7), np.random.default_rng(7)
+    world, random = hall(), np.random.default_rng(7)
     out, counts = [], np.zeros(len(EventKind), int)
-    for second in range(minutes * 60):
-        if second % 2 == 0:
-            world.post(commands(random, world))
+    for second in range(MINUTES * 60):
+        if second % PAUSE == 0:
+            world.post(commands(random))
         world.step(1000)
         out.append(world.state_hash())
         counts += np.bincount(world.events()["kind"], minlength=len(EventKind))
@@ -50,8 +50,8 @@ def hashes(minutes):
 
 
 def test_ten_minutes_of_a_hundred_robots_are_the_same_twice():
-    first, counts = hashes(MINUTES)
-    for kind in (EventKind.DONE, EventKind.BLOCKED, EventKind.LIFTED, EventKind.COLLISION):
-        assert counts[kind] > 10, kind
+    first, counts = hashes()
+    for kind in (EventKind.DONE, EventKind.BLOCKED, EventKind.LIFTED, EventKind.DROPPED):
+        assert counts[kind] > 0, kind
     assert len(set(first)) == MINUTES * 60
-    assert hashes(MINUTES)[0] == first
+    assert hashes()[0] == first

@@ -151,11 +151,11 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   const kiva::Fleet& f = world.fleet();
   warehouse_msgs::FleetState out;
   out.stamp = ros::Time(world.time());
-  out.x = f.x;
-  out.y = f.y;
-  out.vx = f.vx;
-  out.vy = f.vy;
-  out.yaw_rate = f.yaw_rate;
+  out.x.assign(f.x.begin(), f.x.end());
+  out.y.assign(f.y.begin(), f.y.end());
+  out.vx.assign(f.vx.begin(), f.vx.end());
+  out.vy.assign(f.vy.begin(), f.vy.end());
+  out.yaw_rate.assign(f.yaw_rate.begin(), f.yaw_rate.end());
   for (int i = 0; i < f.size(); ++i) {
     out.kiva_id.push_back(f.robots[i].id);
     out.yaw.push_back(wrapped(f.yaw[i]));
