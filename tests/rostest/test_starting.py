@@ -3,7 +3,6 @@
 """The world's node starts, refuses what is wrong, and ends when it is told to."""
 
 import signal
-import subprocess
 import time
 import unittest
 from pathlib import Path
@@ -11,42 +10,11 @@ from pathlib import Path
 import rosnode
 import rospy
 import rostest
-from node_test import PATIENCE, wait_until
-from roslib.packages import find_node
+from node_test import wait_until
 from warehouse_test import Commander, Paused, model_file, pose, sim_time, spawn, world
+from world_node import Node
 
 WORLDS = Path(__file__).resolve().parent.parent / "worlds"
-PARAMETERS = ("world", "rtf", "seed", "drive", "pub_clock_frequency", "model_states_frequency")
-
-
-class Node:
-    """The world's node in a process of its own."""
-
-    def __init__(self, **parameters):
-        for name in PARAMETERS:
-            if rospy.has_param(f"/gazebo/{name}"):
-                rospy.delete_param(f"/gazebo/{name}")
-        for name, value in parameters.items():
-            rospy.set_param(f"/gazebo/{name}", value)
-        program = find_node("kiva_plugin_cpp", "kiva_world_node")
-        self._process = subprocess.Popen(
-            program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        )
-
-    def send(self, number):
-        self._process.send_signal(number)
-
-    def end(self):
-        """Its return code and all that it said."""
-        said, _ = self._process.communicate(timeout=PATIENCE)
-        return self._process.returncode, said
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._process.kill()
-        self._process.communicate()
 
 
 class Refusing(unittest.TestCase):
@@ -64,6 +32,9 @@ class Refusing(unittest.TestCase):
         self.refused("/gazebo/rtf is fast", rtf="fast")
         self.refused("/gazebo/seed is -1", seed=-1)
         self.refused("/gazebo/drive is hover", "traction, jointed", drive="hover")
+        self.refused("/gazebo/lockstep is yes", "true or false", lockstep="yes")
+        self.refused("/gazebo/autosave is -1", "whole number", autosave=-1)
+        self.refused("/gazebo/autosave is 1.5", "whole number", autosave=1.5)
         self.refused("/gazebo/pub_clock_frequency", pub_clock_frequency=-1.0)
         self.refused("/gazebo/model_states_frequency", model_states_frequency="often")
 

@@ -14,6 +14,13 @@ SI units, radians, x forward, y left, z up. One thread at a time uses a world.
 from enum import IntEnum
 from pathlib import Path
 
+import numpy
+
+if int(numpy.__version__.split(".")[0]) > 1:
+    raise ImportError(
+        f"kiva_plugin_cpp is built for numpy 1, not {numpy.__version__}: pip install 'numpy<2'"
+    )
+
 from kiva_plugin_cpp import _core
 from kiva_plugin_cpp._core import COMMAND, EVENT, CheckpointError, DescriptionError, Fleet
 

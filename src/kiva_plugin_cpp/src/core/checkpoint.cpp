@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 #include "describe.h"
@@ -61,12 +62,18 @@ void describeSetting(A& a, Parts& parts) {
   a(parts.free_slots, parts.next_serial, parts.world_plugin_descriptions);
 }
 
+/// Whether a model has a state of its own; what is static or lies on a unit has none.
+bool hasState(const Model& model) {
+  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit ||
+         (model.in_physics && !model.isStatic());
+}
+
 /// What changes from step to step.
 template <class A>
 void describeMotion(A& a, Parts& parts, PhysicsState& physics) {
   a(parts.steps, parts.total_steps, parts.dt_since, parts.dt_since_time);
   for (auto& model : parts.models) {
-    if (model) a(*model);
+    if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) a(*model);
   }
   a(parts.fleet, parts.units, parts.items);
   a(parts.bodies, parts.models_with_plugins, parts.engaged, parts.touching, parts.scans_due);

@@ -18,7 +18,7 @@ namespace kiva_ros {
 
 class Audience {
  public:
-  enum class Topic { kFleet, kModelStates, kLinkStates, kTransforms };
+  enum class Topic { kFleet, kModelStates, kLinkStates, kTransforms, kStateHash };
   enum class RobotTopic { kStatus, kScan, kOdometry };
 
   /// Called, in any thread, when a listener came.

@@ -2,6 +2,7 @@
 #include "broadcaster.h"
 
 #include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
 
 #include "convert.h"
 
@@ -14,6 +15,12 @@ constexpr int kStreamQueue = 10;
 
 /// Latched, so that who comes while time stands still learns it too.
 constexpr bool kLatched = true;
+
+std_msgs::String hashMessage(const std::string& hash) {
+  std_msgs::String out;
+  out.data = hash;
+  return out;
+}
 
 }  // namespace
 
@@ -32,6 +39,9 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience&
   fleet_ = advertiseCounted<warehouse_msgs::FleetState>(
       root, "/warehouse/fleet", kStreamQueue,
       [&audience](int change) { audience.count(Audience::Topic::kFleet, change); });
+  hash_ = advertiseCounted<std_msgs::String>(
+      root, "/warehouse/state_hash", kStreamQueue,
+      [&audience](int change) { audience.count(Audience::Topic::kStateHash, change); });
   const auto count_models = [&audience](int change) {
     audience.count(Audience::Topic::kModelStates, change);
   };
@@ -73,6 +83,11 @@ void Broadcaster::publish(const Snapshot& s) {
   if (s.models) publishModels(*s.models);
   if (s.links) publishLinks(*s.links);
   for (const Mail::Letter& letter : s.mail) letter();
+  if (!s.state_hash.empty()) hash_.publish(hashMessage(s.state_hash));
+  if (s.published) {
+    sockets_.flush();
+    s.published();
+  }
 }
 
 void Broadcaster::publishEvent(const kiva::Event& event) {

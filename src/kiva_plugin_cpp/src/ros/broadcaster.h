@@ -13,6 +13,7 @@
 #include "audience.h"
 #include "outbox.h"
 #include "robot_topics.h"
+#include "sockets.h"
 #include "transforms.h"
 
 namespace kiva_ros {
@@ -36,7 +37,8 @@ class Broadcaster {
   Outbox& outbox_;
   RobotTopics robots_;
   Transforms transforms_;
-  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_;
+  Sockets sockets_;
+  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
   // Kept, since their names seldom change.
   std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.

@@ -27,7 +27,7 @@ template <typename Message, typename Convert>
 void Commands::subscribe(ros::NodeHandle& root, const std::string& topic, Convert convert) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> post =
       [this, convert](const boost::shared_ptr<const Message>& message) {
-        engine_.post([command = convert(*message)](kiva::World& world) { world.post(command); });
+        engine_.command(convert(*message));
       };
   subscribers_.push_back(root.subscribe<Message>(topic, kUnlimited, post, ros::VoidConstPtr(),
                                                  ros::TransportHints().tcpNoDelay()));

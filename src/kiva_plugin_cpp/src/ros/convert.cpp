@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "convert.h"
 
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace kiva_ros {
@@ -163,11 +165,11 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   const kiva::Fleet& f = world.fleet();
   warehouse_msgs::FleetState out;
   out.stamp = ros::Time(world.time());
-  out.x = f.x;
-  out.y = f.y;
-  out.vx = f.vx;
-  out.vy = f.vy;
-  out.yaw_rate = f.yaw_rate;
+  out.x.assign(f.x.begin(), f.x.end());
+  out.y.assign(f.y.begin(), f.y.end());
+  out.vx.assign(f.vx.begin(), f.vx.end());
+  out.vy.assign(f.vy.begin(), f.vy.end());
+  out.yaw_rate.assign(f.yaw_rate.begin(), f.yaw_rate.end());
   for (int i = 0; i < f.size(); ++i) {
     out.kiva_id.push_back(f.robots[i].id);
     out.yaw.push_back(wrapped(f.yaw[i]));
@@ -268,6 +270,42 @@ kiva::Command fromMessage(const warehouse_msgs::Lift& message) {
   out.lift = message.status;
   out.shelf_id = message.shelf_id;
   return out;
+}
+
+warehouse_msgs::MoveTo toMoveTo(const kiva::Command& command) {
+  warehouse_msgs::MoveTo out;
+  out.x = command.x;
+  out.y = command.y;
+  out.kiva_id = command.kiva_id;
+  return out;
+}
+
+warehouse_msgs::MoveAlong toMoveAlong(const kiva::Command& command) {
+  warehouse_msgs::MoveAlong out;
+  out.distance = command.kind == kiva::Command::Kind::kMoveX ? command.x : command.y;
+  out.kiva_id = command.kiva_id;
+  return out;
+}
+
+warehouse_msgs::Rotate toRotate(const kiva::Command& command) {
+  warehouse_msgs::Rotate out;
+  out.direction = static_cast<std::int8_t>(command.direction);
+  out.kiva_id = command.kiva_id;
+  return out;
+}
+
+warehouse_msgs::Lift toLift(const kiva::Command& command) {
+  warehouse_msgs::Lift out;
+  out.status = static_cast<std::uint8_t>(command.lift);
+  out.kiva_id = command.kiva_id;
+  out.shelf_id = command.shelf_id;
+  return out;
+}
+
+std::string hashText(const kiva::World& world) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%" PRIu64 " %016" PRIx64, world.steps(), world.stateHash());
+  return text;
 }
 
 }  // namespace kiva_ros

@@ -62,4 +62,12 @@ kiva::Command fromMessage(const warehouse_msgs::MoveAlong& message, kiva::Comman
 kiva::Command fromMessage(const warehouse_msgs::Rotate& message);
 kiva::Command fromMessage(const warehouse_msgs::Lift& message);
 
+warehouse_msgs::MoveTo toMoveTo(const kiva::Command& command);
+warehouse_msgs::MoveAlong toMoveAlong(const kiva::Command& command);
+warehouse_msgs::Rotate toRotate(const kiva::Command& command);
+warehouse_msgs::Lift toLift(const kiva::Command& command);
+
+/// The state's hash as text: the steps since time was 0, a blank, 16 hexadecimal digits.
+std::string hashText(const kiva::World& world);
+
 }  // namespace kiva_ros

@@ -7,8 +7,13 @@
 
 namespace kiva_ros {
 
-Engine::Engine(kiva::World& world, Reporter& reporter, double rtf)
-    : world_(world), reporter_(reporter), pacer_(world.stepSize(), rtf), target_factor_(rtf) {}
+Engine::Engine(kiva::World& world, Reporter& reporter, double rtf, bool lockstep)
+    : lockstep_(lockstep),
+      world_(world),
+      reporter_(reporter),
+      pacer_(world.stepSize(), rtf),
+      target_factor_(rtf),
+      models_revision_(world.modelsRevision()) {}
 
 void Engine::start() {
   running_ = true;
@@ -21,6 +26,7 @@ void Engine::start() {
       refuseRequests();
       ros::requestShutdown();
     }
+    orders_.clear();  // and with them the promises of their answers
   });
 }
 
@@ -46,6 +52,64 @@ void Engine::post(std::function<void(kiva::World&)> request) {
     attention_ = true;
   }
   wake_.notify_one();
+}
+
+void Engine::command(const kiva::Command& command) {
+  post([this, command](kiva::World&) {
+    held_.push_back(command);
+    if (!lockstep_) postCommands();
+  });
+}
+
+void Engine::postCommands() {
+  const auto by_robot = [](const kiva::Command& a, const kiva::Command& b) {
+    return a.kiva_id < b.kiva_id;
+  };
+  if (lockstep_) std::stable_sort(held_.begin(), held_.end(), by_robot);
+  for (const kiva::Command& command : held_) {
+    world_.post(command);
+    for (StepHook* hook : hooks_) hook->onCommand(command);
+  }
+  held_.clear();
+}
+
+Engine::Stepped Engine::step(std::uint32_t steps) {
+  Order order;
+  order.left = steps;
+  auto done = order.done->get_future();
+  post([this, order = std::move(order)](kiva::World&) { orders_.push_back(order); });
+  try {
+    return done.get();
+  } catch (const std::future_error&) {
+    throw std::runtime_error("the simulation is shutting down");
+  }
+}
+
+void Engine::noteCheckpoint() {
+  for (StepHook* hook : hooks_) hook->onCheckpoint();
+}
+
+std::string Engine::checkpoint() {
+  return run([this](kiva::World& world) {
+    noteCheckpoint();
+    return world.checkpoint();
+  });
+}
+
+double Engine::restore(const std::string& checkpoint) {
+  return run([&](kiva::World& world) {
+    restoreHere(world, checkpoint);
+    return world.time();
+  });
+}
+
+void Engine::restoreHere(kiva::World& world, const std::string& checkpoint) {
+  const std::vector<std::string> before = world.modelNames();
+  world.restore(checkpoint);
+  held_.clear();
+  moved_ = true;
+  reporter_.restored(world, before);
+  startClocks();
 }
 
 void Engine::pause(bool paused) {
@@ -74,14 +138,19 @@ void Engine::loop() {
   startClocks();
   for (Requests requests; waitForWork(&requests);) {
     serve(requests);
-    if (!paused_) advance();
+    if (!orders_.empty()) {
+      obey(orders_.front());
+    } else if (runs()) {
+      advance();
+    }
   }
 }
 
 bool Engine::waitForWork(Requests* requests) {
   // Within an hour, since waiting until the end of all time overflows in some libraries.
   auto until = std::min(reporter_.nextDue(), WallClock::now() + std::chrono::hours(1));
-  if (!paused_) until = std::min(until, pacer_.next());
+  if (runs()) until = std::min(until, pacer_.next());
+  if (!orders_.empty()) until = WallClock::time_point::min();
   std::unique_lock<std::mutex> lock(mutex_);
   if (until > WallClock::time_point::min()) {
     wake_.wait_until(lock, until, [this] { return attention_.load(); });
@@ -93,7 +162,12 @@ bool Engine::waitForWork(Requests* requests) {
 
 void Engine::serve(const Requests& requests) {
   for (const auto& request : requests) request(world_);
-  reporter_.afterRequests(world_, paused_, std::exchange(moved_, false));
+  const bool changed = moved_ || world_.modelsRevision() != models_revision_;
+  models_revision_ = world_.modelsRevision();
+  for (StepHook* hook : hooks_) {
+    if (changed) hook->onChange();
+  }
+  reporter_.afterRequests(world_, !runs(), std::exchange(moved_, false));
 }
 
 void Engine::advance() {
@@ -101,12 +175,42 @@ void Engine::advance() {
   int steps = 0;
   // At least one, or a flood of requests would hold time up.
   while (steps < due && (steps == 0 || !attention_)) {
-    world_.step();
+    stepOnce(false);
     pacer_.stepped();
-    reporter_.afterStep(world_);
+    ++steps;
+    if (paused_) return;  // by a hook
+  }
+  measure(steps);
+}
+
+void Engine::obey(Order& order) {
+  int steps = 0;
+  while (order.left > 0 && (steps == 0 || !attention_)) {
+    if (held_.size() > 0) postCommands();
+    stepOnce(true);
+    --order.left;
     ++steps;
   }
   measure(steps);
+  if (order.left > 0) return;
+  reporter_.whenPublished(
+      world_, [done = order.done, stepped = Stepped{world_.time(), world_.steps(), held_.size()}] {
+        done->set_value(stepped);
+      });
+  orders_.pop_front();
+  if (runs()) startClocks();
+}
+
+void Engine::stepOnce(bool all_is_owed) {
+  for (StepHook* hook : hooks_) {
+    if (hook->beforeStep(world_)) continue;
+    paused_ = true;
+    return;
+  }
+  world_.step();
+  for (StepHook* hook : hooks_) hook->afterStep(world_);
+  models_revision_ = world_.modelsRevision();  // what plugins do, they will do again
+  reporter_.afterStep(world_, all_is_owed);
 }
 
 void Engine::measure(int steps) {

@@ -5,11 +5,14 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
+#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -18,17 +21,21 @@
 #include "kiva_plugin_cpp/world.h"
 #include "pacer.h"
 #include "reporter.h"
+#include "step_hook.h"
 
 namespace kiva_ros {
 
 class Engine {
  public:
-  /// `rtf`: simulated seconds a wall second, 0 = as fast as it goes.
-  Engine(kiva::World& world, Reporter& reporter, double rtf);
+  /// `rtf`: simulated seconds a wall second, 0 = as fast as it goes. `lockstep`: time advances by
+  /// step() alone.
+  Engine(kiva::World& world, Reporter& reporter, double rtf, bool lockstep);
   ~Engine() { stop(); }
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
+  /// Before start().
+  void add(StepHook& hook) { hooks_.push_back(&hook); }
   void start();
   /// Ends the thread. Requests that still wait are answered with an exception.
   void stop();
@@ -44,6 +51,30 @@ class Engine {
   template <typename Request>
   auto move(Request request);
 
+  /// Posts a command to the world without waiting for it. In lockstep those that came since the
+  /// last step are put in the order of their robots, since what comes over several connections has
+  /// none of its own.
+  void command(const kiva::Command& command);
+
+  struct Stepped {
+    double time = 0;          ///< Simulated [s].
+    std::uint64_t steps = 0;  ///< Since time was 0.
+    std::size_t waiting = 0;  ///< Commands for the next step.
+  };
+  /// Makes so many steps, paused or not, as fast as it goes; returns when all that they publish is
+  /// with the sockets. Not from the step thread.
+  Stepped step(std::uint32_t steps);
+
+  /// From the step thread: somebody took a checkpoint of the world.
+  void noteCheckpoint();
+  /// A checkpoint of the world.
+  std::string checkpoint();
+  /// Goes back, or ahead, to a checkpoint. Returns the time [s] then. Throws what World::restore
+  /// throws.
+  double restore(const std::string& checkpoint);
+  /// The same on the step thread.
+  void restoreHere(kiva::World& world, const std::string& checkpoint);
+
   void pause(bool paused);
   /// From the step thread: another step size, or another pace (as in the constructor).
   void retime(double step_size, double rtf);
@@ -55,14 +86,25 @@ class Engine {
  private:
   using Requests = std::vector<std::function<void(kiva::World&)>>;
 
+  /// Steps that somebody waits for.
+  struct Order {
+    std::uint32_t left = 0;
+    std::shared_ptr<std::promise<Stepped>> done = std::make_shared<std::promise<Stepped>>();
+  };
+
+  bool runs() const { return !paused_ && !lockstep_; }  ///< By itself.
   void loop();
   void startClocks();
   bool waitForWork(Requests* requests);  ///< False when it is time to stop.
   void serve(const Requests& requests);
   void advance();
+  void obey(Order& order);
+  void stepOnce(bool all_is_owed);
+  void postCommands();
   void measure(int steps);
   void refuseRequests();
 
+  const bool lockstep_;
   kiva::World& world_;
   Reporter& reporter_;
   Pacer pacer_;
@@ -78,6 +120,10 @@ class Engine {
 
   std::atomic<bool> paused_{false};
   bool moved_ = false;
+  std::uint64_t models_revision_ = 0;  ///< Of which the hooks know.
+  std::vector<StepHook*> hooks_;
+  std::deque<Order> orders_;
+  std::vector<kiva::Command> held_;  ///< In lockstep, until the next step.
   std::atomic<double> real_time_factor_{0};
   WallClock::time_point measured_since_;
   int measured_steps_ = 0;

@@ -5,11 +5,13 @@
 
 #include <csignal>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "audience.h"
 #include "broadcaster.h"
+#include "checkpoints.h"
 #include "commands.h"
 #include "engine.h"
 #include "farewell.h"
@@ -24,12 +26,15 @@
 #include "outbox.h"
 #include "performance.h"
 #include "physics_services.h"
+#include "recorder.h"
+#include "replayer.h"
 #include "reporter.h"
 #include "settings.h"
 #include "showcase.h"
 #include "simulation_services.h"
 #include "spawn_services.h"
 #include "state_services.h"
+#include "step_service.h"
 
 namespace {
 
@@ -71,15 +76,19 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   Mail mail;  // outlives the plugins
   settings.world.plugins = pluginTable(root, mail);
   kiva::World world(description, settings.world);
+  std::optional<Replayer> replayer;
+  if (!settings.replay.empty()) replayer.emplace(settings.replay).begin(world);
   const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
 
   Audience audience;
   Outbox outbox;
   Reporter reporter(world, settings.rates, rtf, audience, mail, outbox);
-  Engine engine(world, reporter, rtf);
+  Engine engine(world, reporter, rtf, settings.lockstep);
   audience.onArrival([&engine] { engine.post([](kiva::World&) {}); });
   Broadcaster broadcaster(root, node, audience, outbox);
-  Commands commands(root, engine);
+  std::optional<Commands> commands;
+  if (!replayer) commands.emplace(root, engine);  // a replay has its own
+  StepService step_service(node, engine);
   SimulationServices simulation_services(node, engine);
   StateServices state_services(root, node, engine);
   LinkServices link_services(node, engine);
@@ -90,6 +99,17 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   Showcase showcase(root, engine);
   SpawnServices spawn_services(node, engine, settings.model_paths);
   MapService map_service(root, engine);
+  // A replay takes the checkpoints that were taken when it was recorded, and no others.
+  Checkpoints checkpoints(root, world, engine, replayer ? 0 : settings.autosave);
+  engine.add(checkpoints);
+  if (replayer) {
+    replayer->onKeyframe([&engine](kiva::World& w, const std::string& checkpoint) {
+      engine.restoreHere(w, checkpoint);
+    });
+    engine.add(*replayer);
+  }
+  std::optional<Recorder> recorder;
+  if (!settings.record.empty()) engine.add(recorder.emplace(settings.record));
 
   announce(world, settings, rtf);
   engine.start();
@@ -98,6 +118,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   serveUntilStopped();
   spinner.stop();
   engine.stop();
+  if (recorder) recorder->finish(world);
   broadcaster.stop();
   if (ros::ok()) withdrawTopics();
   ros::shutdown();

@@ -5,10 +5,14 @@
 
 namespace kiva_ros {
 
-void Outbox::push(Snapshot snapshot) {
+void Outbox::push(Snapshot snapshot, bool all_is_owed) {
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (waiting_.size() >= kMostPeriodic) snapshot.dropPeriodic();
+    if (all_is_owed) {
+      drained_.wait(lock, [this] { return closed_ || waiting_.size() < kMostPeriodic; });
+    } else if (waiting_.size() >= kMostPeriodic) {
+      snapshot.dropPeriodic();
+    }
     if (!snapshot.hasOwed() && !snapshot.hasPeriodic()) return;
     drained_.wait(lock, [this] { return closed_ || waiting_.size() < kMostWaiting; });
     if (closed_) return;

@@ -16,7 +16,8 @@ namespace kiva_ros {
 /// anything owed is.
 class Outbox {
  public:
-  void push(Snapshot snapshot);
+  /// `all_is_owed`: what is periodic in it too.
+  void push(Snapshot snapshot, bool all_is_owed = false);
   /// Blocks until there is one. Nothing once closed and empty.
   std::optional<Snapshot> pop();
   /// Lets both sides go; what is pushed from now on is dropped.

@@ -15,6 +15,7 @@ constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
 // Simulated time may fly; a client that gets a thousand clocks a second does little else.
 constexpr auto kClockGap = std::chrono::milliseconds(4);
 constexpr double kStatusRate = 10;  // [Hz], while somebody listens
+constexpr double kHashRate = 1;     // [Hz]
 constexpr auto kPictureInterval = std::chrono::milliseconds(100);
 constexpr auto kUnheardInterval = std::chrono::milliseconds(400);
 
@@ -65,9 +66,10 @@ void Reporter::retime(double step_size, double rtf) {
   fleet_every_ = stepsPer(kFleetRate, step_size);
   robots_every_ = stepsPer(kRobotsRate, step_size);
   heartbeat_every_ = stepsPer(kStatusRate * kHeartbeatSlots, step_size);
+  hash_every_ = stepsPer(kHashRate, step_size);
 }
 
-void Reporter::afterStep(kiva::World& world) {
+void Reporter::afterStep(kiva::World& world, bool all_is_owed) {
   Snapshot out;
   out.time = world.time();
   addNews(world, &out);
@@ -75,6 +77,33 @@ void Reporter::afterStep(kiva::World& world) {
   addPictures(world, &out);
   out.mail = mail_.take();
   last_steps_ = world.steps();
+  send(std::move(out), all_is_owed);
+}
+
+void Reporter::restored(const kiva::World& world, const std::vector<std::string>& before) {
+  using Kind = kiva::Event::Kind;
+  const std::vector<std::string> now = world.modelNames();
+  const std::set<std::string> old_names(before.begin(), before.end());
+  const std::set<std::string> new_names(now.begin(), now.end());
+  const auto tell = [&](Kind kind, const std::string& name) {
+    extra_events_.push_back({world.time(), kind, name, "", "by going back to a checkpoint"});
+  };
+  for (const std::string& name : before) {
+    if (!new_names.count(name)) tell(Kind::kDeleted, name);
+  }
+  for (const std::string& name : now) {
+    if (!old_names.count(name)) tell(Kind::kSpawned, name);
+  }
+  last_steps_ = told_steps_ = kNever;  // whatever the time was and is, it jumped
+}
+
+void Reporter::whenPublished(const kiva::World& world, std::function<void()> done) {
+  Snapshot out;
+  out.time = world.time();
+  addPictures(world, &out, true);
+  out.clock_owed = world.steps() != told_steps_;
+  told_steps_ = world.steps();
+  out.published = std::move(done);
   send(std::move(out));
 }
 
@@ -107,14 +136,16 @@ void Reporter::addForNewcomers(const kiva::World& world, Snapshot* out) {
   if (audience_.takeArrival(Audience::RobotTopic::kOdometry)) addOdometry(world, out);
 }
 
-void Reporter::send(Snapshot snapshot) {
-  if (snapshot.hasOwed() || snapshot.hasPeriodic()) outbox_.push(std::move(snapshot));
+void Reporter::send(Snapshot snapshot, bool all_is_owed) {
+  if (snapshot.hasOwed() || snapshot.hasPeriodic()) outbox_.push(std::move(snapshot), all_is_owed);
 }
 
 void Reporter::addNews(kiva::World& world, Snapshot* out) {
   for (const std::string& warning : world.takeWarnings()) ROS_WARN("%s", warning.c_str());
   out->events = world.takeEvents();
   out->statuses = world.takeStatusChanges();
+  out->events.insert(out->events.end(), extra_events_.begin(), extra_events_.end());
+  extra_events_.clear();
   for (const kiva::Event& event : out->events) {
     if (!isAboutRobot(world, event)) continue;
     out->roster = rosterOf(world);
@@ -178,6 +209,9 @@ void Reporter::addPeriodic(const kiva::World& world, Snapshot* out) {
     addLinkStates(world, out);
   }
   if (!scan_ids_.empty()) addScans(world, out);
+  if (steps % hash_every_ == 0 && audience_.listensTo(Audience::Topic::kStateHash)) {
+    out->state_hash = hashText(world);
+  }
 }
 
 void Reporter::updateListened() {
@@ -238,12 +272,12 @@ void Reporter::addLinkStates(const kiva::World& world, Snapshot* out) {
   out->links->names = link_names_;
 }
 
-void Reporter::addPictures(const kiva::World& world, Snapshot* out) {
+void Reporter::addPictures(const kiva::World& world, Snapshot* out, bool at_once) {
   const bool models = world.modelsRevision() != objects_revision_;
   next_due_ = WallClock::time_point::max();
   if (!models && world.unitsRevision() == units_revision_) return;
   const auto now = WallClock::now();
-  if (now < pictured_ + kPictureInterval) {
+  if (!at_once && now < pictured_ + kPictureInterval) {
     next_due_ = pictured_ + kPictureInterval;
     return;
   }

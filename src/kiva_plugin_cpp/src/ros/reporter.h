@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <set>
@@ -33,14 +34,19 @@ class Reporter {
            Outbox& outbox);
   void retime(double step_size, double rtf);
 
-  void afterStep(kiva::World& world);
+  /// `all_is_owed`: nothing may be left out because somebody is slow.
+  void afterStep(kiva::World& world, bool all_is_owed = false);
   /// After requests were served between steps. `moved`: models may stand elsewhere than before.
   void afterRequests(kiva::World& world, bool paused, bool moved);
+  /// The world is another one than before, whose models were these.
+  void restored(const kiva::World& world, const std::vector<std::string>& before);
+  /// Calls `done`, on another thread, when all that was reported so far is with the sockets.
+  void whenPublished(const kiva::World& world, std::function<void()> done);
   /// When afterRequests should be called even if there was no request.
   WallClock::time_point nextDue() const { return next_due_; }
 
  private:
-  void send(Snapshot snapshot);
+  void send(Snapshot snapshot, bool all_is_owed = false);
   void addNews(kiva::World& world, Snapshot* out);
   bool isAboutRobot(const kiva::World& world, const kiva::Event& event) const;
   void addStatuses(const kiva::World& world, Snapshot* out) const;
@@ -55,7 +61,7 @@ class Reporter {
   void addScans(const kiva::World& world, Snapshot* out) const;
   void addModelStates(const kiva::World& world, Snapshot* out);
   void addLinkStates(const kiva::World& world, Snapshot* out);
-  void addPictures(const kiva::World& world, Snapshot* out);
+  void addPictures(const kiva::World& world, Snapshot* out, bool at_once = false);
 
   static constexpr std::uint64_t kNever = std::numeric_limits<std::uint64_t>::max();
 
@@ -64,12 +70,13 @@ class Reporter {
   Mail& mail_;
   Outbox& outbox_;
   WallClock::duration clock_gap_{0};  ///< Least wall time between two clocks.
-  std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_,
-      heartbeat_every_;  // steps
+  std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_, heartbeat_every_,
+      hash_every_;  // steps
 
   std::uint64_t told_steps_ = kNever;  ///< Of the last clock that was owed.
   WallClock::time_point clocked_;
   std::uint64_t last_steps_ = kNever;
+  std::vector<kiva::Event> extra_events_;                  ///< Of a restore.
   std::set<std::string> robots_;                           ///< Names of those in the last roster.
   std::shared_ptr<const std::vector<std::string>> names_;  ///< All models',
   std::uint64_t names_revision_ = kNever;                  ///< at that revision.

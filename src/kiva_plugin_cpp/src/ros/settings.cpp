@@ -41,6 +41,22 @@ std::uint64_t seed(const ros::NodeHandle& node, const std::string& name) {
   return static_cast<std::uint64_t>(out);
 }
 
+bool flag(const ros::NodeHandle& node, const std::string& name) {
+  XmlRpc::XmlRpcValue value;
+  if (!node.getParam(name, value)) return false;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) {
+    refuse(node, name, value, "true or false");
+  }
+  return value;
+}
+
+int count(const ros::NodeHandle& node, const std::string& name) {
+  const std::string expected = "a whole number from 0 to 100000";
+  const double out = number(node, name, 0, 0, expected);
+  if (out != std::floor(out) || out > 1e5) refuse(node, name, XmlRpc::XmlRpcValue(out), expected);
+  return static_cast<int>(out);
+}
+
 std::string text(const ros::NodeHandle& node, const std::string& name,
                  const std::string& fallback) {
   XmlRpc::XmlRpcValue value;
@@ -81,6 +97,12 @@ std::string findWorld(const std::string& world, const Paths& folders) {
                            (list.empty() ? "nothing: no folder of worlds is known" : list));
 }
 
+/// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.
+std::string pathOf(const ros::NodeHandle& node, const std::string& name) {
+  const std::string path = text(node, name, "");
+  return path.empty() ? "" : (fs::path(environment("PWD")) / path).string();
+}
+
 }  // namespace
 
 Settings readSettings(const ros::NodeHandle& node) {
@@ -95,6 +117,10 @@ Settings readSettings(const ros::NodeHandle& node) {
                    "a factor above 0, 0 (as fast as it goes) or -1 (the world file's)");
   out.world.seed = seed(node, "seed");
   out.world.drive = drive(node, "drive");
+  out.lockstep = flag(node, "lockstep");
+  out.autosave = count(node, "autosave");
+  out.record = pathOf(node, "record");
+  out.replay = pathOf(node, "replay");
   const std::string rate = "a rate above 0 in Hz, or 0 (every step)";
   out.rates.clock = number(node, "pub_clock_frequency", out.rates.clock, 0, rate);
   out.rates.model_states = number(node, "model_states_frequency", out.rates.model_states, 0, rate);

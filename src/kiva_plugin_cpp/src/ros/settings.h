@@ -22,6 +22,11 @@ namespace kiva_ros {
 ///                            what the world file says
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say
+///   ~lockstep                true: time advances by ~step alone; default false
+///   ~autosave                how many checkpoints to keep for /warehouse/undo, one a simulated
+///                            second; default 0
+///   ~record                  bag file to write a recording to; empty (default): none
+///   ~replay                  recording to run again, in place of ~world; empty (default): none
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
 struct Settings {
@@ -29,6 +34,9 @@ struct Settings {
   kiva::ModelPaths model_paths;
   double rtf = -1;
   kiva::WorldOptions world;
+  bool lockstep = false;
+  int autosave = 0;
+  std::string record, replay;  ///< Paths, or empty.
   Reporter::Rates rates;
 };
 

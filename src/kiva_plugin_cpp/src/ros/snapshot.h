@@ -7,6 +7,7 @@
 #include <warehouse_msgs/UnitStates.h>
 #include <warehouse_msgs/WarehouseObjects.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +57,8 @@ struct Snapshot {
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;
   std::vector<Mail::Letter> mail;
+  std::string state_hash;           ///< Empty: not due.
+  std::function<void()> published;  ///< To be called when this and all before is with the sockets.
 
   // Periodic: the next one is as good.
   bool clock = false;
@@ -68,7 +71,7 @@ struct Snapshot {
 
   bool hasOwed() const {
     return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units ||
-           !mail.empty();
+           !mail.empty() || !state_hash.empty() || published;
   }
   bool hasPeriodic() const {
     return clock || fleet || models || links || !scans.empty() || !odometry.empty() ||

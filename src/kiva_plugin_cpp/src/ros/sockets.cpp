@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sockets.h"
+
+#include <ros/poll_manager.h>
+
+#include <chrono>
+
+namespace kiva_ros {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(1);  // it may be gone already
+
+}  // namespace
+
+Sockets::Sockets()
+    : connection_(ros::PollManager::instance()->addPollThreadListener([this] {
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          ++turns_;
+        }
+        turned_.notify_all();
+      })) {}
+
+Sockets::~Sockets() { ros::PollManager::instance()->removePollThreadListener(connection_); }
+
+void Sockets::flush() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  // The turn under way may have looked before; the next one empties the queues.
+  const std::uint64_t enough = turns_ + 2;
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (turns_ < enough && std::chrono::steady_clock::now() < end) {
+    const std::uint64_t now = turns_;
+    lock.unlock();
+    ros::PollManager::instance()->getPollSet().signal();
+    lock.lock();
+    turned_.wait_until(lock, end, [&] { return turns_ > now; });
+  }
+}
+
+}  // namespace kiva_ros

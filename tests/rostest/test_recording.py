@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""What is recorded runs again, step by step the same; what was changed is found."""
+
+import re
+import signal
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+import rospy
+import rostest
+from node_test import call, wait_until
+from warehouse_test import Commander, delete, model_file, pose, sim_time, spawn
+from world_node import Node
+
+from warehouse_msgs.srv import Checkpoint
+
+
+class Recording(unittest.TestCase):
+    """One recording for all: two robots that meet, one that comes later, a box, a checkpoint."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.bag = str(Path(cls._folder.name) / "run.bag")
+        with Node(world="paper", rtf=0, record=cls.bag, autosave=3) as node:
+            commander = Commander()
+            commander.do("/movx", kiva_id=1, distance=1)
+            spawn("box", where=pose(0.0, 8.0))
+            spawn("kiva9", model_file("kiva"), pose(-3.0, 9.0))
+            commander.do("/rot", kiva_id=9, direction=1)
+            commander.do("/movx", kiva_id=1, distance=-1)
+            delete("box")
+            call("/warehouse/checkpoint", Checkpoint, "here")
+            commander.do("/rot", kiva_id=2, direction=-1)
+            call("/warehouse/restore", Checkpoint, "here")
+            commander.do("/rot", kiva_id=2, direction=1)
+            end = sim_time() + 2
+            wait_until(lambda: sim_time() > end, "time going on")
+            commander.close()
+            node.send(signal.SIGINT)
+            code, said = node.end()
+            assert code == 0, said
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    def replay(self, bag):
+        """Its return code and what it said, once it has come to its end."""
+        with Node(rtf=0, replay=bag) as node:
+            node.says("replayed ", "FATAL")
+            node.send(signal.SIGINT)
+            return node.end()
+
+    def changed(self, change):
+        """The recording, each message as change(topic, message) returns it; None leaves it out."""
+        path = str(Path(self._folder.name) / "changed.bag")
+        with rosbag.Bag(self.bag) as old, rosbag.Bag(path, "w") as new:
+            for topic, message, time in old.read_messages():
+                if (changed := change(topic, message)) is not None:
+                    new.write(topic, changed, time)
+        return path
+
+    def test_it_is_an_ordinary_bag(self):
+        with rosbag.Bag(self.bag) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            self.assertEqual(topics["/movx"].message_count, 2)
+            self.assertEqual(topics["/rot"].msg_type, "warehouse_msgs/Rotate")
+            self.assertEqual(topics["/warehouse/state_hash"].msg_type, "std_msgs/String")
+            (_, last, _) = list(bag.read_messages(["/tf"]))[-1]
+            self.assertEqual(
+                [t.child_frame_id for t in last.transforms],
+                ["kiva1/base_link", "kiva2/base_link", "kiva9/base_link"],
+            )
+            hashes = [m.data for _, m, _ in bag.read_messages(["/warehouse/state_hash"])]
+        for line in hashes:
+            self.assertRegex(line, r"^\d+ [0-9a-f]{16}$")
+
+    def test_it_runs_again_the_same(self):
+        code, said = self.replay(self.bag)
+        self.assertEqual(code, 0, said)
+        steps, hashes = re.search(r"replayed (\d+) steps, and all (\d+) hashes", said).groups()
+        self.assertGreater(int(steps), 5000)
+        self.assertGreater(int(hashes), 5)
+
+    def test_another_command_is_found_with_its_step(self):
+        def other(topic, message):
+            if topic == "/movx" and message.distance == -1:
+                message.distance = -2
+            return message
+
+        code, said = self.replay(self.changed(other))
+        self.assertEqual(code, 1, said)
+        self.assertRegex(said, r"differs at step \d+ and was equal at step \d+")
+
+    def test_another_hash_is_found_with_its_step(self):
+        def other(topic, message):
+            if topic == "/warehouse/state_hash" and message.data.startswith("3000 "):
+                message.data = "3000 0123456789abcdef"
+            return message
+
+        code, said = self.replay(self.changed(other))
+        self.assertEqual(code, 1, said)
+        self.assertIn("differs at step 3000 and was equal at step 2000", said)
+
+    def test_what_is_no_recording_is_refused(self):
+        empty = self.changed(lambda topic, message: message if topic == "/rot" else None)
+        text = Path(self._folder.name) / "text.bag"
+        text.write_text("no bag")
+        for bag in (empty, str(text), "/nowhere.bag"):
+            code, said = self.replay(bag)
+            self.assertEqual(code, 1, said)
+            self.assertIn(f"can't replay {bag}", said)
+
+    def test_where_nothing_can_be_written_is_refused(self):
+        with Node(record="/nowhere/run.bag") as node:
+            code, said = node.end()
+        self.assertEqual(code, 1, said)
+        self.assertIn("can't record to /nowhere/run.bag", said)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_recording", disable_signals=True)
+    rostest.rosrun("warehouse_tests", "recording", __name__)
