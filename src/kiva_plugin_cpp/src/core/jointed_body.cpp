@@ -75,6 +75,7 @@ void addFeet(const Collision& collision, const Pose& in_model,
     case Shape::Kind::kCylinder:
       addBoxFeet({shape.radius, shape.radius, shape.length / 2}, pose, collision, feet);
       break;
+    case Shape::Kind::kMesh:
     case Shape::Kind::kPlane:
       break;
   }
