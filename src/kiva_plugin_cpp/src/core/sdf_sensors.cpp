@@ -19,8 +19,8 @@ SensorDescription describeSensor(const sdf::Sensor& from, const Scope& scope,
   sensor.link = link;
   sensor.pose_in_link = resolved(from.SemanticPose(), from.Element());
   sensor.update_rate = std::isfinite(from.UpdateRate()) ? std::max(0.0, from.UpdateRate()) : 0;
-  sensor.parameters = readParameters(from.Element(), scope.where);
-  sensor.plugins = readPlugins(from.Element(), scope.where);
+  sensor.parameters = readParameters(from.Element(), scope.origin.where);
+  sensor.plugins = readPlugins(from.Element(), scope.origin.where);
   return sensor;
 }
 
