@@ -21,8 +21,9 @@ std::string fileUri(const std::string& file) { return "file://" + kMeshes + file
 std::string model(const std::string& geometry, bool is_static = true) {
   return "<sdf version='1.9'><model name='m'><static>" + std::string(is_static ? "true" : "false") +
          "</static><link name='l'><inertial><pose>0.2 0.2 0.2 0 0 0</pose><mass>5</mass><inertia>"
-         "<ixx>0.13</ixx><iyy>0.13</iyy><izz>0.13</izz></inertia></inertial><collision name='c'><geometry>" + geometry +
-         "</geometry></collision></link></model></sdf>";
+         "<ixx>0.13</ixx><iyy>0.13</iyy><izz>0.13</izz></inertia></inertial><collision "
+         "name='c'><geometry>" +
+         geometry + "</geometry></collision></link></model></sdf>";
 }
 
 Shape shapeOf(const std::string& geometry, const ModelPaths& paths = {}) {
