@@ -235,6 +235,13 @@ void loadPlugin(Parts& parts, Model& model, const PluginDescription& description
   }
 }
 
+void hideOutlines(Parts& parts, Model& model) {
+  for (Outline& outline : model.outlines) {
+    if (outline.handle >= 0) parts.obstacles.remove(outline.handle);
+    outline.handle = -1;
+  }
+}
+
 void dropOutlines(Parts& parts, Model& model) {
   hideOutlines(parts, model);
   model.outlines.clear();
