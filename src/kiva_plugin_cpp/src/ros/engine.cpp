@@ -109,7 +109,7 @@ void Engine::restoreHere(kiva::World& world, const std::string& checkpoint) {
   held_.clear();
   moved_ = true;
   reporter_.restored(world, before);
-  startClocks();
+  retime(world.stepSize(), target_factor_);  // it may have another step
 }
 
 void Engine::pause(bool paused) {
