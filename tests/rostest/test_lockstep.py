@@ -119,14 +119,14 @@ class Lockstep(unittest.TestCase):
 
     def test_back_to_the_middle_of_a_move(self):
         self.play(2)
-        moving = latched("/kiva1/status", KivaStatus)
+        moving = latched("/kiva4/status", KivaStatus)
         self.assertEqual(moving.status, KivaStatus.STATUS_BUSY)
         self.assertTrue(save("moving").success)
         first = self.play(6, begin=2)
         self.assertTrue(restore("moving").success)
         self.assertAlmostEqual(sim_time(), 2.0)
         latched("/clock", Clock, lambda m: m.clock.to_sec() == 2.0)
-        latched("/kiva1/status", KivaStatus, lambda m: m.pose.x == moving.pose.x)
+        latched("/kiva4/status", KivaStatus, lambda m: m.pose.x == moving.pose.x)
         self.assertEqual(self.play(6, begin=2), first)
 
     def test_files_go_to_python_and_back(self):

@@ -84,10 +84,9 @@ void Broadcaster::publish(const Snapshot& s) {
   if (s.links) publishLinks(*s.links);
   for (const Mail::Letter& letter : s.mail) letter();
   if (!s.state_hash.empty()) hash_.publish(hashMessage(s.state_hash));
-  if (s.published) {
-    sockets_.flush();
-    s.published();
-  }
+  // roscpp's queues are short: what comes next could push this out.
+  if (s.all_is_owed || s.published) sockets_.flush();
+  if (s.published) s.published();
 }
 
 void Broadcaster::publishEvent(const kiva::Event& event) {

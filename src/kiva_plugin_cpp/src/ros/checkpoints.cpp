@@ -13,6 +13,7 @@ namespace kiva_ros {
 namespace {
 
 constexpr double kSaveInterval = 1;       // [s], simulated
+constexpr double kRounding = 1e-6;        // [s]
 constexpr std::size_t kMostNames = 1000;  // a client that never repeats one must not fill memory
 
 bool isFile(const std::string& name) { return name.find('/') != std::string::npos; }
@@ -60,12 +61,8 @@ bool reply(Response& response, Body body) {
 
 }  // namespace
 
-Checkpoints::Checkpoints(ros::NodeHandle& root, const kiva::World& world, Engine& engine,
-                         int autosave)
-    : engine_(engine),
-      autosave_(static_cast<std::size_t>(autosave)),
-      step_size_(world.stepSize()),
-      save_every_(std::max<std::uint64_t>(1, std::llround(kSaveInterval / world.stepSize()))) {
+Checkpoints::Checkpoints(ros::NodeHandle& root, Engine& engine, int autosave)
+    : engine_(engine), autosave_(static_cast<std::size_t>(autosave)) {
   servers_.push_back(root.advertiseService("/warehouse/checkpoint", &Checkpoints::save, this));
   servers_.push_back(root.advertiseService("/warehouse/restore", &Checkpoints::restore, this));
   servers_.push_back(root.advertiseService("/warehouse/undo", &Checkpoints::undo, this));
@@ -123,28 +120,27 @@ double Checkpoints::undoHere(kiva::World& world, double seconds_back) {
     throw Refusal("a finite number of seconds, 0 or more, was expected");
   }
   if (autosave_ == 0) throw Refusal("nothing was saved: start with autosave:=60, say");
-  const double back = std::ceil(seconds_back / step_size_ - 1e-6);  // steps
   const auto is_old_enough = [&](const Saved& saved) {
-    return static_cast<double>(step_ - saved.step) >= back;
+    return age_ - saved.age >= seconds_back - kRounding;
   };
   const auto at = std::find_if(ring_.rbegin(), ring_.rend(), is_old_enough);
   if (at == ring_.rend()) {
-    const double oldest =
-        ring_.empty() ? 0 : static_cast<double>(step_ - ring_.front().step) * step_size_;
+    const double oldest = ring_.empty() ? 0 : age_ - ring_.front().age;
     throw Refusal("the oldest of " + std::to_string(ring_.size()) + " checkpoints is " +
                   seconds(oldest) + " old");
   }
   engine_.restoreHere(world, at->bytes);
-  step_ = at->step;
+  age_ = at->age;
   ring_.erase(at.base(), ring_.end());  // what came after it did not happen
   return world.time();
 }
 
 void Checkpoints::afterStep(kiva::World& world) {
-  ++step_;
-  if (autosave_ == 0 || world.steps() % save_every_ != 0) return;
+  age_ += world.stepSize();
+  const auto save_every = std::max(1LL, std::llround(kSaveInterval / world.stepSize()));  // steps
+  if (autosave_ == 0 || world.steps() % static_cast<std::uint64_t>(save_every) != 0) return;
   engine_.noteCheckpoint();
-  ring_.push_back({step_, world.checkpoint()});
+  ring_.push_back({age_, world.checkpoint()});
   if (ring_.size() > autosave_) ring_.pop_front();
 }
 

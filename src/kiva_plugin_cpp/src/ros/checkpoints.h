@@ -21,7 +21,7 @@ namespace kiva_ros {
 class Checkpoints : public StepHook {
  public:
   /// `autosave`: how many checkpoints the ring holds, 0 = none.
-  Checkpoints(ros::NodeHandle& root, const kiva::World& world, Engine& engine, int autosave);
+  Checkpoints(ros::NodeHandle& root, Engine& engine, int autosave);
 
   void afterStep(kiva::World& world) override;
 
@@ -30,7 +30,7 @@ class Checkpoints : public StepHook {
   using Response = warehouse_msgs::Checkpoint::Response;
   /// One of the ring.
   struct Saved {
-    std::uint64_t step;  ///< As `step_` counts.
+    double age;  ///< As `age_` counts [s].
     std::string bytes;
   };
 
@@ -46,10 +46,8 @@ class Checkpoints : public StepHook {
 
   // Of the step thread.
   const std::size_t autosave_;
-  const double step_size_;          ///< [s]
-  const std::uint64_t save_every_;  ///< Steps.
-  std::uint64_t step_ = 0;          ///< Made, less those undone; no reset of time changes it.
-  std::deque<Saved> ring_;          ///< The oldest first.
+  double age_ = 0;          ///< Simulated, less what was undone; no reset of time changes it [s].
+  std::deque<Saved> ring_;  ///< The oldest first.
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -107,7 +107,7 @@ void Engine::restoreHere(kiva::World& world, const std::string& checkpoint) {
   const std::vector<std::string> before = world.modelNames();
   world.restore(checkpoint);
   held_.clear();
-  moved_ = true;
+  moved_ = changed_ = true;
   reporter_.restored(world, before);
   retime(world.stepSize(), target_factor_);  // it may have another step
 }
@@ -162,10 +162,10 @@ bool Engine::waitForWork(Requests* requests) {
 
 void Engine::serve(const Requests& requests) {
   for (const auto& request : requests) request(world_);
-  const bool changed = moved_ || world_.modelsRevision() != models_revision_;
+  if (world_.modelsRevision() != models_revision_) changed_ = true;
   models_revision_ = world_.modelsRevision();
-  for (StepHook* hook : hooks_) {
-    if (changed) hook->onChange();
+  if (std::exchange(changed_, false)) {
+    for (StepHook* hook : hooks_) hook->onChange();
   }
   reporter_.afterRequests(world_, !runs(), std::exchange(moved_, false));
 }

@@ -51,6 +51,13 @@ class Engine {
   template <typename Request>
   auto move(Request request);
 
+  /// The same for what else changes the world, models that come and go aside: a recording has to
+  /// know.
+  template <typename Request>
+  auto change(Request request);
+  /// From the step thread: the world is being changed.
+  void noteChange() { changed_ = true; }
+
   /// Posts a command to the world without waiting for it. In lockstep those that came since the
   /// last step are put in the order of their robots, since what comes over several connections has
   /// none of its own.
@@ -119,7 +126,7 @@ class Engine {
   std::atomic<bool> attention_{false};  ///< There are requests, or it is time to stop.
 
   std::atomic<bool> paused_{false};
-  bool moved_ = false;
+  bool moved_ = false, changed_ = false;
   std::uint64_t models_revision_ = 0;  ///< Of which the hooks know.
   std::vector<StepHook*> hooks_;
   std::deque<Order> orders_;
@@ -143,8 +150,16 @@ auto Engine::run(Request request) {
 }
 
 template <typename Request>
-auto Engine::move(Request request) {
+auto Engine::change(Request request) {
   return run([this, request = std::move(request)](kiva::World& world) {
+    changed_ = true;
+    return request(world);
+  });
+}
+
+template <typename Request>
+auto Engine::move(Request request) {
+  return change([this, request = std::move(request)](kiva::World& world) {
     moved_ = true;
     return request(world);
   });

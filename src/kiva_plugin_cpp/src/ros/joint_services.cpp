@@ -115,7 +115,7 @@ JointServices::JointServices(ros::NodeHandle& node, Engine& engine) {
       }));
   servers_.push_back(serve<SetJointProperties>(
       node, "set_joint_properties", "SetJointProperties", [&engine](auto& request, auto&) {
-        return engine.run([&](kiva::World& world) { return configure(world, request); });
+        return engine.change([&](kiva::World& world) { return configure(world, request); });
       }));
   servers_.push_back(serve<SetModelConfiguration>(
       node, "set_model_configuration", "SetModelConfiguration", [&engine](auto& request, auto&) {
@@ -124,12 +124,13 @@ JointServices::JointServices(ros::NodeHandle& node, Engine& engine) {
       }));
   servers_.push_back(serve<ApplyJointEffort>(
       node, "apply_joint_effort", "ApplyJointEffort", [&engine](auto& request, auto&) {
-        engine.run([&](kiva::World& world) { push(world, request); });
+        engine.change([&](kiva::World& world) { push(world, request); });
         return "ApplyJointEffort: effort set";
       }));
   const boost::function<bool(JointRequest::Request&, JointRequest::Response&)> clear =
       [&engine](JointRequest::Request& request, JointRequest::Response&) {
-        engine.post([name = request.joint_name](kiva::World& world) {
+        engine.post([&engine, name = request.joint_name](kiva::World& world) {
+          engine.noteChange();
           if (const auto found = findJoint(world, name)) {
             world.clearEfforts(found->first, found->second);
           }

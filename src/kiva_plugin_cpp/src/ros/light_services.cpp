@@ -72,12 +72,12 @@ LightServices::LightServices(ros::NodeHandle& node, Engine& engine) {
       }));
   servers_.push_back(serve<SetLightProperties>(
       node, "set_light_properties", "SetLightProperties", [&engine](auto& request, auto&) {
-        engine.run([&](kiva::World& world) { set(world, request); });
+        engine.change([&](kiva::World& world) { set(world, request); });
         return "SetLightProperties: properties set";
       }));
   servers_.push_back(
       serve<DeleteLight>(node, "delete_light", "DeleteLight", [&engine](auto& request, auto&) {
-        engine.run([&](kiva::World& world) {
+        engine.change([&](kiva::World& world) {
           if (!world.removeLight(request.light_name)) {
             throw Refusal("DeleteLight: Requested light " + request.light_name + " not found!");
           }

@@ -160,7 +160,7 @@ LinkServices::LinkServices(ros::NodeHandle& node, Engine& engine) : engine_(engi
       }));
   servers_.push_back(serve<SetLinkProperties>(
       node, "set_link_properties", "SetLinkProperties", [&engine](auto& request, auto&) {
-        engine.run([&](kiva::World& world) {
+        engine.change([&](kiva::World& world) {
           const auto [model, link] =
               linkNamed(world, request.link_name, notFound("SetLinkProperties", "link"));
           world.setLinkInertia(model, likeRequest(link, request));
@@ -169,14 +169,16 @@ LinkServices::LinkServices(ros::NodeHandle& node, Engine& engine) : engine_(engi
       }));
   servers_.push_back(serve<ApplyBodyWrench>(
       node, "apply_body_wrench", "ApplyBodyWrench", [&engine](auto& request, auto&) {
-        engine.run([&](kiva::World& world) { world.apply(wrenchOf(world, request)); });
+        engine.change([&](kiva::World& world) { world.apply(wrenchOf(world, request)); });
         return "ApplyBodyWrench: wrench set";
       }));
   const boost::function<bool(BodyRequest::Request&, BodyRequest::Response&)> clear =
       [&engine](BodyRequest::Request& request, BodyRequest::Response&) {
         const auto [model, link] = splitScoped(request.body_name);
-        engine.post(
-            [model = model, link = link](kiva::World& world) { world.clearWrenches(model, link); });
+        engine.post([&engine, model = model, link = link](kiva::World& world) {
+          engine.noteChange();
+          world.clearWrenches(model, link);
+        });
         return true;
       };
   servers_.push_back(node.advertiseService("clear_body_wrenches", clear));

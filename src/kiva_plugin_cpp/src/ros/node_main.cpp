@@ -100,7 +100,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   SpawnServices spawn_services(node, engine, settings.model_paths);
   MapService map_service(root, engine);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.
-  Checkpoints checkpoints(root, world, engine, replayer ? 0 : settings.autosave);
+  Checkpoints checkpoints(root, engine, replayer ? 0 : settings.autosave);
   engine.add(checkpoints);
   if (replayer) {
     replayer->onKeyframe([&engine](kiva::World& w, const std::string& checkpoint) {

@@ -8,6 +8,7 @@ namespace kiva_ros {
 void Outbox::push(Snapshot snapshot, bool all_is_owed) {
   {
     std::unique_lock<std::mutex> lock(mutex_);
+    snapshot.all_is_owed = all_is_owed;
     if (all_is_owed) {
       drained_.wait(lock, [this] { return closed_ || waiting_.size() < kMostPeriodic; });
     } else if (waiting_.size() >= kMostPeriodic) {

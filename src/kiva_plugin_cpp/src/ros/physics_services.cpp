@@ -148,7 +148,7 @@ void PhysicsServices::set(const Properties& properties) {
   const double factor = factorOf(rate, properties.time_step);
   const kiva::Vector3 gravity = fromMessage(properties.gravity, "gravity");
   const kiva::OdeSettings ode = odeSettings(properties.ode_config);
-  engine_.run([&](kiva::World& world) {
+  engine_.change([&](kiva::World& world) {
     const kiva::Vector3 before = world.gravity();
     const Properties old = propertiesOf(world, engine_);
     world.setGravity(gravity);

@@ -59,6 +59,7 @@ struct Snapshot {
   std::vector<Mail::Letter> mail;
   std::string state_hash;           ///< Empty: not due.
   std::function<void()> published;  ///< To be called when this and all before is with the sockets.
+  bool all_is_owed = false;         ///< Nothing of it may be lost on the way.
 
   // Periodic: the next one is as good.
   bool clock = false;
