@@ -58,6 +58,7 @@ export class Bar {
     this.lacks = status.lacks;
     if (status.away) {
       this.link('away', 'the simulation is away');
+      this.enable();
       return;
     }
     $('warehouse').textContent = status.warehouse || 'Warehouse';
