@@ -104,6 +104,23 @@ class ViewerApi(unittest.TestCase):
             answer = ask(f"/simulation/{action}", body.get(action, {"name": "a"}))
             self.refused(409, reason, answer)
 
+    def test_steps_and_goes_back(self):
+        ask("/simulation/pause", {})
+        began = ask("/warehouse")[1]["time"]
+        self.assertEqual(ask("/simulation/checkpoint", {"name": "here"})[0], 200)
+        self.assertEqual(ask("/simulation/step", {"steps": 500})[0], 200)
+        wait_until(lambda: ask("/warehouse")[1]["time"] >= began + 0.4, "half a second more")
+        self.assertEqual(ask("/simulation/restore", {"name": "here"})[0], 200)
+        self.refused(409, "no checkpoint 'there'", ask("/simulation/restore", {"name": "there"}))
+        self.refused(409, "", ask("/simulation/undo", {"seconds": 1000}))
+        self.assertEqual(ask("/simulation/restore", {"name": "/etc/passwd"})[0], 422)
+        ask("/simulation/resume", {})
+
+    def test_changes_speed(self):
+        self.assertEqual(ask("/simulation/speed", {"factor": 2})[0], 200)
+        self.assertAlmostEqual(ask("/warehouse")[1]["target_factor"], 2)
+        self.assertEqual(ask("/simulation/speed", {"factor": 5})[0], 200)
+
     def test_foreign_pages_are_refused(self):
         self.refused(403, "foreign", ask("/robots", origin="http://evil.example"))
         self.refused(403, "token", ask("/robots", host="evil.example"))
