@@ -39,6 +39,10 @@ class ViewerApi(unittest.TestCase):
     def setUpClass(cls):
         wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
         wait_until(lambda: ask("/warehouse")[1].get("items") == 96, "the small warehouse")
+        wait_until(lambda: "create" not in ask("/warehouse")[1]["lacks"], "who builds others")
+
+    def tearDown(self):
+        ask("/simulation/resume", {})
 
     def refused(self, status, text, answer):
         self.assertEqual(answer[0], status, answer)
@@ -99,10 +103,27 @@ class ViewerApi(unittest.TestCase):
         self.assertFalse(ask("/warehouse")[1]["paused"])
 
     def test_what_the_engine_lacks_is_refused_with_the_reason(self):
-        for action, reason in ask("/warehouse")[1]["lacks"].items():
-            body = {"step": {}, "undo": {"seconds": 1}, "speed": {"factor": 1}}
-            answer = ask(f"/simulation/{action}", body.get(action, {"name": "a"}))
-            self.refused(409, reason, answer)
+        bodies = {"step": {}, "undo": {"seconds": 1}, "speed": {"factor": 1}}
+        bodies |= {"checkpoint": {"name": "a"}, "restore": {"name": "a"}}
+        lacks = ask("/warehouse")[1]["lacks"]
+        for action in bodies.keys() & lacks.keys():
+            self.refused(409, lacks[action], ask(f"/simulation/{action}", bodies[action]))
+
+    def test_steps_and_goes_back(self):
+        ask("/simulation/pause", {})
+        began = ask("/warehouse")[1]["time"]
+        self.assertEqual(ask("/simulation/checkpoint", {"name": "here"})[0], 200)
+        self.assertEqual(ask("/simulation/step", {"steps": 500})[0], 200)
+        wait_until(lambda: ask("/warehouse")[1]["time"] >= began + 0.4, "half a second more")
+        self.assertEqual(ask("/simulation/restore", {"name": "here"})[0], 200)
+        self.refused(409, "no checkpoint 'there'", ask("/simulation/restore", {"name": "there"}))
+        self.refused(409, "", ask("/simulation/undo", {"seconds": 1000}))
+        self.assertEqual(ask("/simulation/restore", {"name": "/etc/passwd"})[0], 422)
+
+    def test_changes_speed(self):
+        self.assertEqual(ask("/simulation/speed", {"factor": 2})[0], 200)
+        self.assertAlmostEqual(ask("/warehouse")[1]["target_factor"], 2)
+        self.assertEqual(ask("/simulation/speed", {"factor": 5})[0], 200)
 
     def test_foreign_pages_are_refused(self):
         self.refused(403, "foreign", ask("/robots", origin="http://evil.example"))

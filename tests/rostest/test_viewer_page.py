@@ -96,6 +96,25 @@ class ViewerPage(unittest.TestCase):
         self.page.read("document.getElementById('pause').click()")
         self.page.until("document.getElementById('link').dataset.state === 'live'")
 
+    def test_steps(self):
+        self.page.read("document.getElementById('pause').click()")
+        self.page.until("document.getElementById('link').dataset.state === 'paused'")
+        before = self.page.read("page.world.stamp")
+        self.page.read("document.getElementById('step').click()")
+        self.page.until(f"page.world.stamp > {before} + 0.05")
+        self.page.read("document.getElementById('pause').click()")
+        self.page.until("document.getElementById('link').dataset.state === 'live'")
+
+    def test_goes_back_to_a_checkpoint(self):
+        robot, status = Robot(3), "document.getElementById('tip').dataset.kind"
+        self.page.read("document.getElementById('checkpoint').click()")
+        self.page.until(f"{status} === 'done'")
+        x, y, _ = place("kiva3")
+        robot.do("/movx", distance=1.0)
+        self.page.until(f"Math.abs(page.world.shown[6] - {x + 1}) < 0.01")
+        self.page.read("document.getElementById('restore').click()")
+        self.page.until(f"Math.abs(page.world.shown[6] - {x}) < 0.01")
+
     def test_shows_scan_and_path_of_the_selected(self):
         self.page.read("page.select('kiva2')")
         self.page.read("document.getElementById('scan').click()")

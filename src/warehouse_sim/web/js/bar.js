@@ -17,15 +17,22 @@ export class Bar {
     this.titles = Object.fromEntries(Object.keys(NEEDS).map((id) => [id, $(id).title]));
     this.paused = false;
     this.live = false;
+    this.stepSize = 0.001; // [s]
     this.lacks = {};
     const act = (path, body, done) => () => this.act(path, body, done);
     $('pause').onclick = () => this.act(this.paused ? 'resume' : 'pause');
-    $('step').onclick = act('step', { steps: STEP / 0.001 });
+    $('step').onclick = () => this.step();
     $('undo').onclick = act('undo', { seconds: UNDO }, `${UNDO} s undone`);
     $('reset').onclick = act('reset', { time_too: true }, 'everything is back at its start');
     $('checkpoint').onclick = act('checkpoint', { name: CHECKPOINT }, 'checkpoint kept');
     $('restore').onclick = act('restore', { name: CHECKPOINT }, 'back at the checkpoint');
     $('speed').onchange = () => this.act('speed', { factor: Number($('speed').value) });
+  }
+
+  /** Time that runs is paused first. */
+  step() {
+    if (!this.paused) return this.act('pause');
+    return this.act('step', { steps: Math.max(1, Math.round(STEP / this.stepSize)) });
   }
 
   async act(path, body, done) {
@@ -58,11 +65,13 @@ export class Bar {
     this.lacks = status.lacks;
     if (status.away) {
       this.link('away', 'the simulation is away');
+      this.enable();
       return;
     }
     $('warehouse').textContent = status.warehouse || 'Warehouse';
     this.link(status.paused ? 'paused' : 'live', status.paused ? 'paused' : 'live');
     $('factor').textContent = status.paused ? '' : `×${status.factor.toFixed(2)}`;
+    this.stepSize = status.step_size;
     this.showPaused(status.paused);
     this.showSpeed(status.target_factor);
     this.enable();

@@ -40,7 +40,7 @@ class Desk:
         """Waits until the world has told enough. Raises HTTPException."""
         self.feed.look()
         for _ in range(int(PATIENCE / 0.05)):
-            if self.feed.complete:
+            if self.feed.tells_all:
                 return
             await asyncio.sleep(0.05)
         raise HTTPException(503, "the world tells nothing; does it run?")

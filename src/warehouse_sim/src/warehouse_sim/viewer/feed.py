@@ -68,9 +68,14 @@ class Feed:
             return True
 
     @property
+    def tells_all(self):
+        """Whether it is known where everything is."""
+        return bool(self.units_and_objects and self["fleet"])
+
+    @property
     def complete(self):
         """Whether there is all that a picture needs."""
-        return bool(self.units_and_objects and self["fleet"] and self["scenery"])
+        return bool(self.tells_all and self["scenery"])
 
     def want(self, paths, scans):
         """Hears the paths or not, and the scans of exactly these robots (ids)."""

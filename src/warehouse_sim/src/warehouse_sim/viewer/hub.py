@@ -103,10 +103,11 @@ class Hub:
         if time.monotonic() >= self._offers_due:
             self._offers = self._simulation.offers()
             self._offers_due = time.monotonic() + OFFERS_GAP
+        lacks = {action: lack for action, lack in self._offers.items() if lack}
         try:
             state = self._simulation.state()
         except RuntimeError as error:
-            return {"type": "status", "away": str(error), "lacks": self._offers}
+            return {"type": "status", "away": str(error), "lacks": lacks}
         name, number = self._simulation.warehouse()
         performance = self._feed["performance"]
         factor = performance.real_time_factor if performance else 0.0
@@ -116,7 +117,7 @@ class Hub:
             "warehouse": name,
             "id": number,
             "factor": round(factor, 2),
-            "lacks": {action: lack for action, lack in self._offers.items() if lack},
+            "lacks": lacks,
             **state,
         }
 

@@ -197,6 +197,7 @@ class Warehouse(BaseModel):
     real_time_factor: float
     paused: bool
     target_factor: float = Field(description="simulated seconds a wall second, 0 = full speed")
+    step_size: float = Field(description="of the physics [s]")
     lacks: dict[str, str] = Field(description="what can't be done with this engine, and why")
 
 

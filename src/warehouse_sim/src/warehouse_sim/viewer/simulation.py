@@ -50,9 +50,13 @@ class Simulation:
         return None if code == 1 else f"the engine offers no {name}"
 
     def state(self):
-        """{"paused": …, "target_factor": simulated seconds a wall second, 0 = full speed}."""
+        """Whether time stands still, how fast it should pass (0 = full speed), and its step [s]."""
         now = self._physics()
-        return {"paused": now.pause, "target_factor": now.max_update_rate * now.time_step}
+        return {
+            "paused": now.pause,
+            "target_factor": now.max_update_rate * now.time_step,
+            "step_size": now.time_step,
+        }
 
     def warehouse(self):
         """(name, id) of the warehouse that stands; empty if it was built by nobody."""
