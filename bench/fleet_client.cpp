@@ -6,6 +6,7 @@
 //
 // How late: a message's wall time less its stamp, against the quickest message of the same second.
 // That needs simulated time to follow the wall clock, that is, rtf:=1.
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <warehouse_msgs/Event.h>

@@ -35,10 +35,16 @@ class Session:
         self._home = tempfile.TemporaryDirectory(prefix="bench_ros_")
         os.environ["ROS_HOME"] = self._home.name
         command = ["roslaunch", "-p", str(port), "--sigint-timeout=3", "--sigterm-timeout=1"]
-        command += ["warehouse_sim", "warehouse.launch", *self._words]
+        command += [
+            "warehouse_sim",
+            "warehouse.launch",
+            *self._words,
+            f"viewer_port:={port + 9000}",
+        ]
         print(f"$ {' '.join(command)}", file=sys.stderr, flush=True)
+        self._log = open(f"{self._home.name}/roslaunch.log", "w+")  # noqa: SIM115, closed with it
         self._launch = subprocess.Popen(
-            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+            command, stdout=self._log, stderr=self._log, start_new_session=True
         )
         self._wait(rosgraph.is_master_online, "the master")
         name = "/warehouse/create_warehouse_models"
@@ -51,6 +57,7 @@ class Session:
             self._launch.wait(30)
         except subprocess.TimeoutExpired:
             os.killpg(self._launch.pid, signal.SIGKILL)
+        self._log.close()
         self._home.cleanup()
 
     def _wait(self, condition, what):
@@ -62,7 +69,10 @@ class Session:
                 if condition():
                     return
             time.sleep(0.2)
-        raise programs.FailedError(f"{what} did not come up")
+        self._log.seek(0)
+        told = " | ".join(self._log.read().strip().splitlines()[-3:])
+        self.__exit__()
+        raise programs.FailedError(f"{what} did not come up: {told}")
 
     def create(self, name):
         """Seconds from call to reply."""
