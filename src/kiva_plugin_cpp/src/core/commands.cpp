@@ -321,6 +321,7 @@ const char* stateName(State state) {
 
 void become(Parts& parts, int robot, Status status, State state) {
   parts.fleet.robots[robot].leg_started = false;
+  parts.fleet.look_again[robot] = 0;  // it moves otherwise from now on
   parts.setStatus(robot, status, state);
 }
 
@@ -337,7 +338,6 @@ void start(Parts& parts, int robot, Plan plan) {
     if (leg.kind == Leg::Kind::kRaise) parts.units[leg.unit].claimed_by = robot;
   }
   parts.fleet.awake[robot] = 1;
-  parts.fleet.look_again[robot] = 0;
   become(parts, robot, Status::kBusy, r.legs.front().state);
 }
 

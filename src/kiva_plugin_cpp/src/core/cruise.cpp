@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "obstacles.h"
+#include "surroundings.h"
 #include "traction.h"
 
 namespace kiva {
 namespace {
 
-constexpr double kNear = 0.008;              // [m]: nearer than this, somebody else decides
 constexpr double kHorizons[] = {0.3, 0.08};  // [s] for which the way may be found free
 constexpr double kRetry = 0.05;  // [s] after which one looks again that had somebody near
-constexpr double kPushed = 0.5;  // [m/s] by which a robot may be faster than it drives
 constexpr double kMargin = 2;    // of force to spare: a profile's last steps are uneven
 
 /// Whether the chassis is just as fast as its reference says.
@@ -31,55 +29,10 @@ bool hasForce(const Robot& robot, const Motion& per, double deceleration, double
   return hardest < limit;
 }
 
-/// The robot with its load as one upright box.
-Footprint outline(const Fleet& f, int i) {
-  const Robot& r = f.robots[i];
-  Footprint own;
-  own.x = f.x[i];
-  own.y = f.y[i];
-  own.c = std::cos(f.yaw[i]);
-  own.s = std::sin(f.yaw[i]);
-  own.hx = std::max(r.half_length, r.load_half_length);
-  own.hy = std::max(r.half_width, r.load_half_width);
-  own.z_max = f.unit[i] < 0 ? r.height : 1e9;
-  return own;
-}
-
-/// What it covers of the floor while its reference goes on by `way`.
+/// What the robot covers of the floor while its reference goes on by `way`.
 Footprint sweep(const Fleet& f, int i, double way) {
-  Footprint swept = outline(f, i);
-  if (f.per_yaw[i] != 0) {
-    swept.kind = Footprint::Kind::kCircle;
-    swept.hx = std::hypot(swept.hx, swept.hy);
-    return swept;
-  }
-  swept.x += f.per_x[i] * way / 2;
-  swept.y += f.per_y[i] * way / 2;
-  swept.hx += std::abs(way) / 2;
-  return swept;
-}
-
-/// Whether nothing comes near while the robot goes `way` on, in `time` [s].
-bool isWayFree(const Parts& parts, int robot, double way, double time) {
-  const Fleet& f = parts.fleet;
-  const Footprint swept = sweep(f, robot, way);
-  const double reach = std::hypot(swept.hx, swept.hy);
-  const auto meets = [&](const Footprint& other) {
-    return other.z_min <= swept.z_max && other.z_max >= swept.z_min && gap(swept, other) < kNear;
-  };
-  const auto approaches = [&](const Mover& other, int index) {
-    if (index == robot) return false;
-    const double speed =
-        std::max(f.robots[index].drive.speed, std::hypot(f.vx[index], f.vy[index]) + kPushed);
-    Footprint circle;
-    circle.kind = Footprint::Kind::kCircle;
-    circle.x = f.x[index];
-    circle.y = f.y[index];
-    circle.hx = other.radius;
-    return gap(swept, circle) < kNear + speed * time;
-  };
-  const double farthest = (parts.top_speed + kPushed) * time + kNear;
-  return !parts.obstacles.any(swept.x, swept.y, reach + farthest, meets, approaches);
+  if (f.per_yaw[i] != 0) return turned(outlineOf(f, i));
+  return moved(outlineOf(f, i), f.per_x[i] * way, f.per_y[i] * way);
 }
 
 /// How far the reference goes at most in that time.
@@ -97,7 +50,7 @@ bool renew(Parts& parts, int i, double now) {
     const double time =
         turns ? horizon : std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
     const double way = wayWithin(f, i, time);
-    if (!isWayFree(parts, i, way, time)) continue;
+    if (!isClear(parts, i, sweep(f, i, way), time)) continue;
     parts.obstacles.follow(i, turns ? 0 : std::abs(way));
     f.cruise_until[i] = now + std::floor(time / parts.dt);
     return true;

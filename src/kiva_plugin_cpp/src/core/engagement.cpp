@@ -9,6 +9,7 @@
 #include "jointed.h"
 #include "load.h"
 #include "models.h"
+#include "surroundings.h"
 #include "traction.h"
 
 namespace kiva {
@@ -18,6 +19,8 @@ constexpr double kReach = 1.0;        // [m] around a robot in which to look
 constexpr double kNear = 0.006;       // [m]: nearer than this, Bullet decides
 constexpr double kLinger = 0.05;      // [s] in Bullet after the last one was near
 constexpr double kCornerSpeed = 3.2;  // [m/s] of a chassis' corner in the fastest turn
+constexpr double kHorizons[] = {0.2, 0.06, 0.02};  // [s] for which a robot may be alone
+constexpr double kAstray = 0.01;                   // [m] it may be beside its way by then
 constexpr double kStill = 1e-3;       // [m/s]: a unit slower than that may leave Bullet
 constexpr double kTilt = 1 - 5e-5;    // cosine: a unit more upright stands on its legs
 
@@ -66,7 +69,32 @@ double inspect(Parts& parts, const Footprint& own, double near, std::vector<int>
   return least;
 }
 
+/// What the robot may cover of the floor within `time` [s], by what it is at.
+Footprint sweep(const Fleet& f, int i, double time) {
+  const Robot& r = f.robots[i];
+  Footprint own = outlineOf(f, i);
+  own.hx += kAstray;
+  own.hy += kAstray;
+  if (r.legs.empty() || r.legs.front().kind == Leg::Kind::kTurn) own = turned(own);
+  if (!r.legs.empty() && r.legs.front().kind != Leg::Kind::kDrive) return own;
+  own.hx += std::max(r.drive.speed, std::hypot(f.vx[i], f.vy[i])) * time;  // either way
+  return own;
+}
+
+/// Lets the robot look again later if nothing can come near for a while.
+bool lookFar(Parts& parts, int robot) {
+  if (parts.fleet.engaged[robot]) return false;
+  for (const double time : kHorizons) {
+    if (!isClear(parts, robot, sweep(parts.fleet, robot, time), time)) continue;
+    parts.fleet.look_again[robot] =
+        parts.total_steps + static_cast<std::uint64_t>(std::max(1.0, time / parts.dt));
+    return true;
+  }
+  return false;
+}
+
 void lookAround(Parts& parts, int robot) {
+  if (lookFar(parts, robot)) return;
   Fleet& f = parts.fleet;
   const double closing = 2 * (f.robots[robot].drive.speed + kCornerSpeed);  // [m/s]
   const double near = kNear + closing * parts.dt;

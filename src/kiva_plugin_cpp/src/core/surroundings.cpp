@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kiva {
+namespace {
+
+constexpr double kNear = 0.008;  // [m]: nearer than this is near
+constexpr double kPushed = 0.5;  // [m/s] by which a robot may be faster than it drives
+constexpr double kStill = 1e-9;  // [m/s, rad/s]
+
+bool standsStill(const Fleet& f, int i) {
+  if (!f.awake[i]) return true;
+  if (f.engaged[i] || std::abs(f.vx[i]) > kStill || std::abs(f.vy[i]) > kStill ||
+      std::abs(f.yaw_rate[i]) > kStill) {
+    return false;
+  }
+  if (f.robots[i].legs.empty()) return true;
+  const Leg::Kind kind = f.robots[i].legs.front().kind;
+  return kind == Leg::Kind::kRaise || kind == Leg::Kind::kLower;
+}
+
+bool turnsInPlace(const Fleet& f, int i) { return f.cruising[i] != 0 && f.per_yaw[i] != 0; }
+
+/// How fast its circle may come nearer [m/s].
+double approachSpeed(const Fleet& f, int i) {
+  if (turnsInPlace(f, i)) return 0;
+  return std::max(f.robots[i].drive.speed, std::hypot(f.vx[i], f.vy[i]) + kPushed);
+}
+
+Footprint circleOf(const Fleet& f, int i, double radius) {
+  Footprint circle;
+  circle.kind = Footprint::Kind::kCircle;
+  circle.x = f.x[i];
+  circle.y = f.y[i];
+  circle.hx = radius;
+  return circle;
+}
+
+}  // namespace
+
+Footprint outlineOf(const Fleet& f, int i) {
+  const Robot& r = f.robots[i];
+  Footprint own;
+  own.x = f.x[i];
+  own.y = f.y[i];
+  own.c = std::cos(f.yaw[i]);
+  own.s = std::sin(f.yaw[i]);
+  own.hx = std::max(r.half_length, r.load_half_length);
+  own.hy = std::max(r.half_width, r.load_half_width);
+  own.z_max = f.unit[i] < 0 ? r.height + f.tower[i] : 1e9;
+  return own;
+}
+
+Footprint turned(Footprint outline) {
+  outline.kind = Footprint::Kind::kCircle;
+  outline.hx = std::hypot(outline.hx, outline.hy);
+  return outline;
+}
+
+Footprint moved(Footprint outline, double dx, double dy) {
+  outline.x += dx / 2;
+  outline.y += dy / 2;
+  outline.hx += std::hypot(dx, dy) / 2;
+  return outline;
+}
+
+bool isClear(const Parts& parts, int robot, const Footprint& swept, double time) {
+  const Fleet& f = parts.fleet;
+  const auto meets = [&](const Footprint& other) {
+    return other.z_min <= swept.z_max && other.z_max >= swept.z_min && gap(swept, other) < kNear;
+  };
+  const auto approaches = [&](const Mover& other, int i) {
+    if (i == robot) return false;
+    const double reach = kNear + (standsStill(f, i) ? 0 : approachSpeed(f, i)) * time;
+    if (gap(swept, circleOf(f, i, other.radius)) >= reach) return false;
+    if (!standsStill(f, i)) return true;
+    const auto& footprints = parts.obstacles.footprints(i);
+    return std::any_of(footprints.begin(), footprints.end(), meets);
+  };
+  const double own = swept.kind == Footprint::Kind::kBox ? std::hypot(swept.hx, swept.hy)
+                                                         : swept.hx;
+  const double farthest = (parts.top_speed + kPushed) * time + kNear;
+  return !parts.obstacles.any(swept.x, swept.y, own + farthest, meets, approaches);
+}
+
+}  // namespace kiva
