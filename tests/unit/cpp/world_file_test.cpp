@@ -657,14 +657,17 @@ TEST(Includes, PlaceTheModelByItsPlacementFrame) {
   expectNear(models.at(0).pose, Pose(1, 0, -2, 0, 0, 0));
 }
 
-TEST(Includes, OfWhatIsNoModelAreLeftOutWithAWarning) {
+TEST(Includes, OfALightKeepItUnderItsName) {
   const ModelFolder folder;
   folder.write("sun", "<light name='sun' type='directional'/>");
   std::vector<std::string> warnings;
-  const auto w = parseWorld(worldOf("\n" + include("sun", "")), folder.paths(), "text", &warnings);
+  const std::string text = worldOf(include("sun", "") + include("sun", "<name>moon</name>"));
+  const auto w = parseWorld(text, folder.paths(), "text", &warnings);
   EXPECT_TRUE(w.models.empty());
-  EXPECT_EQ(warnings, std::vector<std::string>{
-                          "text:2: include: 'model://sun' holds no model and is left out"});
+  EXPECT_TRUE(warnings.empty());
+  ASSERT_EQ(w.lights.size(), 2u);
+  EXPECT_EQ(w.lights[0].name + w.lights[1].name, "sunmoon");
+  EXPECT_EQ(w.lights[1].kind, Light::Kind::kDirectional);
 }
 
 /// Our reading of plain includes against libsdformat's: a frame on a robot makes it take all.

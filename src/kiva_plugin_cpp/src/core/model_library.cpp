@@ -12,6 +12,7 @@
 #include "core/sdf_errors.h"
 #include "core/sdf_models.h"
 #include "core/sdf_parser.h"
+#include "core/sdf_sensors.h"
 
 namespace kiva {
 namespace {
@@ -32,6 +33,8 @@ LibraryModel readFile(const std::string& folder, const std::string& file,
   if (const sdf::Model* model = document.root->Model()) {
     readModel(*model, {file, model_paths}, &document.warnings, &result);
     addMeshFiles(*result.description, &document.files);
+  } else if (const sdf::Light* light = document.root->Light()) {
+    result.light = describeLight(*light, light->RawPose());
   }
   for (const sdf::Error& warning : document.warnings) {
     result.warnings.push_back(describe(warning, file));

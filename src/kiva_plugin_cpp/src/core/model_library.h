@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ struct LibraryModel {
   std::string name;
   Pose pose;       ///< As its file has it, in world.
   Pose placement;  ///< Of the model, in its placement frame: what an include's pose is about.
-  std::shared_ptr<const ModelDescription> description;  ///< Null: the file holds a light, say.
+  std::shared_ptr<const ModelDescription> description;  ///< Null: the file holds no model,
+  std::optional<Light> light;                           ///< but a light, say.
   std::vector<std::string> warnings;
   FileStamps stamps;
 };

@@ -126,6 +126,7 @@ class Reading {
       for (const sdf::Error& warning : prepared.warnings) warn(describe(warning, where_));
       for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
       parsed.world.models = merge(split, std::move(parsed.world.models));
+      std::move(lights_.begin(), lights_.end(), std::back_inserter(parsed.world.lights));
       for (ModelInstance& model : parsed.world.models) {
         const auto saved = prepared.poses.find(model.name);
         if (saved != prepared.poses.end()) model.pose = saved->second;
@@ -166,8 +167,15 @@ class Reading {
     return models;
   }
 
+  void addLight(const Include& include, Light light) {
+    if (!include.name.empty()) light.name = include.name;
+    if (include.pose) light.pose = *include.pose;
+    lights_.push_back(std::move(light));
+  }
+
   void addInclude(const Include& include, std::vector<ModelInstance>* models) {
     const LibraryModel& model = library(include);
+    if (model.light) return addLight(include, *model.light);
     if (!model.description) {
       warn(at(include) + "'" + include.uri + "' holds no model and is left out");
       return;
@@ -221,6 +229,7 @@ class Reading {
   std::vector<std::string>* warnings_;
   std::set<std::string> warned_;
   std::set<std::string> names_;
+  std::vector<Light> lights_;  ///< Of includes.
   std::map<std::string, std::shared_ptr<const LibraryModel>> models_;
 };
 
