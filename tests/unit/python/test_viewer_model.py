@@ -67,7 +67,8 @@ class World:
     """The newest messages, of which some are replaced at each turn."""
 
     def __init__(self):
-        self.model = Model()
+        self.now = 100.0  # [s, wall]
+        self.model = Model(clock=lambda: self.now)
         self.messages = {
             "objects": objects(),
             "states": states(),
@@ -105,10 +106,16 @@ def test_nothing_new_is_no_update():
     assert not world.turn(fleet=fleet(stamp=1.1))
 
 
-def test_time_alone_is_an_update_once_a_second():
+def test_time_alone_is_an_update_now_and_then():
     world = World()
     world.turn()
-    assert world.turn(fleet=fleet(stamp=2.0))
+    world.now += 0.6
+    assert world.turn(fleet=fleet(stamp=1.1))
+    assert not world.turn(fleet=fleet(stamp=1.2))
+    world.now += 0.6
+    assert world.turn()  # with what came before
+    world.now += 0.6
+    assert not world.turn()
 
 
 def test_bytes_are_as_described():

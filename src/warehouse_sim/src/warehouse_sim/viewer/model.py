@@ -2,6 +2,7 @@
 """What the page shows, made from the newest messages: a scene that seldom changes, and tables."""
 
 import json
+import time
 
 import numpy as np
 
@@ -11,20 +12,23 @@ from warehouse_sim.models import kind_and_number
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.table import Table
 
+TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
 STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
 
 
 class Model:
     """Tables by tick. One thread at a time."""
 
-    def __init__(self):
+    def __init__(self, clock=time.monotonic):
+        self._clock = clock
         self.tick, self.stamp, self.revision = 0, 0.0, 0
         self.changed_at = 0  # the last tick at which there was something to show
         self.robots, self.units = Table(protocol.ROBOT), Table(protocol.BODY)
         self.loose, self.scenery = Table(protocol.BODY), Table(protocol.BODY)
         self._objects = self._states = self._scenery = self._fleet = None
         self._kiva_id, self._robot_of = np.zeros(0, int), {}
-        self._blocked, self._told, self._scene_text = set(), 0.0, None
+        self._blocked, self._scene_text = set(), None
+        self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
 
     # --- messages in
     def is_same_scene(self, objects, scenery):
@@ -46,10 +50,11 @@ class Model:
         if scenery is not self._scenery or scene:
             moved |= self.scenery.set(self.tick, pose=poses.rows(scenery.pose))
             self._scenery = scenery
-        # Time alone is worth an update too: the page shows it.
-        told, self._told = self._told, self.stamp
-        if scene or moved or int(self.stamp) != int(told):
+        # Time alone is worth an update too, now and then: the page shows it.
+        late = self._clock() - self._told_at >= TIME_GAP
+        if scene or moved or (late and self.stamp != self._told):
             self.changed_at = self.tick
+            self._told, self._told_at = self.stamp, self._clock()
         return self.changed_at == self.tick
 
     def note(self, event):
