@@ -253,11 +253,16 @@ void readUnits(ros::NodeHandle& node, Commander& commander) {
   }
 }
 
+/// One callback at a time: on a crowded machine a queue may hold more than the time there is.
 template <typename Condition>
 bool spinUntil(double deadline, Condition condition) {
+  double look = 0;
   while (ros::ok() && now() < deadline) {
-    if (condition()) return true;
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    if (now() > look) {
+      if (condition()) return true;
+      look = now() + 0.05;
+    }
+    ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.05));
   }
   return false;
 }

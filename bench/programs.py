@@ -35,7 +35,10 @@ def figures(command, **more):
     if done.returncode:
         raise FailedError(f"{Path(command[0]).name} ended with {done.returncode}")
     lines = (line for line in done.stdout.splitlines() if line.startswith("{"))
-    return [json.loads(line) | more for line in lines]
+    out = [json.loads(line) | more for line in lines]
+    for figure in out:
+        print(f"  {figure}", file=sys.stderr, flush=True)
+    return out
 
 
 def sweep(program, options, fleets):

@@ -46,17 +46,24 @@ class Session:
         self._launch = subprocess.Popen(
             command, stdout=self._log, stderr=self._log, start_new_session=True
         )
-        self._wait(rosgraph.is_master_online, "the master")
-        name = "/warehouse/create_warehouse_models"
-        self._wait(lambda: name in rosservice.get_service_list(), "the warehouse")
+        try:
+            self._wait(rosgraph.is_master_online, "the master")
+            name = "/warehouse/create_warehouse_models"
+            self._wait(lambda: name in rosservice.get_service_list(), "the warehouse")
+        except BaseException:  # a Ctrl-C too: nothing may be left running
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
+        started = self.nodes()
         self._launch.send_signal(signal.SIGINT)
         try:
-            self._launch.wait(30)
+            self._launch.wait(60)
         except subprocess.TimeoutExpired:
-            os.killpg(self._launch.pid, signal.SIGKILL)
+            for pid in started:  # roslaunch gives each a group of its own
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGKILL)
         self._log.close()
         self._home.cleanup()
 
@@ -71,7 +78,6 @@ class Session:
             time.sleep(0.2)
         self._log.seek(0)
         told = " | ".join(self._log.read().strip().splitlines()[-3:])
-        self.__exit__()
         raise programs.FailedError(f"{what} did not come up: {told}")
 
     def create(self, name):
