@@ -15,14 +15,14 @@
 namespace kiva {
 namespace {
 
-constexpr double kReach = 1.0;        // [m] around a robot in which to look
-constexpr double kNear = 0.006;       // [m]: nearer than this, Bullet decides
-constexpr double kLinger = 0.05;      // [s] in Bullet after the last one was near
-constexpr double kCornerSpeed = 3.2;  // [m/s] of a chassis' corner in the fastest turn
+constexpr double kReach = 1.0;                     // [m] around a robot in which to look
+constexpr double kNear = 0.006;                    // [m]: nearer than this, Bullet decides
+constexpr double kLinger = 0.05;                   // [s] in Bullet after the last one was near
+constexpr double kCornerSpeed = 3.2;               // [m/s] of a chassis' corner in the fastest turn
 constexpr double kHorizons[] = {0.2, 0.06, 0.02};  // [s] for which a robot may be alone
-constexpr double kAstray = 0.01;                   // [m] it may be beside its way by then
-constexpr double kStill = 1e-3;       // [m/s]: a unit slower than that may leave Bullet
-constexpr double kTilt = 1 - 5e-5;    // cosine: a unit more upright stands on its legs
+constexpr double kAstray = 0.001;                  // [m] it may be beside its way by then
+constexpr double kStill = 1e-3;     // [m/s]: a unit slower than that may leave Bullet
+constexpr double kTilt = 1 - 5e-5;  // cosine: a unit more upright stands on its legs
 
 std::uint64_t lingerSteps(const Parts& parts) {
   return static_cast<std::uint64_t>(std::ceil(kLinger / parts.dt));

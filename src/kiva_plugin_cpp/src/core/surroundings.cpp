@@ -7,8 +7,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kNear = 0.008;  // [m]: nearer than this is near
-constexpr double kPushed = 0.5;  // [m/s] by which a robot may be faster than it drives
+constexpr double kNear =
+    0.004;  // [m]: nearer than this is near; two that turn in adjacent cells are not
+constexpr double kPushed = 0.5;  // [m/s] by which a robot in Bullet may be faster than it drives
 constexpr double kStill = 1e-9;  // [m/s, rad/s]
 
 bool standsStill(const Fleet& f, int i) {
@@ -22,12 +23,18 @@ bool standsStill(const Fleet& f, int i) {
   return kind == Leg::Kind::kRaise || kind == Leg::Kind::kLower;
 }
 
-bool turnsInPlace(const Fleet& f, int i) { return f.cruising[i] != 0 && f.per_yaw[i] != 0; }
+/// Its circle stays where it is until it begins another leg, and then it looks around itself.
+bool turnsInPlace(const Fleet& f, int i) {
+  return !f.engaged[i] && !f.robots[i].legs.empty() &&
+         f.robots[i].legs.front().kind == Leg::Kind::kTurn && std::abs(f.vx[i]) < kStill &&
+         std::abs(f.vy[i]) < kStill;
+}
 
 /// How fast its circle may come nearer [m/s].
 double approachSpeed(const Fleet& f, int i) {
   if (turnsInPlace(f, i)) return 0;
-  return std::max(f.robots[i].drive.speed, std::hypot(f.vx[i], f.vy[i]) + kPushed);
+  const double speed = f.robots[i].drive.speed;
+  return f.engaged[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
 }
 
 Footprint circleOf(const Fleet& f, int i, double radius) {
@@ -80,8 +87,8 @@ bool isClear(const Parts& parts, int robot, const Footprint& swept, double time)
     const auto& footprints = parts.obstacles.footprints(i);
     return std::any_of(footprints.begin(), footprints.end(), meets);
   };
-  const double own = swept.kind == Footprint::Kind::kBox ? std::hypot(swept.hx, swept.hy)
-                                                         : swept.hx;
+  const double own =
+      swept.kind == Footprint::Kind::kBox ? std::hypot(swept.hx, swept.hy) : swept.hx;
   const double farthest = (parts.top_speed + kPushed) * time + kNear;
   return !parts.obstacles.any(swept.x, swept.y, own + farthest, meets, approaches);
 }
