@@ -34,9 +34,9 @@ enum class Drive : std::uint8_t {
 
 struct DriveParameters {
   Drive drive = Drive::kTraction;
-  double speed = 1.5;         ///< [m/s], > 0.
-  double acceleration = 1.0;  ///< [m/s²]; 0 = speed changes at once, motors unlimited,
-                              ///< and grip too but for jointed robots, whose wheels slip.
+  double speed = 1.5;                   ///< [m/s], > 0.
+  double acceleration = 1.0;            ///< [m/s²]; 0 = speed changes at once, motors unlimited,
+                                        ///< and grip too but for jointed robots, whose wheels slip.
   double emergency_deceleration = 2.5;  ///< [m/s²], when a normal stop would come too late.
   double wheel_radius = 0.1;            ///< [m]
   double wheel_separation = 0.52;       ///< Between the wheels' centres [m].

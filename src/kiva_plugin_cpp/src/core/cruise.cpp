@@ -134,8 +134,7 @@ bool tryCruise(Parts& parts, int i, const Motion& per) {
   const Robot& r = f.robots[i];
   const auto now = static_cast<double>(parts.total_steps);
   if (r.drive.drive == Drive::kJointed || f.engaged[i] || parts.options.always_in_bullet ||
-      f.cruise_until[i] > now ||
-      f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
+      f.cruise_until[i] > now || f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
       std::abs(f.reference_speed[i]) > per.top_speed || !keepsUp(f, i, per) ||
       !hasForce(r, per, f.deceleration[i], parts.gravityDown())) {
     return false;

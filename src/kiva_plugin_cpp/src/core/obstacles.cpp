@@ -246,7 +246,7 @@ void Obstacles::link(int handle, Place& place, const Box& box) {
 void Obstacles::unlink(int handle, Place& place) {
   if (!place.linked) return;
   place.linked = false;
-  const auto drop = [handle](std::vector<int>& list) {
+  const auto drop = [handle](auto& list) {
     const auto at = std::find(list.begin(), list.end(), handle);
     *at = list.back();
     list.pop_back();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <ignition/math/Vector3.hh>
 #include <vector>
@@ -158,8 +159,9 @@ class Obstacles {
   std::vector<Entry> entries_;
   std::vector<MoverEntry> movers_;
   std::vector<int> free_;
-  std::vector<std::vector<int>> cells_;  // handles; ~robot for a mover
-  std::vector<int> everywhere_;          // too large for cells
+  // Handles; ~robot for a mover. Few a cell: beside each other in memory, which is most of a ray.
+  std::vector<boost::container::small_vector<int, 4>> cells_;
+  std::vector<int> everywhere_;  // too large for cells
   double origin_x_ = 0, origin_y_ = 0;
   int columns_ = 0, rows_ = 0;
 };

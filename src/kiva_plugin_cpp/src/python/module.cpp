@@ -73,7 +73,9 @@ void warn(const std::vector<std::string>& warnings) {
 
 HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
                  std::uint64_t seed, const std::string& drive) {
-  const WorldOptions options{seed, driveOf(drive)};
+  WorldOptions options;
+  options.seed = seed;
+  options.drive = driveOf(drive);
   std::vector<std::string> warnings;
   HostPtr host;
   {
