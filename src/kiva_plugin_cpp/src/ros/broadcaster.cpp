@@ -9,7 +9,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kClockQueue = 10;
+constexpr int kClockQueue = 1000;    // ten seconds of steps that are made in one go
 constexpr int kEventQueue = 100000;  // ten seconds of ten thousand commands, each answered
 constexpr int kStreamQueue = 10;
 
