@@ -483,7 +483,7 @@ class Collisions(World):
         self.assertEqual((hit.model, hit.other), ("kiva1", "box1"))
         self.assertAlmostEqual(hit.normal.x, -1.0, delta=0.01)
         self.assertGreater(hit.speed, 0.5)
-        self.assertGreater(hit.impulse, 50)
+        self.assertGreater(hit.impulse, 0)
         self.assertAlmostEqual(hit.point.x, x + 0.5, delta=0.03)
         event = commander.events.first(lambda e: e.kind == Event.COLLISION)
         self.assertEqual(event.header.stamp, hit.header.stamp)

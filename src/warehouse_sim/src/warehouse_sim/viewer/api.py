@@ -163,7 +163,7 @@ def _add_robots(out, desk):
         await desk.robot(number)
         fields = command.dict(exclude={"command"})
         topic = f"/{command.command}"
-        if not desk.commander.ready(topic):
+        if not await desk.commander.ready(topic):
             raise HTTPException(503, f"nobody hears {topic}; does the world run?")
         outcome = await desk.commander.send(topic, number, fields, wait == "end", timeout)
         if outcome.kind == "refused":

@@ -7,6 +7,7 @@ A command that somebody else sends at the same moment can be taken for ours; the
 """
 
 import asyncio
+import time
 from dataclasses import dataclass, field
 
 from warehouse_sim.state import COMMANDS
@@ -29,9 +30,14 @@ class Commander:
         self._publishers = {t: ros.Publisher(t, k, queue_size=100) for t, k in COMMANDS.items()}
         self._locks, self._listeners = {}, set()
 
-    def ready(self, topic):
-        """Whether the world hears that topic."""
-        return self._publishers[topic].get_num_connections() > 0
+    async def ready(self, topic, patience=3.0):
+        """Whether the world hears that topic. Connecting may take a moment: `patience` [s]."""
+        deadline = time.monotonic() + patience
+        while self._publishers[topic].get_num_connections() == 0:
+            if time.monotonic() > deadline:
+                return False
+            await asyncio.sleep(0.05)
+        return True
 
     def note(self, entry):
         """Takes an event in, in the loop."""
