@@ -125,6 +125,7 @@ int Obstacles::add(const Footprint& footprint) {
   }
   entries_[handle].used = true;
   entries_[handle].footprint = footprint;
+  cover(boxOf(footprint));
   link(handle, entries_[handle].place, boxOf(footprint));
   return handle;
 }
@@ -135,6 +136,7 @@ void Obstacles::update(int handle, const Footprint& footprint) {
   const Box box = boxOf(footprint);
   if (!entry.place.everywhere && isInside(box) && range(box) == entry.place.range) return;
   unlink(handle, entry.place);
+  cover(box);
   link(handle, entry.place, box);
 }
 
@@ -200,6 +202,7 @@ void Obstacles::linkMover(int robot) {
   entry.x = fleet_.x[robot];
   entry.y = fleet_.y[robot];
   unlink(~robot, entry.place);
+  cover(boxOf(entry));
   link(~robot, entry.place, boxOf(entry));
 }
 
@@ -229,7 +232,6 @@ bool Obstacles::isInside(const Box& box) const {
 }
 
 void Obstacles::link(int handle, Place& place, const Box& box) {
-  cover(box);
   place.linked = true;
   place.range = range(box);
   place.everywhere = !isInside(box);
