@@ -9,6 +9,7 @@ from pathlib import Path
 
 import rospy
 import rostest
+from nav_msgs.msg import Odometry
 from node_test import call, latched, wait_until
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
@@ -73,18 +74,23 @@ class Lockstep(unittest.TestCase):
 
     def test_time_stands_still_between_steps(self):
         begin = sim_time()
-        with Collector("/clock", Clock) as clocks:
-            clocks.first()  # latched
-            clocks.clear()
-            answer = step(500)
-            self.assertAlmostEqual(answer.stamp.to_sec(), begin + 0.5)
-            # All that was published is with the sockets: it comes without another step.
-            times = [
-                m.clock.to_sec() for m in clocks.wait_for(lambda messages: len(messages) >= 50)
-            ]
-            self.assertAlmostEqual(times[-1], begin + 0.5)
-            self.assertEqual(sim_time(), begin + 0.5)
-            self.assertEqual(times, sorted(times))
+        answer = step(500)
+        self.assertAlmostEqual(answer.stamp.to_sec(), begin + 0.5)
+        latched("/clock", Clock, lambda m: abs(m.clock.to_sec() - begin - 0.5) < 1e-6)
+        self.assertEqual(sim_time(), begin + 0.5)
+
+    def test_all_that_steps_publish_comes_without_another_step(self):
+        begin = sim_time()
+        # Not the clock: rospy itself listens to it, and lets all listeners of its process miss
+        # what comes in one go but for the last.
+        with Collector("/kiva1/odom", Odometry) as odometry:
+            odometry.first()  # as newcomers get it
+            odometry.clear()
+            step(10 * SECOND)
+            messages = odometry.wait_for(lambda messages: len(messages) >= 200)
+        due = [begin + 0.05 * (i + 1) for i in range(200)]
+        for message, time in zip(messages, due, strict=True):
+            self.assertAlmostEqual(message.header.stamp.to_sec(), time)
 
     def test_a_world_that_is_paused_steps_too(self):
         with Paused():

@@ -9,7 +9,6 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kClockQueue = 1000;    // ten seconds of steps that are made in one go
 constexpr int kEventQueue = 100000;  // ten seconds of ten thousand commands, each answered
 constexpr int kStreamQueue = 10;
 
@@ -29,7 +28,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience&
     : outbox_(outbox),
       robots_(root, audience),
       transforms_(root, audience),
-      clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kClockQueue, kLatched)),
+      clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kStreamQueue, kLatched)),
       events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
       collisions_(root.advertise<warehouse_msgs::Collision>("/warehouse/collisions", kEventQueue)),
       objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
