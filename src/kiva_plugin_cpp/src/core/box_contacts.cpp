@@ -47,6 +47,14 @@ const btBoxShape* boxOf(const btCollisionObjectWrapper* wrapper) {
   return static_cast<const btBoxShape*>(wrapper->getCollisionShape());
 }
 
+/// Faces and edges of the box. Few boxes ever come so near to another that they are needed.
+const btConvexPolyhedron& polyhedronOf(const btBoxShape* box) {
+  if (!box->getConvexPolyhedron()) {
+    const_cast<btBoxShape*>(box)->initializePolyhedralFeatures();
+  }
+  return *box->getConvexPolyhedron();
+}
+
 Closest closest(const btBoxShape* a, const btBoxShape* b, const Input& input) {
   btVoronoiSimplexSolver simplex;
   btGjkPairDetector gjk(a, b, &simplex, nullptr);
@@ -86,8 +94,8 @@ void BoxBoxContacts::foresee(const btBoxShape* a, const btBoxShape* b, const Inp
   if (!apart.found) return;
   result->addContactPoint(apart.normal, apart.point, apart.distance);
   btPolyhedralContactClipping::clipHullAgainstHull(
-      apart.normal, *a->getConvexPolyhedron(), *b->getConvexPolyhedron(), input.m_transformA,
-      input.m_transformB, apart.distance - foresight, foresight, scratch_[0], scratch_[1], *result);
+      apart.normal, polyhedronOf(a), polyhedronOf(b), input.m_transformA, input.m_transformB,
+      apart.distance - foresight, foresight, scratch_[0], scratch_[1], *result);
 }
 
 void BoxBoxContacts::getAllContactManifolds(btManifoldArray& manifolds) {

@@ -15,14 +15,14 @@
 namespace kiva {
 namespace {
 
-constexpr double kReach = 1.0;                     // [m] around a robot in which to look
-constexpr double kNear = 0.006;                    // [m]: nearer than this, Bullet decides
+constexpr double kReach = 0.3;                     // [m] around a robot in which to look
 constexpr double kLinger = 0.05;                   // [s] in Bullet after the last one was near
 constexpr double kCornerSpeed = 3.2;               // [m/s] of a chassis' corner in the fastest turn
 constexpr double kHorizons[] = {0.2, 0.06, 0.02};  // [s] for which a robot may be alone
 constexpr double kAstray = 0.001;                  // [m] it may be beside its way by then
 constexpr double kStill = 1e-3;     // [m/s]: a unit slower than that may leave Bullet
 constexpr double kTilt = 1 - 5e-5;  // cosine: a unit more upright stands on its legs
+constexpr double kAbove = 0.002;    // [m]: a unit higher than that stands on something else
 
 std::uint64_t lingerSteps(const Parts& parts) {
   return static_cast<std::uint64_t>(std::ceil(kLinger / parts.dt));
@@ -55,16 +55,31 @@ void engageOther(Parts& parts, int slot) {
   }
 }
 
-/// Engages what is near the footprint; returns the least gap to anything foreign, at most kReach.
-double inspect(Parts& parts, const Footprint& own, double near, std::vector<int>* close) {
-  double least = kReach;
-  const double radius = own.kind == Footprint::Kind::kBox ? std::hypot(own.hx, own.hy) : own.hx;
-  parts.obstacles.near(own.x, own.y, radius + kReach, [&](const Footprint& other) {
+/// How fast any point of it may go within the next step [m/s].
+double pointSpeed(const Fleet& f, int i) {
+  const Robot& r = f.robots[i];
+  const double corner = std::hypot(std::max(r.half_length, r.load_half_length),
+                                   std::max(r.half_width, r.load_half_width));
+  double speed = std::hypot(f.vx[i], f.vy[i]) + std::abs(f.yaw_rate[i]) * corner;
+  const bool at_once = r.drive.acceleration == 0 || r.drive.quarter_turn_time == 0;
+  return at_once ? std::max(speed, r.drive.speed + kCornerSpeed) : speed;
+}
+
+/// What the footprint, no point of which goes faster than `speed` [m/s], could touch in the next
+/// step goes to `close`. Returns the least gap to anything foreign, at most `reach`; both in [m].
+double inspect(Parts& parts, const Footprint& own, double speed, double reach,
+               std::vector<int>* close) {
+  const double farthest = kNear + (speed + parts.top_speed + kCornerSpeed) * parts.dt;
+  double least = reach;
+  parts.obstacles.near(own.x, own.y, radiusOf(own) + reach, [&](const Footprint& other) {
     if (other.model == own.model || (own.group >= 0 && other.group == own.group)) return;
     if (other.z_min > own.z_max || other.z_max < own.z_min) return;
+    if (!mayBeWithin(std::max(least, farthest), own, other)) return;
     const double distance = gap(own, other);
     least = std::min(least, distance);
-    if (distance < near) close->push_back(other.model);
+    const bool is_robot = other.group >= 0 && other.group < parts.fleet.size();
+    const double theirs = is_robot ? pointSpeed(parts.fleet, other.group) : 0;
+    if (distance < kNear + (speed + theirs) * parts.dt) close->push_back(other.model);
   });
   return least;
 }
@@ -96,16 +111,17 @@ bool lookFar(Parts& parts, int robot) {
 void lookAround(Parts& parts, int robot) {
   if (lookFar(parts, robot)) return;
   Fleet& f = parts.fleet;
-  const double closing = 2 * (f.robots[robot].drive.speed + kCornerSpeed);  // [m/s]
-  const double near = kNear + closing * parts.dt;
+  const double speed = pointSpeed(f, robot);
   double least = kReach;
   std::vector<int> close;
   for (const Footprint& own : parts.obstacles.footprints(robot)) {
-    least = std::min(least, inspect(parts, own, near, &close));
+    least = std::min(least, inspect(parts, own, speed, kReach, &close));
   }
   if (!close.empty()) engage(parts, parts.modelOf(robot));
   for (int slot : close) engageOther(parts, slot);
-  const double free_steps = (least - near) / (closing * parts.dt);
+  // It may be another that comes, and both may speed up.
+  const double way = 2 * (parts.top_speed + kCornerSpeed) * parts.dt;
+  const double free_steps = (least - kNear) / way - 1;
   f.look_again[robot] = parts.total_steps + static_cast<std::uint64_t>(std::max(0.0, free_steps));
 }
 
@@ -122,19 +138,28 @@ void lookAroundBody(Parts& parts, Model& model) {
     fastest = std::max(fastest, link.body->getLinearVelocity().length());
   }
   if (!awake) return;
+  const double near = kNear + 4 * fastest * parts.dt;
   std::vector<int> close;
   for (const Outline& outline : model.outlines) {
-    inspect(parts, parts.obstacles[outline.handle], 2 * kNear + 4 * fastest * parts.dt, &close);
+    inspect(parts, parts.obstacles[outline.handle], 4 * fastest, near, &close);
   }
   for (int slot : close) engageOther(parts, slot);
 }
 
-bool mayLeave(const Model& model) {
-  if (model.kind == ModelKind::kRobot) return true;
-  const btRigidBody& body = *model.bodies.links.front().body;
+bool standsStill(const Parts& parts, const Model& unit) {
+  const btRigidBody& body = *unit.bodies.links.front().body;
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
-  return !model.disturbed || (up > kTilt && body.getLinearVelocity().length() < kStill &&
-                              body.getAngularVelocity().length() < kStill);
+  return up > kTilt && body.getLinearVelocity().length() < kStill &&
+         body.getAngularVelocity().length() < kStill && unitPose(parts, unit.index).Z() < kAbove;
+}
+
+/// Who nobody came near for a while, and a unit that was pushed as soon as it has come to rest:
+/// else it and a robot beside it would keep each other in Bullet.
+bool mayLeave(const Parts& parts, const Model& model) {
+  const bool is_alone = model.engaged_until < parts.total_steps;
+  if (model.kind == ModelKind::kRobot || !model.disturbed) return is_alone;
+  const bool rests = model.bodies.links.front().body->getDeactivationTime() > kLinger;
+  return (is_alone || rests) && standsStill(parts, model);
 }
 
 /// Takes over where Bullet left the unit, upright on its legs.
@@ -147,10 +172,10 @@ void settleUnit(Parts& parts, Model& model) {
   model.disturbed = false;
 }
 
-void releaseIdle(Parts& parts) {
+void release(Parts& parts) {
   for (std::size_t k = 0; k < parts.engaged.size();) {
     Model& model = *parts.models[parts.engaged[k]];
-    if (model.engaged_until < parts.total_steps && mayLeave(model)) {
+    if (mayLeave(parts, model)) {
       disengage(parts, model);  // removes entry k
     } else {
       ++k;
@@ -320,7 +345,7 @@ void updateEngagement(Parts& parts) {
     Model& model = *parts.models[slot];
     if (model.kind == ModelKind::kStorageUnit && model.disturbed) lookAroundBody(parts, model);
   }
-  releaseIdle(parts);
+  release(parts);
   findActive(parts);  // who was engaged has woken
 }
 

@@ -151,8 +151,7 @@ void Obstacles::setMover(int robot, std::vector<Footprint> local) {
   MoverEntry& entry = movers_[robot];
   entry.mover.radius = 0;
   for (const Footprint& f : local) {
-    const double half = f.kind == Footprint::Kind::kBox ? std::hypot(f.hx, f.hy) : f.hx;
-    entry.mover.radius = std::max(entry.mover.radius, std::hypot(f.x, f.y) + half);
+    entry.mover.radius = std::max(entry.mover.radius, std::hypot(f.x, f.y) + radiusOf(f));
   }
   entry.world = local;
   entry.world_x = kInfinity;  // to be worked out

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <boost/container/small_vector.hpp>
+#include <cmath>
 #include <cstdint>
 #include <ignition/math/Vector3.hh>
 #include <vector>
@@ -36,8 +37,21 @@ struct Footprint {
   const std::array<ignition::math::Vector3d, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
 };
 
+/// Of the circle around (x, y) that holds it [m].
+inline double radiusOf(const Footprint& f) {
+  const bool round = f.kind != Footprint::Kind::kBox && f.kind != Footprint::Kind::kTriangle;
+  return round ? f.hx : std::sqrt(f.hx * f.hx + f.hy * f.hy);
+}
+
 /// A lower bound of the distance between two outlines [m]; negative where they overlap.
 double gap(const Footprint& a, const Footprint& b);
+
+/// Whether the gap may be less than `distance`: cheap, and true for some whose gap is not.
+inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double reach = radiusOf(a) + radiusOf(b) + distance;
+  return reach > 0 && dx * dx + dy * dy < reach * reach;
+}
 
 struct RayHit {
   double range = 0;  ///< [m]; +inf = nothing
@@ -83,7 +97,10 @@ class Obstacles {
       visit(footprint);
       return false;
     };
-    any(x, y, reach, see, [&](const Mover&, int robot) {
+    any(x, y, reach, see, [&](const Mover& mover, int robot) {
+      const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
+      const double farthest = mover.radius + std::sqrt(2.0) * reach;  // in a corner of that square
+      if (dx * dx + dy * dy > farthest * farthest) return false;
       for (const Footprint& footprint : footprints(robot)) visit(footprint);
       return false;
     });

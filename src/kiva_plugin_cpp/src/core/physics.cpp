@@ -25,6 +25,9 @@ constexpr double kGentle = 0.02;
 // What is slower for two seconds falls asleep; Bullet's own 0.8 m/s would stop a pendulum.
 constexpr double kAsleep = 0.005;  // [m/s, rad/s]
 
+// The solver ends when an iteration changes no velocity by more than the root of this.
+constexpr double kSolved = 1e-12;  // [m2/s2]
+
 /// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
 /// boxes, and a fast body would sink in before its parts are looked at.
 template <typename Base>
@@ -41,7 +44,6 @@ class Foreseeing : public Base {
 std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
   auto box = std::make_unique<Foreseeing<btBoxShape>>(toBullet(shape.size * 0.5));
   box->setMargin(kMargin);
-  box->initializePolyhedralFeatures();
   return box;
 }
 
@@ -334,7 +336,10 @@ Physics::Physics(const Vector3& gravity)
   dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
   // All corners of what lands on a plane at once: one a step would tip it over.
   configuration_.setPlaneConvexMultipointIterations(4, 4);
-  world_.getSolverInfo().m_numIterations = 50;
+  btContactSolverInfo& solver = world_.getSolverInfo();
+  solver.m_numIterations = 20;
+  solver.m_leastSquaresResidualThreshold = kSolved;
+  solver.m_minimumSolverBatchSize = 1;  // each island until that, not all until the last one
 }
 
 Physics::~Physics() = default;

@@ -7,8 +7,6 @@
 namespace kiva {
 namespace {
 
-constexpr double kNear =
-    0.004;  // [m]: nearer than this is near; two that turn in adjacent cells are not
 constexpr double kPushed = 0.5;  // [m/s] by which a robot in Bullet may be faster than it drives
 constexpr double kStill = 1e-9;  // [m/s, rad/s]
 
@@ -77,7 +75,8 @@ Footprint moved(Footprint outline, double dx, double dy) {
 bool isClear(const Parts& parts, int robot, const Footprint& swept, double time) {
   const Fleet& f = parts.fleet;
   const auto meets = [&](const Footprint& other) {
-    return other.z_min <= swept.z_max && other.z_max >= swept.z_min && gap(swept, other) < kNear;
+    return other.z_min <= swept.z_max && other.z_max >= swept.z_min &&
+           mayBeWithin(kNear, swept, other) && gap(swept, other) < kNear;
   };
   const auto approaches = [&](const Mover& other, int i) {
     if (i == robot) return false;
@@ -87,10 +86,8 @@ bool isClear(const Parts& parts, int robot, const Footprint& swept, double time)
     const auto& footprints = parts.obstacles.footprints(i);
     return std::any_of(footprints.begin(), footprints.end(), meets);
   };
-  const double own =
-      swept.kind == Footprint::Kind::kBox ? std::hypot(swept.hx, swept.hy) : swept.hx;
   const double farthest = (parts.top_speed + kPushed) * time + kNear;
-  return !parts.obstacles.any(swept.x, swept.y, own + farthest, meets, approaches);
+  return !parts.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
 }
 
 }  // namespace kiva

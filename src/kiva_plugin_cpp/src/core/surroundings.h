@@ -9,6 +9,9 @@
 
 namespace kiva {
 
+/// Nearer than that Bullet decides [m]; less than what is between two that turn in adjacent cells.
+constexpr double kNear = 0.004;
+
 /// The robot with its load as one upright box, in world.
 Footprint outlineOf(const Fleet& fleet, int robot);
 /// The circle that holds it however it turns.
