@@ -229,6 +229,7 @@ TEST(Joints, HaveTheirKinds) {
   EXPECT_EQ(joint("revolute", axis).kind, Joint::Kind::kRevolute);
   EXPECT_EQ(joint("continuous", axis).kind, Joint::Kind::kContinuous);
   EXPECT_EQ(joint("prismatic", axis).kind, Joint::Kind::kPrismatic);
+  EXPECT_EQ(joint("ball", "").kind, Joint::Kind::kBall);
 }
 
 TEST(Joints, AreUnlimitedByDefault) {

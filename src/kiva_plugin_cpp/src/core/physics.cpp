@@ -225,9 +225,18 @@ std::unique_ptr<btTypedConstraint> makeSlider(const Joint& joint, const JointEnd
   return slider;
 }
 
+std::unique_ptr<btTypedConstraint> makeBall(const Joint& joint, const JointEnds& ends,
+                                            const btTransform& model) {
+  const btVector3 anchor = model * toBullet(joint.anchor_in_model);
+  return std::make_unique<btPoint2PointConstraint>(
+      ends.parent, ends.child, ends.parent.getWorldTransform().inverse() * anchor,
+      ends.child.getWorldTransform().inverse() * anchor);
+}
+
 std::unique_ptr<btTypedConstraint> makeJoint(const Joint& joint, const JointEnds& ends,
                                              const btTransform& model) {
   if (joint.kind == Joint::Kind::kPrismatic) return makeSlider(joint, ends, model);
+  if (joint.kind == Joint::Kind::kBall) return makeBall(joint, ends, model);
   if (joint.kind != Joint::Kind::kFixed) return makeHinge(joint, ends, model);
   const btTransform frame = ends.child.getWorldTransform();
   return std::make_unique<btFixedConstraint>(ends.parent, ends.child,
