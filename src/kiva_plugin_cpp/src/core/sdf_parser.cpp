@@ -103,7 +103,7 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
   const sdf::ParserConfig config = parserConfig(model_paths, &missing);
   const GlobalConfig global(config);
   const std::string root = rootOf(text);
-  const sdf::SDFPtr document = emptyDocument(root == "robot" ? "" : text);
+  const sdf::SDFPtr document = emptyDocument(text);
   sdf::Errors errors;
   SdfDocument parsed;
   const bool read = readInto(document, text, root == "robot", config, &errors);
