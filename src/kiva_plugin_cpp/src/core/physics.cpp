@@ -416,15 +416,16 @@ void Physics::noteVelocities() {
   }
 }
 
-double Physics::approach(const btCollisionObject* a, const btCollisionObject* b,
-                         const btVector3& point, const btVector3& normal) const {
+double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint& point) const {
+  const btVector3 at = point.getPositionWorldOnB();
   const auto velocity = [&](const btCollisionObject* body) {
     const int index = body->isStaticObject() ? -1 : body->getUserIndex2();
     if (index < 0 || index >= static_cast<int>(before_.size())) return btVector3(0, 0, 0);
-    const btVector3 arm = point - body->getWorldTransform().getOrigin();
+    const btVector3 arm = at - body->getWorldTransform().getOrigin();
     return before_[index].linear + before_[index].angular.cross(arm);
   };
-  return std::max(0.0, (velocity(b) - velocity(a)).dot(normal));
+  const btVector3 relative = velocity(pair.getBody1()) - velocity(pair.getBody0());
+  return std::max(0.0, relative.dot(point.m_normalWorldOnB));
 }
 
 void Physics::contacts(std::vector<Contact>* out) const {
@@ -451,12 +452,13 @@ void Physics::contacts(std::vector<Contact>* out) const {
       }
       const double impulse = point.getAppliedImpulse();
       pair->impulse += impulse;
+      const double speed = approach(*manifold, point);
+      pair->nearing = std::max(pair->nearing, speed);
       if (impulse <= pair->most) continue;
       pair->most = impulse;
       pair->point = fromBullet(point.getPositionWorldOnB());
       pair->normal = fromBullet(point.m_normalWorldOnB) * sign;
-      pair->speed = approach(manifold->getBody0(), manifold->getBody1(),
-                             point.getPositionWorldOnB(), point.m_normalWorldOnB);
+      pair->speed = speed;
     }
   }
 }
