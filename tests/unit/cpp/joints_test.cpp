@@ -138,6 +138,19 @@ TEST_F(Joints, ABallSwingsInBothDirectionsAndTurns) {
   EXPECT_NEAR(w.world.state("m", "bob")->twist.angular.Z(), 0.1, 0.002);
 }
 
+TEST_F(Joints, ABallSwingsOnFromACheckpoint) {
+  spawn(pendulum());
+  ASSERT_TRUE(w.world.setLinkState("m", "bob", {pose("bob"), {{0.5, 0.2, 0}, {0.2, -0.5, 0}}}));
+  w.run(0.3);
+  const std::string saved = w.world.checkpoint();
+  w.run(0.5);
+  const auto hash = w.world.stateHash();
+  w.world.restore(saved);
+  w.run(0.5);
+  EXPECT_EQ(w.world.stateHash(), hash);
+  EXPECT_NEAR((pose("bob").Pos() - Vector3(1, 2, 3)).Length(), 1, 1e-3);
+}
+
 TEST_F(Joints, ABallHasNoPositionToBePut) {
   spawn(pendulum());
   EXPECT_THROW(w.world.setJointPositions("m", {{"ball", 1}}), std::invalid_argument);
