@@ -4,6 +4,7 @@
 
 import unittest
 
+import rospkg
 import rospy
 import rostest
 from node_test import call, create, run
@@ -34,6 +35,14 @@ class InsertWorld(unittest.TestCase):
         self.assertNotEqual(code, 0)
         self.assertIn("insert_world: SpawnModel: Failure - entity already exists. (kiva1)", text)
         self.assertEqual(standing(), before)
+
+    def test_but_what_is_missing(self):
+        folder = rospkg.RosPack().get_path("warehouse_tests")
+        code, text = run("insert_world", folder + "/worlds/invalid_include_missing.sdf")
+        self.assertEqual(code, 0, text)
+        self.assertIn("added 1 model ", text)
+        self.assertIn("left out, see the engine's warnings: nowhere", text)
+        self.assertIn("other", standing())
 
     def test_no_such_world(self):
         code, text = run("insert_world", "mars")

@@ -113,6 +113,53 @@ TEST_F(Joints, ARobotsWheelsAndTowerAreRead) {
   EXPECT_THROW(w.world.setJoint("kiva1", "left_wheel_joint", {}), std::invalid_argument);
 }
 
+// --- balls
+
+/// 1 m below the ball that it hangs on.
+std::string pendulum() {
+  const std::string bob = replaced(body("bob", "0 0 -1 0 0 0"), "<gravity>false</gravity>", "");
+  return model(bob +
+               "<joint name='ball' type='ball'><pose relative_to='__model__'>0 0 0 0 0 0</pose>"
+               "<parent>world</parent><child>bob</child></joint>");
+}
+
+/// Period of small swings: 2π √(I / m g l), I about the ball (Huygens, Steiner).
+TEST_F(Joints, ABallSwingsInBothDirectionsAndTurns) {
+  spawn(pendulum());
+  const double period = 2 * M_PI * std::sqrt((kInertia + 2 * 1) / (2 * 9.81 * 1));
+  const Vector3 swing(0.1, 0.2, 0), turn(0.2, -0.1, 0.1);
+  ASSERT_TRUE(w.world.setLinkState("m", "bob", {pose("bob"), {swing, turn}}));
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    w.run(period / 8);
+    EXPECT_NEAR((pose("bob").Pos() - Vector3(1, 2, 3)).Length(), 1, 1e-3);
+  }
+  EXPECT_LT((pose("bob").Pos() - Vector3(1, 2, 2)).Length(), 0.002);
+  EXPECT_LT((w.world.state("m", "bob")->twist.linear - swing).Length(), 0.01);
+  EXPECT_NEAR(w.world.state("m", "bob")->twist.angular.Z(), 0.1, 0.002);
+}
+
+TEST_F(Joints, ABallSwingsOnFromACheckpoint) {
+  spawn(pendulum());
+  ASSERT_TRUE(w.world.setLinkState("m", "bob", {pose("bob"), {{0.5, 0.2, 0}, {0.2, -0.5, 0}}}));
+  w.run(0.3);
+  const std::string saved = w.world.checkpoint();
+  w.run(0.5);
+  const auto hash = w.world.stateHash();
+  w.world.restore(saved);
+  w.run(0.5);
+  EXPECT_EQ(w.world.stateHash(), hash);
+  EXPECT_NEAR((pose("bob").Pos() - Vector3(1, 2, 3)).Length(), 1, 1e-3);
+}
+
+TEST_F(Joints, ABallHasNoPositionToBePut) {
+  spawn(pendulum());
+  EXPECT_THROW(w.world.setJointPositions("m", {{"ball", 1}}), std::invalid_argument);
+  EXPECT_THROW(w.world.setJoint("m", "ball", {}), std::invalid_argument);
+  EXPECT_TRUE(w.world.apply(Effort{"m", "ball", 1, {0, 1}}));
+  w.run(0.1);
+  EXPECT_EQ(state("ball").position, 0);
+}
+
 // --- motors, damping, friction
 
 TEST_F(Joints, AMotorHoldsItsSpeed) {

@@ -2,6 +2,7 @@
 //
 // One broken file a rule, in tests/worlds: what a person is told about it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <map>
@@ -37,7 +38,8 @@ const std::string kNoBody =
     ": no body has this inertia; expected finite principal moments above 0 kg m², none larger than "
     "the sum of the other two; this link has 1 kg m² instead";
 const std::string kNowhere =
-    ": found no model for 'model://nowhere'; expected a folder of that name with a model.config "
+    ": this include is left out: found no model for 'model://nowhere'; expected a folder of that "
+    "name with a model.config "
     "in " +
     kModels + ", " + kBrokenModels;
 
@@ -67,27 +69,19 @@ const std::map<std::string, std::string> kErrors = {
      ":5: world 'w', gravity: '0 0 down' is no value for <gravity>; expected three "
      "numbers"},
     {"heightmap", ":9:" + kGeometry + "/heightmap: <heightmap> is not supported; " + kShapes},
-    {"include_missing", ":5: include" + kNowhere},
     {"include_name", ":7: include: expected a text in <name>"},
     {"include_pose", ":7: pose: Pose values must be finite"},
     {"include_uri", ":6: include: expected a text in <uri>"},
     {"joint_axis_missing", ":8:" + kJoint + ": expected an <axis>"},
     {"joint_axis_zero", ":12:" + kJoint + ", axis/xyz: expected an axis that points somewhere"},
-    {"joint_child",
-     ": Child frame with name[c] specified by joint with name[j] not found in model with name[m]"},
     {"joint_damping", ":11:" + kJoint + ", axis: expected a damping of 0 or above"},
     {"joint_expressed_in",
      ":11:" + kJoint +
          ", axis: PoseRelativeToGraph unable to find unique frame with name [nowhere] in graph"},
     {"joint_friction", ":11:" + kJoint + ", axis: expected a friction of 0 or above"},
     {"joint_limits", ":11:" + kJoint + ", axis: expected a lower limit at or below the upper one"},
-    {"joint_type", ":8:" + kJoint +
-                       ": joints of type 'ball' are not supported; expected fixed, revolute, "
-                       "continuous or prismatic"},
     {"mass_text",
      ":8:" + kLink + ", inertial/mass: 'heavy' is no value for <mass>; expected a number"},
-    {"nested_include_missing", ":8: world 'w', model 'm', include/uri" + kNowhere},
-    {"no_link", ":5: world 'w', model 'm': expected a <link> in <model>"},
     {"no_name",
      ":6: world 'w', model 'm', link: Required attribute[name] in element[link] is not "
      "specified in SDF"},
@@ -135,8 +129,13 @@ const std::string kKilogram = "; this link has 1 kg and 1 kg m² instead";
 
 /// What costs a part of the world and a warning, not the world.
 const std::map<std::string, std::string> kWarnings = {
+    {"include_missing", ":5: include" + kNowhere},
     {"inertia", ":8:" + kLink + ", inertial/inertia" + kNoBody},
     {"inertia_zero", ":8:" + kLink + ", inertial/inertia" + kNoBody},
+    {"joint_child", ":8:" + kJoint + ": this joint is left out: its child 'c' is not there"},
+    {"joint_type", ":8:" + kJoint +
+                       ": this joint is left out: joints of type 'screw' are not supported; "
+                       "expected fixed, revolute, continuous, prismatic or ball"},
     {"mass_nan",
      ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found nan" + kKilogram},
     {"mass_negative",
@@ -145,6 +144,8 @@ const std::map<std::string, std::string> kWarnings = {
      ":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found 0" + kKilogram},
     {"mesh",
      ":9:" + kGeometry + "/mesh: this collision is left out: there is no mesh 'model://m/m.dae'"},
+    {"nested_include_missing", ":8: world 'w', model 'm', include/uri" + kNowhere},
+    {"no_link", ":5: world 'w', model 'm': this model is left out: expected a <link> in <model>"},
     {"population",
      ":5: world 'w', population 'p': this population is left out: the distribution 'heap' is "
      "unknown; expected random, uniform, grid, linear-x, linear-y or linear-z"},
@@ -176,9 +177,44 @@ TEST(WorldFileErrors, NameTheFileOfTheModelThatIsIncluded) {
                 "value for <mass>; expected a number");
 }
 
-TEST(WorldFileErrors, NameWhatIsMissingHoweverDeepItIs) {
+TEST(WorldFileWarnings, NameWhatIsMissingHoweverDeepItIs) {
   const std::string path = (kFolder / "invalid_deep_include_missing.sdf").string();
-  EXPECT_EQ(errorOf(path), kBrokenModels + "/outer/model.sdf" + kNowhere);
+  std::vector<std::string> warnings;
+  EXPECT_EQ(loadWorld(path, kPaths, &warnings).models.size(), 2u);
+  EXPECT_EQ(warnings, std::vector<std::string>{kBrokenModels + "/outer/model.sdf" + kNowhere});
+}
+
+/// A robot whose sensor is in none of the folders drives without it.
+TEST(WorldFileWarnings, NameTheJointThatHeldWhatIsMissing) {
+  const std::string xml =
+      "<sdf version='1.9'><world name='w'><model name='m'><link name='l'/>\n"
+      "<include><uri>model://nowhere</uri><name>eye</name></include>\n"
+      "<joint name='j' type='fixed'><parent>l</parent><child>eye::l</child></joint>\n"
+      "</model></world></sdf>";
+  std::vector<std::string> warnings;
+  const WorldDescription world = parseWorld(xml, kPaths, "text", &warnings);
+  ASSERT_EQ(world.models.size(), 1u);
+  EXPECT_TRUE(world.models[0].description->joints.empty());
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{
+                "text:2: world 'w', model 'm', include/uri" + kNowhere,
+                "text:3: world 'w', model 'm', joint 'j': this joint is left out: its child "
+                "'eye::l' is not there"}));
+}
+
+TEST(WorldFileWarnings, EndWhenTheMissingModelComes) {
+  const fs::path folder = fs::temp_directory_path() / ("late_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const std::string xml =
+      "<sdf version='1.9'><model name='m'><link name='l'/><include><uri>model://late</uri>"
+      "</include></model></sdf>";
+  const auto nestedModels = [&] {
+    return parseModels(xml, {folder.string()}, "text")[0].description->nested_models.size();
+  };
+  EXPECT_EQ(nestedModels(), 0u);
+  fs::copy(fs::path(kModels) / "item", folder / "late", fs::copy_options::recursive);
+  EXPECT_EQ(nestedModels(), 1u);
+  fs::remove_all(folder);
 }
 
 TEST(WorldFileErrors, HaveAFixtureEach) {
@@ -211,7 +247,8 @@ TEST(WorldFileErrors, SayThatNoPathsWereGiven) {
     FAIL() << "no error";
   } catch (const DescriptionError& error) {
     EXPECT_STREQ(error.what(),
-                 "request:1: include: found no model for 'model://kiva'; expected a folder of that "
+                 "request:1: include: this include is left out: found no model for 'model://kiva'; "
+                 "expected a folder of that "
                  "name with a model.config in the model paths, which are empty");
   }
 }

@@ -229,6 +229,7 @@ TEST(Joints, HaveTheirKinds) {
   EXPECT_EQ(joint("revolute", axis).kind, Joint::Kind::kRevolute);
   EXPECT_EQ(joint("continuous", axis).kind, Joint::Kind::kContinuous);
   EXPECT_EQ(joint("prismatic", axis).kind, Joint::Kind::kPrismatic);
+  EXPECT_EQ(joint("ball", "").kind, Joint::Kind::kBall);
 }
 
 TEST(Joints, AreUnlimitedByDefault) {
@@ -710,6 +711,29 @@ TEST(Includes, OfFiveThousandShelvesCostNoMoreThanOne) {
 }
 
 // --- requests
+
+/// A warning about what is well-formed would hide one that matters.
+TEST(Requests, OfUrdfWarnOfNothingThatUrdfHas) {
+  const std::string inertial =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+      "</inertial>";
+  const std::string body =
+      inertial +
+      "<visual><geometry><sphere radius='1'/></geometry><material name='m'><color "
+      "rgba='1 0 0 1'/></material></visual><collision><geometry><sphere radius='1'/></geometry>"
+      "</collision>";
+  const std::string urdf =
+      "<robot name='r'><link name='a'>" + body + "</link><link name='b'>" + body +
+      "</link><joint name='j' type='revolute'><parent link='a'/><child link='b'/><axis "
+      "xyz='0 1 0'/><limit lower='-1' upper='2' effort='3' velocity='4'/><dynamics damping='5' "
+      "friction='6'/></joint><gazebo reference='b'><mu1>0.25</mu1><mu2>0.25</mu2><sensor name='s' "
+      "type='ray'><update_rate>5</update_rate></sensor></gazebo></robot>";
+  std::vector<std::string> warnings;
+  const auto models = parseModels(urdf, kPaths, "text", &warnings);
+  EXPECT_EQ(warnings, std::vector<std::string>());
+  EXPECT_EQ(models.at(0).description->joints.at(0).upper, 2);
+  EXPECT_EQ(models.at(0).description->links.at(1).collisions.at(0).friction, 0.25);
+}
 
 TEST(Requests, MayBeAModelAWorldABareIncludeOrUrdf) {
   const auto names = [](const std::string& xml) {

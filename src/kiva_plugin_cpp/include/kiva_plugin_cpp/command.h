@@ -25,7 +25,7 @@ struct Impact {
   Vector3 point;       ///< In world [m].
   Vector3 normal;      ///< Unit vector in world, from `other` towards `model`.
   double speed = 0;    ///< With which they approached along the normal [m/s].
-  double impulse = 0;  ///< Along the normal, in the step of the contact [Ns].
+  double impulse = 0;  ///< Along the normal, until they no longer approach [Ns].
 };
 
 /// Something that happened. Values as in warehouse_msgs/Event.

@@ -71,7 +71,7 @@ struct Link {
 };
 
 struct Joint {
-  enum class Kind { kFixed, kRevolute, kContinuous, kPrismatic };
+  enum class Kind { kFixed, kRevolute, kContinuous, kPrismatic, kBall };
   std::string name;
   Kind kind = Kind::kFixed;
   std::string parent;  ///< A link's name, or "world".
@@ -84,6 +84,9 @@ struct Joint {
   double max_velocity = -1;        ///< [rad/s] or [m/s]; negative = unlimited.
   double damping = 0;              ///< [Nm s/rad] or [N s/m].
   double friction = 0;             ///< Dry friction [Nm] or [N].
+
+  /// Whether it has a position, a rate and all else that is about an axis.
+  bool hasAxis() const { return kind != Kind::kFixed && kind != Kind::kBall; }
 };
 
 /// A `<plugin>` element of a model or a world.

@@ -5,9 +5,10 @@
 
 namespace kiva {
 
-/// Reports each contact that should not be once, when it begins, and stops the robots in it.
+/// Reports each contact that should not be once, when its impact is over, and stops the robots in
+/// it.
 void reportCollisions(Parts& parts);
-/// Forgets a model that is going.
+/// Forgets a model that is going, -1 = all; what has not been told yet is.
 void forgetContacts(Parts& parts, int slot);
 
 }  // namespace kiva

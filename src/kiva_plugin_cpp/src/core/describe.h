@@ -325,8 +325,8 @@ void describe(A& a, StatusChange& s) {
 
 template <class A>
 void describe(A& a, TouchingPair& t) {
-  DESCRIBED(TouchingPair, 16);
-  a(t.model_a, t.model_b, t.last_step);
+  DESCRIBED(TouchingPair, 112);
+  a(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
 }
 
 template <class A>

@@ -15,7 +15,6 @@ constexpr double kMostSpeed = 1e6;  // of a motor [rad/s, m/s]
 constexpr double kMostPush = 1e9;   // [Nm, N]
 
 bool isSlider(const Joint& joint) { return joint.kind == Joint::Kind::kPrismatic; }
-bool isMovable(const Joint& joint) { return joint.kind != Joint::Kind::kFixed; }
 
 /// A joint in Bullet: its ends, where it sits and which way it goes, in world.
 struct Mount {
@@ -147,9 +146,9 @@ void readJoint(Model& model, int index) {
 }
 
 template <typename Visit>
-void forMovable(const Model& model, Visit visit) {
+void forAxes(const Model& model, Visit visit) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    if (isMovable(model.description->joints[i])) visit(static_cast<int>(i));
+    if (model.description->joints[i].hasAxis()) visit(static_cast<int>(i));
   }
 }
 
@@ -180,7 +179,8 @@ Target makeTarget(const Model& model, const std::string& name, double position) 
   const int index = findJoint(model, name);
   if (index < 0) refuse(model, name, "does not exist");
   const Joint& joint = model.description->joints[index];
-  if (!isMovable(joint)) refuse(model, name, "is fixed");
+  if (joint.kind == Joint::Kind::kFixed) refuse(model, name, "is fixed");
+  if (!joint.hasAxis()) refuse(model, name, "is a ball and has no position");
   if (!std::isfinite(position)) refuse(model, name, "can't be put at a position that isn't finite");
   if (isSlider(joint) && std::abs(position) > 1e4) refuse(model, name, "can't go that far");
   const int child = linkIndex(*model.description, joint.child);
@@ -238,7 +238,7 @@ void initJoints(Model& model) {
 }
 
 void restoreLimits(Model& model) {
-  forMovable(model, [&](int i) {
+  forAxes(model, [&](int i) {
     const JointSettings& s = model.joints[i].settings;
     const Joint& from = model.description->joints[i];
     if (s.lower == from.lower && s.upper == from.upper) return;
@@ -254,7 +254,7 @@ void driveJoints(Parts& parts) {
       if (!wantsToMove(model)) continue;
       wake(model);
     }
-    forMovable(model, [&](int i) { driveJoint(model, i, parts.dt); });
+    forAxes(model, [&](int i) { driveJoint(model, i, parts.dt); });
   }
 }
 
@@ -262,7 +262,7 @@ void readJoints(Parts& parts) {
   for (int slot : parts.bodies) {
     Model& model = *parts.models[slot];
     if (model.joints.empty() || !isAwake(model)) continue;
-    forMovable(model, [&](int i) { readJoint(model, i); });
+    forAxes(model, [&](int i) { readJoint(model, i); });
   }
 }
 
@@ -293,8 +293,8 @@ JointState jointState(const Parts& parts, const Model& model, int joint) {
 
 void setJoint(Model& model, int joint, const JointSettings& s) {
   const std::string& name = model.description->joints[joint].name;
-  const bool is_fixed = !isMovable(model.description->joints[joint]);
-  if (model.joints.empty() || is_fixed) refuse(model, name, "has no properties to set");
+  const bool has_axis = model.description->joints[joint].hasAxis();
+  if (model.joints.empty() || !has_axis) refuse(model, name, "has no properties to set");
   for (double value : {s.damping, s.friction, s.motor_effort}) {
     if (!(value >= 0 && value < kNoLimit)) {
       refuse(model, name, "needs a damping, friction and motor effort of 0 or above");
@@ -328,7 +328,7 @@ void placeJoints(Parts& parts, Model& model, const std::map<std::string, double>
 
 void pushJoint(Model& model, int joint, double effort) {
   const Joint& from = model.description->joints[joint];
-  if (!isMovable(from)) return;
+  if (!from.hasAxis()) return;
   const double most = from.max_effort >= 0 ? from.max_effort : kNoLimit;
   wake(model);
   push(mountOf(model, joint), isSlider(from), std::clamp(effort, -most, most));

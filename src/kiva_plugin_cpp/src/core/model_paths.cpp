@@ -63,4 +63,15 @@ std::string modelNotFound(const std::string& uri, const ModelPaths& paths) {
          (folders.empty() ? "the model paths, which are empty" : folders);
 }
 
+std::string leftOut(const std::string& uri, const ModelPaths& paths) {
+  return "this include is left out: " + modelNotFound(uri, paths);
+}
+
+void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files) {
+  if (!isModelUri(uri)) return;
+  for (const std::string& folder : paths) {
+    files->insert((fs::path(folder) / uri.substr(kSchemeLength) / "model.config").string());
+  }
+}
+
 }  // namespace kiva

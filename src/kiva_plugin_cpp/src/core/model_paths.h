@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "kiva_plugin_cpp/world_file.h"
@@ -19,5 +20,10 @@ std::string findFile(const std::string& uri, const std::string& folder, const Mo
 
 /// What to tell a person who asked for a model that is in none of the folders.
 std::string modelNotFound(const std::string& uri, const ModelPaths& paths);
+/// The same, and that the include goes without it.
+std::string leftOut(const std::string& uri, const ModelPaths& paths);
+
+/// Adds the files that would make `uri` a model: what was missing may come.
+void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files);
 
 }  // namespace kiva

@@ -313,8 +313,8 @@ void eraseFrom(std::vector<int>& slots, int slot) {
 
 void dismantle(Parts& parts, int slot) {
   Model& model = *parts.models[slot];
-  model.plugins.clear();
   forgetContacts(parts, slot);
+  model.plugins.clear();
   forgetInterventions(parts, model.name);
   if (model.in_physics) parts.physics.remove(model.bodies);
   model.in_physics = false;

@@ -67,6 +67,9 @@ struct Model {
 struct TouchingPair {
   int model_a = -1, model_b = -1;
   std::uint64_t last_step = 0;
+  Impact impact;                  ///< So far, its normal from b to a.
+  std::uint64_t tell_at = 0;      ///< The step at which it is told, if it is over; 0 = it has been.
+  std::uint64_t tell_latest = 0;  ///< The step at which it is told, over or not.
 };
 
 /// Directions of a laser's rays in the frame of its robot, as (cos, sin).

@@ -227,9 +227,18 @@ std::unique_ptr<btTypedConstraint> makeSlider(const Joint& joint, const JointEnd
   return slider;
 }
 
+std::unique_ptr<btTypedConstraint> makeBall(const Joint& joint, const JointEnds& ends,
+                                            const btTransform& model) {
+  const btVector3 anchor = model * toBullet(joint.anchor_in_model);
+  return std::make_unique<btPoint2PointConstraint>(
+      ends.parent, ends.child, ends.parent.getWorldTransform().inverse() * anchor,
+      ends.child.getWorldTransform().inverse() * anchor);
+}
+
 std::unique_ptr<btTypedConstraint> makeJoint(const Joint& joint, const JointEnds& ends,
                                              const btTransform& model) {
   if (joint.kind == Joint::Kind::kPrismatic) return makeSlider(joint, ends, model);
+  if (joint.kind == Joint::Kind::kBall) return makeBall(joint, ends, model);
   if (joint.kind != Joint::Kind::kFixed) return makeHinge(joint, ends, model);
   const btTransform frame = ends.child.getWorldTransform();
   return std::make_unique<btFixedConstraint>(ends.parent, ends.child,
@@ -412,15 +421,16 @@ void Physics::noteVelocities() {
   }
 }
 
-double Physics::approach(const btCollisionObject* a, const btCollisionObject* b,
-                         const btVector3& point, const btVector3& normal) const {
+double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint& point) const {
+  const btVector3 at = point.getPositionWorldOnB();
   const auto velocity = [&](const btCollisionObject* body) {
     const int index = body->isStaticObject() ? -1 : body->getUserIndex2();
     if (index < 0 || index >= static_cast<int>(before_.size())) return btVector3(0, 0, 0);
-    const btVector3 arm = point - body->getWorldTransform().getOrigin();
+    const btVector3 arm = at - body->getWorldTransform().getOrigin();
     return before_[index].linear + before_[index].angular.cross(arm);
   };
-  return std::max(0.0, (velocity(b) - velocity(a)).dot(normal));
+  const btVector3 relative = velocity(pair.getBody1()) - velocity(pair.getBody0());
+  return std::max(0.0, relative.dot(point.m_normalWorldOnB));
 }
 
 void Physics::contacts(std::vector<Contact>* out) const {
@@ -447,12 +457,13 @@ void Physics::contacts(std::vector<Contact>* out) const {
       }
       const double impulse = point.getAppliedImpulse();
       pair->impulse += impulse;
+      const double speed = approach(*manifold, point);
+      pair->nearing = std::max(pair->nearing, speed);
       if (impulse <= pair->most) continue;
       pair->most = impulse;
       pair->point = fromBullet(point.getPositionWorldOnB());
       pair->normal = fromBullet(point.m_normalWorldOnB) * sign;
-      pair->speed = approach(manifold->getBody0(), manifold->getBody1(),
-                             point.getPositionWorldOnB(), point.m_normalWorldOnB);
+      pair->speed = speed;
     }
   }
 }

@@ -71,6 +71,7 @@ struct Contact {
   double speed = 0;    ///< Of approach before the step [m/s].
   double impulse = 0;  ///< Of all their contacts in the step [Ns].
   double most = -1;    ///< Of the hardest one.
+  double nearing = 0;  ///< Like `speed`, of the contact where it is largest [m/s].
 };
 
 /// One point of contact between two collisions.
@@ -113,8 +114,7 @@ class Physics {
  private:
   bool anyAwake() const;
   void noteVelocities();
-  double approach(const btCollisionObject* a, const btCollisionObject* b, const btVector3& point,
-                  const btVector3& normal) const;
+  double approach(const btPersistentManifold& pair, const btManifoldPoint& point) const;
 
   BoxBoxContacts::Creator box_contacts_;
   btDefaultCollisionConfiguration configuration_;

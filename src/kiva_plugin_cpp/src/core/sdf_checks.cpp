@@ -23,20 +23,52 @@ void checkNames(const sdf::ElementPtr& parent) {
   }
 }
 
-void checkModel(const sdf::ElementPtr& model) {
-  checkNames(model);
-  if (model->HasElement("link") || model->HasElement("model")) return;
-  failAt(model, "expected a <link> in <model>");
+/// A model that holds nothing, perhaps since what it included is not there.
+std::string faultOfModel(const sdf::ElementPtr& model) {
+  const bool is_empty = !model->HasElement("link") && !model->HasElement("model");
+  return is_empty ? "expected a <link> in <model>" : "";
 }
 
-/// What we can build, in one place: a type that is not here is refused by name.
-void checkJoint(const sdf::ElementPtr& joint) {
-  const std::string type = joint->Get<std::string>("type");
-  for (const char* known : {"fixed", "revolute", "continuous", "prismatic"}) {
-    if (type == known) return;
+/// What we can build, in one place.
+bool isKnownJoint(const std::string& type) {
+  static const std::set<std::string> kTypes = {"fixed", "revolute", "continuous", "prismatic",
+                                               "ball"};
+  return kTypes.count(type) > 0;
+}
+
+/// Whether a part of the model around `joint` bears the name, or the first part of `name::…`.
+bool isThere(const sdf::ElementPtr& joint, const std::string& name) {
+  if (name.empty() || name == "world" || name.compare(0, 2, "__") == 0) return true;
+  const std::string first = name.substr(0, name.find("::"));
+  for (auto part = joint->GetParent()->GetFirstElement(); part; part = part->GetNextElement()) {
+    if (!part->HasAttribute("name")) continue;
+    const std::string its_name = part->Get<std::string>("name");
+    if (its_name == first || its_name == name) return true;
   }
-  failAt(joint, "joints of type '" + type +
-                    "' are not supported; expected fixed, revolute, continuous or prismatic");
+  return false;
+}
+
+std::string faultOfJoint(const sdf::ElementPtr& joint) {
+  const std::string type = joint->Get<std::string>("type");
+  if (!isKnownJoint(type)) {
+    return "joints of type '" + type +
+           "' are not supported; expected fixed, revolute, continuous, prismatic or ball";
+  }
+  for (const char* end : {"parent", "child"}) {
+    const std::string name = joint->HasElement(end) ? joint->Get<std::string>(end) : "";
+    if (!isThere(joint, name)) return "its " + std::string(end) + " '" + name + "' is not there";
+  }
+  return "";
+}
+
+/// What is wrong with a part that its world can do without; empty: nothing.
+std::string faultOf(const sdf::ElementPtr& part) {
+  const std::string& around = part->GetParent()->GetName();
+  if (part->GetName() == "joint" && around == "model") return faultOfJoint(part);
+  if (part->GetName() != "model") return "";
+  const std::string fault = faultOfModel(part);
+  if (!fault.empty() && around == "sdf") failAt(part, fault);  // There is nothing else.
+  return fault;
 }
 
 void checkAxis(const sdf::ElementPtr& axis) {
@@ -52,11 +84,9 @@ void dropScript(const sdf::ElementPtr& material) {
 
 void check(const sdf::ElementPtr& element, sdf::Errors* warnings) {
   const std::string& name = element->GetName();
-  if (name == "world" || name == "link") checkNames(element);
-  if (name == "model") checkModel(element);
+  if (name == "world" || name == "model" || name == "link") checkNames(element);
   if (name == "link") repairInertial(element, warnings);
   if (name == "material") dropScript(element);
-  if (name == "joint") checkJoint(element);
   if (name == "axis") checkAxis(element);
 }
 
@@ -64,9 +94,15 @@ void check(const sdf::ElementPtr& element, sdf::Errors* warnings) {
 
 void checkElements(const sdf::ElementPtr& element, sdf::Errors* warnings) {
   check(element, warnings);
-  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
-    // What is inside a plugin is its own affair.
-    if (child->GetName() != "plugin") checkElements(child, warnings);
+  sdf::ElementPtr next;
+  for (auto child = element->GetFirstElement(); child; child = next) {
+    next = child->GetNextElement();
+    if (child->GetName() == "plugin") continue;  // What is inside is its own affair.
+    checkElements(child, warnings);
+    const std::string fault = faultOf(child);
+    if (fault.empty()) continue;
+    warnings->push_back(noteAt(child, "this " + child->GetName() + " is left out: " + fault));
+    element->RemoveChild(child);
   }
 }
 

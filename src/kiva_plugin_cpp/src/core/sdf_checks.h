@@ -7,8 +7,8 @@
 namespace kiva {
 
 /// What libsdformat lets pass, or refuses without an address, is found here before it looks.
-/// Repairs what can do without, with a warning; throws SdfError at the first other fault at or
-/// below `element`.
+/// Repairs or leaves out what the rest can do without, with a warning; throws SdfError at the first
+/// other fault at or below `element`.
 void checkElements(const sdf::ElementPtr& element, sdf::Errors* warnings);
 
 /// `child` of `element` if the document has it: libsdformat adds required ones that are missing.

@@ -21,6 +21,8 @@ Joint::Kind kindOf(const sdf::Joint& joint) {
       return Joint::Kind::kContinuous;
     case sdf::JointType::PRISMATIC:
       return Joint::Kind::kPrismatic;
+    case sdf::JointType::BALL:
+      return Joint::Kind::kBall;
     default:
       return Joint::Kind::kFixed;
   }
@@ -79,7 +81,7 @@ Joint describeJoint(const sdf::Joint& from, const Scope& scope) {
   setEnds(from, scope, &joint);
   const Pose pose = resolved(from.SemanticPose(), from.Element(), "__model__");
   joint.anchor_in_model = (scope.pose * pose).Pos();
-  if (joint.kind != Joint::Kind::kFixed) setAxis(from, scope, &joint);
+  if (joint.hasAxis()) setAxis(from, scope, &joint);
   return joint;
 }
 

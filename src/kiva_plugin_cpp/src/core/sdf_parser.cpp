@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/sdf_parser.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <sdf/Exception.hh>
 #include <sdf/ParserConfig.hh>
@@ -20,11 +21,11 @@ namespace {
 
 /// The paths come first: libsdformat would look into the current folder before it asks back. What
 /// is asked for is in none of them.
-sdf::ParserConfig parserConfig(const ModelPaths& model_paths, std::string* missing) {
+sdf::ParserConfig parserConfig(const ModelPaths& model_paths, std::set<std::string>* missing) {
   sdf::ParserConfig config;
   for (const std::string& folder : model_paths) config.AddURIPath("model://", folder);
   config.SetFindCallback([missing](const std::string& uri) {
-    if (missing->empty()) *missing = uri;
+    missing->insert(uri);
     return "";
   });
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
@@ -66,12 +67,23 @@ bool readInto(const sdf::SDFPtr& document, const std::string& text, bool is_urdf
                  : sdf::readString(text, config, document->Root(), *errors);
 }
 
-/// libsdformat lets it pass if it is a model in a model in a model.
-void throwIfMissing(const std::string& missing, const ModelPaths& paths,
-                    const sdf::Errors& errors) {
-  if (missing.empty()) return;
-  const sdf::Error at = errors.empty() ? sdf::Error() : errors.front();
-  throw SdfError(reworded(at, modelNotFound(missing, paths)));
+/// libsdformat goes on without an include whose model is not there. The errors it has of that
+/// become warnings; it has none if it is a model in a model in a model.
+void excuseMissing(const std::set<std::string>& missing, const ModelPaths& paths,
+                   sdf::Errors* errors, sdf::Errors* warnings) {
+  for (const std::string& uri : missing) {
+    const auto is_about_it = [&](const sdf::Error& error) {
+      return error.Code() == sdf::ErrorCode::URI_LOOKUP &&
+             error.Message().find("[" + uri + "]") != std::string::npos;
+    };
+    const std::string message = leftOut(uri, paths);
+    const bool has_error = std::any_of(errors->begin(), errors->end(), is_about_it);
+    if (!has_error) warnings->push_back(sdf::Error(sdf::ErrorCode::URI_LOOKUP, message));
+    for (const sdf::Error& error : *errors) {
+      if (is_about_it(error)) warnings->push_back(reworded(error, message));
+    }
+    errors->erase(std::remove_if(errors->begin(), errors->end(), is_about_it), errors->end());
+  }
 }
 
 /// The files of `element` and of all below it, each with the model.config beside it.
@@ -87,15 +99,15 @@ void collectFiles(const sdf::ElementPtr& element, std::set<std::string>* files) 
 
 SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
   ConsoleCapture console;
-  std::string missing;
+  std::set<std::string> missing;
   const sdf::ParserConfig config = parserConfig(model_paths, &missing);
   const GlobalConfig global(config);
   const std::string root = rootOf(text);
-  const sdf::SDFPtr document = emptyDocument(root == "robot" ? "" : text);
+  const sdf::SDFPtr document = emptyDocument(text);
   sdf::Errors errors;
   SdfDocument parsed;
   const bool read = readInto(document, text, root == "robot", config, &errors);
-  throwIfMissing(missing, model_paths, errors);
+  excuseMissing(missing, model_paths, &errors, &parsed.warnings);
   throwErrors(errors, console.take(), &parsed.warnings);
   if (!read) failAtRoot(root);
   checkElements(document->Root(), &parsed.warnings);
@@ -103,6 +115,7 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
   const sdf::Errors load_errors = parsed.root->Load(document, config);
   throwErrors(load_errors, console.take(), &parsed.warnings);
   collectFiles(document->Root(), &parsed.files);
+  for (const std::string& uri : missing) addCandidates(uri, model_paths, &parsed.files);
   return parsed;
 }
 

@@ -15,7 +15,8 @@ namespace kiva {
 struct SdfDocument {
   std::unique_ptr<sdf::Root> root;
   sdf::Errors warnings;
-  std::set<std::string> files;  ///< Those of the models that the text includes.
+  /// Those of the models that the text includes, and where it looked for those that are missing.
+  std::set<std::string> files;
 };
 
 /// Throws SdfError. Thread-safe, though one call waits for another.

@@ -184,8 +184,8 @@ void World::setGravity(const Vector3& gravity) {
 
 void World::reset(bool time_too) {
   Parts& parts = *parts_;
+  forgetContacts(parts, -1);
   for (int slot : slotsInOrder(parts)) resetModel(parts, slot);
-  parts.touching.clear();
   parts.interventions.wrenches.clear();
   parts.interventions.efforts.clear();
   if (time_too) {

@@ -137,8 +137,12 @@ class Reading {
     }
   }
 
+  /// What is most likely why a text holds nothing that can stand.
+  const std::string& firstWarning() const { return first_warning_; }
+
  private:
   void warn(const std::string& text) {
+    if (first_warning_.empty()) first_warning_ = text;
     if (warnings_ && warned_.insert(text).second) warnings_->push_back(text);
   }
 
@@ -174,13 +178,14 @@ class Reading {
   }
 
   void addInclude(const Include& include, std::vector<ModelInstance>* models) {
-    const LibraryModel& model = library(include);
-    if (model.light) return addLight(include, *model.light);
-    if (!model.description) {
+    const LibraryModel* model = library(include);
+    if (!model) return warn(at(include) + leftOut(include.uri, model_paths_));
+    if (model->light) return addLight(include, *model->light);
+    if (!model->description) {
       warn(at(include) + "'" + include.uri + "' holds no model and is left out");
       return;
     }
-    add(include, instance(include, model), models);
+    add(include, instance(include, *model), models);
   }
 
   void add(const Include& include, ModelInstance model, std::vector<ModelInstance>* models) {
@@ -191,16 +196,15 @@ class Reading {
                            "own");
   }
 
-  /// Looked up once for each reading: five thousand shelves are one model.
-  const LibraryModel& library(const Include& include) {
+  /// Looked up once for each reading: five thousand shelves are one model. Null: there is none.
+  const LibraryModel* library(const Include& include) {
     auto [found, is_new] = models_.try_emplace(include.uri);
-    if (!is_new) return *found->second;
+    if (!is_new) return found->second.get();
     const std::string folder = findModel(include.uri, model_paths_);
-    if (folder.empty())
-      throw DescriptionError(at(include) + modelNotFound(include.uri, model_paths_));
+    if (folder.empty()) return nullptr;
     found->second = libraryModel(folder, model_paths_);
     for (const std::string& warning : found->second->warnings) warn(warning);
-    return *found->second;
+    return found->second.get();
   }
 
   std::string at(const Include& include) const {
@@ -227,6 +231,7 @@ class Reading {
   const ModelPaths& model_paths_;
   const std::string& where_;
   std::vector<std::string>* warnings_;
+  std::string first_warning_;
   std::set<std::string> warned_;
   std::set<std::string> names_;
   std::vector<Light> lights_;  ///< Of includes.
@@ -252,13 +257,15 @@ WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_path
 std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
                                        const std::string& where, std::vector<std::string>* warnings,
                                        std::vector<Light>* lights) {
-  ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
-    return cachedRest(rest, model_paths);
-  });
+  Reading reading(model_paths, where, warnings);
+  ParsedText parsed =
+      reading.read(xml, [&](const std::string& rest) { return cachedRest(rest, model_paths); });
   const bool has_lights = lights && !parsed.world.lights.empty();
   if (has_lights) *lights = std::move(parsed.world.lights);
-  if (parsed.world.models.empty() && !has_lights)
-    throw DescriptionError(where + ": expected a <model> in <sdf>");
+  if (parsed.world.models.empty() && !has_lights) {
+    const std::string& why = reading.firstWarning();
+    throw DescriptionError(why.empty() ? where + ": expected a <model> in <sdf>" : why);
+  }
   return std::move(parsed.world.models);
 }
 

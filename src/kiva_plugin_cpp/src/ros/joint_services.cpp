@@ -35,6 +35,8 @@ std::uint8_t typeOf(kiva::Joint::Kind kind) {
       return Properties::CONTINUOUS;
     case kiva::Joint::Kind::kPrismatic:
       return Properties::PRISMATIC;
+    case kiva::Joint::Kind::kBall:
+      return Properties::BALL;
     default:
       return Properties::FIXED;
   }
@@ -43,7 +45,9 @@ std::uint8_t typeOf(kiva::Joint::Kind kind) {
 void describe(const kiva::World& world, const std::string& name, Properties* out) {
   const auto [model, joint] = jointNamed(world, name, "GetJointProperties");
   const kiva::JointState state = *world.joint(model, joint);
-  out->type = typeOf(world.description(model)->findJoint(joint)->kind);
+  const kiva::Joint::Kind kind = world.description(model)->findJoint(joint)->kind;
+  out->type = typeOf(kind);
+  if (kind == kiva::Joint::Kind::kBall) return;  // It has no axis to tell of.
   out->damping = {state.settings.damping};
   out->position = {state.position};
   out->rate = {state.rate};

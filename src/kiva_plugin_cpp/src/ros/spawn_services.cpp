@@ -85,13 +85,15 @@ SpawnServices::Document SpawnServices::parse(const gazebo_msgs::SpawnModel::Requ
   for (const std::string& warning : warnings) {
     ROS_WARN("SpawnModel '%s': %s", request.model_name.c_str(), warning.c_str());
   }
+  for (kiva::ModelInstance& model : out.models) model.robot_namespace = request.robot_namespace;
+  // What is left of a world keeps its name.
+  if (request.model_name.empty() && xml.find("<world") != std::string::npos) return out;
   // One goes by the name that was asked for; several keep those of their document.
   if (out.models.size() == 1) {
     out.models.front().name = request.model_name;
   } else if (out.models.empty() && out.lights.size() == 1) {
     out.lights.front().name = request.model_name;
   }
-  for (kiva::ModelInstance& model : out.models) model.robot_namespace = request.robot_namespace;
   return out;
 }
 

@@ -67,10 +67,11 @@ class Engine:
         """nav_msgs/OccupancyGrid of the floor, one cell a grid point: what others' models take."""
         return self._call("/warehouse/map", GetMap).map
 
-    def spawn(self, xml, name):
+    def spawn(self, xml, name=""):
         """Adds all models of an SDF text, or none. Raises EngineError.
 
-        Several keep the names that the text gives them; one alone goes by `name`.
+        They keep the names that the text gives them; one alone goes by `name`, which may be left
+        out where the text is of a world.
         """
         answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", Pose(), "world")
         if not answer.success:

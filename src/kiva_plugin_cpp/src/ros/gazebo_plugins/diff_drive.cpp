@@ -73,7 +73,7 @@ void DiffDrive::readWheels(const kiva::World& world, const kiva::Parameters& p) 
     wheel.joint = p.text(keys[side], names[side]);
     wheel.applied = kNaN;
     const kiva::Joint* joint = description().findJoint(wheel.joint);
-    if (!joint || joint->kind == kiva::Joint::Kind::kFixed || !world.joint(model(), wheel.joint)) {
+    if (!joint || !joint->hasAxis() || !world.joint(model(), wheel.joint)) {
       throw kiva::DescriptionError("<" + std::string(keys[side]) + "> is '" + wheel.joint +
                                    "', which is no joint of '" + model() + "' that moves");
     }

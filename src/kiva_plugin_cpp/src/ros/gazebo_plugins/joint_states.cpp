@@ -31,7 +31,7 @@ void JointStates::load(kiva::World& world, const std::string& model, const kiva:
   }
   if (joints_.empty()) {
     for (const kiva::Joint& joint : description().joints) {
-      if (joint.kind != kiva::Joint::Kind::kFixed) joints_.push_back(joint.name);
+      if (joint.hasAxis()) joints_.push_back(joint.name);
     }
   }
   schedule_ = Schedule(p.number("updateRate", 100, 0, 1e6));
