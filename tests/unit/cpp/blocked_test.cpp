@@ -176,6 +176,20 @@ TEST(Blocked, NeverTouchesOneThatCrossesFarEnoughAhead) {
   }
 }
 
+TEST(Blocked, NotByOneThatComesIntoViewFromTheSideBeyondTheGoal) {
+  for (int i = 0; i < 150; ++i) {
+    const double delay = 1.55 + i * 0.001;  // whatever face or corner of it is seen first
+    Warehouse w;
+    w.spawn("kiva", "kiva1", -2, -3);
+    w.spawn("kiva", "kiva2", 0, 2, -kQuarter);
+    w.movx(1, 2);
+    w.run(delay);
+    w.movy(2, -1);
+    w.runUntilIdle(2);
+    EXPECT_EQ(w.count(Event::Kind::kBlocked, "kiva2"), 0) << delay << " s later";
+  }
+}
+
 TEST(Blocked, GoesOnWhereTheWayIsFreeAgain) {
   Warehouse w;
   w.spawn("kiva", "kiva1", 0, 0);

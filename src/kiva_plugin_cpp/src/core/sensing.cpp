@@ -11,6 +11,7 @@ namespace {
 // What the corridor is wider than the robot, a side. A loaded robot that turns in the next lane
 // reaches to 1 − 0.566 m, which must stay outside.
 constexpr double kSideMargin = 0.03;  // [m]
+constexpr double kFlat = 0.02;        // [m] by which two rays beside each other differ on a face
 
 struct Sensor {
   double x, y, z;
@@ -119,12 +120,21 @@ Ahead lookAhead(const Parts& parts, int robot) {
     return std::min(r.laser.max_range, half / std::max(1e-9, std::abs(fan.s[ray])));
   };
   castRays(parts, robot, limit, &hits);
-  Ahead ahead{std::numeric_limits<double>::infinity(), -1};
+  Ahead ahead{std::numeric_limits<double>::infinity()};
+  int before = -1;  // what the ray before this one met
+  double before_distance = 0;
   for (int ray = 0; ray < r.laser.rays; ++ray) {
     const RayHit& hit = hits[ray];
-    if (hit.model < 0 || !blocks(parts, robot, hit.model)) continue;
+    const int model = hit.model >= 0 && blocks(parts, robot, hit.model) ? hit.model : -1;
     const double distance = r.laser.x + hit.range * fan.c[ray];
-    if (distance < ahead.distance) ahead = {distance, hit.model};
+    const bool faces = model == before && std::abs(distance - before_distance) < kFlat;
+    if (model >= 0 && distance < ahead.distance) {
+      ahead = {distance, model, faces};
+    } else if (faces && before_distance == ahead.distance) {
+      ahead.faces = true;
+    }
+    before = model;
+    before_distance = distance;
   }
   return ahead;
 }

@@ -20,6 +20,7 @@ void castScan(const Parts& parts, int robot, std::vector<RayHit>* hits);
 struct Ahead {
   double distance = 0;  ///< From the robot's centre, along its heading [m]; +inf = free.
   int model = -1;
+  bool faces = false;  ///< What is nearest is a face across the way: it can be measured again.
 };
 Ahead lookAhead(const Parts& parts, int robot);
 

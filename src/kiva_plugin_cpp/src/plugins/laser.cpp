@@ -20,9 +20,10 @@ double alongLeg(const Fleet& f, int i) {
   return std::cos(leg.yaw) * (f.x[i] - leg.x) + std::sin(leg.yaw) * (f.y[i] - leg.y);
 }
 
-/// Speed [m/s] at which what is ahead comes nearer by itself, from two looks; 0 if unknown.
+/// Speed [m/s] at which what is ahead comes nearer by itself, from two looks; 0 if unknown. Of what
+/// comes into view from the side, one look may meet a corner far back, and the next its face.
 double approachSpeed(const Robot& r, const Ahead& ahead, double along, double between) {
-  if (r.seen_model != ahead.model || r.seen_distance <= 0) return 0;
+  if (!ahead.faces || r.seen_model != ahead.model || r.seen_distance <= 0) return 0;
   const double speed = (r.seen_distance - ahead.distance - (along - r.seen_from)) / between;
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
@@ -78,7 +79,7 @@ View look(const Parts& parts, Robot& r, int i) {
   view.approach = approachSpeed(r, ahead, along, view.scan_time);
   view.speed = std::abs(parts.fleet.reference_speed[i]);
   view.model = ahead.model;
-  r.seen_distance = ahead.model < 0 ? 0 : ahead.distance;
+  r.seen_distance = ahead.faces ? ahead.distance : 0;
   r.seen_from = along;
   r.seen_model = ahead.model;
   return view;
