@@ -18,6 +18,7 @@ import rospy
 import rosservice
 
 from warehouse_msgs.srv import CreateWarehouse
+from warehouse_sim.tracker import topics_allowed
 
 PATIENCE = 120  # [s]
 TICK = os.sysconf("SC_CLK_TCK")
@@ -89,8 +90,12 @@ class Session:
             raise programs.FailedError(f"create_warehouse_models {name}: {reply.message}")
         return time.monotonic() - begin
 
-    def topics_stand(self, prefix, count):
-        """Seconds until so many topics with that prefix are known; None if they never are."""
+    def item_topics_stand(self):
+        """Seconds until all items of `huge` have topics, or as many as may open files here have;
+        None if they never have."""
+        return self._topics_stand("/items/item", topics_allowed(20000))
+
+    def _topics_stand(self, prefix, count):
         master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
         begin = time.monotonic()
         while time.monotonic() < begin + PATIENCE:
@@ -166,7 +171,7 @@ def listening(seconds):
     """Creates `huge`, and lets one client follow and command it in real time."""
     with Session(size="empty", rtf=1) as session:
         out = {"create_s": session.create("huge")}
-        out["topics_s"] = session.topics_stand("/items/item", 20000)
+        out["topics_s"] = session.item_topics_stand()
         before = session.memory()
         return out | client(session, seconds) | {"memory_before_mb": before}
 
@@ -174,7 +179,7 @@ def listening(seconds):
 def unheard(seconds):
     """The same as fast as it goes, while nobody listens to a single robot."""
     with Session(size="huge", rtf=0) as session:
-        session.topics_stand("/items/item", 20000)
+        session.item_topics_stand()
         return client(session, seconds, "--no-listen")
 
 
@@ -184,7 +189,7 @@ def recreations(count):
         memory = []
         for i in range(count):
             session.create("huge")
-            session.topics_stand("/items/item", 20000)
+            session.item_topics_stand()
             memory.append(session.memory())
             print(f"  creation {i + 1}: {memory[-1]:.0f} MB", file=sys.stderr, flush=True)
         return {"memory_second_mb": memory[1], "memory_last_mb": memory[-1]}

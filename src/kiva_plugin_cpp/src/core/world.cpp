@@ -55,10 +55,6 @@ void forEachUserPlugin(Parts& parts, Call call) {
   }
 }
 
-void command(Parts& parts) {
-  for (auto& plugin : parts.fleet_plugins) plugin->beforeStep(parts);
-}
-
 void afterStep(Parts& parts) {
   for (auto& plugin : parts.fleet_plugins) plugin->afterStep(parts);
   forEachUserPlugin(parts, [&](Plugin& p) { p.afterStep(*parts.world, parts.dt); });
@@ -139,7 +135,7 @@ void World::step() {
   forEachUserPlugin(parts, [&](Plugin& p) { p.beforeStep(*this, parts.dt); });
   intervene(parts);
   updateEngagement(parts);
-  command(parts);
+  for (auto& plugin : parts.fleet_plugins) plugin->beforeStep(parts);
   drive(parts);
   driveJoints(parts);
   parts.physics.step(parts.dt);

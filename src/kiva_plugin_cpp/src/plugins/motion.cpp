@@ -16,6 +16,8 @@ constexpr double kLineGain = 8;        // [1/m²] yaw rate for distance off the 
 constexpr double kStuck = 0.15;        // [m] behind the profile
 constexpr double kOverdue = 2.0;       // [s]
 constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
+// None that a profile ends with: acceleration · dt is a round number.
+constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
 
 struct OnLine {
   double along;   // of the leg's end, negative before it [m]
@@ -46,8 +48,7 @@ Motion alongLine(const Leg& leg, double top_speed, double acceleration) {
 }
 
 bool arrived(const Fleet& f, int i, const OnLine& at) {
-  const Robot& r = f.robots[i];
-  return f.reference[i] == f.goal[i] && std::abs(at.along - f.goal[i]) < tolerance(r).distance &&
+  return f.reference[i] == f.goal[i] && std::abs(at.along - f.goal[i]) < kThereDistance &&
          stands(f, i);
 }
 
@@ -130,15 +131,8 @@ void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
   f.wheel_target[1][i] = (speed + turn) / d.wheel_radius;
 }
 
-const Tolerance& tolerance(const Robot& /*robot*/) {
-  // The limit of speed is none that a profile ends with: acceleration · dt is a round number.
-  static const Tolerance tolerance{1e-5, 1e-6, 1.1e-4};
-  return tolerance;
-}
-
 bool stands(const Fleet& f, int i) {
-  const double still = tolerance(f.robots[i]).speed;
-  return std::hypot(f.vx[i], f.vy[i]) < still && std::abs(f.yaw_rate[i]) < still;
+  return std::hypot(f.vx[i], f.vy[i]) < kStill && std::abs(f.yaw_rate[i]) < kStill;
 }
 
 bool halting(Parts& parts, int i) {

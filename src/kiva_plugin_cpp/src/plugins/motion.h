@@ -16,13 +16,9 @@ class MotionPlugin : public FleetPlugin {
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
 void setWheels(Fleet& fleet, int i, double speed, double yaw_rate);
 
-/// How near is there, and how slow is standing.
-struct Tolerance {
-  double distance;  ///< [m]
-  double angle;     ///< [rad]
-  double speed;     ///< [m/s, rad/s]
-};
-const Tolerance& tolerance(const Robot& robot);
+/// How near is there.
+constexpr double kThereDistance = 1e-5;  // [m]
+constexpr double kThereAngle = 1e-6;     // [rad]
 bool stands(const Fleet& fleet, int i);
 
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether

@@ -44,7 +44,7 @@ void turnLeg(Parts& parts, int i) {
   }
   const double lag = f.reference[i] - f.yaw[i];
   const bool ended = f.reference[i] == f.goal[i];
-  if (ended && std::abs(lag) < tolerance(r).angle && stands(f, i)) {
+  if (ended && std::abs(lag) < kThereAngle && stands(f, i)) {
     setWheels(f, i, 0, 0);
     return finishLeg(parts, i);
   }

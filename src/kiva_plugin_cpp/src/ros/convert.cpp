@@ -77,6 +77,15 @@ geometry_msgs::Transform toTransform(const kiva::Pose& pose) {
   return out;
 }
 
+geometry_msgs::TransformStamped transform(double time, const std::string& parent,
+                                          const std::string& child, const kiva::Pose& pose) {
+  geometry_msgs::TransformStamped out;
+  out.header = header(time, parent);
+  out.child_frame_id = child;
+  out.transform = toTransform(pose);
+  return out;
+}
+
 geometry_msgs::Pose toMessage(const kiva::Pose& pose) {
   geometry_msgs::Pose out;
   const geometry_msgs::Transform transform = toTransform(pose);

@@ -6,6 +6,7 @@
 #include <gazebo_msgs/ModelState.h>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Transform.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
 #include <geometry_msgs/Wrench.h>
@@ -36,6 +37,9 @@ geometry_msgs::Vector3 toMessage(const kiva::Vector3& vector);
 geometry_msgs::Pose toMessage(const kiva::Pose& pose);
 geometry_msgs::Twist toMessage(const kiva::Twist& twist);
 geometry_msgs::Transform toTransform(const kiva::Pose& pose);
+/// Of frame `child` in frame `parent`, at `time` [s].
+geometry_msgs::TransformStamped transform(double time, const std::string& parent,
+                                          const std::string& child, const kiva::Pose& pose);
 warehouse_msgs::Event toMessage(const kiva::Event& event);
 /// Of a collision's event.
 warehouse_msgs::Collision toCollision(const kiva::Event& event);

@@ -12,15 +12,6 @@ namespace {
 
 constexpr int kQueue = 100;
 
-geometry_msgs::TransformStamped transform(double time, const std::string& parent,
-                                          const std::string& child, const kiva::Pose& pose) {
-  geometry_msgs::TransformStamped out;
-  out.header = header(time, parent);
-  out.child_frame_id = child;
-  out.transform = toTransform(pose);
-  return out;
-}
-
 kiva::Pose laserPose(const kiva::LaserParameters& laser) { return {laser.x, 0, laser.z, 0, 0, 0}; }
 
 /// A wheel turned about its axle, which lies along y.

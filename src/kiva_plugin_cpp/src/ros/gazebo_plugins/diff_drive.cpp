@@ -19,15 +19,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMost = 1e6;  // of speeds and lengths, in SI units
 
-geometry_msgs::TransformStamped transform(double time, const std::string& parent,
-                                          const std::string& child, const kiva::Pose& pose) {
-  geometry_msgs::TransformStamped out;
-  out.header = header(time, parent);
-  out.child_frame_id = child;
-  out.transform = toTransform(pose);
-  return out;
-}
-
 /// What Gazebo's plugin claims to know of itself.
 void setCovariance(nav_msgs::Odometry* odometry) {
   constexpr double kKnown = 1e-5, kUnknown = 1e12, kYaw = 1e-3;
