@@ -18,8 +18,8 @@ namespace kiva_ros {
 
 class Audience {
  public:
-  enum class Topic { kFleet, kModelStates, kLinkStates, kTransforms, kStateHash };
-  enum class RobotTopic { kStatus, kScan, kOdometry };
+  enum class Topic { kFleet, kModelStates, kLinkStates, kTransforms, kStateHash, kEnd };
+  enum class RobotTopic { kStatus, kScan, kOdometry, kEnd };
 
   /// Called, in any thread, when a listener came.
   void onArrival(std::function<void()> call) { on_arrival_ = std::move(call); }
@@ -41,14 +41,17 @@ class Audience {
   void forget(int kiva_id);
 
  private:
+  static constexpr int kTopics = static_cast<int>(Topic::kEnd);
+  static constexpr int kRobotTopics = static_cast<int>(RobotTopic::kEnd);
+
   void noteArrival(int change, std::atomic<bool>* arrived);
 
   std::function<void()> on_arrival_;
-  std::atomic<bool> arrived_[4] = {}, robots_arrived_[3] = {};
-  std::atomic<int> counts_[4] = {};
+  std::atomic<bool> arrived_[kTopics] = {}, robots_arrived_[kRobotTopics] = {};
+  std::atomic<int> counts_[kTopics] = {};
   std::atomic<std::uint64_t> robots_revision_{0};
   mutable std::mutex mutex_;
-  std::map<int, int> listeners_[3];  ///< By robot's id; guarded by mutex_.
+  std::map<int, int> listeners_[kRobotTopics];  ///< By robot's id; guarded by mutex_.
 };
 
 /// Advertises a topic whose listeners are counted: `count` is called with +1 or -1.
