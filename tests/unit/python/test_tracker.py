@@ -38,7 +38,7 @@ def sent(ros):
 
 
 def test_only_what_moves_is_published(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros))
     assert follow.update(*scene(1, 2)) == (True, False)
     assert follow.update(*scene(1, 2)) == (False, False)
     assert follow.update(*scene(1, 3, stamp=7)) == (True, False)
@@ -49,14 +49,14 @@ def test_only_what_moves_is_published(ros):
 
 
 def test_an_empty_warehouse_is_told_of(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros))
     assert follow.message() is None
     assert follow.update(*scene()) == (True, False)
     assert follow.message().objects == []
 
 
 def test_topics_go_with_their_objects(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros))
     follow.update(*scene(1, 2))
     differs, _ = follow.update(*scene(1))
     assert differs
@@ -66,7 +66,7 @@ def test_topics_go_with_their_objects(ros):
 
 
 def test_a_name_that_comes_back_gets_its_topic_back(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros))
     for xs in ((1, 2), (1,), (1, 2)):
         follow.update(*scene(*xs))
     publisher = ros.publishers["/units/storage_unit2/pose"]
@@ -75,7 +75,7 @@ def test_a_name_that_comes_back_gets_its_topic_back(ros):
 
 
 def test_thousands_of_topics_come_in_batches(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros, limit=1000))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros, limit=1000))
     crowd = scene(*range(tracker.BATCH + 5))
     assert follow.update(*crowd) == (True, True)
     assert len(ros.publishers) == tracker.BATCH
@@ -85,7 +85,7 @@ def test_thousands_of_topics_come_in_batches(ros):
 
 
 def test_no_more_topics_than_allowed(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros, limit=2))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros, limit=2))
     follow.update(*scene(1, 2, 3))
     follow.update(*scene(1, 2, 4))
     assert len(ros.publishers) == 2
@@ -111,7 +111,7 @@ def test_each_topic_needs_a_file(monkeypatch, limits, allowed, raised):
 
 
 def test_the_list_is_up_to_date_however_seldom_it_is_read(ros):
-    follow = tracker.Tracker(tracking.storage_units, pose_topics(ros))
+    follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros))
     for xs in ((1, 2), (1, 3), (4, 3)):
         follow.update(*scene(*xs))
     assert [o.pose.position.x for o in follow.message().objects] == [4, 3]

@@ -119,3 +119,26 @@ def test_a_new_carrier_is_a_change_but_no_move():
     old, new = (tracking.storage_units(*scene(carrier=c)) for c in (0, 3))
     assert tracking.moved(old, new).tolist() == [False, False]
     assert tracking.changed(old, new).tolist() == [False, True]
+
+
+def test_asked_again_they_are_where_they_would_be_at_first():
+    random = np.random.default_rng(5)
+    objects = WarehouseObjects(
+        storage_units=[f"storage_unit{i}" for i in range(20)],
+        items=[f"item{i}" for i in range(50)],
+        item_unit=random.integers(-1, 20, 50).tolist(),
+        item_pose=random_poses(50, 6).ravel().tolist(),
+    )
+    followed, stand = tracking.Items(objects), random_poses(20, 7)
+    for _ in range(10):
+        driven, fallen = random.integers(0, 20, 3), random.integers(0, 50, 2)
+        stand[driven] = random_poses(3, random.integers(1000))
+        states = UnitStates(
+            pose=stand.ravel().tolist(),
+            carrier=random.integers(0, 3, 20).tolist(),
+            loose_item=fallen.tolist(),
+            loose_pose=random_poses(2, 8).ravel().tolist(),
+        )
+        now, anew = followed.at(states), tracking.items(objects, states)
+        assert (now.pose == anew.pose).all()
+        assert (now.carrier == anew.carrier).all()

@@ -70,10 +70,11 @@ class ObjectList:
 
 
 class Tracker:
-    """Follows one kind of object; `kind` is tracking.items or tracking.storage_units."""
+    """Follows one kind of object; `kind` is tracking.Items or tracking.StorageUnits."""
 
     def __init__(self, kind, pose_topics):
         self._kind, self._pose_topics = kind, pose_topics
+        self._objects, self._places = None, None  # the message, and where what is in it is
         self._last, self._stamp, self._list = None, None, ObjectList()
         self.message = self._list.message
 
@@ -84,7 +85,9 @@ class Tracker:
 
     def update(self, objects, states):
         """Takes the newest messages in. Returns whether the list changed, and if work is left."""
-        new, old = self._kind(objects, states), self._last or tracking.Tracked()
+        if objects is not self._objects:
+            self._objects, self._places = objects, self._kind(objects)
+        new, old = self._places.at(states), self._last or tracking.Tracked()
         moved, changed = tracking.moved(old, new), tracking.changed(old, new)
         differs = self._last is None or changed.any() or len(old.names) != len(new.names)
         self._stamp = max(objects.header.stamp, states.header.stamp)
