@@ -253,7 +253,6 @@ void readUnits(ros::NodeHandle& node, Commander& commander) {
   }
 }
 
-/// One callback at a time: on a crowded machine a queue may hold more than the time there is.
 template <typename Condition>
 bool spinUntil(double deadline, Condition condition) {
   double look = 0;
@@ -262,7 +261,7 @@ bool spinUntil(double deadline, Condition condition) {
       if (condition()) return true;
       look = now() + 0.05;
     }
-    ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.05));
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
   }
   return false;
 }

@@ -4,6 +4,8 @@
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
 
+#include <chrono>
+
 #include "convert.h"
 
 namespace kiva_ros {
@@ -11,6 +13,9 @@ namespace {
 
 constexpr int kEventQueue = 100000;  // ten seconds of ten thousand commands, each answered
 constexpr int kStreamQueue = 10;
+
+constexpr std::size_t kCrowd = 10;  // messages at once
+constexpr auto kBatch = std::chrono::milliseconds(4);
 
 /// Latched, so that who comes while time stands still learns it too.
 constexpr bool kLatched = true;
@@ -51,9 +56,20 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, Audience&
   link_states_ = advertiseCounted<gazebo_msgs::LinkStates>(
       node, "link_states", kStreamQueue,
       [&audience](int change) { audience.count(Audience::Topic::kLinkStates, change); });
-  thread_ = std::thread([this] {
-    while (const auto snapshot = outbox_.pop()) publish(*snapshot);
-  });
+  thread_ = std::thread(&Broadcaster::run, this);
+}
+
+void Broadcaster::run() {
+  for (auto batch = outbox_.take(); !batch.empty(); batch = outbox_.take()) {
+    std::size_t bulk = 0;
+    for (const Snapshot& snapshot : batch) {
+      publish(snapshot);
+      bulk += snapshot.bulk();
+    }
+    if (bulk > 0) sockets_.wake();
+    // Together rather than one by one: so this thread, roscpp's and each client's wake less often.
+    if (bulk >= kCrowd && !batch.back().all_is_owed) std::this_thread::sleep_for(kBatch);
+  }
 }
 
 void Broadcaster::stop() {
@@ -73,6 +89,7 @@ void Broadcaster::publish(const Snapshot& s) {
   }
   for (const kiva::Event& event : s.events) publishEvent(event);
   for (const kiva::StatusChange& status : s.statuses) robots_.publish(status);
+  for (const kiva::StatusChange& status : s.heartbeats) robots_.publishHeartbeat(status);
   for (const Scan& scan : s.scans) robots_.publish(scan, s.time);
   for (const RobotPose& robot : s.odometry) robots_.publishOdometry(robot, s.time);
   if (!s.transforms.empty()) transforms_.publish(s.transforms, s.time);

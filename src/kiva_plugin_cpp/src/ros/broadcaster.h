@@ -29,6 +29,7 @@ class Broadcaster {
   void stop();
 
  private:
+  void run();
   void publish(const Snapshot& snapshot);
   void publishEvent(const kiva::Event& event);
   void publishModels(const ModelStates& models);

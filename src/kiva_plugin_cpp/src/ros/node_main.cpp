@@ -32,6 +32,7 @@
 #include "settings.h"
 #include "showcase.h"
 #include "simulation_services.h"
+#include "sockets.h"
 #include "spawn_services.h"
 #include "state_services.h"
 #include "step_service.h"
@@ -70,6 +71,7 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
 }
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {
+  widenListenQueues();
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);

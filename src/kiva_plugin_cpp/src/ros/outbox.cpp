@@ -22,15 +22,13 @@ void Outbox::push(Snapshot snapshot, bool all_is_owed) {
   filled_.notify_one();
 }
 
-std::optional<Snapshot> Outbox::pop() {
+std::deque<Snapshot> Outbox::take() {
   std::unique_lock<std::mutex> lock(mutex_);
   filled_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
-  if (waiting_.empty()) return std::nullopt;
-  Snapshot first = std::move(waiting_.front());
-  waiting_.pop_front();
+  std::deque<Snapshot> out = std::exchange(waiting_, {});
   lock.unlock();
   drained_.notify_one();
-  return first;
+  return out;
 }
 
 void Outbox::close() {

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <deque>
 #include <mutex>
-#include <optional>
 
 #include "snapshot.h"
 
@@ -18,8 +17,8 @@ class Outbox {
  public:
   /// `all_is_owed`: what is periodic in it too.
   void push(Snapshot snapshot, bool all_is_owed = false);
-  /// Blocks until there is one. Nothing once closed and empty.
-  std::optional<Snapshot> pop();
+  /// All that wait, once there is one; none: it was closed and is empty.
+  std::deque<Snapshot> take();
   /// Lets both sides go; what is pushed from now on is dropped.
   void close();
 

@@ -189,8 +189,11 @@ void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   for (int i = 0; i < world.fleet().size(); ++i) {
     const int id = world.fleet().robots[i].id;
     if (id % kHeartbeatSlots != slot) continue;
-    if (!all && !std::binary_search(status_ids_.begin(), status_ids_.end(), id)) continue;
-    out->statuses.push_back(statusOf(world, i));
+    if (all) {
+      out->statuses.push_back(statusOf(world, i));
+    } else if (std::binary_search(status_ids_.begin(), status_ids_.end(), id)) {
+      out->heartbeats.push_back(statusOf(world, i));
+    }
   }
 }
 

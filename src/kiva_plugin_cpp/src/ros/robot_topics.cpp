@@ -49,29 +49,35 @@ RobotTopics::Topics RobotTopics::advertise(const RosterEntry& robot) {
   using Kind = Audience::RobotTopic;
   Topics out;
   out.laser = robot.laser;
-  out.status =
-      advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true);
-  out.odometry = advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue);
+  out.status = BulkTopic(
+      advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true));
+  out.odometry =
+      BulkTopic(advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue));
   if (!robot.laser.fitted) return out;
-  out.scan =
-      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue);
+  out.scan = BulkTopic(
+      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue));
   return out;
 }
 
 void RobotTopics::publish(const kiva::StatusChange& status) {
   const auto at = robots_.find(status.kiva_id);
-  if (at != robots_.end() && at->second.status) at->second.status.publish(toMessage(status));
+  if (at != robots_.end()) at->second.status.publisher().publish(toMessage(status));
+}
+
+void RobotTopics::publishHeartbeat(const kiva::StatusChange& status) {
+  const auto at = robots_.find(status.kiva_id);
+  if (at != robots_.end()) at->second.status.publish(toMessage(status));
 }
 
 void RobotTopics::publish(const Scan& scan, double time) {
   const auto at = robots_.find(scan.kiva_id);
-  if (at == robots_.end() || !at->second.scan) return;
+  if (at == robots_.end() || !at->second.laser.fitted) return;
   at->second.scan.publish(toMessage(scan, at->second.laser, time));
 }
 
 void RobotTopics::publishOdometry(const RobotPose& robot, double time) {
   const auto at = robots_.find(robot.kiva_id);
-  if (at == robots_.end() || !at->second.odometry) return;
+  if (at == robots_.end()) return;
   at->second.odometry.publish(toMessage(robot, time));
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "audience.h"
+#include "bulk_topic.h"
 #include "snapshot.h"
 
 namespace kiva_ros {
@@ -16,14 +17,17 @@ class RobotTopics {
   RobotTopics(ros::NodeHandle& node, Audience& audience) : node_(node), audience_(audience) {}
 
   void update(const Roster& roster);
+  /// Latched, and sent at once.
   void publish(const kiva::StatusChange& status);
+  /// Neither: sent with the next wake-up of roscpp's thread, as the following are.
+  void publishHeartbeat(const kiva::StatusChange& status);
   void publish(const Scan& scan, double time);
   void publishOdometry(const RobotPose& robot, double time);
 
  private:
   struct Topics {
     kiva::LaserParameters laser;
-    ros::Publisher status, scan, odometry;
+    BulkTopic status, scan, odometry;
   };
 
   Topics advertise(const RosterEntry& robot);

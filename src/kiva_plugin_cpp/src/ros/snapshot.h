@@ -66,23 +66,27 @@ struct Snapshot {
   std::optional<warehouse_msgs::FleetState> fleet;
   std::optional<ModelStates> models;
   std::optional<ModelStates> links;
+  std::vector<kiva::StatusChange> heartbeats;  ///< Of robots that somebody listens to.
   std::vector<Scan> scans;
   std::vector<RobotPose> odometry;
   std::vector<RobotPose> transforms;
 
+  /// How many messages on topics of single robots are periodic.
+  std::size_t bulk() const { return heartbeats.size() + scans.size() + odometry.size(); }
   bool hasOwed() const {
     return clock_owed || !events.empty() || roster || !statuses.empty() || objects || units ||
            !mail.empty() || !state_hash.empty() || published;
   }
   bool hasPeriodic() const {
-    return clock || fleet || models || links || !scans.empty() || !odometry.empty() ||
-           !transforms.empty();
+    return clock || fleet || models || links || !heartbeats.empty() || !scans.empty() ||
+           !odometry.empty() || !transforms.empty();
   }
   void dropPeriodic() {
     clock = false;
     fleet.reset();
     models.reset();
     links.reset();
+    heartbeats.clear();
     scans.clear();
     odometry.clear();
     transforms.clear();

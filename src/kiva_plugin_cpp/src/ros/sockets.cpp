@@ -2,15 +2,31 @@
 #include "sockets.h"
 
 #include <ros/poll_manager.h>
+#include <sys/socket.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 
 namespace kiva_ros {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(1);  // it may be gone already
 
+constexpr int kListenQueue = 4096;
+
 }  // namespace
+
+void widenListenQueues() {
+  for (const auto& file : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int fd = std::atoi(file.path().filename().c_str());
+    int listens = 0;
+    socklen_t size = sizeof listens;
+    if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens) {
+      listen(fd, kListenQueue);
+    }
+  }
+}
 
 Sockets::Sockets()
     : connection_(ros::PollManager::instance()->addPollThreadListener([this] {
@@ -23,6 +39,8 @@ Sockets::Sockets()
 
 Sockets::~Sockets() { ros::PollManager::instance()->removePollThreadListener(connection_); }
 
+void Sockets::wake() { ros::PollManager::instance()->getPollSet().signal(); }
+
 void Sockets::flush() {
   std::unique_lock<std::mutex> lock(mutex_);
   // The turn under way may have looked before; the next one empties the queues.
@@ -31,7 +49,7 @@ void Sockets::flush() {
   while (turns_ < enough && std::chrono::steady_clock::now() < end) {
     const std::uint64_t now = turns_;
     lock.unlock();
-    ros::PollManager::instance()->getPollSet().signal();
+    wake();
     lock.lock();
     turned_.wait_until(lock, end, [&] { return turns_ > now; });
   }

@@ -8,11 +8,18 @@
 
 namespace kiva_ros {
 
+/// Lets a thousand clients, or one with a thousand topics, connect at once. roscpp lets five wait
+/// at its server; who finds no room tries again after 1 s, then 3 s, up to a minute. After
+/// ros::start().
+void widenListenQueues();
+
 /// roscpp only queues what is published; a thread of its own writes it.
 class Sockets {
  public:
   Sockets();
   ~Sockets();
+  /// Lets that thread write what BulkTopics published.
+  void wake();
   /// Returns when that thread has handed all that was published before to the sockets.
   void flush();
 
