@@ -23,6 +23,7 @@ from warehouse_test import (
     sim_time,
     spawn,
     state,
+    step_until,
     world,
 )
 
@@ -204,9 +205,7 @@ class Wrenches(World):
         self.assertTrue(answer.success, answer.status_message)
 
     def run_until(self, time):
-        control("unpause_physics")
-        wait_until(lambda: sim_time() > time, "time going on")
-        control("pause_physics")
+        step_until(time)
         return state("cube").twist
 
     def test_for_a_while(self):
@@ -264,9 +263,7 @@ class Joints(World):
         return call("/gazebo/get_joint_properties", GetJointProperties, name)
 
     def run_until(self, time):
-        control("unpause_physics")
-        wait_until(lambda: sim_time() > time, "time going on")
-        control("pause_physics")
+        step_until(time)
         return self.hinge()
 
     def effort(self, effort, **times):

@@ -15,6 +15,7 @@ from warehouse_test import Commander, Paused, model_file, pose, sim_time, spawn,
 from world_node import Node
 
 WORLDS = Path(__file__).resolve().parent.parent / "worlds"
+SIGINT_TIMEOUT = 3.0  # [s] until roslaunch would kill it
 
 
 class Refusing(unittest.TestCase):
@@ -46,11 +47,11 @@ class Refusing(unittest.TestCase):
 
 
 class Running(unittest.TestCase):
-    def stops_within_a_second(self, node, number):
+    def stops_in_time(self, node, number):
         begin = time.monotonic()
         node.send(number)
         code, said = node.end()
-        self.assertLess(time.monotonic() - begin, 1.0)
+        self.assertLess(time.monotonic() - begin, SIGINT_TIMEOUT)
         self.assertEqual(code, 0, said)
         self.assertNotIn("terminate", said)
         self.assertNotIn("/gazebo", rosnode.get_node_names())
@@ -72,7 +73,7 @@ class Running(unittest.TestCase):
             for rtf in (1, 0):
                 with Node(world="paper", rtf=rtf) as node:
                     wait_until(lambda: sim_time() > 0.2, "time going on")
-                    self.stops_within_a_second(node, number)
+                    self.stops_in_time(node, number)
 
     def test_ends_while_time_stands_still_and_commands_wait(self):
         with Node(world="paper") as node:
@@ -80,7 +81,7 @@ class Running(unittest.TestCase):
             Paused().__enter__()
             for _ in range(100):
                 commander.send("/rot", kiva_id=1, direction=1)
-            self.stops_within_a_second(node, signal.SIGINT)
+            self.stops_in_time(node, signal.SIGINT)
             commander.close()
 
     def test_a_hundred_robots_do_not_hold_it_up(self):
@@ -88,7 +89,7 @@ class Running(unittest.TestCase):
             kiva = model_file("kiva")
             for i in range(100):
                 spawn(f"kiva{i + 1}", kiva, pose(i % 10 * 2.0, i // 10 * 2.0))
-            self.stops_within_a_second(node, signal.SIGTERM)
+            self.stops_in_time(node, signal.SIGTERM)
 
 
 if __name__ == "__main__":

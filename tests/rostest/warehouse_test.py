@@ -14,8 +14,10 @@ from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import DeleteModel, GetModelState, GetWorldProperties, SpawnModel
 from warehouse_msgs.msg import Event, Lift, MoveAlong, MoveTo, Rotate
+from warehouse_msgs.srv import Step
 
 COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
+STEP = 0.001  # [s]
 ANSWERS = (Event.ACCEPTED, Event.REFUSED)
 
 BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
@@ -110,6 +112,12 @@ class Commander:
         self.events.close()
         for publisher in self._publishers.values():
             publisher.unregister()
+
+
+def step_until(time):
+    """Steps a paused world to that simulated time [s], however crowded the machine is."""
+    answer = call("/gazebo/step", Step, max(0, round((time - sim_time()) / STEP)))
+    assert answer.success, answer.message
 
 
 def pose(x=0.0, y=0.0, z=0.0, yaw=None):
