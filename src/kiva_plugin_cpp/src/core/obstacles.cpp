@@ -108,6 +108,7 @@ double gap(const Footprint& a, const Footprint& b) {
 void Obstacles::clear() {
   entries_.clear();
   movers_.clear();
+  radius_.clear();
   free_.clear();
   cells_.clear();
   everywhere_.clear();
@@ -147,15 +148,18 @@ void Obstacles::remove(int handle) {
 }
 
 void Obstacles::setMover(int robot, std::vector<Footprint> local) {
-  if (robot >= static_cast<int>(movers_.size())) movers_.resize(robot + 1);
-  MoverEntry& entry = movers_[robot];
-  entry.mover.radius = 0;
-  for (const Footprint& f : local) {
-    entry.mover.radius = std::max(entry.mover.radius, std::hypot(f.x, f.y) + radiusOf(f));
+  if (robot >= static_cast<int>(movers_.size())) {
+    movers_.resize(robot + 1);
+    radius_.resize(robot + 1);
   }
-  entry.world = local;
-  entry.world_x = kInfinity;  // to be worked out
-  entry.mover.local = std::move(local);
+  radius_[robot] = 0;
+  for (const Footprint& f : local) {
+    radius_[robot] = std::max(radius_[robot], std::hypot(f.x, f.y) + radiusOf(f));
+  }
+  Mover& mover = movers_[robot];
+  mover.world = local;
+  mover.world_x = kInfinity;  // to be worked out
+  mover.local = std::move(local);
   linkMover(robot);
 }
 
@@ -165,44 +169,46 @@ void Obstacles::removeMover(int robot) {
   if (robot != last) {
     unlink(~last, movers_[last].place);
     movers_[robot] = std::move(movers_[last]);
+    radius_[robot] = radius_[last];
   }
   movers_.pop_back();
+  radius_.pop_back();
   if (robot != last) linkMover(robot);
 }
 
 void Obstacles::follow(int robot, double way) {
-  const MoverEntry& entry = movers_[robot];
-  const double dx = fleet_.x[robot] - entry.x, dy = fleet_.y[robot] - entry.y;
+  const Mover& mover = movers_[robot];
+  const double dx = fleet_.x[robot] - mover.x, dy = fleet_.y[robot] - mover.y;
   const double room = kSlack - way;
   if (dx * dx + dy * dy > std::max(0.0, room * room)) linkMover(robot);
 }
 
 const std::vector<Footprint>& Obstacles::footprints(int robot) const {
-  const MoverEntry& entry = movers_[robot];
+  const Mover& mover = movers_[robot];
   const double x = fleet_.x[robot], y = fleet_.y[robot], yaw = fleet_.yaw[robot];
-  if (entry.world_x == x && entry.world_y == y && entry.world_yaw == yaw) return entry.world;
+  if (mover.world_x == x && mover.world_y == y && mover.world_yaw == yaw) return mover.world;
   const double c = std::cos(yaw), s = std::sin(yaw);
-  for (std::size_t k = 0; k < entry.world.size(); ++k) {
-    const Footprint& local = entry.mover.local[k];
-    Footprint& world = entry.world[k];
+  for (std::size_t k = 0; k < mover.world.size(); ++k) {
+    const Footprint& local = mover.local[k];
+    Footprint& world = mover.world[k];
     world.x = x + c * local.x - s * local.y;
     world.y = y + s * local.x + c * local.y;
     world.c = c * local.c - s * local.s;
     world.s = s * local.c + c * local.s;
   }
-  entry.world_x = x;
-  entry.world_y = y;
-  entry.world_yaw = yaw;
-  return entry.world;
+  mover.world_x = x;
+  mover.world_y = y;
+  mover.world_yaw = yaw;
+  return mover.world;
 }
 
 void Obstacles::linkMover(int robot) {
-  MoverEntry& entry = movers_[robot];
-  entry.x = fleet_.x[robot];
-  entry.y = fleet_.y[robot];
-  unlink(~robot, entry.place);
-  cover(boxOf(entry));
-  link(~robot, entry.place, boxOf(entry));
+  Mover& mover = movers_[robot];
+  mover.x = fleet_.x[robot];
+  mover.y = fleet_.y[robot];
+  unlink(~robot, mover.place);
+  cover(boxOfMover(robot));
+  link(~robot, mover.place, boxOfMover(robot));
 }
 
 Obstacles::Range Obstacles::range(double min_x, double max_x, double min_y, double max_y) const {
@@ -220,8 +226,9 @@ Obstacles::Box Obstacles::boxOf(const Footprint& f) {
   return {f.x - halfX(f), f.x + halfX(f), f.y - halfY(f), f.y + halfY(f)};
 }
 
-Obstacles::Box Obstacles::boxOf(const MoverEntry& m) {
-  const double half = m.mover.radius + kSlack;
+Obstacles::Box Obstacles::boxOfMover(int robot) const {
+  const Mover& m = movers_[robot];
+  const double half = radius_[robot] + kSlack;
   return {m.x - half, m.x + half, m.y - half, m.y + half};
 }
 
@@ -284,8 +291,8 @@ void Obstacles::cover(const Box& box) {
     if (entry.place.linked) link(static_cast<int>(handle), entry.place, boxOf(entry.footprint));
   }
   for (std::size_t robot = 0; robot < movers_.size(); ++robot) {
-    MoverEntry& entry = movers_[robot];
-    if (entry.place.linked) link(~static_cast<int>(robot), entry.place, boxOf(entry));
+    const int index = static_cast<int>(robot);
+    if (movers_[robot].place.linked) link(~index, movers_[robot].place, boxOfMover(index));
   }
 }
 
@@ -293,7 +300,7 @@ void Obstacles::castMover(int robot, double x, double y, double z, double dx, do
                           RayHit* hit) const {
   // Most rays pass the circle around the mover: that costs no work on its footprints.
   const double ox = fleet_.x[robot] - x, oy = fleet_.y[robot] - y;
-  const double radius = movers_[robot].mover.radius;
+  const double radius = radius_[robot];
   const double along = ox * dx + oy * dy, across = ox * dy - oy * dx;
   if (std::abs(across) > radius || along < -radius || along - radius > hit->range) return;
   for (const Footprint& f : footprints(robot)) {

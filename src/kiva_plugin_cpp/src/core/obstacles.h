@@ -58,14 +58,9 @@ struct RayHit {
   int model = -1;
 };
 
-/// A robot and what it carries: footprints that move as one with it. They are indexed by a circle
-/// around the robot with some slack, so that the index changes seldom, and are worked out in world
-/// when somebody asks.
-struct Mover {
-  std::vector<Footprint> local;  ///< In the robot's frame.
-  double radius = 0;             ///< Of the circle around the robot that holds them all [m].
-};
-
+/// A robot and what it carries are a mover: footprints that move as one with it. They are indexed
+/// by a circle around the robot with some slack, so that the index changes seldom, and are worked
+/// out in world when somebody asks.
 class Obstacles {
  public:
   static constexpr double kSlack = 0.25;  ///< [m] that a mover may go before it is indexed anew.
@@ -97,22 +92,23 @@ class Obstacles {
       visit(footprint);
       return false;
     };
-    any(x, y, reach, see, [&](const Mover& mover, int robot) {
+    any(x, y, reach, see, [&](int robot, double radius) {
       const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
-      const double farthest = mover.radius + std::sqrt(2.0) * reach;  // in a corner of that square
+      const double farthest = radius + std::sqrt(2.0) * reach;  // in a corner of that square
       if (dx * dx + dy * dy > farthest * farthest) return false;
       for (const Footprint& footprint : footprints(robot)) visit(footprint);
       return false;
     });
   }
 
-  /// Whether meets(footprint), of what is no mover, or approaches(mover, robot) is true for any
-  /// within `reach` of (x, y).
+  /// Whether meets(footprint), of what is no mover, or approaches(robot, radius) is true for any
+  /// within `reach` of (x, y). `radius` is that of the circle around the robot that holds its
+  /// mover.
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
     const auto ask = [&](int handle) {
       return handle >= 0 ? meets(entries_[handle].footprint)
-                         : approaches(movers_[~handle].mover, ~handle);
+                         : approaches(~handle, radius_[~handle]);
     };
     const Range r = range(x - reach, x + reach, y - reach, y + reach);
     for (int cy = r.y0; cy <= r.y1; ++cy) {
@@ -152,8 +148,8 @@ class Obstacles {
     Place place;
     bool used = false;
   };
-  struct MoverEntry {
-    Mover mover;
+  struct Mover {
+    std::vector<Footprint> local;  // in the robot's frame
     Place place;
     double x = 0, y = 0;  // around which it is indexed
     mutable std::vector<Footprint> world;
@@ -161,7 +157,7 @@ class Obstacles {
   };
 
   static Box boxOf(const Footprint& footprint);
-  static Box boxOf(const MoverEntry& mover);
+  Box boxOfMover(int robot) const;
   Range range(double min_x, double max_x, double min_y, double max_y) const;
   Range range(const Box& b) const { return range(b.min_x, b.max_x, b.min_y, b.max_y); }
   bool isInside(const Box& box) const;
@@ -174,7 +170,8 @@ class Obstacles {
 
   const Fleet& fleet_;
   std::vector<Entry> entries_;
-  std::vector<MoverEntry> movers_;
+  std::vector<Mover> movers_;
+  std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
   std::vector<int> free_;
   // Handles; ~robot for a mover. Few a cell: beside each other in memory, which is most of a ray.
   std::vector<boost::container::small_vector<int, 4>> cells_;

@@ -11,7 +11,8 @@ namespace {
 // What the corridor is wider than the robot, a side. A loaded robot that turns in the next lane
 // reaches to 1 − 0.566 m, which must stay outside.
 constexpr double kSideMargin = 0.03;  // [m]
-constexpr double kFlat = 0.02;        // [m] by which two rays beside each other differ on a face
+constexpr int kMostTogether = 16;
+constexpr double kFlat = 0.02;  // [m] by which two rays beside each other differ on a face
 
 struct Sensor {
   double x, y, z;
@@ -30,6 +31,17 @@ double rayAngle(const LaserParameters& laser, int ray) {
   return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
 }
 
+/// How many robots with successive ids scan in the same step, where more than one has to: they
+/// mostly stand side by side and see the same, which then is in the processor's cache. A power of
+/// two, so that it seldom changes as robots come and go, and with it when a robot scans.
+int scanTogether(int robots, std::uint64_t period) {
+  int together = 1;
+  while (together < kMostTogether && 2 * together * period <= static_cast<std::uint64_t>(robots)) {
+    together *= 2;
+  }
+  return together;
+}
+
 /// Rebuilds the rounds after robots have come or gone.
 void arrangeScans(Parts& parts) {
   parts.scan_rounds.clear();
@@ -45,7 +57,8 @@ void arrangeScans(Parts& parts) {
       round->robots_at.resize(period);
     }
     // Weyl's sequence by the golden ratio spreads any set of ids evenly.
-    const double spread = std::fmod(robot.id * 0.6180339887498949, 1.0);
+    const int group = robot.id / scanTogether(parts.fleet.size(), period);
+    const double spread = std::fmod(group * 0.6180339887498949, 1.0);
     const auto offset = static_cast<std::uint64_t>(spread * static_cast<double>(period));
     round->robots_at[(period - offset) % period].push_back(i);
   }

@@ -78,10 +78,10 @@ bool isClear(const Parts& parts, int robot, const Footprint& swept, double time)
     return other.z_min <= swept.z_max && other.z_max >= swept.z_min &&
            mayBeWithin(kNear, swept, other) && gap(swept, other) < kNear;
   };
-  const auto approaches = [&](const Mover& other, int i) {
+  const auto approaches = [&](int i, double radius) {
     if (i == robot) return false;
     const double reach = kNear + (standsStill(f, i) ? 0 : approachSpeed(f, i)) * time;
-    if (gap(swept, circleOf(f, i, other.radius)) >= reach) return false;
+    if (gap(swept, circleOf(f, i, radius)) >= reach) return false;
     if (!standsStill(f, i)) return true;
     const auto& footprints = parts.obstacles.footprints(i);
     return std::any_of(footprints.begin(), footprints.end(), meets);
