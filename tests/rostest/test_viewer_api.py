@@ -90,6 +90,7 @@ class ViewerApi(unittest.TestCase):
 
     def test_what_is_no_command_is_refused(self):
         self.assertEqual(command(1, "jump")[0], 422)
+        self.assertEqual(command(1, {})[0], 422)
         self.assertEqual(command(1, "mov", x="far", y=0)[0], 422)
         self.assertEqual(command(1, "movx", distance=float("nan"))[0], 422)
         self.assertEqual(command(1, "movx", distance=1, speed=2)[0], 422)

@@ -68,6 +68,7 @@ class Viewer:
         )
         app.include_router(api.router(self.desk))
         app.add_exception_handler(405, api.not_allowed)
+        app.add_exception_handler(AssertionError, api.no_command)
         self._add_sockets(app)
         self._add_files(app)
         return Gate(app, token, rate)
