@@ -23,7 +23,8 @@ class State(unittest.TestCase):
 
     def is_mine(self, state):
         free = {unit.carrier for unit in state.storage_units} == {""}
-        return state.warehouse_name == "mine" and len(state.kivas) == 2 and free
+        all_told = state.robots == len(state.kivas) == 2  # statuses may come before the counts
+        return state.warehouse_name == "mine" and all_told and free
 
     def test_name_counts_and_units(self):
         state = self.state
