@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/contact/joints.h"
+#include "core/motion/joints.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "core/models/models.h"
+#include "core/geometry/angle.h"
+#include "core/state/footprints.h"
 
 namespace kiva {
 namespace {
@@ -100,11 +101,6 @@ void setLimits(const Mount& mount, bool slides, const JointSettings& settings) {
   }
 }
 
-bool isAwake(const Model& model) {
-  return std::any_of(model.bodies.links.begin(), model.bodies.links.end(),
-                     [](const LinkBody& link) { return link.body->isActive(); });
-}
-
 void wake(Model& model) {
   for (LinkBody& link : model.bodies.links) link.body->activate(true);
 }
@@ -129,8 +125,6 @@ void driveJoint(const Model& model, int index, double dt) {
   push(mount, slides, -rateOf(mount, slides) * lost / dt);
 }
 
-double wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
-
 void readJoint(Model& model, int index) {
   const bool slides = isSlider(model.description->joints[index]);
   const Mount mount = mountOf(model, index);
@@ -141,7 +135,7 @@ void readJoint(Model& model, int index) {
                                       mount.child.getWorldTransform());
     state.position = slider(mount).getLinearPos();
   } else {
-    state.position += wrapped(-hinge(mount).getHingeAngle() - state.position);
+    state.position += wrapAngle(-hinge(mount).getHingeAngle() - state.position);
   }
 }
 
@@ -150,13 +144,6 @@ void forAxes(const Model& model, Visit visit) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     if (model.description->joints[i].hasAxis()) visit(static_cast<int>(i));
   }
-}
-
-int linkIndex(const ModelDescription& description, const std::string& name) {
-  for (std::size_t i = 0; i < description.links.size(); ++i) {
-    if (description.links[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
 }
 
 /// Which wheel of a robot's a joint turns: 0 left, 1 right, -1 none.
@@ -279,7 +266,7 @@ JointState jointState(const WorldState& world, const Model& model, int joint) {
   const Joint& from = model.description->joints[joint];
   JointState out;
   out.settings = {from.damping, from.friction, from.lower, from.upper, 0, 0};
-  if (model.kind == ModelKind::kRobot) {
+  if (model.owner->drivesJoints()) {
     const int wheel = wheelOf(from);
     if (wheel >= 0) {
       out.position = world.fleet.wheel_angle[wheel][model.index];
@@ -315,7 +302,7 @@ void setJoint(Model& model, int joint, const JointSettings& s) {
 }
 
 void placeJoints(WorldState& world, Model& model, const std::map<std::string, double>& positions) {
-  if (model.kind == ModelKind::kRobot) return placeWheels(world, model, positions);
+  if (model.owner->drivesJoints()) return placeWheels(world, model, positions);
   std::vector<Target> targets;
   for (const auto& [name, position] : positions) {
     targets.push_back(makeTarget(model, name, position));
@@ -323,7 +310,7 @@ void placeJoints(WorldState& world, Model& model, const std::map<std::string, do
   }
   for (const Target& target : targets) place(model, target);
   wake(model);
-  updateFootprints(world, model);
+  moved(world, model);
   alarm(world);
 }
 

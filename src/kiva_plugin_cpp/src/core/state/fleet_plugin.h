@@ -19,19 +19,16 @@ class FleetPlugin {
   virtual const char* filename() const = 0;
   /// Reads one robot's parameters, before the robot joins the fleet. Throws DescriptionError.
   virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
-  virtual void beforeStep(WorldState& /*world*/) {}
-  virtual void afterStep(WorldState& /*world*/) {}
+  /// Decides upon what was seen in the last step, before robots take new commands.
+  virtual void react(WorldState& /*world*/) const {}
+  /// Says what motors and towers are to do in this step.
+  virtual void control(WorldState& /*world*/) const {}
 };
-
-/// One of each, in the order in which they act.
-std::vector<std::unique_ptr<FleetPlugin>> makeFleetPlugins();
 
 /// The plugin with that file name, or null.
 const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename);
 
-/// Whether `filename` names the world plugin that sets the grid.
-bool isGridPlugin(const std::string& filename);
-/// Reads the grid's spacing. Throws DescriptionError.
-void configureGrid(WorldState& world, const Parameters& parameters);
+/// The file name by which a world asks for its grid.
+constexpr char kGridPlugin[] = "libkiva_grid.so";
 
 }  // namespace kiva
