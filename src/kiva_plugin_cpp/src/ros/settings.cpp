@@ -1,18 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settings.h"
 
+#include <ros/package.h>
+
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
-
-#include "packages.h"
 
 namespace kiva_ros {
 namespace {
 
 namespace fs = std::filesystem;
 using Paths = std::vector<std::string>;
+
+/// The value of an environment variable; empty if it is not set.
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// A list of paths, with colons between them, in its parts.
+Paths split(const std::string& list) {
+  Paths out;
+  std::istringstream folders(list);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!folder.empty()) out.push_back(folder);
+  }
+  return out;
+}
 
 [[noreturn]] void refuse(const ros::NodeHandle& node, const std::string& name,
                          const XmlRpc::XmlRpcValue& value, const std::string& expected) {
@@ -75,7 +92,7 @@ std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string&
 
 /// Where the worlds of package warehouse_sim are: in the source tree, or where it was installed.
 std::string packagedWorlds() {
-  const std::string package = findPackage("warehouse_sim");
+  const std::string package = ros::package::getPath("warehouse_sim");
   return package.empty() ? "" : package + "/worlds";
 }
 

@@ -7,7 +7,7 @@
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
-#include "reporter.h"
+#include "ros/publishing/reporter.h"
 
 namespace kiva_ros {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <sstream>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {
@@ -38,17 +38,18 @@ void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::P
   schedule_ = Schedule(p.number("updateRate", 100, 0, kMost));
   const std::string source = p.text("odometrySource", "world");
   by_encoder_ = source == "encoder" || source == "0";
-  tells_odometry_ = p.flag("publishTf", true);
-  tells_odometry_tf_ = p.flag("publishOdomTF", true);
-  tells_wheel_tf_ = p.flag("publishWheelTF", false);
-  tells_wheel_joints_ = p.flag("publishWheelJointState", false);
+  publish_odometry_ = p.flag("publishTf", true);
+  publish_odometry_tf_ = p.flag("publishOdomTF", true);
+  publish_wheel_tf_ = p.flag("publishWheelTF", false);
+  publish_wheel_joints_ = p.flag("publishWheelJointState", false);
   odometry_frame_ = frame(p.text("odometryFrame", "odom"));
   base_frame_ = frame(p.text("robotBaseFrame", "base_footprint"));
   skip(p, {"alwaysOn", "rosDebugLevel", "broadcastTF"});
   const std::string topic = p.text("odometryTopic", "odom");
   odometry_ = node().advertise<nav_msgs::Odometry>(topic, 10);
   transforms_ = node().advertise<tf2_msgs::TFMessage>("/tf", 100);
-  if (tells_wheel_joints_) joints_ = node().advertise<sensor_msgs::JointState>("joint_states", 10);
+  if (publish_wheel_joints_)
+    joints_ = node().advertise<sensor_msgs::JointState>("joint_states", 10);
   commands_ = node().subscribe(p.text("commandTopic", "cmd_vel"), 1, &DiffDrive::hear, this,
                                ros::TransportHints().tcpNoDelay());
 }
@@ -95,8 +96,8 @@ void DiffDrive::beforeStep(kiva::World& world, double dt) {
   const double most = acceleration_ > 0 ? acceleration_ * dt : std::numeric_limits<double>::max();
   for (Side side : {kLeft, kRight}) {
     Wheel& wheel = wheels_[side];
-    wheel.asked += std::clamp(wanted(side, command) - wheel.asked, -most, most);
-    const double speed = wheel.asked / radius_;
+    wheel.target += std::clamp(wanted(side, command) - wheel.target, -most, most);
+    const double speed = wheel.target / radius_;
     if (speed == wheel.applied) continue;
     const auto joint = world.joint(model(), wheel.joint);
     if (!joint) continue;
@@ -110,8 +111,8 @@ void DiffDrive::beforeStep(kiva::World& world, double dt) {
 void DiffDrive::afterStep(const kiva::World& world, double dt) {
   if (by_encoder_) integrate(world, dt);
   if (!schedule_.isDue(world.time())) return;
-  if (tells_odometry_) publishOdometry(world);
-  if (tells_wheel_tf_ || tells_wheel_joints_) publishWheels(world);
+  if (publish_odometry_) publishOdometry(world);
+  if (publish_wheel_tf_ || publish_wheel_joints_) publishWheels(world);
 }
 
 void DiffDrive::reset(kiva::World&) {
@@ -119,7 +120,7 @@ void DiffDrive::reset(kiva::World&) {
   command_ = {};
   encoder_ = {};
   for (Wheel& wheel : wheels_) {
-    wheel.asked = 0;
+    wheel.target = 0;
     wheel.applied = kNaN;
   }
 }
@@ -128,8 +129,8 @@ std::string DiffDrive::save() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const kiva::Pose& pose = encoder_.pose;
   std::ostringstream out;
-  out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].asked
-      << ' ' << wheels_[kRight].asked << ' ' << pose.X() << ' ' << pose.Y() << ' '
+  out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].target
+      << ' ' << wheels_[kRight].target << ' ' << pose.X() << ' ' << pose.Y() << ' '
       << pose.Rot().Yaw();
   return out.str();
 }
@@ -145,8 +146,8 @@ void DiffDrive::restore(kiva::World& world, const std::string& state) {
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   command_ = {values[0], values[1]};
-  wheels_[kLeft].asked = values[2];
-  wheels_[kRight].asked = values[3];
+  wheels_[kLeft].target = values[2];
+  wheels_[kRight].target = values[3];
   encoder_.pose = kiva::Pose(values[4], values[5], 0, 0, 0, values[6]);
 }
 
@@ -184,7 +185,7 @@ void DiffDrive::publishOdometry(const kiva::World& world) {
   out.twist.twist = toMessage(state.twist);
   setCovariance(&out);
   publish(odometry_, out);
-  if (!tells_odometry_tf_) return;
+  if (!publish_odometry_tf_) return;
   tf2_msgs::TFMessage tf;
   tf.transforms.push_back(transform(world.time(), odometry_frame_, base_frame_, state.pose));
   publish(transforms_, tf);
@@ -207,8 +208,8 @@ void DiffDrive::publishWheels(const kiva::World& world) {
     tf.transforms.push_back(transform(world.time(), frame(joint.parent), frame(joint.child),
                                       base.Inverse() * child->pose));
   }
-  if (tells_wheel_joints_) publish(joints_, joints);
-  if (tells_wheel_tf_) publish(transforms_, tf);
+  if (publish_wheel_joints_) publish(joints_, joints);
+  if (publish_wheel_tf_) publish(transforms_, tf);
 }
 
 }  // namespace kiva_ros

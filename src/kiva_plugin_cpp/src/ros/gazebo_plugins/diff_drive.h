@@ -27,7 +27,7 @@ class DiffDrive : public GazeboPlugin {
   enum Side { kLeft, kRight };
   struct Wheel {
     std::string joint;
-    double asked = 0;    ///< Speed of its rim now asked of the motor [m/s].
+    double target = 0;   ///< Speed of its rim now asked of the motor [m/s].
     double applied = 0;  ///< What the motor knows [rad/s], NaN = nothing.
   };
   struct Command {
@@ -49,8 +49,8 @@ class DiffDrive : public GazeboPlugin {
   double torque_ = 5;                          ///< [Nm]
   double turn_sign_ = 1;                       ///< -1: the wheel called left is on the right.
   bool by_encoder_ = false;
-  bool tells_odometry_ = true, tells_odometry_tf_ = true;
-  bool tells_wheel_tf_ = false, tells_wheel_joints_ = false;
+  bool publish_odometry_ = true, publish_odometry_tf_ = true;
+  bool publish_wheel_tf_ = false, publish_wheel_joints_ = false;
   std::string odometry_frame_, base_frame_;
   Schedule schedule_;
   kiva::EntityState encoder_;  ///< Odometry from the wheels' turns; the twist as the base sees it.

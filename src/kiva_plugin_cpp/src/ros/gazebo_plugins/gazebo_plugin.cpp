@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "ros/frames.h"
+#include "ros/messages/reference_frames.h"
 
 namespace kiva_ros {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the stand-ins for gazebo_ros' plugins share. They run on the step thread; what they publish
-// goes by mail.
+// What the stand-ins for gazebo_ros' plugins share. They run on the step thread; the broadcaster
+// publishes what they queue.
 #pragma once
 
 #include <ros/ros.h>
@@ -13,13 +13,13 @@
 
 #include "kiva_plugin_cpp/plugin.h"
 #include "kiva_plugin_cpp/world.h"
-#include "ros/mail.h"
+#include "ros/transport/publish_queue.h"
 
 namespace kiva_ros {
 
 struct PluginContext {
   ros::NodeHandle& root;
-  Mail& mail;
+  PublishQueue& publish_queue;
   const kiva::SensorDescription* sensor;  ///< Null for a plugin of a model.
 };
 
@@ -42,7 +42,7 @@ double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index);
 class GazeboPlugin : public kiva::Plugin {
  public:
   explicit GazeboPlugin(const PluginContext& context)
-      : root_(context.root), mail_(context.mail), sensor_(context.sensor) {}
+      : root_(context.root), publish_queue_(context.publish_queue), sensor_(context.sensor) {}
   bool isStrict() const override { return false; }
 
  protected:
@@ -67,12 +67,12 @@ class GazeboPlugin : public kiva::Plugin {
 
   template <typename Message>
   void publish(const ros::Publisher& publisher, Message message) {
-    mail_.post([publisher, message = std::move(message)] { publisher.publish(message); });
+    publish_queue_.post([publisher, message = std::move(message)] { publisher.publish(message); });
   }
 
  private:
   ros::NodeHandle& root_;
-  Mail& mail_;
+  PublishQueue& publish_queue_;
   const kiva::SensorDescription* sensor_;
   std::unique_ptr<ros::NodeHandle> node_;
   std::string namespace_, model_;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+#include <warehouse_msgs/Step.h>
+
+#include "ros/simulation/simulation_thread.h"
+
+namespace kiva_ros {
+
+/// ~step: time by the step, for those who want to see what each does.
+class StepService {
+ public:
+  StepService(ros::NodeHandle& node, SimulationThread& simulation);
+
+ private:
+  bool step(warehouse_msgs::Step::Request& request, warehouse_msgs::Step::Response& response);
+
+  SimulationThread& simulation_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace kiva_ros
