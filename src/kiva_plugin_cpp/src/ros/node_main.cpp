@@ -11,10 +11,12 @@
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
+#include "ros/gazebo_plugins/plugin_inputs.h"
 #include "ros/gazebo_plugins/plugin_table.h"
 #include "ros/publishing/broadcaster.h"
 #include "ros/publishing/reporter.h"
 #include "ros/publishing/snapshot_queue.h"
+#include "ros/recording/bag_check.h"
 #include "ros/recording/recorder.h"
 #include "ros/recording/replayer.h"
 #include "ros/services/checkpoint_services.h"
@@ -31,6 +33,7 @@
 #include "ros/services/step_service.h"
 #include "ros/services/visualization_topics.h"
 #include "ros/simulation/simulation_thread.h"
+#include "ros/transport/callback_thread.h"
 #include "ros/transport/poll_thread.h"
 #include "ros/transport/publish_queue.h"
 #include "ros/transport/subscriber_counts.h"
@@ -75,12 +78,13 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
-  PublishQueue publish_queue;  // outlives the plugins
-  settings.world.plugins = pluginTable(root, publish_queue);
+  PublishQueue publish_queue;  // outlives the plugins, as do their inputs
+  PluginInputs inputs(settings.replay.empty());
+  settings.world.plugins = pluginTable(root, publish_queue, inputs);
   kiva::World world(description, settings.world);
   std::optional<Replayer> replayer;
   if (!settings.replay.empty()) replayer.emplace(settings.replay).begin(world);
-  const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
+  const double rtf = settings.rtf.value_or(description.real_time_factor);
 
   SubscriberCounts subscribers;
   SnapshotQueue snapshots;
@@ -90,7 +94,8 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   Broadcaster broadcaster(root, node, subscribers, snapshots);
   std::optional<CommandTopics> commands;
   if (!replayer) commands.emplace(root, simulation);  // a replay has its own
-  StepService step_service(node, simulation);
+  CallbackThread stepping(node), spawning(node), saving(root);
+  StepService step_service(stepping.node(), simulation);
   SimulationServices simulation_services(node, simulation);
   StateServices state_services(root, node, simulation);
   LinkServices link_services(node, simulation);
@@ -99,30 +104,42 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   PhysicsServices physics_services(node, world, simulation);
   PerformanceTopic performance_topic(node, simulation);
   VisualizationTopics visualization_topics(root, simulation);
-  SpawnServices spawn_services(node, simulation, settings.model_paths);
+  SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths);
   MapService map_service(root, simulation);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.
-  CheckpointServices checkpoints(root, simulation, replayer ? 0 : settings.autosave);
+  CheckpointServices checkpoints(
+      saving.node(), simulation,
+      {!replayer, settings.autosave, settings.checkpoint_folder, settings.checkpoint_limit});
   simulation.add(checkpoints);
   if (replayer) {
     replayer->onKeyframe([&simulation](kiva::World& w, const std::string& checkpoint) {
       simulation.restoreHere(w, checkpoint);
     });
+    replayer->onInput([&inputs](const rosbag::MessageInstance& m) { inputs.replay(m); });
     simulation.add(*replayer);
   }
+  simulation.add(inputs);
   std::optional<Recorder> recorder;
-  if (!settings.record.empty()) simulation.add(recorder.emplace(settings.record));
+  if (!settings.record.empty()) {
+    simulation.add(recorder.emplace(settings.record));
+    inputs.onMessage([&recorder](const std::shared_ptr<const InputTopic>& topic) {
+      recorder->onInput([topic](rosbag::Bag& bag, const ros::Time& t) { topic->write(bag, t); });
+    });
+  }
 
   announce(world, settings, rtf);
   simulation.start();
   ros::AsyncSpinner spinner(kCallbackThreads);
   spinner.start();
+  for (CallbackThread* thread : {&stepping, &spawning, &saving}) thread->start();
   serveUntilStopped();
+  simulation.stop();  // first: no callback waits for it any more
   spinner.stop();
-  simulation.stop();
   if (recorder) recorder->finish(world);
   broadcaster.stop();
   if (ros::ok()) unadvertiseTopics();
+  // Last, since a large document may keep them.
+  for (CallbackThread* thread : {&stepping, &spawning, &saving}) thread->stop();
   ros::shutdown();
   return simulation.failed() ? 1 : 0;
 }
@@ -131,8 +148,10 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
 
 int main(int argc, char** argv) {
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // that a log file has each line at once
+  if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
   ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, onSignal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a write that fails
   ros::NodeHandle root, node("~");
   try {
     return run(root, node);

@@ -29,7 +29,7 @@ void setCovariance(nav_msgs::Odometry* odometry) {
 }  // namespace
 
 void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
-  enter(world, model, p, "");
+  enter(world, model, p, model, model);
   readWheels(world, p);
   separation_ = p.number("wheelSeparation", 0.34, 1e-6, kMost);
   radius_ = p.number("wheelDiameter", 0.15, 1e-6, kMost) / 2;
@@ -50,8 +50,7 @@ void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::P
   transforms_ = node().advertise<tf2_msgs::TFMessage>("/tf", 100);
   if (publish_wheel_joints_)
     joints_ = node().advertise<sensor_msgs::JointState>("joint_states", 10);
-  commands_ = node().subscribe(p.text("commandTopic", "cmd_vel"), 1, &DiffDrive::hear, this,
-                               ros::TransportHints().tcpNoDelay());
+  commands_ = subscribe<geometry_msgs::Twist>(p.text("commandTopic", "cmd_vel"));
 }
 
 /// Which wheel is the left one is seen from where it sits. Where <legacyMode> says so the sides are
@@ -75,9 +74,8 @@ void DiffDrive::readWheels(const kiva::World& world, const kiva::Parameters& p) 
   turn_sign_ = is_swapped ? -1 : 1;
 }
 
-void DiffDrive::hear(const geometry_msgs::Twist& command) {
+void DiffDrive::onCommand(const geometry_msgs::Twist& command) {
   if (!std::isfinite(command.linear.x) || !std::isfinite(command.angular.z)) return;
-  const std::lock_guard<std::mutex> lock(mutex_);
   command_ = {std::clamp(command.linear.x, -kMost, kMost),
               std::clamp(command.angular.z, -kMost, kMost)};
 }
@@ -88,15 +86,11 @@ double DiffDrive::wanted(Side side, const Command& command) const {
 }
 
 void DiffDrive::beforeStep(kiva::World& world, double dt) {
-  Command command;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    command = command_;
-  }
+  if (const geometry_msgs::Twist* command = commands_.take()) onCommand(*command);
   const double most = acceleration_ > 0 ? acceleration_ * dt : std::numeric_limits<double>::max();
   for (Side side : {kLeft, kRight}) {
     Wheel& wheel = wheels_[side];
-    wheel.target += std::clamp(wanted(side, command) - wheel.target, -most, most);
+    wheel.target += std::clamp(wanted(side, command_) - wheel.target, -most, most);
     const double speed = wheel.target / radius_;
     if (speed == wheel.applied) continue;
     const auto joint = world.joint(model(), wheel.joint);
@@ -116,7 +110,6 @@ void DiffDrive::afterStep(const kiva::World& world, double dt) {
 }
 
 void DiffDrive::reset(kiva::World&) {
-  const std::lock_guard<std::mutex> lock(mutex_);
   command_ = {};
   encoder_ = {};
   for (Wheel& wheel : wheels_) {
@@ -126,7 +119,6 @@ void DiffDrive::reset(kiva::World&) {
 }
 
 std::string DiffDrive::save() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
   const kiva::Pose& pose = encoder_.pose;
   std::ostringstream out;
   out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].target
@@ -144,7 +136,6 @@ void DiffDrive::restore(kiva::World& world, const std::string& state) {
     words >> word;
     value = std::strtod(word.c_str(), nullptr);
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
   command_ = {values[0], values[1]};
   wheels_[kLeft].target = values[2];
   wheels_[kRight].target = values[3];

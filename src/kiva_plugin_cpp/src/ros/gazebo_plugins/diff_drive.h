@@ -4,7 +4,6 @@
 #include <geometry_msgs/Twist.h>
 
 #include <array>
-#include <mutex>
 #include <string>
 
 #include "gazebo_plugin.h"
@@ -36,7 +35,7 @@ class DiffDrive : public GazeboPlugin {
   };
 
   void readWheels(const kiva::World& world, const kiva::Parameters& parameters);
-  void hear(const geometry_msgs::Twist& command);
+  void onCommand(const geometry_msgs::Twist& command);
   double wanted(Side side, const Command& command) const;
   void integrate(const kiva::World& world, double dt);
   kiva::EntityState odometry(const kiva::World& world) const;
@@ -55,10 +54,9 @@ class DiffDrive : public GazeboPlugin {
   Schedule schedule_;
   kiva::EntityState encoder_;  ///< Odometry from the wheels' turns; the twist as the base sees it.
 
-  mutable std::mutex mutex_;
-  Command command_;  ///< Guarded by mutex_.
+  Command command_;
+  PluginInput<geometry_msgs::Twist> commands_;
   ros::Publisher odometry_, transforms_, joints_;
-  ros::Subscriber commands_;  ///< The last: no message comes to what is half destroyed.
 };
 
 }  // namespace kiva_ros

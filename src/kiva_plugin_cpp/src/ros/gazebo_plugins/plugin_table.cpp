@@ -24,7 +24,8 @@ Make maker() {
 
 }  // namespace
 
-kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_queue) {
+kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_queue,
+                                PluginInputs& inputs) {
   const std::map<std::string, Make> table = {
       {"libgazebo_ros_diff_drive.so", maker<DiffDrive>()},
       {"libgazebo_ros_laser.so", maker<Laser>()},
@@ -33,11 +34,11 @@ kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_que
       {"libgazebo_ros_bumper.so", maker<Bumper>()},
       {"libgazebo_ros_joint_state_publisher.so", maker<JointStates>()},
   };
-  return [table, &root, &publish_queue](const std::string& filename,
-                                        const kiva::SensorDescription* sensor) {
+  return [=, &root, &publish_queue, &inputs](const std::string& filename,
+                                             const kiva::SensorDescription* sensor) {
     const auto found = table.find(filename);
-    return found == table.end() ? nullptr
-                                : found->second(PluginContext{root, publish_queue, sensor});
+    const PluginContext context{root, publish_queue, inputs, sensor};
+    return found == table.end() ? nullptr : found->second(context);
   };
 }
 

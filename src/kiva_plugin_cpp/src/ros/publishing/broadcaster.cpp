@@ -12,7 +12,8 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kEventQueue = 100000;  // ten seconds of ten thousand commands, each answered
+/// For a slow subscriber: all commands that may wait for one step, each answered, several times.
+constexpr int kEventQueue = 1000000;
 constexpr int kStreamQueue = 10;
 
 constexpr std::size_t kCrowd = 10;  // messages at once

@@ -78,11 +78,17 @@ void Reporter::afterStep(kiva::World& world, bool reliable) {
   Snapshot out;
   out.time = world.time();
   addNews(world, &out);
-  addPeriodic(world, &out);
+  addPeriodic(world, reliable, &out);
   addObjects(world, &out);
   out.publications = publish_queue_.take();
   last_steps_ = world.steps();
   send(std::move(out), reliable);
+}
+
+void Reporter::refused(const kiva::World& world, const kiva::Command& command,
+                       const std::string& text) {
+  const std::string robot = "kiva" + std::to_string(command.kiva_id);
+  extra_events_.push_back({world.time(), kiva::Event::Kind::kRefused, robot, "", text});
 }
 
 void Reporter::restored(const kiva::World& world, const std::vector<std::string>& before) {
@@ -175,7 +181,7 @@ void Reporter::addStatuses(const kiva::World& world, Snapshot* out) const {
   for (int i = 0; i < world.fleet().size(); ++i) out->statuses.push_back(statusOf(world, i));
 }
 
-void Reporter::addClock(const kiva::World& world, Snapshot* out) {
+void Reporter::addClock(const kiva::World& world, bool reliable, Snapshot* out) {
   if (world.steps() % clock_every_ != 0) return;
   if (clock_gap_.count() > 0) {
     const auto now = WallClock::now();
@@ -183,6 +189,7 @@ void Reporter::addClock(const kiva::World& world, Snapshot* out) {
     clock_sent_ = now;
   }
   out->clock = true;
+  if (reliable) clock_sent_steps_ = world.steps();
 }
 
 /// Of robots with subscribers at kStatusRate; of every robot once a simulated second, or where
@@ -205,10 +212,10 @@ void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   }
 }
 
-void Reporter::addPeriodic(const kiva::World& world, Snapshot* out) {
+void Reporter::addPeriodic(const kiva::World& world, bool reliable, Snapshot* out) {
   const std::uint64_t steps = world.steps();
   updateSubscribedRobots();
-  addClock(world, out);
+  addClock(world, reliable, out);
   if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
   if (steps % fleet_every_ == 0) addFleet(world, out);
   if (steps % robots_every_ == 0) {

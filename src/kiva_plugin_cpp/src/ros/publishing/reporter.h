@@ -38,6 +38,8 @@ class Reporter {
   void afterStep(kiva::World& world, bool reliable = false);
   /// After requests were served between steps. `moved`: models may stand elsewhere than before.
   void afterRequests(kiva::World& world, bool paused, bool moved);
+  /// A command that the world never got.
+  void refused(const kiva::World& world, const kiva::Command& command, const std::string& text);
   /// The world is another one than before, whose models were these.
   void restored(const kiva::World& world, const std::vector<std::string>& before);
   /// Calls `done`, on another thread, when all that was reported so far is with the sockets.
@@ -50,9 +52,9 @@ class Reporter {
   void addNews(kiva::World& world, Snapshot* out);
   bool isAboutRobot(const kiva::World& world, const kiva::Event& event) const;
   void addStatuses(const kiva::World& world, Snapshot* out) const;
-  void addClock(const kiva::World& world, Snapshot* out);
+  void addClock(const kiva::World& world, bool reliable, Snapshot* out);
   void addHeartbeats(const kiva::World& world, Snapshot* out);
-  void addPeriodic(const kiva::World& world, Snapshot* out);
+  void addPeriodic(const kiva::World& world, bool reliable, Snapshot* out);
   void updateSubscribedRobots();
   void addFleet(const kiva::World& world, Snapshot* out) const;
   void addOdometry(const kiva::World& world, Snapshot* out) const;
@@ -76,7 +78,7 @@ class Reporter {
   std::uint64_t clock_sent_steps_ = kNever;  ///< Of the last reliable clock.
   WallClock::time_point clock_sent_;
   std::uint64_t last_steps_ = kNever;
-  std::vector<kiva::Event> extra_events_;                  ///< Of a restore.
+  std::vector<kiva::Event> extra_events_;                  ///< That are none of the world's.
   std::set<std::string> robots_;                           ///< Names of those last told.
   std::shared_ptr<const std::vector<std::string>> names_;  ///< All models',
   std::uint64_t names_revision_ = kNever;                  ///< at that revision.

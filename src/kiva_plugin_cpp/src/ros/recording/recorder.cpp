@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recorder.h"
 
+#include <ros/console.h>
 #include <std_msgs/Empty.h>
 #include <std_msgs/String.h>
 #include <std_msgs/UInt8MultiArray.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "ros/messages/convert.h"
@@ -17,6 +19,8 @@ namespace {
 
 constexpr double kHashRate = 1;  // [Hz]
 constexpr double kPoseRate = 2;  // [Hz]
+constexpr auto kSaveInterval = std::chrono::seconds(1);
+constexpr std::uint32_t kChunk = 768 * 1024;  // [bytes], librosbag's own
 
 std::uint64_t stepsPer(double rate, double step_size) {
   return static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * step_size))));
@@ -48,13 +52,13 @@ std_msgs::UInt8MultiArray keyframe(const std::string& checkpoint) {
 
 }  // namespace
 
-Recorder::Recorder(const std::string& path) {
+Recorder::Recorder(const std::string& path) : path_(path), bag_(std::make_unique<rosbag::Bag>()) {
   try {
-    bag_.open(path, rosbag::bagmode::Write);
+    bag_->open(path, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
     throw std::runtime_error("can't record to " + path + ": " + error.what());
   }
-  bag_.setCompression(rosbag::compression::LZ4);
+  bag_->setCompression(rosbag::compression::LZ4);
 }
 
 bool Recorder::beforeStep(kiva::World& world) {
@@ -69,26 +73,60 @@ bool Recorder::beforeStep(kiva::World& world) {
     if (checkpointed_) write(kCheckpointedTopic, std_msgs::Empty());
     for (const kiva::Command& command : commands_) write(command);
   }
+  for (const auto& input : inputs_) {
+    attempt([&](rosbag::Bag& bag) { input(bag, stamp()); });
+  }
   changed_ = checkpointed_ = false;
   commands_.clear();
+  inputs_.clear();
   return true;
 }
 
 void Recorder::afterStep(kiva::World& world) {
   ++step_;
   index_ = 0;
-  if (step_ % hash_every_ == 0) write(kHashTopic, hashOf(world));
   if (step_ % poses_every_ == 0) write("/tf", posesOf(world));
+  const bool is_due = !is_saved_ && WallClock::now() >= saved_ + kSaveInterval;
+  if (is_due || step_ % hash_every_ == 0) writeHash(world);
 }
 
 void Recorder::finish(const kiva::World& world) {
-  if (step_ > 0 && step_ % hash_every_ != 0) write(kHashTopic, hashOf(world));
-  bag_.close();
+  if (step_ > 0 && step_ % hash_every_ != 0) writeHash(world);
+  attempt([](rosbag::Bag& bag) { bag.close(); });
+}
+
+/// Once a second of the wall clock the hash closes the chunk of the bag, which till then is in
+/// memory for the most part and of no use to `rosbag reindex`.
+void Recorder::writeHash(const kiva::World& world) {
+  const auto now = WallClock::now();
+  const bool closes = now >= saved_ + kSaveInterval;
+  if (bag_) bag_->setChunkThreshold(closes ? 0 : kChunk);
+  write(kHashTopic, hashOf(world));
+  if (!closes || !bag_) return;
+  std::fflush(nullptr);  // librosbag shows nobody its file
+  saved_ = now;
+  is_saved_ = true;
+}
+
+template <typename Act>
+void Recorder::attempt(Act act) {
+  if (!bag_) return;
+  try {
+    act(*bag_);
+    is_saved_ = false;
+  } catch (const rosbag::BagException& error) {
+    ROS_ERROR(
+        "the recording to %s ended at step %lu, the simulation goes on: %s. 'rosbag reindex %s' "
+        "saves what was written",
+        path_.c_str(), static_cast<unsigned long>(step_), error.what(), path_.c_str());
+    // Left as it is: its destructor would try to write the rest, and throw.
+    bag_.release();
+  }
 }
 
 template <typename Message>
 void Recorder::write(const std::string& topic, const Message& message) {
-  bag_.write(topic, recordingStamp(step_, step_size_, index_++), message);
+  attempt([&](rosbag::Bag& bag) { bag.write(topic, stamp(), message); });
 }
 
 void Recorder::write(const kiva::Command& command) {

@@ -3,7 +3,8 @@
 // What a recording holds, as an ordinary bag:
 //
 //   /mov /movx /movy /rot /lift  the commands
-//   /warehouse/state_hash        of every simulated second, and of the end
+//   /warehouse/state_hash        of every simulated second, of every second, and of the end
+//   whatever a plugin hears      /cmd_vel for instance, as it took effect
 //   /tf                          where the robots are, twice a second: for RViz
 //   /warehouse/keyframe          std_msgs/UInt8MultiArray: a checkpoint, at the beginning and
 //                                whenever models came, went or were moved from outside

@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 
+#include "bag_check.h"
 #include "ros/messages/convert.h"
 
 namespace kiva_ros {
@@ -26,6 +27,7 @@ std::string checkpointIn(const rosbag::MessageInstance& message) {
 }  // namespace
 
 Replayer::Replayer(const std::string& path) : path_(path) {
+  checkBag(path);
   try {
     bag_.open(path, rosbag::bagmode::Read);
     view_ = std::make_unique<rosbag::View>(bag_);
@@ -41,7 +43,11 @@ Replayer::Replayer(const std::string& path) : path_(path) {
 }
 
 void Replayer::begin(kiva::World& world) {
-  world.restore(checkpointIn(*next_++));
+  try {
+    world.restore(checkpointIn(*next_++));
+  } catch (const std::exception& error) {
+    throw std::runtime_error("can't replay " + path_ + ": " + error.what());
+  }
   step_size_ = world.stepSize();
 }
 
@@ -63,7 +69,12 @@ void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message)
   using Kind = kiva::Command::Kind;
   const std::string& topic = message.getTopic();
   if (topic == kKeyframeTopic) {
-    restore_(world, checkpointIn(message));
+    try {
+      restore_(world, checkpointIn(message));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(path_ + ": the keyframe at step " + std::to_string(step_) +
+                               " can't be restored: " + error.what());
+    }
   } else if (topic == kCheckpointedTopic) {
     world.checkpoint();
   } else if (const auto mov = message.instantiate<warehouse_msgs::MoveTo>()) {
@@ -74,6 +85,8 @@ void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message)
     world.post(fromMessage(*rot));
   } else if (const auto lift = message.instantiate<warehouse_msgs::Lift>()) {
     world.post(fromMessage(*lift));
+  } else if (!isReport(message)) {
+    replay_(message);
   }
 }
 

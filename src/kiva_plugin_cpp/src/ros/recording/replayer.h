@@ -15,7 +15,7 @@
 
 namespace kiva_ros {
 
-/// Runs a recording again and checks that the world goes the same way; see recording.h.
+/// Runs a recording again and checks that the world goes the same way; see recording_format.h.
 class Replayer : public StepHook {
  public:
   /// Throws std::runtime_error if the bag can't be read or is no recording.
@@ -25,6 +25,11 @@ class Replayer : public StepHook {
   /// How the simulation goes to a later keyframe.
   void onKeyframe(std::function<void(kiva::World&, const std::string&)> restore) {
     restore_ = std::move(restore);
+  }
+
+  /// What takes all messages that are none of the recording's own.
+  void onInput(std::function<void(const rosbag::MessageInstance&)> replay) {
+    replay_ = std::move(replay);
   }
 
   /// False when the recording has ended.
@@ -38,6 +43,7 @@ class Replayer : public StepHook {
   void compare(const kiva::World& world, const std::string& recorded);
 
   std::function<void(kiva::World&, const std::string&)> restore_;
+  std::function<void(const rosbag::MessageInstance&)> replay_;
   const std::string path_;
   rosbag::Bag bag_;
   std::unique_ptr<rosbag::View> view_;

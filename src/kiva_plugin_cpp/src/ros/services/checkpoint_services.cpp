@@ -4,46 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "service_answer.h"
 
 namespace kiva_ros {
 namespace {
 
-constexpr double kSaveInterval = 1;       // [s], simulated
-constexpr double kRounding = 1e-6;        // [s]
-constexpr std::size_t kMostNames = 1000;  // a client that never repeats one must not fill memory
-
-bool isFile(const std::string& name) { return name.find('/') != std::string::npos; }
-
-/// Whole or not at all: nobody sees half a file.
-void writeFile(const std::string& path, const std::string& bytes) {
-  const std::string partial = path + ".part";
-  {
-    std::ofstream file(partial, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) throw Refusal("can't write " + partial);
-  }
-  if (std::rename(partial.c_str(), path.c_str()) != 0) throw Refusal("can't write " + path);
-}
-
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Refusal("can't read " + path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
+constexpr double kSaveInterval = 1;  // [s], simulated
+constexpr double kRounding = 1e-6;   // [s]
 
 std::string seconds(double time) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", time);
   return text;
-}
-
-void checkName(const std::string& name) {
-  if (name.empty()) throw Refusal("a name, or the path of a file with a '/' in it, was expected");
 }
 
 /// `body` returns the message.
@@ -62,48 +35,25 @@ bool reply(Response& response, Body body) {
 }  // namespace
 
 CheckpointServices::CheckpointServices(ros::NodeHandle& root, SimulationThread& simulation,
-                                       int autosave)
-    : simulation_(simulation), autosave_(static_cast<std::size_t>(autosave)) {
-  servers_.push_back(
-      root.advertiseService("/warehouse/checkpoint", &CheckpointServices::save, this));
-  servers_.push_back(
-      root.advertiseService("/warehouse/restore", &CheckpointServices::restore, this));
-  servers_.push_back(root.advertiseService("/warehouse/undo", &CheckpointServices::undo, this));
+                                       const Options& options)
+    : simulation_(simulation), options_(options), store_(options.folder, options.most_bytes) {
+  servers_ = {root.advertiseService("/warehouse/checkpoint", &CheckpointServices::save, this),
+              root.advertiseService("/warehouse/restore", &CheckpointServices::restore, this),
+              root.advertiseService("/warehouse/undo", &CheckpointServices::undo, this)};
 }
 
 bool CheckpointServices::save(Request& request, Response& response) {
   return reply(response, [&] {
-    checkName(request.name);
     std::string bytes = simulation_.checkpoint();
     const std::string message = request.name + ": " + std::to_string(bytes.size()) + " bytes";
-    if (isFile(request.name)) {
-      writeFile(request.name, bytes);
-      return message;
-    }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (by_name_.size() >= kMostNames && !by_name_.count(request.name)) {
-      throw Refusal("there are " + std::to_string(kMostNames) + " checkpoints already");
-    }
-    by_name_[request.name] = std::move(bytes);
+    store_.save(request.name, std::move(bytes));
     return message;
   });
 }
 
-std::string CheckpointServices::find(const std::string& name) {
-  checkName(name);
-  if (isFile(name)) return readFile(name);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const auto at = by_name_.find(name);
-  if (at != by_name_.end()) return at->second;
-  std::string known;
-  for (const auto& [other, bytes] : by_name_) known += (known.empty() ? "" : ", ") + other;
-  throw Refusal("there is no checkpoint '" + name + "'; there " +
-                (known.empty() ? "is none" : "are " + known));
-}
-
 bool CheckpointServices::restore(Request& request, Response& response) {
   return reply(response, [&] {
-    const double time = simulation_.restore(find(request.name));
+    const double time = simulation_.restore(store_.load(request.name));
     return "back at " + seconds(time) + " of " + request.name;
   });
 }
@@ -122,29 +72,46 @@ double CheckpointServices::undoHere(kiva::World& world, double seconds_back) {
   if (!(std::isfinite(seconds_back) && seconds_back >= 0)) {
     throw Refusal("a finite number of seconds, 0 or more, was expected");
   }
-  if (autosave_ == 0) throw Refusal("nothing was saved: start with autosave:=60, say");
   const auto is_old_enough = [&](const Saved& saved) {
     return age_ - saved.age >= seconds_back - kRounding;
   };
   const auto at = std::find_if(ring_.rbegin(), ring_.rend(), is_old_enough);
   if (at == ring_.rend()) {
-    const double oldest = ring_.empty() ? 0 : age_ - ring_.front().age;
+    if (ring_.empty()) throw Refusal("nothing was saved yet: start with autosave:=60, say");
     throw Refusal("the oldest of " + std::to_string(ring_.size()) + " checkpoints is " +
-                  seconds(oldest) + " old");
+                  seconds(age_ - ring_.front().age) + " old");
   }
-  simulation_.restoreHere(world, at->bytes);
-  age_ = at->age;
-  ring_.erase(at.base(), ring_.end());  // what came after it did not happen
+  const Saved& saved = *at;
+  simulation_.restoreHere(world, saved.bytes);
+  age_ = saved.age;
+  // What came after it did not happen.
+  while (!ring_.empty() && ring_.back().age > age_) {
+    ring_bytes_ -= ring_.back().bytes.size();
+    ring_.pop_back();
+  }
   return world.time();
+}
+
+void CheckpointServices::remember(kiva::World& world) {
+  const auto most = static_cast<std::size_t>(std::max(options_.autosave, 1));
+  simulation_.noteCheckpoint();
+  ring_.push_back({age_, world.checkpoint()});
+  ring_bytes_ += ring_.back().bytes.size();
+  while (ring_.size() > most || ring_bytes_ > options_.most_bytes) {
+    ring_bytes_ -= ring_.front().bytes.size();
+    ring_.pop_front();
+  }
+}
+
+void CheckpointServices::beforeReset(kiva::World& world) {
+  if (options_.undo) remember(world);
 }
 
 void CheckpointServices::afterStep(kiva::World& world) {
   age_ += world.stepSize();
+  if (!options_.undo || options_.autosave == 0) return;
   const auto save_every = std::max(1LL, std::llround(kSaveInterval / world.stepSize()));  // steps
-  if (autosave_ == 0 || world.steps() % static_cast<std::uint64_t>(save_every) != 0) return;
-  simulation_.noteCheckpoint();
-  ring_.push_back({age_, world.checkpoint()});
-  if (ring_.size() > autosave_) ring_.pop_front();
+  if (world.steps() % static_cast<std::uint64_t>(save_every) == 0) remember(world);
 }
 
 }  // namespace kiva_ros

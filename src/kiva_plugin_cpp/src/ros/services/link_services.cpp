@@ -86,11 +86,21 @@ void describe(const kiva::Link& link, gazebo_msgs::GetLinkProperties::Response* 
   out->izz = tensor(2, 2);
 }
 
+/// Throws Refusal unless it is finite and no more than physics can compute with.
+void checkNumber(double value, double most, const char* what) {
+  if (std::abs(value) <= most) return;
+  throw Refusal("SetLinkProperties: " + std::string(what) + " must be finite and at most " +
+                std::to_string(static_cast<long long>(most)));
+}
+
 kiva::Link likeRequest(const std::string& name,
                        const gazebo_msgs::SetLinkProperties::Request& request) {
-  for (double value : {request.mass, request.ixx, request.ixy, request.ixz, request.iyy,
-                       request.iyz, request.izz}) {
-    if (!std::isfinite(value)) throw Refusal("SetLinkProperties: a number is not finite");
+  constexpr double kMostMass = 1e9;      // [kg]
+  constexpr double kMostInertia = 1e12;  // [kg m²]
+  checkNumber(request.mass, kMostMass, "mass");
+  for (double value :
+       {request.ixx, request.ixy, request.ixz, request.iyy, request.iyz, request.izz}) {
+    checkNumber(value, kMostInertia, "an inertia");
   }
   const MassMatrix3d matrix(request.mass, {request.ixx, request.iyy, request.izz},
                             {request.ixy, request.ixz, request.iyz});

@@ -10,13 +10,10 @@ namespace kiva_ros {
 
 SimulationServices::SimulationServices(ros::NodeHandle& node, SimulationThread& simulation)
     : simulation_(simulation) {
-  const auto reset = [&simulation](bool time_too) {
-    simulation.move([time_too](kiva::World& world) { world.reset(time_too); });
-  };
   advertise(node, "pause_physics", [&simulation] { simulation.pause(true); });
   advertise(node, "unpause_physics", [&simulation] { simulation.pause(false); });
-  advertise(node, "reset_simulation", [reset] { reset(true); });
-  advertise(node, "reset_world", [reset] { reset(false); });
+  advertise(node, "reset_simulation", [&simulation] { simulation.reset(true); });
+  advertise(node, "reset_world", [&simulation] { simulation.reset(false); });
   servers_.push_back(
       node.advertiseService("get_world_properties", &SimulationServices::getWorld, this));
 }

@@ -11,6 +11,14 @@
 namespace kiva_ros {
 namespace {
 
+/// Parsed it takes many times its size.
+void checkBytes(const std::string& xml) {
+  constexpr std::size_t kMost = 10'000'000;
+  if (xml.size() <= kMost) return;
+  throw Refusal("SpawnModel: Failure - model_xml has " + std::to_string(xml.size()) +
+                " bytes; at most " + std::to_string(kMost) + " are read");
+}
+
 /// The frame composes with `initial_pose`, and that with the poses of the document.
 void place(const kiva::World& world, const std::string& frame_name, const kiva::Pose& initial_pose,
            SpawnServices::Document* document) {
@@ -47,11 +55,14 @@ SpawnServices::SpawnServices(ros::NodeHandle& node, SimulationThread& simulation
                              kiva::ModelPaths model_paths)
     : simulation_(simulation), model_paths_(std::move(model_paths)) {
   using gazebo_msgs::SpawnModel;
-  servers_.push_back(serve<SpawnModel>(
-      node, "spawn_sdf_model", "SpawnModel",
-      [this](auto& request, auto&) { return spawn(request, request.model_xml); }));
+  servers_.push_back(
+      serve<SpawnModel>(node, "spawn_sdf_model", "SpawnModel", [this](auto& request, auto&) {
+        checkBytes(request.model_xml);
+        return spawn(request, request.model_xml);
+      }));
   servers_.push_back(
       serve<SpawnModel>(node, "spawn_urdf_model", "SpawnModel", [this](auto& request, auto&) {
+        checkBytes(request.model_xml);
         if (!kiva::isUrdf(request.model_xml)) {
           throw Refusal("SpawnModel: Failure - model format is not URDF.");
         }

@@ -6,6 +6,12 @@
 #include <algorithm>
 
 namespace kiva_ros {
+namespace {
+
+constexpr std::size_t kMostWaitingCommands = 100000;
+constexpr auto kAbandonedCheck = std::chrono::milliseconds(100);
+
+}  // namespace
 
 SimulationThread::SimulationThread(kiva::World& world, Reporter& reporter, double rtf,
                                    bool lockstep)
@@ -56,10 +62,17 @@ void SimulationThread::post(std::function<void(kiva::World&)> request) {
 }
 
 void SimulationThread::command(const kiva::Command& command) {
-  post([this, command](kiva::World&) {
-    held_commands_.push_back(command);
-    if (!lockstep_) postCommands();
-  });
+  post([this, command](kiva::World&) { takeCommand(command); });
+}
+
+void SimulationThread::takeCommand(const kiva::Command& command) {
+  if (waiting_commands_ >= kMostWaitingCommands) {
+    const std::string text = std::to_string(waiting_commands_) + " commands wait for the next step";
+    return reporter_.refused(world_, command, text);
+  }
+  ++waiting_commands_;
+  held_commands_.push_back(command);
+  if (!lockstep_) postCommands();
 }
 
 void SimulationThread::postCommands() {
@@ -74,11 +87,16 @@ void SimulationThread::postCommands() {
   held_commands_.clear();
 }
 
-SimulationThread::Stepped SimulationThread::step(std::uint32_t steps) {
+SimulationThread::Stepped SimulationThread::step(std::uint32_t steps,
+                                                 const std::function<bool()>& is_abandoned) {
   StepRequest request;
   request.left = steps;
   auto done = request.done->get_future();
+  const auto is_cancelled = request.is_cancelled;
   post([this, request = std::move(request)](kiva::World&) { step_requests_.push_back(request); });
+  while (done.wait_for(kAbandonedCheck) != std::future_status::ready) {
+    if (is_abandoned()) *is_cancelled = true;
+  }
   try {
     return done.get();
   } catch (const std::future_error&) {
@@ -108,9 +126,18 @@ void SimulationThread::restoreHere(kiva::World& world, const std::string& checkp
   const std::vector<std::string> before = world.modelNames();
   world.restore(checkpoint);
   held_commands_.clear();
+  waiting_commands_ = 0;
   moved_ = changed_ = true;
   reporter_.restored(world, before);
   retime(world.stepSize(), target_factor_);  // it may have another step
+}
+
+void SimulationThread::reset(bool time_too) {
+  move([this, time_too](kiva::World& world) {
+    for (StepHook* hook : hooks_) hook->beforeReset(world);
+    world.reset(time_too);
+    waiting_commands_ = held_commands_.size();
+  });
 }
 
 void SimulationThread::pause(bool paused) {
@@ -176,10 +203,9 @@ void SimulationThread::advance() {
   int steps = 0;
   // At least one, or a flood of requests would hold time up.
   while (steps < due && (steps == 0 || !attention_)) {
-    stepOnce(false);
+    if (!stepOnce(false)) return;
     pacer_.stepped();
     ++steps;
-    if (paused_) return;  // by a hook
   }
   measure(steps);
 }
@@ -187,8 +213,11 @@ void SimulationThread::advance() {
 void SimulationThread::runSteps(StepRequest& request) {
   int steps = 0;
   while (request.left > 0 && (steps == 0 || !attention_)) {
-    if (held_commands_.size() > 0) postCommands();
-    stepOnce(true);
+    if (!held_commands_.empty()) postCommands();
+    if (*request.is_cancelled || !stepOnce(true)) {
+      request.left = 0;
+      break;
+    }
     --request.left;
     ++steps;
   }
@@ -203,16 +232,18 @@ void SimulationThread::runSteps(StepRequest& request) {
   if (runs()) startClocks();
 }
 
-void SimulationThread::stepOnce(bool reliable) {
+bool SimulationThread::stepOnce(bool reliable) {
   for (StepHook* hook : hooks_) {
     if (hook->beforeStep(world_)) continue;
     paused_ = true;
-    return;
+    return false;
   }
   world_.step();
+  waiting_commands_ = held_commands_.size();
   for (StepHook* hook : hooks_) hook->afterStep(world_);
   models_revision_ = world_.modelsRevision();  // what plugins do, they will do again
   reporter_.afterStep(world_, reliable);
+  return true;
 }
 
 void SimulationThread::measure(int steps) {

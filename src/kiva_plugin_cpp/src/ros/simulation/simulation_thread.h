@@ -60,7 +60,7 @@ class SimulationThread {
 
   /// Posts a command to the world without waiting for it. In lockstep those that came since the
   /// last step are put in the order of their robots, since what comes over several connections has
-  /// none of its own.
+  /// none of its own. Refused, by an event at once, where too many wait for the next step already.
   void command(const kiva::Command& command);
 
   struct Stepped {
@@ -69,8 +69,9 @@ class SimulationThread {
     std::size_t waiting = 0;  ///< Commands for the next step.
   };
   /// Makes so many steps, paused or not, as fast as it goes; returns when all that they publish is
-  /// with the sockets. Not from the step thread.
-  Stepped step(std::uint32_t steps);
+  /// with the sockets. `is_abandoned` is asked meanwhile, on the caller's thread: once it says so,
+  /// the steps that are left are not made. Not from the step thread.
+  Stepped step(std::uint32_t steps, const std::function<bool()>& is_abandoned);
 
   /// From the step thread: somebody took a checkpoint of the world.
   void noteCheckpoint();
@@ -82,6 +83,8 @@ class SimulationThread {
   /// The same on the step thread.
   void restoreHere(kiva::World& world, const std::string& checkpoint);
 
+  /// Everything back to where it was spawned, and time too if `time_too`.
+  void reset(bool time_too);
   void pause(bool paused);
   /// From the step thread: another step size, or another pace (as in the constructor).
   void retime(double step_size, double rtf);
@@ -97,6 +100,7 @@ class SimulationThread {
   struct StepRequest {
     std::uint32_t left = 0;
     std::shared_ptr<std::promise<Stepped>> done = std::make_shared<std::promise<Stepped>>();
+    std::shared_ptr<std::atomic<bool>> is_cancelled = std::make_shared<std::atomic<bool>>(false);
   };
 
   bool runs() const { return !paused_ && !lockstep_; }  ///< By itself.
@@ -106,7 +110,8 @@ class SimulationThread {
   void serve(const Requests& requests);
   void advance();
   void runSteps(StepRequest& request);
-  void stepOnce(bool reliable);
+  bool stepOnce(bool reliable);  ///< False if a hook wants no further step.
+  void takeCommand(const kiva::Command& command);
   void postCommands();
   void measure(int steps);
   void refuseRequests();
@@ -131,6 +136,7 @@ class SimulationThread {
   std::vector<StepHook*> hooks_;
   std::deque<StepRequest> step_requests_;
   std::vector<kiva::Command> held_commands_;  ///< In lockstep, until the next step.
+  std::size_t waiting_commands_ = 0;          ///< Those, and the world's; answered by a step.
   std::atomic<double> real_time_factor_{0};
   WallClock::time_point measured_since_;
   int measured_steps_ = 0;

@@ -13,6 +13,8 @@ class StepHook {
   virtual void onCommand(const kiva::Command& /*command*/) {}
   /// A checkpoint was taken, which leaves its trace in the world.
   virtual void onCheckpoint() {}
+  /// Everything is about to go back to where it was spawned.
+  virtual void beforeReset(kiva::World& /*world*/) {}
   /// Models came, went or were moved from outside.
   virtual void onChange() {}
   /// What is to happen before the next step; false if there is to be none.
