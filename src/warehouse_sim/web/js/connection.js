@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The WebSocket, which comes back by itself.
 
+import { on } from './dom.js';
 import { decode } from './protocol.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
@@ -19,9 +20,9 @@ export class Connection {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
     this.socket = new WebSocket(`${scheme}://${location.host}/live`);
     this.socket.binaryType = 'arraybuffer';
-    this.socket.onopen = () => this.greet();
-    this.socket.onmessage = (message) => this.take(message.data);
-    this.socket.onclose = () => this.again();
+    on(this.socket, 'open', () => this.greet());
+    on(this.socket, 'message', (message) => this.take(message.data));
+    on(this.socket, 'close', () => this.again());
   }
 
   greet() {

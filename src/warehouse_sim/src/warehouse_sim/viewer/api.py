@@ -9,6 +9,7 @@ from fastapi.responses import JSONResponse
 from starlette.routing import Match
 
 from warehouse_sim.viewer import catalogue, schemas
+from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 
 PATIENCE = 3.0  # for the first messages, when nobody looked for long [s, wall]
@@ -131,7 +132,7 @@ def _add_warehouse(out, desk):
     async def get_events(
         since: int = Query(0, ge=0, le=2**53, description="the last id you know"),
         model: str = Query("", max_length=100, description="of this model alone"),
-        limit: int = Limit,
+        limit: int = Query(100, ge=1, le=KEPT, description="rows in the answer"),
     ):
         """The newest events, oldest first."""
         return {"events": desk.journal.since(since, model or None, limit)}
