@@ -17,6 +17,7 @@ export function ask(dialog) {
   dialog.showModal();
   return new Promise((resolve) => {
     const close = () => {
+      if (dialog.open) return; // the news is of the time before, and late
       dialog.removeEventListener('close', close);
       resolve(dialog.returnValue);
     };
