@@ -37,7 +37,7 @@ CENTRE = (
 )
 
 # What can be tapped but is smaller than a finger's 44 px, or has nothing to read.
-SMALL = """[...document.querySelectorAll('button, select, input, .row, .events li')]
+SMALL = """[...document.querySelectorAll('button, a, select, input, .row, .events li')]
   .filter((e) => e.checkVisibility() && e.type !== 'checkbox' && !e.closest('dialog'))
   .filter((e) => {
     const { width, height } = e.getBoundingClientRect();
@@ -261,14 +261,14 @@ class ViewerPage(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             where = {"behavior": "allow", "downloadPath": folder}
             self.page.driver.execute_cdp_cmd("Page.setDownloadBehavior", where)
-            self.page.click_on("save-csv")
-            self.page.click_on("save-json")
+            for link in self.page.driver.find_elements("css selector", "a[download]"):
+                link.click()
             files = [os.path.join(folder, f"events.{kind}") for kind in ("csv", "json")]
             wait_until(lambda: all(map(os.path.exists, files)), "both files")
             with open(files[0], newline="") as table:
                 rows = list(csv.DictReader(table))
             with open(files[1]) as text:
-                events = json.load(text)
+                events = json.load(text)["events"]
         self.assertEqual([int(row["id"]) for row in rows], [event["id"] for event in events])
         self.assertIn(("kiva3", "DONE"), [(row["model"], row["kind"]) for row in rows])
 

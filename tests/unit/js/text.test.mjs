@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is searched, shown and saved as text, and read from bytes.
+// What is searched and shown as text, and read from bytes.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { reasonOf } from '../../../src/warehouse_sim/web/js/api.js';
 import { clock } from '../../../src/warehouse_sim/web/js/bar.js';
 import { planOf } from '../../../src/warehouse_sim/web/js/builder.js';
-import { csvOf } from '../../../src/warehouse_sim/web/js/export.js';
 import { fanOf } from '../../../src/warehouse_sim/web/js/overlays.js';
 import { decode } from '../../../src/warehouse_sim/web/js/protocol.js';
 import { found, rowsOf, wanted } from '../../../src/warehouse_sim/web/js/search.js';
@@ -33,12 +32,6 @@ test('simulated time in minutes and seconds', () => {
   assert.equal(clock(0), '0:00.0');
   assert.equal(clock(59.96), '1:00.0');
   assert.equal(clock(3725.34), '62:05.3');
-});
-
-test('events as a table keep commas, quotes and lines', () => {
-  const events = [{ id: 1, time: 0.5, kind: 'REFUSED', model: 'kiva1', other: '', text: 'say "no", twice' }];
-  assert.equal(csvOf(events), 'id,time,kind,model,other,text\r\n1,0.5,REFUSED,kiva1,,"say ""no"", twice"\r\n');
-  assert.match(csvOf([{ ...events[0], command: 4 }]), /^id,time,kind,command,model/);
 });
 
 test('reasons of refusals', () => {

@@ -158,14 +158,17 @@ def test_everything_is_shown(scene):
 
 
 def test_a_robot_has_the_size_that_its_look_tells(scene):
-    low, high = extent(scene.shown()["robots"])
-    assert (low[0], high[0], low[1], high[1]) == pytest.approx((0.6, 2.4, -0.3, 0.3))
-    assert low[2] == pytest.approx(0.05)  # without the sphere beneath
+    marker = scene.shown()["robots"]
+    low, high = extent(marker)
+    assert (low[0], high[0]) == pytest.approx((0.51, 2.49))  # with the frames on the floor
+    body = [p for p in marker.points if p.z > 0.03]
+    assert min(p.x for p in body) == pytest.approx(0.6)
+    assert min(p.z for p in body) == pytest.approx(0.05)  # without the sphere beneath
 
 
 def test_of_very_many_robots_each_is_a_box():
     marker = Scene(robots=1000).shown()["robots"]
-    assert len(marker.points) == 1000 * (36 + 3)
+    assert len(marker.points) == 1000 * (36 + 3 + 24)
 
 
 def test_the_tower_goes_up_with_the_load(scene):

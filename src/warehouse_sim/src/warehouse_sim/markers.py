@@ -22,10 +22,11 @@ CHOSEN = (0.80, 0.47, 0.65, 1)
 
 MOST_POINTS = 100_000  # of all robots: where they would need more, each is a box
 MOST_NAMES = 200  # robots with their names above them
-NAME_HEIGHT, NAME_ABOVE = 0.22, 0.15  # of letters; over a robot [m]
+NAME_HEIGHT, NAME_ABOVE = 0.28, 0.30  # of letters; over a robot [m]
 LIFTED = "tower"  # a robot's link that goes up with its load
 LINE = 0.04  # width [m]
 ABOVE_FLOOR = 0.02  # of lines [m]
+FRAME = (0.40, 0.49)  # inner and outer half edges of the frame around a robot [m]
 ARROW = np.array([(0.90, 0), (0.30, 0.6), (0.30, -0.6)])  # of half a robot's length and width
 
 
@@ -71,13 +72,23 @@ def robots(look, at, status, lift):
         )
         for part in seen
     ]
-    return [_joined("robots", [*solids, (shapes.placed(at, _arrow(look)), WHITE)])]
+    marks = [(shapes.placed(at, _arrow(look)), WHITE)]
+    marks.append((shapes.placed(at, _frame()), STATUS_COLOURS[status]))
+    return [_joined("robots", [*solids, *marks])]
 
 
 def _arrow(look):
     """Triangle on top of a robot's front, where it heads."""
     low, high = looks.extent(look)
     return np.column_stack([ARROW * high[:2], np.full(3, high[2] + 0.001)])
+
+
+def _frame():
+    """Triangles of a square frame on the floor, in the colour of a robot's status."""
+    square = np.array([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0)])
+    inner, outer = (half * square + (0, 0, ABOVE_FLOOR) for half in FRAME)
+    sides = [(outer[i - 1], outer[i], inner[i], inner[i - 1]) for i in range(4)]
+    return np.array([(a, b, c, a, c, d) for a, b, c, d in sides]).reshape(-1, 3)
 
 
 def things(name, look, at):

@@ -3,10 +3,6 @@
 
 /** Each returns the answer's body, and throws an Error with the reason; `refused` if it was the
  *  warehouse's. */
-export function get(path) {
-  return request('GET', path);
-}
-
 export function post(path, body = undefined) {
   return request('POST', path, body);
 }

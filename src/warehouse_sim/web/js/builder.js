@@ -43,19 +43,21 @@ export class Builder {
   /** A robot at the grid point [x, y]; `at` is where in the window the answer belongs. */
   async add([x, y], at) {
     this.want(false);
-    await this.attempt(() => post('/robots', { x, y }), at);
+    await this.attempt(async () => {
+      const { name } = await post('/robots', { x, y });
+      return { message: `${name} stands at ${x}, ${y}` };
+    }, at);
   }
 
   async remove(name) {
-    const text = 'It ends what it does and is gone. A storage unit that it carries stays.';
-    if (!await confirmed(`Take ${name} away?`, text, 'Remove')) return;
+    if (!await confirmed(`Take ${name} away?`, 'It ends what it does and is gone.', 'Remove')) return;
     await this.attempt(() => remove(`/robots/${name.match(/\d+$/)[0]}`));
   }
 
   async attempt(request, at) {
     try {
-      const { message, name } = await request();
-      this.say(message || name || 'done', 'done', at);
+      const { message } = await request();
+      this.say(message || 'done', 'done', at);
     } catch (error) {
       this.say(error.message, 'refused', at);
     }

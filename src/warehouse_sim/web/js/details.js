@@ -6,6 +6,7 @@ import { $, enable, make, on } from './dom.js';
 import { STATE, STATUS } from './world.js';
 
 const LIFT = { drop: 0, carry: 1 };
+const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
 const WAITS = 'sent; time stands still: it is taken when time goes on, after a reset too';
 
 export class Details {
@@ -60,6 +61,7 @@ export class Details {
     const load = this.world.shelf[i], over = this.world.unitOver(i);
     enable($('carry'), load ? 'it carries one' : over < 0 ? 'no storage unit stands over it' : '');
     enable($('drop'), load ? '' : 'it carries none');
+    enable($('remove'), load ? 'it carries a storage unit' : '');
   }
 
   factsOf(thing) {
@@ -128,7 +130,7 @@ export class Details {
     answer(this.isPaused() ? WAITS : 'sent', 'sent');
     try {
       const { outcome, events } = await command(numberOf(robot), name, fields);
-      const told = outcome === 'pending' ? 'not yet done' : outcome;
+      const told = LATE.includes(outcome) ? 'not yet done' : outcome;
       answer([told, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
     } catch (error) {
       answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');

@@ -2,22 +2,17 @@
 // The running log of events, and those of one model.
 
 import { $, make, on } from './dom.js';
-import { saveEvents } from './export.js';
 
 const KEPT = 1000, SHOWN = 150, OWN = 20;
 const TROUBLE = ['REFUSED', 'BLOCKED', 'COLLISION'];
 
 export class EventLog {
-  /** `select(name)` is called for the model of an event that was clicked; `say(text, kind)` tells
-   *  what went wrong. */
-  constructor(select, say) {
+  /** `select(name)` is called for the model of an event that was clicked. */
+  constructor(select) {
     this.select = select;
     this.events = [];
     this.lastId = 0;
     on($('trouble'), 'change', () => this.drawAll());
-    for (const kind of ['csv', 'json']) {
-      on($(`save-${kind}`), 'click', () => saveEvents(kind).catch(({ message }) => say(message, 'refused')));
-    }
   }
 
   /** Takes new ones in; a server that began anew counts from 1 again. */

@@ -31,7 +31,7 @@ class Page {
     const say = (text, kind, at) => this.tip.say(text, kind, at);
     this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
     this.list = new RobotList(this.world, select);
-    this.log = new EventLog(select, say);
+    this.log = new EventLog(select);
     this.details = new Details(this.world, select, say, () => this.bar.paused);
     this.builder = new Builder(say);
     this.sheets = new Sheets(() => this.fitPanels());
