@@ -21,7 +21,6 @@ OPTIONS = (
     "--disable-component-update",
     "--disable-sync",
     "--hide-scrollbars",
-    "--window-size=1280,720",
 )
 
 
@@ -101,11 +100,12 @@ class Browser:
 
 
 @contextmanager
-def browser(patience):
-    """A Browser that is closed in the end."""
+def browser(patience, size=(1280, 720)):
+    """A Browser that is closed in the end, its window of that size [px]."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         options = webdriver.ChromeOptions()
-        for option in (*OPTIONS, f"--user-data-dir={profile}"):
+        window = f"--window-size={size[0]},{size[1]}"
+        for option in (*OPTIONS, window, f"--user-data-dir={profile}"):
             options.add_argument(option)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)

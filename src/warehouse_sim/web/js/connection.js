@@ -11,7 +11,7 @@ export class Connection {
   constructor(handlers) {
     this.handlers = handlers;
     this.failures = 0;
-    this.bytes = 0; // received since the start
+    this.bytes = this.updates = 0; // received since the start
     this.wishes = null;
     this.open();
   }
@@ -46,7 +46,9 @@ export class Connection {
     const message = decode(data);
     this.handlers[message.kind](message);
     // The next ones come only to who has seen these.
-    if (message.kind === 'update') this.send({ ack: 1 });
+    if (message.kind !== 'update') return;
+    this.updates += 1;
+    this.send({ ack: 1 });
   }
 
   /** Asks for scans and paths of robots, by id. */

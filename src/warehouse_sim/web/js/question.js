@@ -11,15 +11,19 @@ export async function confirmed(title, text, yes) {
   return await ask($('question')) === 'yes';
 }
 
+let settle = () => {}; // the question that is open, or was last
+
 /** Shows a <dialog> of a form; resolves to the value of the button that closed it, '' for none. */
 export function ask(dialog) {
+  settle('');
   dialog.returnValue = '';
   dialog.showModal();
   return new Promise((resolve) => {
-    const close = () => {
-      if (dialog.open) return; // the news is of the time before, and late
+    // News of a dialog's end may come after it was opened again.
+    const close = () => dialog.open || settle(dialog.returnValue);
+    settle = (value) => {
       dialog.removeEventListener('close', close);
-      resolve(dialog.returnValue);
+      resolve(value);
     };
     on(dialog, 'close', close);
   });
