@@ -4,6 +4,7 @@
 import importlib
 
 from gazebo_msgs.srv import GetPhysicsProperties
+from warehouse_sim import identity
 
 # What is offered under which service; types by name, since not every engine has them all.
 SERVICES = {
@@ -60,8 +61,7 @@ class Simulation:
 
     def warehouse(self):
         """(name, id) of the warehouse that stands; empty if it was built by nobody."""
-        get = self._ros.get_param
-        return str(get("/warehouse/name", "")), int(get("/warehouse/id", 0))
+        return identity.read(self._ros)
 
     # --- doing it; each returns what the world says of it. Raises RefusedError, AwayError.
     def pause(self):
