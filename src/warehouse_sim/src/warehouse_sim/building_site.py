@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The world while a warehouse is built in it: physics stands still, and a parameter says for whom."""
+"""The world while a warehouse is built in it: it stands still, and a parameter says for whom."""
 
 BUILDING = "/warehouse/building"
 

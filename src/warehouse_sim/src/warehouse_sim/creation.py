@@ -25,9 +25,9 @@ class Creation:
         self._next_report = clock() + PROGRESS_EVERY
 
     def replace(self, layout):
-        """All of the layout, or nothing but its floor. Raises UndoneError, and EngineError where the
-        world does not answer any more.
+        """All of the layout, or nothing but its floor.
 
+        Raises UndoneError, and EngineError where the world does not answer any more.
         Best while physics is paused: what is half-built shall not begin to move.
         """
         self.clear(floor=layout.has_own_floor)
