@@ -3,7 +3,7 @@
 // Robots that nothing can touch are stepped in arrays: the same motion as Bullet gives.
 #include <random>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Any model of SDF primitives and joints moves as mechanics says: falls, bounces, slides, swings.
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -204,7 +204,7 @@ TEST_F(Bodies, ABodyFallsAsleepWhereItStandsAndNotWhileItCreeps) {
   w.world.setState("box", {Pose(0, 0, 0.25, 0, 0, 0), {{0.05, 0, 0}, {}}});
   w.run(6);
   EXPECT_NEAR(position("box").X(), 0.05 * 6, 0.005);
-  EXPECT_FALSE(w.world.parts().find("resting_box")->bodies.links[0].body->isActive());
+  EXPECT_FALSE(insideOf(w.world).find("resting_box")->bodies.links[0].body->isActive());
 }
 
 TEST_F(Bodies, ASleepingBodyWakesWhenPushed) {

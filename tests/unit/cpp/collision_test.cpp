@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "core/footprint.h"
+#include "core/geometry/footprint.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLength = 0.76, kWidth = 0.64;  // of a Kiva [m]
 
-Footprint outline(const Fleet& f, int i) {
+Footprint footprintOf(const Fleet& f, int i) {
   Shape body;
   body.size.Set(kLength, kWidth, 0.4);
   return makeFootprint(body, Pose(f.x[i], f.y[i], 0.2, 0, 0, f.yaw[i]));
@@ -26,7 +26,7 @@ double overlap(const Fleet& f) {
   for (int i = 0; i < f.size(); ++i) {
     for (int j = i + 1; j < f.size(); ++j) {
       if (std::hypot(f.x[i] - f.x[j], f.y[i] - f.y[j]) > 1) continue;
-      most = std::max(most, -gap(outline(f, i), outline(f, j)));
+      most = std::max(most, -gap(footprintOf(f, i), footprintOf(f, j)));
     }
   }
   return most;
@@ -218,7 +218,7 @@ class CrowdedHall {
   /// Two that overlap must have been told of when their impact was over, since they came near.
   void checkPair(const Fleet& f, int i, int j) {
     const bool near = std::hypot(f.x[i] - f.x[j], f.y[i] - f.y[j]) < 1;
-    const double apart = near ? gap(outline(f, i), outline(f, j)) : 1;
+    const double apart = near ? gap(footprintOf(f, i), footprintOf(f, j)) : 1;
     const Pair pair{i + 1, j + 1};
     if (apart > kMillimetre) {
       reported_.erase(pair);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The drive models: traction against the jointed reference, and what friction and torque allow.
-#include "core/traction.h"
+#include "core/motion/traction.h"
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -2,7 +2,7 @@
 //
 // The jointed drive: exact to the millimetre, true to statics and friction, the same as Bullet's
 // own hinges, and hit by what is in Bullet.
-#include "core/physics.h"
+#include "core/physics/physics.h"
 #include "warehouse.h"
 
 namespace kiva::test {

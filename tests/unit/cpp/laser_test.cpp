@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -128,7 +128,7 @@ class Scene {
 };
 
 /// Whether a point is within anything that stands there: a ray that starts inside passes out.
-bool isInside(const Parts& parts, const Vector3& point) {
+bool isInside(const WorldState& parts, const Vector3& point) {
   Footprint here;
   here.kind = Footprint::Kind::kCircle;
   here.x = point.X();
@@ -172,7 +172,7 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
       const Ray ray{
           {scene.uniform(-13, 13), scene.uniform(-13, 13), scene.uniform(kLowest, kHighest)},
           scene.uniform(-M_PI, M_PI)};
-      if (isInside(world.parts(), ray.from)) continue;
+      if (isInside(insideOf(world), ray.from)) continue;
       const double seen = ray.cast(world), truth = ray.cast(triangles);
       ++rays;
       hits += std::isfinite(truth);
@@ -223,7 +223,7 @@ TEST(Laser, SeesBetweenTheLegsOfAUnit) {
   const std::vector<float> ranges = scan(w, 1);
   EXPECT_NEAR(ranges[ranges.size() / 2], 4 - 0.38, 1e-4);
   EXPECT_EQ(std::count_if(ranges.begin(), ranges.end(), [](float r) { return r < 2.2; }) > 0, true)
-      << "no leg was seen";
+      << "no segment was seen";
 }
 
 TEST(Laser, SeesNeitherItselfNorItsLoad) {

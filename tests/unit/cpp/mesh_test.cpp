@@ -179,7 +179,7 @@ TEST(StaticMeshes, CostNothingWhereNobodyIs) {
   w.spawnText(model(mesh(fileUri("room.obj")), true), "room", 4, 0);
   w.spawn("kiva", "kiva1", 4, 0);
   w.run(0.1);
-  EXPECT_FALSE(w.world.fleet().engaged[0]);
+  EXPECT_FALSE(w.world.fleet().activated[0]);
 }
 
 TEST(DynamicMeshes, FallAndLieAsTheirHulls) {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -253,7 +253,7 @@ class PluginCalls : public UserPlugin {
   /// A plugin of a model that stands, or of the world.
   Scripted& script(const std::string& model = "") {
     auto plugin = std::make_shared<Scripted>();
-    World::Parts& parts = w.world.parts();
+    WorldState& parts = insideOf(w.world);
     if (model.empty()) {
       parts.world_plugins.push_back(plugin);
     } else {
@@ -278,7 +278,7 @@ struct Counting : Plugin {
 TEST_F(PluginCalls, ThatFailToRestoreLeaveTheWorldAsItWas) {
   w.spawn("wall", "wall1", 0, 0);
   const auto first = std::make_shared<Counting>(), second = std::make_shared<Counting>();
-  w.world.parts().world_plugins = {first, second};
+  insideOf(w.world).world_plugins = {first, second};
   first->count = 1;
   second->count = 13;
   const std::string saved = w.world.checkpoint();

@@ -11,7 +11,7 @@
 
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/profile.h"
-#include "kiva_plugin_cpp/shared_memory.h"
+#include "kiva_plugin_cpp/viewable_memory.h"
 
 namespace kiva {
 
@@ -68,7 +68,7 @@ struct LaserParameters {
 };
 
 /// One thing a robot does at a time; a command is a row of them.
-struct Leg {
+struct MotionSegment {
   enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
   Kind kind = Kind::kTurn;
   double x = 0;                    ///< Drive: where it ends, in world [m].
@@ -99,13 +99,13 @@ struct Robot {
   LaserParameters laser;
   bool has_motion = false;
   bool has_rotation = false;
-  std::deque<Leg> legs;     ///< Those of the current command, the first under way.
+  std::deque<MotionSegment> segments;  ///< Those of the current command, the first under way.
   int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
-  bool leg_started = false;
+  bool segment_started = false;
   double overdue = 0;          ///< Since the profile ended without the robot being there [s].
-  bool look_now = false;       ///< A leg begins: look ahead before it drives off.
-  double seen_distance = 0;    ///< What the laser saw last on this leg [m], 0 = nothing yet,
-  double seen_from = 0;        ///< from where on the leg [m],
+  bool look_now = false;       ///< A segment begins: look ahead before it drives off.
+  double seen_distance = 0;    ///< What the laser saw last on this segment [m], 0 = nothing yet,
+  double seen_from = 0;        ///< from where on the segment [m],
   int seen_model = -1;         ///< and what it was.
   int ray_fan = -1;            ///< Index of its laser's directions among the world's.
   bool stopping = false;       ///< The command is ending in BLOCKED, as soon as the robot stands.
@@ -127,7 +127,7 @@ struct Stance {
 
 /// One value a robot. Others may hold its memory and read it without a copy.
 template <typename T>
-using Column = std::vector<T, SharedAllocator<T>>;
+using Column = std::vector<T, ViewableAllocator<T>>;
 
 /// Positions in world [m, rad], velocities in world [m/s, rad/s] unless said otherwise.
 struct Fleet {
@@ -142,10 +142,10 @@ struct Fleet {
   Column<Status> status;
   Column<State> state;
   Column<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
-  Column<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
+  Column<std::uint8_t> activated;    ///< 1 = stepped by Bullet, since something is near.
   Column<std::uint64_t> look_again;  ///< Step at which something could have come near.
 
-  // The reference of the current leg: [m] along the heading, [rad], or [m] of tower.
+  // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
   Column<double> reference, reference_speed;
   Column<double> goal;          ///< Where it is to end.
   Column<double> deceleration;  ///< With which it is to end.

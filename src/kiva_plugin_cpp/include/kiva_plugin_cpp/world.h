@@ -19,12 +19,13 @@
 
 #include "kiva_plugin_cpp/command.h"
 #include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/external_inputs.h"
 #include "kiva_plugin_cpp/fleet.h"
-#include "kiva_plugin_cpp/interventions.h"
 
 namespace kiva {
 
 class Plugin;
+struct WorldState;
 
 /// What a model is to the warehouse; told by its name (`kiva1`, `storage_unit1`, `item1`,
 /// `conveyor_belt1`) and, for robots, by the motion plugin.
@@ -202,7 +203,7 @@ class World {
   void setJointPositions(const std::string& model, const std::map<std::string, double>& positions);
 
   // --- what clients apply
-  const Interventions& interventions() const;
+  const ExternalInputs& externalInputs() const;
   /// For the next step only. Returns false if there is no such link or it does not move.
   bool applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                    const Vector3& torque);
@@ -259,13 +260,12 @@ class World {
   /// What was left out, a plugin that nobody knows say; each once.
   std::vector<std::string> takeWarnings();
 
-  /// The parts, for the plugins that come with the world; see src/core/parts.h.
-  struct Parts;
-  Parts& parts() { return *parts_; }
-  const Parts& parts() const { return *parts_; }
+  /// What clients don't see; for tests and the parts of the world itself, see src/core/state.
+  friend WorldState& insideOf(World& world);
+  friend const WorldState& insideOf(const World& world);
 
  private:
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<WorldState> state_;
 };
 
 }  // namespace kiva

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../core/parts.h"
+#include "core/state/world_state.h"
 
 namespace kiva {
 
@@ -19,19 +19,19 @@ class FleetPlugin {
   virtual const char* filename() const = 0;
   /// Reads one robot's parameters, before the robot joins the fleet. Throws DescriptionError.
   virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
-  virtual void beforeStep(Parts& /*parts*/) {}
-  virtual void afterStep(Parts& /*parts*/) {}
+  virtual void beforeStep(WorldState& /*world*/) {}
+  virtual void afterStep(WorldState& /*world*/) {}
 };
 
 /// One of each, in the order in which they act.
 std::vector<std::unique_ptr<FleetPlugin>> makeFleetPlugins();
 
 /// The plugin with that file name, or null.
-const FleetPlugin* findFleetPlugin(const Parts& parts, const std::string& filename);
+const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename);
 
 /// Whether `filename` names the world plugin that sets the grid.
 bool isGridPlugin(const std::string& filename);
 /// Reads the grid's spacing. Throws DescriptionError.
-void configureGrid(Parts& parts, const Parameters& parameters);
+void configureGrid(WorldState& world, const Parameters& parameters);
 
 }  // namespace kiva

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "laser.h"
+#include "plugins/laser.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../core/commands.h"
-#include "../core/cruise.h"
-#include "../core/sensing.h"
+#include "core/control/commands.h"
+#include "core/motion/cruise.h"
+#include "core/sensing/sensing.h"
 
 namespace kiva {
 namespace {
@@ -15,9 +15,10 @@ constexpr double kClearance = 0.05;   // [m] kept to an obstacle on a way off th
 constexpr double kTopApproach = 3.0;  // [m/s]; what comes faster is another thing come into view
 constexpr double kSoon = 1e-3;        // [m]
 
-double alongLeg(const Fleet& f, int i) {
-  const Leg& leg = f.robots[i].legs.front();
-  return std::cos(leg.yaw) * (f.x[i] - leg.x) + std::sin(leg.yaw) * (f.y[i] - leg.y);
+double alongSegment(const Fleet& f, int i) {
+  const MotionSegment& segment = f.robots[i].segments.front();
+  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
+         std::sin(segment.yaw) * (f.y[i] - segment.y);
 }
 
 /// Speed [m/s] at which what is ahead comes nearer by itself, from two looks; 0 if unknown. Of what
@@ -31,13 +32,13 @@ double approachSpeed(const Robot& r, const Ahead& ahead, double along, double be
 /// From the robot's centre to the front of it and its load [m].
 double reach(const Robot& r) { return std::max(r.half_length, r.load_half_length); }
 
-/// How far along the leg the robot may go: a grid point before the cell of what is ahead, or, off
-/// the grid, a little before it.
-double farthestStop(const Parts& parts, const Robot& r, double obstacle) {
-  if (!r.legs.front().on_grid) {
+/// How far along the segment the robot may go: a grid point before the cell of what is ahead, or,
+/// off the grid, a little before it.
+double farthestStop(const WorldState& world, const Robot& r, double obstacle) {
+  if (!r.segments.front().on_grid) {
     return obstacle - reach(r) - kClearance;
   }
-  const double cell = parts.grid_spacing;
+  const double cell = world.grid_spacing;
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
 }
 
@@ -57,7 +58,7 @@ void planStop(Fleet& f, int i, double stop, double dt) {
   f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
-/// What one look tells: places along the leg [m], speeds [m/s].
+/// What one look tells: places along the segment [m], speeds [m/s].
 struct View {
   double reference;  // where this robot is to be now
   double goal;       // where it is to stop so far
@@ -68,16 +69,16 @@ struct View {
   int model;
 };
 
-View look(const Parts& parts, Robot& r, int i) {
-  const double along = alongLeg(parts.fleet, i);
-  const Ahead ahead = lookAhead(parts, i);
+View look(const WorldState& world, Robot& r, int i) {
+  const double along = alongSegment(world.fleet, i);
+  const Ahead ahead = lookAhead(world, i);
   View view;
-  view.reference = parts.fleet.reference[i];
-  view.goal = parts.fleet.goal[i];
-  view.scan_time = static_cast<double>(scanPeriod(parts, r)) * parts.dt;
+  view.reference = world.fleet.reference[i];
+  view.goal = world.fleet.goal[i];
+  view.scan_time = static_cast<double>(scanPeriod(world, r)) * world.dt;
   view.obstacle = along + ahead.distance;
   view.approach = approachSpeed(r, ahead, along, view.scan_time);
-  view.speed = std::abs(parts.fleet.reference_speed[i]);
+  view.speed = std::abs(world.fleet.reference_speed[i]);
   view.model = ahead.model;
   r.seen_distance = ahead.faces ? ahead.distance : 0;
   r.seen_from = along;
@@ -86,46 +87,46 @@ View look(const Parts& parts, Robot& r, int i) {
 }
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(const Parts& parts, const Robot& r, const View& view) {
+double firstStop(const WorldState& world, const Robot& r, const View& view) {
   const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
   // The other one comes on until it has seen this robot too, then brakes as this one does.
   const double comes =
       2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
   const double expected = view.obstacle - comes;
-  const double stop = farthestStop(parts, r, expected);
+  const double stop = farthestStop(world, r, expected);
   if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
-  const double next = farthestStop(parts, r, expected - view.approach * view.scan_time);
+  const double next = farthestStop(world, r, expected - view.approach * view.scan_time);
   const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
-double revisedStop(const Parts& parts, const Robot& r, const View& view) {
+double revisedStop(const WorldState& world, const Robot& r, const View& view) {
   const double hardest = r.drive.emergency_deceleration;
   const double gap = view.obstacle - view.reference - reach(r);
   const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
                         (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
   if (view.goal + reach(r) + kClearance <= view.obstacle) return view.goal;
-  return std::min(view.goal, farthestStop(parts, r, view.obstacle));
+  return std::min(view.goal, farthestStop(world, r, view.obstacle));
 }
 
-void guard(Parts& parts, int i) {
-  Robot& r = parts.fleet.robots[i];
-  const View view = look(parts, r, i);
+void guard(WorldState& world, int i) {
+  Robot& r = world.fleet.robots[i];
+  const View view = look(world, r, i);
   if (view.model < 0) return;
-  const double stop = r.stopping ? revisedStop(parts, r, view) : firstStop(parts, r, view);
+  const double stop = r.stopping ? revisedStop(world, r, view) : firstStop(world, r, view);
   if (stop == view.goal) return;
-  const std::string& name = parts.models[view.model]->name;
-  markBlocked(parts, i, name, name + " is in the way");
-  stopCruise(parts.fleet, i);
-  planStop(parts.fleet, i, stop, parts.dt);
+  const std::string& name = world.models[view.model]->name;
+  markBlocked(world, i, name, name + " is in the way");
+  stopCruise(world.fleet, i);
+  planStop(world.fleet, i, stop, world.dt);
 }
 
 bool isOnGuard(const Robot& r) {
-  return r.laser.fitted && !r.legs.empty() && r.leg_started && !r.halting &&
-         r.legs.front().kind == Leg::Kind::kDrive && !r.legs.front().reverse;
+  return r.laser.fitted && !r.segments.empty() && r.segment_started && !r.halting &&
+         r.segments.front().kind == MotionSegment::Kind::kDrive && !r.segments.front().reverse;
 }
 
 }  // namespace
@@ -143,17 +144,17 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   laser.z = p.number("z", laser.z, 0, 10);
 }
 
-void LaserPlugin::afterStep(Parts& parts) {
-  Fleet& f = parts.fleet;
+void LaserPlugin::afterStep(WorldState& world) {
+  Fleet& f = world.fleet;
   const auto watch = [&](int i) {
     if (!isOnGuard(f.robots[i])) return;
     f.robots[i].look_now = false;
-    guard(parts, i);
+    guard(world, i);
   };
-  for (int i : parts.scans_due) {
+  for (int i : world.scans_due) {
     if (f.awake[i]) watch(i);
   }
-  for (int i : parts.active) {
+  for (int i : world.stepped_singly) {
     if (f.robots[i].look_now) watch(i);
   }
 }

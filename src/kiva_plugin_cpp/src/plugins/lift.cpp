@@ -1,90 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lift.h"
+#include "plugins/lift.h"
 
 #include <cmath>
 
-#include "../core/commands.h"
-#include "../core/engagement.h"
-#include "../core/load.h"
+#include "core/contact/activation.h"
+#include "core/control/commands.h"
+#include "core/models/load.h"
 
 namespace kiva {
 namespace {
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: half of it at 4·height/time², half at minus that.
-void moveTower(Parts& parts, int i, double height) {
-  Robot& r = parts.fleet.robots[i];
+void moveTower(WorldState& world, int i, double height) {
+  Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
-  const double top = time == 0 ? r.lift.height / parts.dt : 2 * r.lift.height / time;
-  Profile profile = parts.fleet.profile(i);
-  profile.advance(height, top, acceleration, acceleration, parts.dt);
-  parts.fleet.setProfile(i, profile);
-  parts.fleet.tower[i] = profile.position;
+  const double top = time == 0 ? r.lift.height / world.dt : 2 * r.lift.height / time;
+  Profile profile = world.fleet.profile(i);
+  profile.advance(height, top, acceleration, acceleration, world.dt);
+  world.fleet.setProfile(i, profile);
+  world.fleet.tower[i] = profile.position;
 }
 
-void start(Parts& parts, int i) {
-  parts.fleet.robots[i].leg_started = true;
-  parts.fleet.setProfile(i, {parts.fleet.tower[i], 0});
+void start(WorldState& world, int i) {
+  world.fleet.robots[i].segment_started = true;
+  world.fleet.setProfile(i, {world.fleet.tower[i], 0});
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
-void checkUnit(Parts& parts, int i, const Leg& leg) {
-  if (leg.unit < 0) return markBlocked(parts, i, "", "the storage unit was deleted");
-  if (parts.fleet.unit[i] == leg.unit) return;
-  const StorageUnit& unit = parts.units[leg.unit];
-  const bool above = unitDistance(parts, i, leg.unit) <= parts.fleet.robots[i].lift.proximity &&
-                     standsUpright(parts, leg.unit);
-  if (leg.kind == Leg::Kind::kRaise && unit.carrier >= 0) {
-    markBlocked(parts, i, unit.name, unit.name + " is carried by another robot");
-  } else if (leg.kind == Leg::Kind::kRaise && !above) {
-    markBlocked(parts, i, unit.name, unit.name + " is no longer above it");
-  } else if (leg.kind == Leg::Kind::kLower && parts.fleet.tower[i] > towerGap(parts, i, leg.unit)) {
-    markBlocked(parts, i, unit.name, unit.name + " was taken off it");
+void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
+  if (segment.unit < 0) return markBlocked(world, i, "", "the storage unit was deleted");
+  if (world.fleet.unit[i] == segment.unit) return;
+  const StorageUnit& unit = world.units[segment.unit];
+  const bool above = unitDistance(world, i, segment.unit) <= world.fleet.robots[i].lift.proximity &&
+                     standsUpright(world, segment.unit);
+  if (segment.kind == MotionSegment::Kind::kRaise && unit.carrier >= 0) {
+    markBlocked(world, i, unit.name, unit.name + " is carried by another robot");
+  } else if (segment.kind == MotionSegment::Kind::kRaise && !above) {
+    markBlocked(world, i, unit.name, unit.name + " is no longer above it");
+  } else if (segment.kind == MotionSegment::Kind::kLower &&
+             world.fleet.tower[i] > towerGap(world, i, segment.unit)) {
+    markBlocked(world, i, unit.name, unit.name + " was taken off it");
   }
 }
 
 /// The tower comes down without a unit, then the command ends in BLOCKED.
-void abandon(Parts& parts, int i) {
-  moveTower(parts, i, 0);
-  if (parts.fleet.tower[i] == 0) endBlocked(parts, i);
+void abandon(WorldState& world, int i) {
+  moveTower(world, i, 0);
+  if (world.fleet.tower[i] == 0) endBlocked(world, i);
 }
 
-void raiseLeg(Parts& parts, int i, int unit) {
-  Robot& r = parts.fleet.robots[i];
-  moveTower(parts, i, r.lift.height);
-  if (parts.fleet.unit[i] < 0 && parts.fleet.tower[i] >= towerGap(parts, i, unit)) {
-    takeUp(parts, i, unit);
+void raiseSegment(WorldState& world, int i, int unit) {
+  Robot& r = world.fleet.robots[i];
+  moveTower(world, i, r.lift.height);
+  if (world.fleet.unit[i] < 0 && world.fleet.tower[i] >= towerGap(world, i, unit)) {
+    takeUp(world, i, unit);
   }
-  if (parts.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(parts, i);  // its load is higher than when it was taken up
-  parts.report(Event::Kind::kLifted, r.name, parts.units[unit].name, "");
-  finishLeg(parts, i);
+  if (world.fleet.reference[i] != r.lift.height) return;
+  rebuildBody(world, i);  // its load is higher than when it was taken up
+  world.report(Event::Kind::kLifted, r.name, world.units[unit].name, "");
+  finishSegment(world, i);
 }
 
-void lowerLeg(Parts& parts, int i, int unit) {
-  moveTower(parts, i, 0);
-  if (parts.fleet.unit[i] == unit && unitPose(parts, unit).Z() <= 0) {
-    putDown(parts, i);
-    parts.report(Event::Kind::kDropped, parts.fleet.robots[i].name, parts.units[unit].name, "");
+void lowerSegment(WorldState& world, int i, int unit) {
+  moveTower(world, i, 0);
+  if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= 0) {
+    putDown(world, i);
+    world.report(Event::Kind::kDropped, world.fleet.robots[i].name, world.units[unit].name, "");
   }
-  if (parts.fleet.tower[i] == 0) finishLeg(parts, i);
+  if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
-void liftLeg(Parts& parts, int i) {
-  const Leg leg = parts.fleet.robots[i].legs.front();
-  if (!parts.fleet.robots[i].leg_started) start(parts, i);
-  checkUnit(parts, i, leg);
-  if (parts.fleet.robots[i].stopping) return abandon(parts, i);
-  if (leg.kind == Leg::Kind::kRaise) raiseLeg(parts, i, leg.unit);
-  if (leg.kind == Leg::Kind::kLower) lowerLeg(parts, i, leg.unit);
+void liftSegment(WorldState& world, int i) {
+  const MotionSegment segment = world.fleet.robots[i].segments.front();
+  if (!world.fleet.robots[i].segment_started) start(world, i);
+  checkUnit(world, i, segment);
+  if (world.fleet.robots[i].stopping) return abandon(world, i);
+  if (segment.kind == MotionSegment::Kind::kRaise) raiseSegment(world, i, segment.unit);
+  if (segment.kind == MotionSegment::Kind::kLower) lowerSegment(world, i, segment.unit);
 }
 
 /// A tower whose unit was deleted comes down by itself.
-void lowerEmptyTower(Parts& parts, int i) {
-  Fleet& f = parts.fleet;
+void lowerEmptyTower(WorldState& world, int i) {
+  Fleet& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
-  moveTower(parts, i, 0);
+  moveTower(world, i, 0);
 }
 
 }  // namespace
@@ -98,14 +99,15 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   lift.proximity = p.number("proximity", lift.proximity, 0, 10);
 }
 
-void LiftPlugin::beforeStep(Parts& parts) {
-  const Fleet& f = parts.fleet;
-  for (int i : parts.active) {
-    if (!f.robots[i].legs.empty()) {
-      const Leg::Kind kind = f.robots[i].legs.front().kind;
-      if (kind == Leg::Kind::kRaise || kind == Leg::Kind::kLower) liftLeg(parts, i);
+void LiftPlugin::beforeStep(WorldState& world) {
+  const Fleet& f = world.fleet;
+  for (int i : world.stepped_singly) {
+    if (!f.robots[i].segments.empty()) {
+      const MotionSegment::Kind kind = f.robots[i].segments.front().kind;
+      if (kind == MotionSegment::Kind::kRaise || kind == MotionSegment::Kind::kLower)
+        liftSegment(world, i);
     } else if (f.tower[i] > 0 && f.unit[i] < 0) {
-      lowerEmptyTower(parts, i);
+      lowerEmptyTower(world, i);
     }
   }
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fleet_plugin.h"
+#include "plugins/fleet_plugin.h"
 
 namespace kiva {
 
-/// Drives straight legs: a trapezoid of speed along the line, the wheels steering back onto it.
+/// Drives straight segments: a trapezoid of speed along the line, the wheels steering back onto it.
 class MotionPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_motion.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void beforeStep(Parts& parts) override;
+  void beforeStep(WorldState& world) override;
 };
 
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
@@ -23,6 +23,6 @@ bool stands(const Fleet& fleet, int i);
 
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
 /// it is.
-bool halting(Parts& parts, int i);
+bool halting(WorldState& world, int i);
 
 }  // namespace kiva

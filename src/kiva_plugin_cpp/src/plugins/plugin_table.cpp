@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fleet_plugin.h"
-#include "laser.h"
-#include "lift.h"
-#include "motion.h"
-#include "rotation.h"
+#include "plugins/fleet_plugin.h"
+#include "plugins/laser.h"
+#include "plugins/lift.h"
+#include "plugins/motion.h"
+#include "plugins/rotation.h"
 
 namespace kiva {
 
@@ -16,8 +16,8 @@ std::vector<std::unique_ptr<FleetPlugin>> makeFleetPlugins() {
   return table;
 }
 
-const FleetPlugin* findFleetPlugin(const Parts& parts, const std::string& filename) {
-  for (const auto& plugin : parts.fleet_plugins) {
+const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename) {
+  for (const auto& plugin : world.fleet_plugins) {
     if (filename == plugin->filename()) return plugin.get();
   }
   return nullptr;
@@ -25,8 +25,8 @@ const FleetPlugin* findFleetPlugin(const Parts& parts, const std::string& filena
 
 bool isGridPlugin(const std::string& filename) { return filename == "libkiva_grid.so"; }
 
-void configureGrid(Parts& parts, const Parameters& parameters) {
-  parts.grid_spacing = parameters.number("spacing", 1.0, 0.1, 100.0);
+void configureGrid(WorldState& world, const Parameters& parameters) {
+  world.grid_spacing = parameters.number("spacing", 1.0, 0.1, 100.0);
 }
 
 }  // namespace kiva

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rotation.h"
+#include "plugins/rotation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../core/commands.h"
-#include "../core/cruise.h"
-#include "../core/traction.h"
-#include "motion.h"
+#include "core/control/commands.h"
+#include "core/motion/cruise.h"
+#include "core/motion/traction.h"
+#include "plugins/motion.h"
 
 namespace kiva {
 namespace {
@@ -31,31 +31,31 @@ double turnSpeed(const Robot& robot, double dt) {
   return time == 0 ? 2 * M_PI / dt : M_PI / time;
 }
 
-void turnLeg(Parts& parts, int i) {
-  Fleet& f = parts.fleet;
+void turnSegment(WorldState& world, int i) {
+  Fleet& f = world.fleet;
   Robot& r = f.robots[i];
-  if (halting(parts, i)) return;
-  if (!r.leg_started) {
-    r.leg_started = true;
+  if (halting(world, i)) return;
+  if (!r.segment_started) {
+    r.segment_started = true;
     f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
-    f.goal[i] = r.legs.front().yaw;
-    f.deceleration[i] = turnAcceleration(r, parts.gravityDown());
+    f.goal[i] = r.segments.front().yaw;
+    f.deceleration[i] = turnAcceleration(r, world.gravityDown());
     r.overdue = 0;
   }
   const double lag = f.reference[i] - f.yaw[i];
   const bool ended = f.reference[i] == f.goal[i];
   if (ended && std::abs(lag) < kThereAngle && stands(f, i)) {
     setWheels(f, i, 0, 0);
-    return finishLeg(parts, i);
+    return finishSegment(world, i);
   }
-  if (ended) r.overdue += parts.dt;
+  if (ended) r.overdue += world.dt;
   if (std::abs(lag) > kStuck || r.overdue > kOverdue) {
-    return haltRobot(parts, i, "", "is stuck: it can't turn");
+    return haltRobot(world, i, "", "is stuck: it can't turn");
   }
-  const double top = turnSpeed(r, parts.dt), acceleration = f.deceleration[i];
-  if (isExact(lag) && tryCruise(parts, i, {0, 0, 1, top, acceleration})) return;
+  const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
+  if (isExact(lag) && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
   Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, acceleration, acceleration, parts.dt);
+  profile.advance(f.goal[i], top, acceleration, acceleration, world.dt);
   f.setProfile(i, profile);
   setWheels(f, i, 0, profile.speed + kGain * lag);
 }
@@ -67,11 +67,11 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_rotation = true;
 }
 
-void RotationPlugin::beforeStep(Parts& parts) {
-  const Fleet& f = parts.fleet;
-  for (int i : parts.active) {
-    if (f.robots[i].legs.empty()) continue;
-    if (f.robots[i].legs.front().kind == Leg::Kind::kTurn) turnLeg(parts, i);
+void RotationPlugin::beforeStep(WorldState& world) {
+  const Fleet& f = world.fleet;
+  for (int i : world.stepped_singly) {
+    if (f.robots[i].segments.empty()) continue;
+    if (f.robots[i].segments.front().kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 kiva::Light lightNamed(const kiva::World& world, const std::string& name,
                        const std::string& label) {
-  const auto& lights = world.interventions().lights;
+  const auto& lights = world.externalInputs().lights;
   const auto found = lights.find(name);
   if (found == lights.end()) {
     throw Refusal(label + ": Requested light " + name + " not found!");

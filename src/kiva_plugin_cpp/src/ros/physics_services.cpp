@@ -47,7 +47,7 @@ gazebo_msgs::SetPhysicsProperties::Request propertiesOf(const kiva::World& world
   out.time_step = world.stepSize();
   out.max_update_rate = engine.targetFactor() / world.stepSize();
   out.gravity = toMessage(world.gravity());
-  out.ode_config = odeMessage(world.interventions().ode);
+  out.ode_config = odeMessage(world.externalInputs().ode);
   return out;
 }
 

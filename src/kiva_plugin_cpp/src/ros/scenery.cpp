@@ -149,10 +149,10 @@ warehouse_msgs::FleetPaths pathsOf(const kiva::World& world) {
   out.stamp = ros::Time(world.time());
   for (const kiva::Robot& robot : world.fleet().robots) {
     const std::size_t before = out.x.size();
-    for (const kiva::Leg& leg : robot.legs) {
-      if (leg.kind != kiva::Leg::Kind::kDrive) continue;
-      out.x.push_back(leg.x);
-      out.y.push_back(leg.y);
+    for (const kiva::MotionSegment& segment : robot.segments) {
+      if (segment.kind != kiva::MotionSegment::Kind::kDrive) continue;
+      out.x.push_back(segment.x);
+      out.y.push_back(segment.y);
     }
     if (out.x.size() == before) continue;
     out.kiva_id.push_back(robot.id);

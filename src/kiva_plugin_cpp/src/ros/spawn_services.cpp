@@ -26,7 +26,7 @@ void place(const kiva::World& world, const std::string& frame_name, const kiva::
 }
 
 bool hasLight(const kiva::World& world, const kiva::Light& light) {
-  return world.interventions().lights.count(light.name) > 0;
+  return world.externalInputs().lights.count(light.name) > 0;
 }
 
 void checkNames(const kiva::World& world, const SpawnServices::Document& document) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/checkpoint/plugin_states.h"
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// The whole state as bytes. What Bullet and the obstacles remember of how they came to be is not
+/// in it; they are built anew, here and where the bytes are read, so that both go on the same.
+std::string checkpoint(WorldState& world);
+
+/// A world read back; its plugins are still to be restored.
+struct Restored {
+  std::unique_ptr<WorldState> world;
+  std::vector<PluginState> plugins;
+};
+/// Throws CheckpointError.
+Restored readCheckpoint(const std::string& bytes);
+
+std::uint64_t stateHash(const WorldState& world);
+
+}  // namespace kiva
