@@ -65,11 +65,11 @@ class Viewer:
             "the WebSocket /api/v1/stream?rate=2.",
             docs_url=None,
             redoc_url=None,
-            openapi_url="/api/v1/openapi.json",
+            openapi_url="/openapi.json",
         )
         app.include_router(api.router(self.desk))
+        app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
         app.add_exception_handler(405, api.not_allowed)
-        app.add_exception_handler(AssertionError, api.no_command)
         self._add_sockets(app)
         self._add_files(app)
         return Gate(app, token, rate)
