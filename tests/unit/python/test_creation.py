@@ -66,6 +66,14 @@ def test_robots_face_where_the_layout_says():
     assert headings == pytest.approx(plan(resolve("", robots=2)).robots[:, 2])
 
 
+def test_the_seed_decides_which_items_a_unit_holds():
+    worlds = [FakeWorld(), FakeWorld(), FakeWorld()]
+    for world, seed in zip(worlds, (1, 2, 2)):
+        WarehouseService(world, [].append, seed=seed).create("small")
+    first, second, third = ({n: str(p) for n, p in w.standing.items()} for w in worlds)
+    assert first != second == third
+
+
 def test_a_last_batch_of_one_keeps_its_name(monkeypatch):
     monkeypatch.setattr(creation, "BATCH", 126)  # There are as many, and the floor.
     world = FakeWorld()

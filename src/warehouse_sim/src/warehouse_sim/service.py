@@ -13,7 +13,7 @@ from warehouse_sim.cells import Cells
 from warehouse_sim.creation import Creation, UndoneError
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.fit import fit
-from warehouse_sim.layout import plan
+from warehouse_sim.layout import SEED, plan
 from warehouse_sim.request import RequestError, resolve
 
 GREETED = "~greeted"
@@ -23,12 +23,12 @@ class WarehouseService:
     """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
 
     In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
-    that is there, if there is one.
+    that is there, if there is one. `seed` decides what in a layout is left to chance.
     """
 
-    def __init__(self, ros, tell, keeps_floor=False):
+    def __init__(self, ros, tell, keeps_floor=False, seed=SEED):
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
-        self._keeps_floor = keeps_floor
+        self._keeps_floor, self._seed = keeps_floor, seed
 
     def handle(self, request):
         """CreateWarehouse: a refused request changes nothing."""
@@ -63,7 +63,9 @@ class WarehouseService:
 
     def _layout(self, wanted, engine):
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
-        return fit(wanted, cells) if cells and cells.taken.size else plan(wanted)
+        if cells and cells.taken.size:
+            return fit(wanted, cells, self._seed)
+        return plan(wanted, self._seed)
 
     def _finish(self, site, name, number, floor):
         identity.write(self._ros, name, number)
