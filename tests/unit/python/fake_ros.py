@@ -37,7 +37,10 @@ class FakeRos:
 
     def __init__(self, **parameters):
         self.parameters = {f"~{name}": value for name, value in parameters.items()}
-        self.publishers, self.callbacks = {}, {}
+        self.publishers, self.callbacks, self.warnings = {}, {}, []
+
+    def logwarn_once(self, text):
+        self.warnings.append(text)
 
     def get_param(self, name, default):
         return self.parameters.get(name, default)
