@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo test test-api test-sanitizers build deps bench lint format install clean
+.PHONY: help run demo test test-api test-sanitizers test-install build deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -36,6 +36,9 @@ test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers
+
+test-install: build  ## install into a folder of its own, and use it from there
+	@scripts/test-install
 
 build: deps build/Makefile  ## compile everything but the tests
 	@$(BUILD)

@@ -5,14 +5,16 @@ import re
 
 import pytest
 from fake_world import FakeWorld
+from geometry_msgs.msg import Pose
 
 from warehouse_msgs.srv import CreateWarehouseRequest
 from warehouse_sim import creation, poses
+from warehouse_sim.building_site import BUILDING
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.layout import plan
 from warehouse_sim.models import FLOOR, kind_and_number
 from warehouse_sim.request import PRESETS, resolve
-from warehouse_sim.service import BUILDING, WarehouseService
+from warehouse_sim.service import WarehouseService
 
 
 def service(world, told=None):
@@ -62,6 +64,14 @@ def test_robots_face_where_the_layout_says():
     ask(world, robots=2)
     headings = poses.planar_of([world.standing["kiva1"], world.standing["kiva2"]])[:, 2]
     assert headings == pytest.approx(plan(resolve("", robots=2)).robots[:, 2])
+
+
+def test_the_seed_decides_which_items_a_unit_holds():
+    worlds = [FakeWorld(), FakeWorld(), FakeWorld()]
+    for world, seed in zip(worlds, (1, 2, 2)):
+        WarehouseService(world, [].append, seed=seed).create("small")
+    first, second, third = ({n: str(p) for n, p in w.standing.items()} for w in worlds)
+    assert first != second == third
 
 
 def test_a_last_batch_of_one_keeps_its_name(monkeypatch):
@@ -128,20 +138,53 @@ def test_a_respawned_node_finds_the_warehouse_as_it_stands():
     assert told == []
 
 
-def test_what_a_dead_node_left_half_built_is_built_anew():
-    world = FakeWorld(standing=["storage_unit1"])
-    world.set_param(BUILDING, "small")
-    service(world).start("small")
+class KilledError(BaseException):
+    """The end of a process, in the middle of whatever it does."""
+
+
+def killed_while_building(paused, standing=()):
+    """The world as a builder leaves it that is killed with its warehouse half-built."""
+    world = FakeWorld(standing=standing, paused=paused)
+    begin = world.spawn_sdf_model
+
+    def killed(*_):
+        world.standing |= {"storage_unit1": Pose(), "item1": Pose()}
+        raise KilledError
+
+    world.spawn_sdf_model = killed
+    with pytest.raises(KilledError):
+        ask(world, "medium")
+    world.spawn_sdf_model = begin
+    assert world.pause
+    return world
+
+
+@pytest.mark.parametrize("paused", [True, False])
+def test_what_a_builder_left_half_built_is_undone_by_the_next(paused):
+    world, told = killed_while_building(paused), []
+    service(world, told).start("small")
     assert counts(world)["storage_unit"] == 24
+    assert world.pause == paused
+    assert not world.has_param(BUILDING)
+    assert "left half-built" in told[0]
+
+
+def test_what_can_not_be_built_anew_is_undone_all_the_same():
+    world = killed_while_building(paused=False, standing=["person1"])
+    service(world).start("smal")
+    assert set(world.standing) == {"person1"}
+    assert not world.pause
     assert not world.has_param(BUILDING)
 
 
-def test_a_node_that_dies_while_building_leaves_word_of_it():
-    world = FakeWorld()
-    world.spawn_sdf_model = None
+def test_a_second_death_forgets_nothing():
+    world = killed_while_building(paused=False)
+    names, world.get_world_properties = world.get_world_properties, None
     with pytest.raises(TypeError):
-        ask(world, "small")
-    assert world.has_param(BUILDING)
+        service(world).start("small")
+    world.get_world_properties = names
+    service(world).start("small")
+    assert not world.pause
 
 
 @pytest.mark.parametrize("size", ["", "none"])

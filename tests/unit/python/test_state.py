@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse at a glance, once a second and whenever something comes or goes."""
 
+import io
+
 import pytest
 import rospy
 from fake_ros import FakeRos
@@ -127,3 +129,13 @@ def test_a_newcomer_gets_the_newest_at_once(world):
     world.drive(seconds=10.3)
     world.topic.connect()
     assert world.topic.sent[-1].kivas[0].pose.x == 1
+
+
+@pytest.mark.parametrize("wrong", ["seven", 1.5, 2**40, True, [7]])
+def test_an_id_of_another_type_is_told_and_ends_nothing(world, wrong):
+    world.parameters["/warehouse/id"] = wrong
+    world.tell()
+    assert world.turn() == 1
+    world.topic.sent[-1].serialize(io.BytesIO())
+    assert world.topic.sent[-1].warehouse_id == 0
+    assert "/warehouse/id is" in world.warnings[0]

@@ -29,6 +29,12 @@ def test_a_name_of_another_machine_does_not():
     assert "robots.example" in json.loads(answer.body)["detail"]
 
 
+@pytest.mark.parametrize("host", ["[", "[::1", "]", "[x]:80"])
+def test_a_host_that_is_no_address_is_refused(host):
+    assert status(Gate(echo), {"host": host}) in (400, 403)
+    assert status(Gate(echo), LOCAL | {"origin": f"http://{host}"}) in (400, 403)
+
+
 def test_a_foreign_origin_is_refused():
     assert status(Gate(echo), LOCAL | {"origin": "http://localhost:8080"}) == 200
     for origin in ("http://evil.example", "http://localhost:9999", "null"):
@@ -53,6 +59,7 @@ def test_the_token_opens_from_anywhere():
     assert status(gate, LOCAL) == 401
     assert status(gate, AWAY | {"authorization": "Bearer wrong"}) == 401
     assert status(gate, AWAY | {"authorization": f"Bearer {TOKEN}"}) == 200
+    assert status(gate, AWAY | {"authorization": f"bearer {TOKEN}"}) == 200
     assert status(gate, AWAY, query="token=s3cret%3Btoken") == 200
 
 

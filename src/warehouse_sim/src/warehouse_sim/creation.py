@@ -13,6 +13,10 @@ PROGRESS_EVERY = 3.0  # [s, wall]
 BATCH = 500
 
 
+class UndoneError(EngineError):
+    """The world refused a part of a warehouse; what was built so far was taken away again."""
+
+
 class Creation:
     """`engine` is an engine.Engine; `report(text)` tells a person how far it is."""
 
@@ -21,15 +25,18 @@ class Creation:
         self._next_report = clock() + PROGRESS_EVERY
 
     def replace(self, layout):
-        """All of the layout, or nothing but its floor. Raises EngineError."""
-        with self._engine.paused():
-            self.clear(floor=layout.has_own_floor)
-            try:
-                self._spawn(models.of_layout(layout))
-            except EngineError as error:
-                self._report(f"refused: {error}; taking away what was built so far")
-                self.clear(floor=False)
-                raise EngineError(f"{error}; the half-made warehouse was taken away") from error
+        """All of the layout, or nothing but its floor.
+
+        Raises UndoneError, and EngineError where the world does not answer any more.
+        Best while physics is paused: what is half-built shall not begin to move.
+        """
+        self.clear(floor=layout.has_own_floor)
+        try:
+            self._spawn(models.of_layout(layout))
+        except EngineError as error:
+            self._report(f"refused: {error}; taking away what was built so far")
+            self.clear(floor=False)
+            raise UndoneError(f"{error}; the half-made warehouse was taken away") from error
 
     def clear(self, floor=True):
         """Takes away the models of any warehouse; those with other names stay."""

@@ -11,16 +11,10 @@ from dataclasses import dataclass
 
 from warehouse_msgs.msg import Event, KivaStatus
 from warehouse_sim.state import COMMANDS
+from warehouse_sim.words import EVENT
 
 ENDS = (Event.DONE, Event.BLOCKED, Event.REFUSED)
-TOLD = {
-    Event.REFUSED: "REFUSED",
-    Event.DONE: "DONE",
-    Event.BLOCKED: "BLOCKED",
-    Event.LIFTED: "LIFTED",
-    Event.DROPPED: "DROPPED",
-    Event.COLLISION: "COLLISION",
-}
+SILENT = (Event.ACCEPTED, Event.SPAWNED, Event.DELETED)
 
 
 class DeadlineError(TimeoutError):
@@ -110,8 +104,8 @@ class Director:
             self._go_on(message.kiva_id)
             return
         self.events.append(message)
-        if message.kind in TOLD:
-            parts = (TOLD[message.kind], message.other, message.text)
+        if message.kind not in SILENT:
+            parts = (EVENT[message.kind], message.other, message.text)
             self._say(message.header.stamp.to_sec(), message.model, " ".join(filter(None, parts)))
         kiva = next((k for k in self._pending if message.model == f"kiva{k}"), None)
         if kiva and message.kind in ENDS:

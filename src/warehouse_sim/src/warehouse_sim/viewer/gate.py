@@ -8,6 +8,8 @@ import time
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
+from fastapi.security.utils import get_authorization_scheme_param
+
 MOST_BODY = 64 * 1024  # [bytes]
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
@@ -91,17 +93,19 @@ class Gate:
 
     def _check_origin(self, headers):
         host = headers.get("host", "")
-        if not self._token and not is_local(urlsplit(f"//{host}").hostname or ""):
+        # Starlette's TrustedHostMiddleware knows no IPv6 addresses.
+        if not self._token and not is_local(_split(f"//{host}").hostname or ""):
             raise Refusal(403, f"'{host}' is no name of this machine alone; that needs a token")
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc != host:
+        if origin is not None and _split(origin).netloc != host:
             raise Refusal(403, f"the origin '{origin}' is foreign")
 
     def _check_token(self, scope, headers):
         if not self._token:
             return
-        given = headers.get("authorization", "").removeprefix("Bearer ")
-        given = given or _cookie(headers) or _query_token(scope)
+        scheme, given = get_authorization_scheme_param(headers.get("authorization"))
+        if scheme.lower() != "bearer":
+            given = _cookie(headers) or _query_token(scope)
         if not hmac.compare_digest(given.encode(), self._token.encode()):
             challenge = [(b"www-authenticate", b"Bearer")]
             raise Refusal(401, "give the token: ?token=… or Authorization: Bearer …", challenge)
@@ -109,6 +113,14 @@ class Gate:
     def _brings_token(self, scope):
         """Whether a browser comes with the token in its address, where it should not stay."""
         return self._token and scope["path"] == "/" and _query_token(scope)
+
+
+def _split(address):
+    """Its parts. Raises Refusal."""
+    try:
+        return urlsplit(address)
+    except ValueError as error:
+        raise Refusal(400, f"'{address}' is no address: {error}") from error
 
 
 def _query_token(scope):
