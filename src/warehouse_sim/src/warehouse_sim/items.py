@@ -32,7 +32,7 @@ def spread(items, units, rng=None):
 
 
 def _regular(unit, layer):
-    """Board and place of a unit's first, second … item."""
+    """StatePublisher and place of a unit's first, second … item."""
     layer, board = np.divmod(layer, len(BOARDS))
     # 5 and 12 share no divisor: each board's places come once before any comes again, and not
     # in a row. The other terms only keep units and boards from looking alike.

@@ -9,7 +9,7 @@ from visualization_msgs.msg import MarkerArray
 from warehouse_msgs.msg import Event, FleetState, KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim import markers, poses, survey, tracking
 from warehouse_sim.engine import Engine, EngineError
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_sim.latest import LatestMessages, LazyPublisher
 from warehouse_sim.shapes import ShapeArray
 
 LOOK_EVERY = 1.0  # at what is neither robot, unit nor item [s, wall]
@@ -70,13 +70,13 @@ class Picture:
         self._seen, self._next_look = None, 0.0
         self._blocked = set()
         ros.Subscriber("/warehouse/events", Event, self._note, queue_size=1000)
-        self._newest = Newest(
+        self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
             objects=("/warehouse/objects", WarehouseObjects),
             states=("/warehouse/unit_states", UnitStates),
         )
-        self._topic = OnDemand(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
+        self._topic = LazyPublisher(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
 
     def _note(self, event):
         """The status BLOCKED itself lasts but a moment; it shows until the next command."""
