@@ -55,9 +55,9 @@ def latched(topic, kind, condition=lambda message: True):
         listener.close()
 
 
-def wait_until(condition, what):
+def wait_until(condition, what, patience=PATIENCE):
     """Until condition() holds, where nothing is published that one could wait for."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + patience
     while not condition():
         assert time.monotonic() < end, f"waited in vain: {what}"
         threading.Event().wait(0.05)

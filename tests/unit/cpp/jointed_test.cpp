@@ -2,7 +2,7 @@
 //
 // The jointed drive: exact to the millimetre, true to statics and friction, the same as Bullet's
 // own hinges, and hit by what is in Bullet.
-#include "core/physics/physics.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -71,7 +71,7 @@ TEST_P(JointedWithLoad, RestsUnmovedAndAsleep) {
   lone.w.movx(1, 1);
   lone.w.runUntilIdle(1);
   lone.w.run(0.5);
-  EXPECT_EQ(lone.w.world.fleet().awake[0], 0);
+  EXPECT_EQ(insideOf(lone.w.world).fleet.awake[0], 0);
   const double x = lone.w.x(1), pitch = lone.stance().pitch;
   lone.w.run(10);
   EXPECT_EQ(lone.w.x(1), x);

@@ -14,6 +14,7 @@ from pydantic.errors import StrError
 from starlette.routing import Match
 
 from warehouse_sim.viewer import catalogue, schemas
+from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 
 PATIENCE = 3.0  # for messages that are on their way [s, wall]
@@ -164,7 +165,7 @@ def _add_warehouse(out, backend):
     async def get_events(
         since: int = Query(0, ge=0, le=2**53, description="the last id you know"),
         model: str = Query("", max_length=100, description="of this model alone"),
-        limit: int = Limit,
+        limit: int = Query(100, ge=1, le=KEPT, description="rows in the answer"),
     ):
         """The newest events, oldest first."""
         return {"events": backend.journal.since(since, model or None, limit)}

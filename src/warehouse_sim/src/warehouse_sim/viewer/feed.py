@@ -6,6 +6,7 @@ import time
 
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs.msg import (
@@ -104,6 +105,8 @@ class Feed:
     def want(self, paths, scans):
         """Hears the paths or not, and the scans of exactly these robots (ids)."""
         wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        if scans:
+            wanted["frames"] = ("/tf_static", TFMessage)
         if paths:
             wanted["paths"] = ("/warehouse/paths", FleetPaths)
         with self._lock:

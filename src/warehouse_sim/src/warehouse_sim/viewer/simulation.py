@@ -62,6 +62,8 @@ class Simulation:
             code, *_ = self._ros.get_master().lookupService(name)
         except OSError as error:
             return f"the ROS master does not answer: {error}"
+        if action == "undo" and not self._ros.get_param("/gazebo/autosave", 0):
+            return "nothing is saved for it: start with autosave:=60, say"
         return None if code == 1 else f"the engine offers no {name}"
 
     def state(self):
