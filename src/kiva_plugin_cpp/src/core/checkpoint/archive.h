@@ -120,6 +120,12 @@ class Archive : public Bytes {
     if constexpr (kReads) value = byte != 0;
   }
 
+  void one(std::vector<bool>& flags) {
+    std::vector<std::uint8_t> bytes(flags.begin(), flags.end());
+    one(bytes);
+    if constexpr (kReads) flags.assign(bytes.begin(), bytes.end());
+  }
+
   template <typename T>
   void one(T& value) {
     if constexpr (kIsPlain<T>) {

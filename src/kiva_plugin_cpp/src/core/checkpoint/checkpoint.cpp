@@ -145,13 +145,14 @@ Restored read(const std::string& bytes) {
   reader(out.plugins);
   if (reader.left() > 0) throw ArchiveError("it has bytes left over");
   indexModels(*out.world);
-  renew(*out.world, physics);
+  rebuild(*out.world, physics);
   return out;
 }
 
 }  // namespace
 
-std::string checkpoint(WorldState& world) {
+std::string checkpoint(const WorldState& saved) {
+  auto& world = const_cast<WorldState&>(saved);  // describing changes nothing unless it reads
   PhysicsState physics = readPhysics(world);
   std::vector<PluginState> plugins = savePlugins(world);
   Writer writer;
@@ -160,7 +161,6 @@ std::string checkpoint(WorldState& world) {
   describeMotion(writer, world, physics);
   describeQueues(writer, world);
   writer(plugins);
-  renew(world, physics);
   return sealed(writer.bytes);
 }
 
@@ -175,11 +175,7 @@ Restored readCheckpoint(const std::string& bytes) {
 std::uint64_t stateHash(const WorldState& world) {
   Hasher hasher;
   PhysicsState physics = readPhysics(world);
-  physics.contacts.clear();  // their order has no meaning
-  // Nor has it a meaning which slots are free.
-  auto& bodies = physics.bodies;
-  const auto is_empty = [](const std::vector<BodyState>& states) { return states.empty(); };
-  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), is_empty), bodies.end());
+  physics.contacts.clear();  // a restored world lacks those that the next step drops
   // Describing changes nothing unless it reads.
   describeMotion(hasher, const_cast<WorldState&>(world), physics);
   std::vector<PluginState> plugins = savePlugins(world);

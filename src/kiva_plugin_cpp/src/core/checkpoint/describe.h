@@ -234,14 +234,27 @@ void describe(A& a, btTransform& t) {
 
 template <class A>
 void describe(A& a, BodyState& b) {
-  DESCRIBED(BodyState, 464);
+  DESCRIBED(BodyState, 568);
   a(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
-    b.predicted_angular_velocity, b.force, b.torque, b.activation, b.resting);
+    b.predicted_angular_velocity, b.force, b.torque, b.mass, b.inverse_inertia, b.activation,
+    b.resting, b.parts, b.faceted);
+}
+
+template <class A>
+void describe(A& a, MotorState& m) {
+  DESCRIBED(MotorState, 24);
+  a(m.powered, m.speed, m.effort);
+}
+
+template <class A>
+void describe(A& a, ModelInPhysics& m) {
+  DESCRIBED(ModelInPhysics, 56);
+  a(m.slot, m.links, m.motors);
 }
 
 template <class A>
 void describe(A& a, BodyAddress& b) {
-  a(b.model, b.link, b.is_plane);
+  a(b.model, b.link, b.is_surface);
 }
 
 template <class A>
@@ -257,12 +270,19 @@ void describe(A& a, btManifoldPoint& p) {
 
 template <class A>
 void describe(A& a, ContactMemory& c) {
-  a(c.a, c.b, c.points);
+  a(c.a, c.b, c.part_a, c.part_b, c.points);
+}
+
+/// Of a mover: it has no body of its own, and no triangles.
+template <class A>
+void describe(A& a, Footprint& f) {
+  DESCRIBED(Footprint, 96);
+  a(f.kind, f.x, f.y, f.c, f.s, f.hx, f.hy, f.z_min, f.z_max, f.model, f.group);
 }
 
 template <class A>
 void describe(A& a, PhysicsState& p) {
-  a(p.bodies, p.contacts);
+  a(p.models, p.contacts, p.movers);
 }
 
 // --- the world
