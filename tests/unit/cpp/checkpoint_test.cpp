@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "damaged_checkpoint.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -221,12 +222,12 @@ class CheckpointIn : public ::testing::TestWithParam<Scene> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    , CheckpointIn,
-    ::testing::Values(
-        Scene{"AHall", Drive::kTraction, [](Warehouse& w, unsigned) { furnish(w); }},
-        Scene{"AHeap", Drive::kTraction, heap}, Scene{"AJointedHeap", Drive::kJointed, heap}),
-    [](const auto& scene) { return scene.param.name; });
+INSTANTIATE_TEST_SUITE_P(, CheckpointIn,
+                         ::testing::Values(Scene{"AHall", Drive::kTraction,
+                                                 [](Warehouse& w, unsigned) { furnish(w); }},
+                                           Scene{"AHeap", Drive::kTraction, heap},
+                                           Scene{"AJointedHeap", Drive::kJointed, heap}),
+                         [](const auto& scene) { return scene.param.name; });
 
 TEST_P(CheckpointIn, SavingDoesNotChangeTheFutureAndRestoredWorldsShareIt) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -300,6 +301,49 @@ TEST_F(Checkpoint, DamagedBytesChangeNothing) {
   for (const std::string& bytes : bad) EXPECT_THROW(w.world.restore(bytes), CheckpointError);
   EXPECT_EQ(w.world.stateHash(), hash);
   EXPECT_TRUE(w.world.checkpoint() == saved);
+}
+
+/// The same under a good seal: every one is refused with nothing changed, or a world like any
+/// other.
+TEST_P(CheckpointIn, NobodyWhoSealsItAgainBreaksTheWorld) {
+  const auto w = make(1);
+  std::vector<std::string> saved;
+  for (int i = 0; i < 4; ++i) {
+    goOn(w->world, 500, i);
+    saved.push_back(w->world.checkpoint());
+  }
+  CheckpointDamager damaged(3);
+  int refused = 0;
+  for (int i = 0; i < 400; ++i) {
+    refused += !restores(w->world, damaged(saved[i % saved.size()]), 5);
+  }
+  EXPECT_GT(refused, 200);
+}
+
+TEST_F(Checkpoint, TheFieldIsNamed) {
+  const auto refusal = [&](const std::string& field, const std::string& why, auto value, auto to) {
+    std::string bytes = w.world.checkpoint();
+    const std::string from(reinterpret_cast<const char*>(&value), sizeof value);
+    const std::size_t at = bytes.find(from, kContentAt);
+    ASSERT_NE(at, std::string::npos) << field;
+    bytes.replace(at, sizeof to, reinterpret_cast<const char*>(&to), sizeof to);
+    try {
+      w.world.restore(resealed(bytes));
+      FAIL() << field;
+    } catch (const CheckpointError& error) {
+      EXPECT_PRED2(contains, error.what(), field);
+      EXPECT_PRED2(contains, error.what(), why);
+    }
+  };
+  const double nowhere = std::nan("");
+  w.world.setGravity({0, 0, -9.625});
+  refusal("gravity.Z", "number", -9.625, nowhere);
+  const Wrench wrench{"box", "link", {1.0625, 0, 0}, {}, {0, 1}};
+  w.world.apply(wrench);
+  refusal("external_inputs.wrenches[0].force.X", "not nan", 1.0625, nowhere);
+  w.world.post(Command{Command::Kind::kMoveX, 123456, 1});
+  refusal("commands[0].kind", "77 is none of its values",
+          std::array<std::uint8_t, 5>{1, 0x40, 0xe2, 0x01, 0}, std::uint8_t{77});
 }
 
 TEST_F(Checkpoint, AnotherFormatIsNamed) {
