@@ -16,6 +16,7 @@ from browser import browser
 from node_test import PATIENCE, Robot, wait_until
 from PIL import Image
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
 from warehouse_test import delete, model_file, place, pose, spawn
 
 ROBOTS, UNITS, ITEMS = 4, 24, 96
@@ -248,6 +249,33 @@ class ViewerPage(unittest.TestCase):
             self.assertAlmostEqual(told, real, places=5)
         self.page.click_on("scan")
         self.assertFalse(self.page.read("page.overlays.fan.visible"))
+
+    # --- what stands there
+    def test_a_robot_comes_where_it_is_clicked_and_goes(self):
+        self.page.click_on("add")
+        self.page.click(5, -4)
+        self.page.until(f"page.world.scene.robots.length === {ROBOTS + 1}")
+        self.assertEqual(place(f"kiva{ROBOTS + 1}")[:2], (5, -4))
+        self.page.read(f"page.select('kiva{ROBOTS + 1}')")
+        self.page.click_on("remove")
+        self.page.until("document.getElementById('question').open")
+        self.page.click_on("question-yes")
+        self.page.until(f"page.world.scene.robots.length === {ROBOTS}")
+
+    def test_builds_a_warehouse(self):
+        self.build("my own", robots=3, shelves=10, items=20)
+        self.page.until("page.world.scene.robots.length === 3")
+        self.assertEqual(self.page.read("page.world.scene.items.length"), 20)
+        self.page.until("document.getElementById('warehouse').textContent === 'mine'")
+        self.build("small")
+        self.page.until(f"page.world.scene.robots.length === {ROBOTS}")
+
+    def build(self, size, **counts):
+        self.page.click_on("build")
+        Select(self.page.driver.find_element("id", "size")).select_by_visible_text(size)
+        for name, count in counts.items():
+            self.page.type(Keys.BACKSPACE * 4 + str(count), f"own-{name}")
+        self.page.driver.find_element("css selector", "#plan .strong").click()
 
     # --- the log as a file
     def test_saves_the_events(self):

@@ -37,8 +37,19 @@ test('a look becomes one geometry, whose largest shape takes the tint', () => {
   assert.equal(position.count, 2 * 36);
   assert.equal(paint.array.reduce((a, b) => a + b), 36);
   assert.deepEqual(largestOf(ROBOT).size, [0.7, 0.6, 0.3]);
-  assert.equal(hull(ROBOT).attributes.position.count, 36);
+  assert.equal(hull(ROBOT).index.count, 5 * 6);
+  assert.equal(hull(ROBOT, true, 0.5).index.count, 6 * 6);
   assert.equal(boxesOf(ROBOT).length, 4);
+});
+
+test('the sides of a hull are seen from outside', () => {
+  const { index, attributes: { position, normal } } = hull(UNIT);
+  const at = (array, i) => new THREE.Vector3().fromBufferAttribute(array, index.getX(i));
+  for (let i = 0; i < index.count; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => at(position, i + k));
+    const across = b.sub(a).cross(c.sub(a)).normalize();
+    assert.ok(across.distanceTo(at(normal, i)) < 1e-6, `triangle ${i / 3}`);
+  }
 });
 
 test('wheels roll by the way, and against each other in a turn', () => {

@@ -12,7 +12,7 @@ import pytest
 from warehouse_sim.items import BOARDS, CAPACITY, PLACES, spread
 from warehouse_sim.layout import plan
 from warehouse_sim.request import LIMITS, PRESETS, resolve
-from warehouse_sim.routes import Grid, covered, point, reachable
+from warehouse_sim.routes import Grid, covered, point
 
 BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
 
@@ -54,6 +54,17 @@ def all_cells(layout):
         *map(point, layout.drops),
         *belt_cells(layout),
     ]
+
+
+def reachable(grid, starts):
+    """All grid points reached from `starts` (which themselves need not be free)."""
+    queue = [point(p) for p in starts]
+    seen = set(queue)
+    for here in queue:
+        new = [q for q in grid.neighbours(here) if q not in seen]
+        seen.update(new)
+        queue += new
+    return seen
 
 
 def test_counts(case):

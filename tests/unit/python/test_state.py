@@ -9,7 +9,7 @@ from fake_ros import FakeRos
 
 from warehouse_msgs.msg import FleetState, KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim import poses
-from warehouse_sim.state import Board
+from warehouse_sim.state import StatePublisher
 
 
 class World(FakeRos):
@@ -18,7 +18,7 @@ class World(FakeRos):
     def __init__(self):
         super().__init__()
         self.seconds = 10
-        self.board = Board(self)
+        self.publisher = StatePublisher(self)
         self.topic = self.publishers["/warehouse/state"]
         self.topic.connect()
 
@@ -61,7 +61,7 @@ class World(FakeRos):
     def turn(self):
         """How many messages one turn publishes."""
         before = len(self.topic.sent)
-        self.board.turn(patience=0)
+        self.publisher.turn(patience=0)
         return len(self.topic.sent) - before
 
 

@@ -160,6 +160,6 @@ class World(_core.World):
         """Carry that storage unit. Arguments and errors as of mov()."""
         self.lift(kiva_id, 1, shelf_id)
 
-    def drop(self, kiva_id, shelf_id):
-        """Drop it. Arguments and errors as of mov()."""
+    def drop(self, kiva_id, shelf_id=0):
+        """Drop it, or whichever unit it carries. Arguments and errors as of mov()."""
         self.lift(kiva_id, 0, shelf_id)

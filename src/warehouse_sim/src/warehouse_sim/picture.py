@@ -15,7 +15,7 @@ from warehouse_msgs.msg import (
 )
 from warehouse_sim import looks, markers, poses, tracking
 from warehouse_sim.chosen import Chosen
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_sim.latest import LatestMessages, LazyPublisher
 from warehouse_sim.paths import PathTopics, ways
 from warehouse_sim.shapes import ShapeArray
 
@@ -65,7 +65,7 @@ class Picture:
         self._scenery, self._fixed = None, []
         self._blocked = set()
         ros.Subscriber("/warehouse/events", Event, self._note, queue_size=1000)
-        self._newest = Newest(
+        self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
             objects=("/warehouse/objects", WarehouseObjects),
@@ -73,7 +73,7 @@ class Picture:
             scenery=("/warehouse/scenery", Scenery),
             paths=("/warehouse/paths", FleetPaths),
         )
-        self._topic = OnDemand(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
+        self._topic = LazyPublisher(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
         self._chosen, self._paths = Chosen(ros), PathTopics(ros)
 
     def _note(self, event):

@@ -8,13 +8,13 @@ from std_msgs.msg import Header
 
 from warehouse_msgs.srv import CreateWarehouseResponse
 from warehouse_sim import hints, identity, models, survey
-from warehouse_sim.building_site import BuildingSite
+from warehouse_sim.build_transaction import BuildTransaction
 from warehouse_sim.cells import Cells
-from warehouse_sim.creation import Creation, UndoneError
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.fit import fit
 from warehouse_sim.layout import SEED, plan
 from warehouse_sim.request import RequestError, resolve
+from warehouse_sim.warehouse_builder import UndoneError, WarehouseBuilder
 
 GREETED = "~greeted"
 
@@ -49,14 +49,14 @@ class WarehouseService:
         wanted = resolve(name, *counts)
         with self._lock, Engine(self._ros) as engine:
             layout = self._layout(wanted, engine)
-            site = BuildingSite(self._ros, engine)
-            site.open(name)
+            transaction = BuildTransaction(self._ros, engine)
+            transaction.begin(name)
             try:
-                Creation(engine, self._tell).replace(layout)
+                WarehouseBuilder(engine, self._tell).replace(layout)
             except UndoneError:
-                self._finish(site, "", 0, layout.floor)
+                self._finish(transaction, "", 0, layout.floor)
                 raise
-            self._finish(site, name, number, layout.floor)
+            self._finish(transaction, name, number, layout.floor)
         width, length = layout.floor.size
         title = f"{name}: " if name else ""
         return f"{title}{wanted} on a {width:g} x {length:g} m floor"
@@ -67,10 +67,10 @@ class WarehouseService:
             return fit(wanted, cells, self._seed)
         return plan(wanted, self._seed)
 
-    def _finish(self, site, name, number, floor):
+    def _finish(self, transaction, name, number, floor):
         identity.write(self._ros, name, number)
         self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
-        site.close()
+        transaction.commit()
 
     def start(self, size):
         """Finds the warehouse as it stands; builds the preset `size`, if any, where none does.
@@ -93,13 +93,13 @@ class WarehouseService:
 
     def _undo(self, engine):
         """Takes away what a builder left half-built. True if one did."""
-        site = BuildingSite(self._ros, engine)
-        if not site.is_open:
+        transaction = BuildTransaction(self._ros, engine)
+        if not transaction.is_unfinished:
             return False
         self._tell("a warehouse was left half-built; taking it away")
-        Creation(engine, self._tell).clear(floor=False)
+        WarehouseBuilder(engine, self._tell).clear(floor=False)
         identity.write(self._ros, "", 0)
-        site.close()
+        transaction.commit()
         return True
 
     def _greet(self, title=""):

@@ -16,7 +16,7 @@ from warehouse_msgs.msg import (
     WarehouseState,
 )
 from warehouse_sim import identity, tracking
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
 PERIOD = 1.0  # [s, simulated]
@@ -45,18 +45,18 @@ def glance(fleet, objects, states):
     )
 
 
-class Board:
+class StatePublisher:
     """Publishes /warehouse/state. `ros` is rospy."""
 
     def __init__(self, ros):
         self._ros, self._shown, self._next = ros, None, None
-        self._newest = Newest(
+        self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
             objects=("/warehouse/objects", WarehouseObjects),
             states=("/warehouse/unit_states", UnitStates),
         )
-        self._topic = OnDemand(ros, "/warehouse/state", WarehouseState, self.message)
+        self._topic = LazyPublisher(ros, "/warehouse/state", WarehouseState, self.message)
 
     def message(self):
         """The newest WarehouseState, or None if nothing is known yet."""
@@ -88,6 +88,6 @@ def follow(ros):
     """Until shutdown; the body of create_warehouse_topics."""
     for topic, kind in COMMANDS.items():
         ros.Publisher(topic, kind, queue_size=10)
-    board = Board(ros)
+    publisher = StatePublisher(ros)
     while not ros.is_shutdown():
-        board.turn()
+        publisher.turn()

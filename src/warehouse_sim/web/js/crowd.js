@@ -4,7 +4,7 @@
 
 import * as THREE from '/three/build/three.module.js';
 
-export const FAR = 1, NEAR = 2, SEEN = FAR | NEAR;
+export const FAR = 1, NEAR = 2;
 const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
 
 export class Crowd {
@@ -20,17 +20,17 @@ export class Crowd {
     this.stale = true;
   }
 
-  /** Draws a geometry for each thing at these levels; `place(i, matrix)` turns a thing's matrix
+  /** Draws a geometry for each thing at a level; `place(i, matrix)` turns a thing's matrix
    *  into that of a part that moves on it. */
-  add(geometry, material, levels, place = null) {
+  add(geometry, material, level, place = null) {
     const mesh = new THREE.InstancedMesh(geometry, material, this.count);
     mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
     mesh.frustumCulled = false;
     const tint = new THREE.InstancedBufferAttribute(new Float32Array(3 * this.count), 3);
     geometry.setAttribute('tint', tint.setUsage(THREE.DynamicDrawUsage));
     this.group.add(mesh);
-    this.layers.push({ mesh, tint, levels, place });
-    if (levels === NEAR) this.vertices += this.count * geometry.attributes.position.count;
+    this.layers.push({ mesh, tint, level, place });
+    if (level === NEAR) this.vertices += this.count * geometry.attributes.position.count;
   }
 
   put(i, matrix) {
@@ -50,7 +50,7 @@ export class Crowd {
     for (const layer of this.layers) layer.drawn = 0;
     for (let i = 0; i < this.count; ++i) {
       const level = this.levelOf(view, i);
-      for (const layer of this.layers) if (layer.levels & level) this.draw(layer, i);
+      for (const layer of this.layers) if (layer.level === level) this.draw(layer, i);
     }
     for (const layer of this.layers) send(layer);
   }

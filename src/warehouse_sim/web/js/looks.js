@@ -4,6 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 
 const ROUND = 12; // segments of a circle
+const PAD_HEIGHT = 0.012; // above the floor [m]
 const SPHERE = 1, CYLINDER = 2, CAPSULE = 3, ELLIPSOID = 4, PLANE = 5; // as warehouse_msgs/Look
 
 function primitive(kind, [x, y, z]) {
@@ -57,13 +58,38 @@ export function merge(links, painted = false) {
 }
 
 /** One box around all shapes, in the colour of the largest or, where `painted`, in each
- *  instance's own tint: what is left of a thing that is far away. */
-export function hull(links, painted = false) {
+ *  instance's own tint: what is left of a thing that is far away. It has no bottom, but a square of
+ *  half edge `pad` on the floor if one is given. */
+export function hull(links, painted = false, pad = 0) {
   const { min, max } = boundsOf(links);
-  const [x, y, z] = max.map((high, i) => high - min[i]);
-  const geometry = new THREE.BoxBufferGeometry(x, y, z).toNonIndexed()
-    .translate(...max.map((high, i) => (high + min[i]) / 2));
-  return joined([{ geometry, colour: largestOf(links).colour, paint: painted ? 1 : 0 }]);
+  const faces = [2, 0, 1].flatMap((axis) => [0, 1].map((side) => face(axis, side, min, max))).slice(1);
+  if (pad) faces.push(face(2, 1, [-pad, -pad, PAD_HEIGHT], [pad, pad, PAD_HEIGHT]));
+  const out = new THREE.BufferGeometry();
+  const set = (name, size, rows) => out.setAttribute(name, new THREE.Float32BufferAttribute(rows.flat(), size));
+  const corners = faces.flatMap((f) => f.corners);
+  set('position', 3, corners);
+  set('normal', 3, faces.flatMap(({ normal }) => Array(4).fill(normal)));
+  set('color', 3, corners.map(() => largestOf(links).colour.slice(0, 3)));
+  set('paint', 1, corners.map(() => (painted ? 1 : 0)));
+  // Few corners, each shared by two triangles: where they are drawn in software this is half of it.
+  out.setIndex(faces.flatMap((_, i) => [0, 1, 2, 0, 2, 3].map((corner) => 4 * i + corner)));
+  return out;
+}
+
+/** {corners, normal} of the lower (0) or upper (1) side of a box along an axis, seen
+ *  counterclockwise from outside. */
+function face(axis, side, min, max) {
+  const [u, v] = side ? [(axis + 1) % 3, (axis + 2) % 3] : [(axis + 2) % 3, (axis + 1) % 3];
+  const normal = [0, 0, 0];
+  normal[axis] = side ? 1 : -1;
+  const corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([a, b]) => {
+    const at = [0, 0, 0];
+    at[axis] = side ? max[axis] : min[axis];
+    at[u] = a ? max[u] : min[u];
+    at[v] = b ? max[v] : min[v];
+    return at;
+  });
+  return { corners, normal };
 }
 
 function joined(parts) {

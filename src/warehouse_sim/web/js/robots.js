@@ -3,7 +3,7 @@
 // colour of their status.
 
 import * as THREE from '/three/build/three.module.js';
-import { Crowd, FAR, NEAR, SEEN } from './crowd.js';
+import { Crowd, FAR, NEAR } from './crowd.js';
 import { boundsOf, hull, materialOf, matrixOf, merge } from './looks.js';
 
 // Idle, busy, blocked; as style.css has them.
@@ -28,12 +28,12 @@ export class Robots {
     this.wheels = wheelsOf(links);
     if (!count || !links.some((link) => link.shapes.length)) return;
     this.crowd.add(merge(links.filter(({ name }) => !MOVING.includes(name)), true), materialOf(true), NEAR);
-    this.crowd.add(hull(links, true), materialOf(true), FAR);
+    this.crowd.add(hull(links, true, FRAME.outer * world.scene.grid), materialOf(true), FAR);
     for (const [which, name] of MOVING.entries()) {
       const link = links.find((l) => l.name === name);
       if (link) this.addJoint(link, which);
     }
-    this.crowd.add(frameGeometry(world.scene.grid), frameMaterial(), SEEN);
+    this.crowd.add(frameGeometry(world.scene.grid), frameMaterial(), NEAR);
   }
 
   addJoint(link, which) {

@@ -20,7 +20,7 @@ export class Stage {
   constructor(canvas, beforeDraw) {
     this.canvas = canvas;
     this.beforeDraw = beforeDraw;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !isSoftware() });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.1, 5000);
@@ -98,6 +98,13 @@ export class Stage {
     this.scene.add(this.floor, this.grid);
     this.setTheme(document.documentElement.dataset.theme);
   }
+}
+
+/** Whether the processor draws: then smooth edges cost more than they are worth. */
+function isSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl');
+  const told = gl?.getExtension('WEBGL_debug_renderer_info');
+  return /swiftshader|llvmpipe|software/i.test(told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : '');
 }
 
 /** The borders of the cells, which lie midway between grid points; at most MOST_LINES of them. */

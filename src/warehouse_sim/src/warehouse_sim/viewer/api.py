@@ -38,7 +38,7 @@ Number = Path(ge=1, le=schemas.INT32, description="the number in the model's nam
 Text = Query("", max_length=100, description="a part of the name")
 
 
-class Desk:
+class ApiBackend:
     """What the API's answers are made from."""
 
     def __init__(self, feed, model, journal, simulation, commander):
@@ -123,25 +123,25 @@ async def _names_a_command(request: Request):
         raise RequestValidationError([ErrorWrapper(StrError(), ("body", "command"))])
 
 
-def router(desk):
+def router(backend):
     """All routes below /api/v1."""
     out = APIRouter(prefix="/api/v1")
-    _add_warehouse(out, desk)
-    _add_robots(out, desk)
-    _add_things(out, desk, "storage_units", "storage_unit")
-    _add_things(out, desk, "items", "item")
-    _add_simulation(out, desk)
+    _add_warehouse(out, backend)
+    _add_robots(out, backend)
+    _add_things(out, backend, "storage_units", "storage_unit")
+    _add_things(out, backend, "items", "item")
+    _add_simulation(out, backend)
     return out
 
 
-def _add_warehouse(out, desk):
+def _add_warehouse(out, backend):
     @out.get("/warehouse", response_model=schemas.Warehouse, responses=_problems())
     async def get_warehouse():
         """What stands there, and how time passes."""
-        await desk.look()
-        objects, performance = desk.feed["objects"], desk.feed["performance"]
-        name, number = await desk.do("warehouse")
-        lacks = await desk.do("offers")
+        await backend.look()
+        objects, performance = backend.feed["objects"], backend.feed["performance"]
+        name, number = await backend.do("warehouse")
+        lacks = await backend.do("offers")
         return {
             "name": name,
             "id": number,
@@ -149,17 +149,17 @@ def _add_warehouse(out, desk):
             "storage_units": len(objects.storage_units),
             "items": len(objects.items),
             "belts": len(objects.belts),
-            "time": desk.feed["fleet"].stamp.to_sec(),
+            "time": backend.feed["fleet"].stamp.to_sec(),
             "real_time_factor": performance.real_time_factor if performance else 0.0,
             "lacks": {action: lack for action, lack in lacks.items() if lack},
-            **await desk.do("state"),
+            **await backend.do("state"),
         }
 
     @out.post("/warehouse", response_model=schemas.Done, responses=_problems(*SENT))
     async def create_warehouse(wanted: schemas.NewWarehouse):
         """Builds a warehouse in place of the one that stands."""
         counts = (wanted.robots, wanted.items, wanted.shelves)
-        return {"message": await desk.change("create", wanted.name, wanted.id, *counts)}
+        return {"message": await backend.change("create", wanted.name, wanted.id, *counts)}
 
     @out.get("/events", response_model=schemas.Events, responses=_problems())
     async def get_events(
@@ -168,7 +168,7 @@ def _add_warehouse(out, desk):
         limit: int = Query(100, ge=1, le=KEPT, description="rows in the answer"),
     ):
         """The newest events, oldest first."""
-        return {"events": desk.journal.since(since, model or None, limit)}
+        return {"events": backend.journal.since(since, model or None, limit)}
 
     @out.get("/events.csv", response_class=Response, responses=_problems() | CSV)
     async def export_events():
@@ -176,12 +176,12 @@ def _add_warehouse(out, desk):
         text = io.StringIO()
         table = csv.DictWriter(text, schemas.Event.__fields__)
         table.writeheader()
-        table.writerows(desk.journal.since(0))
+        table.writerows(backend.journal.since(0))
         headers = {"content-disposition": 'attachment; filename="events.csv"'}
         return Response(text.getvalue(), media_type="text/csv", headers=headers)
 
 
-def _add_robots(out, desk):
+def _add_robots(out, backend):
     @out.get("/robots", response_model=schemas.Robots, responses=_problems())
     async def get_robots(
         status: Literal["IDLE", "BUSY", "BLOCKED"] | None = None,
@@ -190,26 +190,26 @@ def _add_robots(out, desk):
         offset: int = Offset,
     ):
         """Robots with their poses and status."""
-        found = [r for r in await desk.robots() if name in r.name and status in (None, r.status)]
+        found = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
         return {"total": len(found), "robots": found[offset : offset + limit]}
 
     @out.get("/robots/{number}", response_model=schemas.Robot, responses=_problems(404))
     async def get_robot(number: int = Number):
         """One robot."""
-        return await desk.robot(number)
+        return await backend.robot(number)
 
     @out.post("/robots", status_code=201, response_model=schemas.Robot, responses=_problems(*SENT))
     async def add_robot(wanted: schemas.NewRobot):
         """Puts a robot on a free grid point; it gets the lowest free number."""
-        number = await desk.change("add_robot", wanted.x, wanted.y, wanted.heading)
-        return await desk.robot(number)
+        number = await backend.change("add_robot", wanted.x, wanted.y, wanted.heading)
+        return await backend.robot(number)
 
     @out.delete("/robots/{number}", response_model=schemas.Done, responses=_problems(404, 409))
     async def remove_robot(number: int = Number):
         """Takes away a robot that carries nothing."""
-        if (await desk.robot(number)).storage_unit:
+        if (await backend.robot(number)).storage_unit:
             raise HTTPException(409, f"kiva{number} carries a storage unit; let it drop that first")
-        return {"message": await desk.change("remove_robot", number)}
+        return {"message": await backend.change("remove_robot", number)}
 
     @out.post(
         "/robots/{number}/commands",
@@ -232,14 +232,14 @@ def _add_robots(out, desk):
 
         202 tells that what was waited for has not come in time.
         """
-        await desk.robot(number)
+        await backend.robot(number)
         fields = command.dict(exclude={"command"})
         topic = f"/{command.command}"
-        if not await desk.commander.ready(topic):
+        if not await backend.commander.ready(topic):
             raise HTTPException(503, f"nobody hears {topic}; does the world run?")
         to_end = wait == "end"
         timeout = timeout or (END if to_end else ANSWER)
-        outcome = await desk.commander.send(topic, number, fields, to_end, timeout)
+        outcome = await backend.commander.send(topic, number, fields, to_end, timeout)
         if outcome.kind == "refused":
             raise HTTPException(409, outcome.events[-1]["text"])
         answer = {"outcome": outcome.kind, "events": outcome.events}
@@ -247,7 +247,7 @@ def _add_robots(out, desk):
         return JSONResponse(answer, 202) if late else answer
 
 
-def _add_things(out, desk, kind, noun):
+def _add_things(out, backend, kind, noun):
     @out.get(f"/{kind}", name=f"get_{kind}", response_model=schemas.Things, responses=_problems())
     async def get_all(
         name: str = Text,
@@ -256,7 +256,7 @@ def _add_things(out, desk, kind, noun):
         offset: int = Offset,
     ):
         """Those with a fitting name, and where each is."""
-        tracked = await desk.things(kind)
+        tracked = await backend.things(kind)
         found = catalogue.find(tracked, name, storage_unit)
         rows = [catalogue.thing(tracked, i) for i in found[offset : offset + limit]]
         return {"total": len(found), "things": rows}
@@ -269,25 +269,25 @@ def _add_things(out, desk, kind, noun):
     )
     async def get_one(number: int = Number):
         """One, and where it is."""
-        tracked = await desk.things(kind)
+        tracked = await backend.things(kind)
         try:
             return catalogue.thing(tracked, tracked.names.index(f"{noun}{number}"))
         except ValueError:
             raise HTTPException(404, f"no {noun}{number}") from None
 
 
-def _add_simulation(out, desk):
+def _add_simulation(out, backend):
     def offer(action, about, body=None, default=...):
         answers = {"response_model": schemas.Done, "responses": _problems(*SENT)}
         if body is None:
 
             async def act():
-                return {"message": await desk.do(action)}
+                return {"message": await backend.do(action)}
         else:
             given = Body(default)
 
             async def act(wanted: body = given):
-                return {"message": await desk.do(action, *wanted.dict().values())}
+                return {"message": await backend.do(action, *wanted.dict().values())}
 
         out.post(f"/simulation/{action}", name=action, description=about, **answers)(act)
 

@@ -13,10 +13,10 @@ from fastapi.responses import FileResponse
 from fastapi.staticfiles import StaticFiles
 
 from warehouse_sim.viewer import api, stream
+from warehouse_sim.viewer.access import AccessControl
 from warehouse_sim.viewer.commander import Commander
 from warehouse_sim.viewer.connections import BoundedConnection
 from warehouse_sim.viewer.feed import Feed
-from warehouse_sim.viewer.gate import Gate
 from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
@@ -39,7 +39,7 @@ class Viewer:
         self.feed = Feed(ros, self._on_event, self._on_news)
         self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
-        self.desk = api.Desk(*parts)
+        self.backend = api.ApiBackend(*parts)
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):
@@ -67,12 +67,12 @@ class Viewer:
             redoc_url=None,
             openapi_url="/openapi.json",
         )
-        app.include_router(api.router(self.desk))
+        app.include_router(api.router(self.backend))
         app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
         app.add_exception_handler(405, api.not_allowed)
         self._add_sockets(app)
         self._add_files(app)
-        return Gate(app, token, rate)
+        return AccessControl(app, token, rate)
 
     def start(self):
         """Begins to serve pages, in the running asyncio loop."""
@@ -87,7 +87,7 @@ class Viewer:
         @app.websocket("/api/v1/stream")
         async def json_stream(socket: WebSocket, rate: float = 2.0):
             rate = min(10.0, max(0.1, rate)) if rate == rate else 2.0
-            await self._admit(socket, lambda s: stream.serve(s, self.desk, rate))
+            await self._admit(socket, lambda s: stream.serve(s, self.backend, rate))
 
     async def _admit(self, socket, serve):
         await socket.accept()

@@ -15,7 +15,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from warehouse_sim import poses
 from warehouse_sim.viewer import protocol
-from warehouse_sim.viewer.gate import RateLimit
+from warehouse_sim.viewer.access import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
 SCENE_GAP = 1.0  # likewise between two scenes, of a megabyte where there are many items [s, wall]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
 from warehouse_sim import identity, models, placing
-from warehouse_sim.building_site import BuildingSite
+from warehouse_sim.build_transaction import is_building
 from warehouse_sim.engine import Engine, EngineError
 
 # What is offered under which service; types by name, since not every engine has them all.
@@ -134,7 +134,7 @@ class Simulation:
 
     @contextmanager
     def _engine(self):
-        if BuildingSite(self._ros, None).is_open:
+        if is_building(self._ros):
             raise RefusedError("a warehouse is being built; ask again")
         try:
             with Engine(self._ros) as engine:

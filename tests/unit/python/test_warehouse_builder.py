@@ -8,8 +8,8 @@ from fake_world import FakeWorld
 from geometry_msgs.msg import Pose
 
 from warehouse_msgs.srv import CreateWarehouseRequest
-from warehouse_sim import creation, poses
-from warehouse_sim.building_site import BUILDING
+from warehouse_sim import poses, warehouse_builder
+from warehouse_sim.build_transaction import BUILDING
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.layout import plan
 from warehouse_sim.models import FLOOR, kind_and_number
@@ -75,7 +75,7 @@ def test_the_seed_decides_which_items_a_unit_holds():
 
 
 def test_a_last_batch_of_one_keeps_its_name(monkeypatch):
-    monkeypatch.setattr(creation, "BATCH", 126)  # There are as many, and the floor.
+    monkeypatch.setattr(warehouse_builder, "BATCH", 126)  # There are as many, and the floor.
     world = FakeWorld()
     ask(world, "small")
     assert "kiva4" in world.standing
@@ -101,7 +101,7 @@ def test_a_refused_request_changes_nothing(counts):
 
 
 def test_half_a_warehouse_is_taken_away_again(monkeypatch):
-    monkeypatch.setattr(creation, "BATCH", 3)
+    monkeypatch.setattr(warehouse_builder, "BATCH", 3)
     world = FakeWorld(standing=["kiva9", "person1"], refuses="item5")
     answer = ask(world, shelves=2, items=9, robots=2)
     assert not answer.success
@@ -202,10 +202,10 @@ def test_a_misspelt_size_is_told_and_the_service_comes_all_the_same():
 
 
 def test_long_work_tells_how_far_it_is(monkeypatch):
-    monkeypatch.setattr(creation, "BATCH", 10)
+    monkeypatch.setattr(warehouse_builder, "BATCH", 10)
     told, times = [], iter(range(10000))
     with Engine(FakeWorld()) as engine:
-        creation.Creation(engine, told.append, clock=lambda: next(times)).replace(
+        warehouse_builder.WarehouseBuilder(engine, told.append, clock=lambda: next(times)).replace(
             plan(PRESETS["small"])
         )
     assert told[0] == "built 20 of 127 models"

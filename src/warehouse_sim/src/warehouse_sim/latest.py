@@ -4,7 +4,7 @@
 import threading
 
 
-class Newest:
+class LatestMessages:
     """Keeps the newest message of each topic, for a worker that may be slower than they come.
 
     `ros` is rospy, or what stands in for it in a test.
@@ -43,7 +43,7 @@ class Newest:
         return (objects, states) if fit else None
 
 
-class OnDemand:
+class LazyPublisher:
     """A latched topic whose message is made only where somebody reads it.
 
     It is sent to all on publish(), and a newcomer gets the newest at once. `make()` returns the

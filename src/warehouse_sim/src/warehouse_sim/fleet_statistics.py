@@ -31,7 +31,7 @@ class Odometer:
         self.last = (x, y, yaw)
 
 
-class Tally:
+class FleetStatistics:
     """`ros` is rospy."""
 
     def __init__(self, ros):

@@ -42,7 +42,7 @@ def command(topic, kiva, **fields):
     return Command(topic, COMMANDS[topic](kiva_id=kiva, **fields))
 
 
-class Director:
+class ScriptExecutor:
     """`ros` is rospy. `say(seconds, who, text)` tells what happens; seconds are simulated."""
 
     def __init__(self, ros, say, deadline):

@@ -17,7 +17,7 @@ class UndoneError(EngineError):
     """The world refused a part of a warehouse; what was built so far was taken away again."""
 
 
-class Creation:
+class WarehouseBuilder:
     """`engine` is an engine.Engine; `report(text)` tells a person how far it is."""
 
     def __init__(self, engine, report, clock=time.monotonic):

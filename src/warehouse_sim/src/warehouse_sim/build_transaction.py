@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The world while a warehouse is built in it: it stands still, and a parameter says for whom."""
+"""A change of the whole warehouse, of which no half remains; physics is paused meanwhile."""
 
 BUILDING = "/warehouse/building"
 
 
-class BuildingSite:
+class BuildTransaction:
     """`ros` is rospy, `engine` an engine.Engine.
 
-    The parameter stays where a builder dies before it closes the site; who comes after it learns
-    from there that the pause is the builder's, and what stands is half a warehouse.
+    The parameter BUILDING stays where a builder dies before it commits. Who comes after it learns
+    from there that what stands is half a warehouse, and whether physics shall go on.
     """
 
     def __init__(self, ros, engine):
         self._ros, self._engine = ros, engine
 
     @property
-    def is_open(self):
-        return self._ros.has_param(BUILDING)
+    def is_unfinished(self):
+        return is_building(self._ros)
 
-    def open(self, name):
-        """Begins to build the warehouse of that name."""
+    def begin(self, name):
+        """Pauses physics, to build the warehouse of that name."""
         resumes = self._resumes()
         self._ros.set_param(BUILDING, {"warehouse": name, "resumes": resumes})
         self._engine.pause()
@@ -31,8 +31,13 @@ class BuildingSite:
             return bool(mark["resumes"])
         return not self._engine.is_paused()
 
-    def close(self):
+    def commit(self):
         """What stands is whole. Physics goes on, if it did before."""
         if self._resumes():
             self._engine.resume()
         self._ros.delete_param(BUILDING)
+
+
+def is_building(ros):
+    """Whether somebody builds, or died while building."""
+    return ros.has_param(BUILDING)

@@ -54,7 +54,7 @@ class Refusal(Exception):  # noqa: N818 (an answer)
         self.status, self.headers = status, list(headers)
 
 
-class Gate:
+class AccessControl:
     """ASGI middleware. With a token everybody needs it; without, only this machine's names serve.
 
     The latter keeps a foreign page from reaching the server under a name of its own that leads to
