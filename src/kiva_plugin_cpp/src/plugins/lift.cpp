@@ -65,7 +65,7 @@ void raiseSegment(WorldState& world, int i, int unit) {
 
 void lowerSegment(WorldState& world, int i, int unit) {
   moveTower(world, i, 0);
-  if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= 0) {
+  if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= world.floor.z) {
     putDown(world, i);
     world.report(Event::Kind::kDropped, world.fleet.robots[i].name, world.units[unit].name, "");
   }

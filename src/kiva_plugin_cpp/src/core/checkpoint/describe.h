@@ -183,23 +183,17 @@ void describe(A& a, JointState& s) {
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 432);
+  DESCRIBED(Model, 456);
   a(m.name, m.kind, m.serial, m.spawn_pose);
   a.mostly(m.pose, m.spawn_pose);
   a(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
-  bool has_outlines = !m.geometries.empty();
-  a(has_outlines);
-  if (m.kind == ModelKind::kRobot) {
-    a(m.geometries);
-  } else if (A::kReads && has_outlines) {
-    addCollisionGeometry(m);
-  }
+  if (m.kind == ModelKind::kRobot) a(m.geometries);  // others follow from the description
 }
 
 template <class A>
 void describe(A& a, StorageUnit& u) {
-  DESCRIBED(StorageUnit, 128);
-  a(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier);
+  DESCRIBED(StorageUnit, 136);
+  a(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier, u.raised);
 }
 
 template <class A>
@@ -336,8 +330,8 @@ void describe(A& a, PluginState& p) {
 
 template <class A>
 void describe(A& a, Floor& f) {
-  DESCRIBED(Floor, 32);
-  a(f.min_x, f.max_x, f.min_y, f.max_y);
+  DESCRIBED(Floor, 40);
+  a(f.min_x, f.max_x, f.min_y, f.max_y, f.z);
 }
 
 template <class A>

@@ -154,6 +154,8 @@ void rebuildObstacles(WorldState& world) {
   world.obstacles.clear();
   for (int slot : slotsInOrder(world)) {
     Model& model = *world.models[slot];
+    const bool lies_on_unit = model.kind == ModelKind::kItem && !model.in_physics;
+    if (model.geometries.empty() && !lies_on_unit) addCollisionGeometry(world, model);
     for (CollisionGeometry& geometry : model.geometries) geometry.handle = -1;
     updateFootprints(world, model);
   }

@@ -151,7 +151,7 @@ bool standsStill(const WorldState& world, const Model& unit) {
   const btRigidBody& body = *unit.bodies.links.front().body;
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
   return up > kTilt && body.getLinearVelocity().length() < kStill &&
-         body.getAngularVelocity().length() < kStill && unitPose(world, unit.index).Z() < kAbove;
+         body.getAngularVelocity().length() < kStill && unitPose(world, unit.index).Z() - world.floor.z < kAbove;
 }
 
 /// Who nobody came near for a while, and a unit that was pushed as soon as it has come to rest:
@@ -167,7 +167,7 @@ bool mayLeave(const WorldState& world, const Model& model) {
 void settleUnit(WorldState& world, Model& model) {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
-    model.pose = Pose(pose.X(), pose.Y(), 0, 0, 0, pose.Rot().Yaw());
+    model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
     ++world.units_revision;
   }
   model.disturbed = false;

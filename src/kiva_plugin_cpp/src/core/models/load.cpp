@@ -56,7 +56,7 @@ void loadRobot(WorldState& world, int robot, int unit) {
 
 Pose basePose(const WorldState& world, int robot) {
   const Fleet& f = world.fleet;
-  return Pose(f.x[robot], f.y[robot], 0, 0, 0, f.yaw[robot]);
+  return Pose(f.x[robot], f.y[robot], world.floor.z, 0, 0, f.yaw[robot]);
 }
 
 Pose towerPose(const WorldState& world, int robot) {
@@ -123,7 +123,7 @@ void putDown(WorldState& world, int robot) {
   StorageUnit& u = world.units[unit];
   Model& model = *world.models[u.model];
   const Pose pose = unitPose(world, unit);
-  model.pose = Pose(pose.X(), pose.Y(), 0, 0, 0, pose.Rot().Yaw());
+  model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
   u.carrier = -1;
   unload(world, robot);
   updateFootprints(world, model);
@@ -144,7 +144,7 @@ void unload(WorldState& world, int robot) {
 
 bool standsUpright(const WorldState& world, int unit) {
   const Pose pose = unitPose(world, unit);
-  return std::abs(pose.Z()) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
+  return std::abs(pose.Z() - world.floor.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
 }
 
 int unitAt(const WorldState& world, const Vector3& point) {

@@ -12,6 +12,7 @@
 #include "core/control/commands.h"
 #include "core/geometry/footprint.h"
 #include "core/geometry/triangle_footprint.h"
+#include "core/models/floors.h"
 #include "core/models/load.h"
 #include "core/models/robots.h"
 #include "core/models/user_plugins.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr double kMaxCoordinate = 1e5;  // [m]; beyond, a double grows too coarse for contacts
 constexpr double kMaxSpeed = 1e4;       // [m/s, rad/s]; bodies beyond pass through each other
-constexpr double kFlat = 0.005;         // [m]; what rises less above the ground is floor
 
 [[noreturn]] void refuse(const ModelInstance& instance, const std::string& why) {
   throw DescriptionError("model '" + instance.name + "': " + why);
@@ -62,22 +62,10 @@ int numberIn(const std::string& name, const std::string& prefix) {
   return std::stoi(digits);
 }
 
-bool isFloor(const ModelDescription& description) {
-  if (!description.is_static) return false;
-  bool flat = false;
-  for (const Link& link : description.links) {
-    for (const Collision& collision : link.collisions) {
-      if (collision.shape.kind == Shape::Kind::kPlane) return true;
-      flat = true;
-    }
-  }
-  return flat && bounds(description).max.Z() <= kFlat;
-}
-
 ModelKind classify(const ModelInstance& instance) {
   const ModelDescription& description = *instance.description;
   if (isRobot(description)) return ModelKind::kRobot;
-  if (isFloor(description)) return ModelKind::kFloor;
+  if (isFloor(instance)) return ModelKind::kFloor;
   if (instance.name.rfind("conveyor_belt", 0) == 0) return ModelKind::kBelt;
   if (description.is_static) return ModelKind::kOther;
   if (numberIn(instance.name, "storage_unit")) return ModelKind::kStorageUnit;
@@ -111,8 +99,8 @@ void freeSlot(WorldState& world, int slot) {
   world.free_slots.push_back(slot);
 }
 
-/// What lies flat on the ground, as the floor of a building does, is in nobody's way.
-void addTriangles(Model& model, CollisionGeometry geometry) {
+/// What belongs to the floor, in the mesh of a building say, is in nobody's way.
+void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) {
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
       model.pose * model.description->links[geometry.link].pose_in_model * geometry.pose_in_link;
@@ -120,8 +108,14 @@ void addTriangles(Model& model, CollisionGeometry geometry) {
     geometry.triangle = static_cast<int>(i);
     geometry.corners = std::make_shared<Triangle>(cornersOf(mesh, geometry.triangle, pose));
     const Footprint flat = makeFootprint(*geometry.corners);
-    if (flat.z_max > kFlat) model.geometries.push_back(geometry);
+    if (!isLow(floor, flat.z_max)) model.geometries.push_back(geometry);
   }
+}
+
+/// In world [m].
+double topOf(const Model& model, const CollisionGeometry& geometry) {
+  const Pose link = model.pose * model.description->links[geometry.link].pose_in_model;
+  return bounds(geometry.shape, link * geometry.pose_in_link).max.Z();
 }
 
 /// Bodies that are in Bullet for as long as the model stands.
@@ -134,7 +128,8 @@ void addBodies(WorldState& world, int slot) {
     world.bodies.push_back(slot);
     initJoints(model);
   }
-  if (model.kind != ModelKind::kFloor) addCollisionGeometry(model);
+  addCollisionGeometry(world, model);
+  if (model.isStatic()) measureFloor(world);
 }
 
 double massOf(const ModelDescription& description) {
@@ -150,12 +145,23 @@ void addUnit(WorldState& world, int slot) {
   unit.id = numberIn(model.name, "storage_unit");
   unit.model = slot;
   unit.mass = massOf(*model.description);
+  raiseToFloor(world, &unit, &model);
   model.index = static_cast<int>(world.units.size());
   world.units.push_back(unit);
   world.unit_of_id[unit.id] = model.index;
-  addCollisionGeometry(model);
+  addCollisionGeometry(world, model);
   if (!standsUpright(world, model.index)) letFall(world, model);
   ++world.units_revision;
+}
+
+/// The unit that an item lies on. One that was raised onto the floor takes along what would lie on
+/// it had the floor been where it was thought to be.
+int findUnit(const WorldState& world, Model& item) {
+  const Vector3 lift(0, 0, std::max(0.0, world.floor.z));
+  const int raised = unitAt(world, item.pose.Pos() + lift);
+  if (raised < 0 || world.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
+  item.pose.Pos().Z() += world.units[raised].raised;
+  return raised;
 }
 
 void addItem(WorldState& world, int slot) {
@@ -165,7 +171,7 @@ void addItem(WorldState& world, int slot) {
   item.id = numberIn(model.name, "item");
   item.model = slot;
   item.mass = massOf(*model.description);
-  item.unit = unitAt(world, model.pose.Pos());
+  item.unit = findUnit(world, model);
   if (item.unit >= 0) item.pose_in_unit = unitPose(world, item.unit).Inverse() * model.pose;
   item.spawn_pose_in_unit = item.pose_in_unit;
   model.index = static_cast<int>(world.items.size());
@@ -177,22 +183,6 @@ void addItem(WorldState& world, int slot) {
   }
 }
 
-/// The floor is what the floor models cover together.
-void measureFloor(WorldState& world) {
-  Bounds all;
-  world.floor_friction = 1;
-  for (const auto& model : world.models) {
-    if (!model || model->kind != ModelKind::kFloor) continue;
-    for (const Link& link : model->description->links) {
-      for (const Collision& collision : link.collisions) {
-        all.add(bounds(collision.shape, model->pose * link.pose_in_model * collision.pose_in_link));
-        world.floor_friction = collision.friction;
-      }
-    }
-  }
-  world.floor = all.empty() ? Floor() : Floor{all.min.X(), all.max.X(), all.min.Y(), all.max.Y()};
-}
-
 void addByKind(WorldState& world, int slot) {
   switch (world.models[slot]->kind) {
     case ModelKind::kRobot:
@@ -201,9 +191,6 @@ void addByKind(WorldState& world, int slot) {
       return addUnit(world, slot);
     case ModelKind::kItem:
       return addItem(world, slot);
-    case ModelKind::kFloor:
-      addBodies(world, slot);
-      return measureFloor(world);
     default:
       return addBodies(world, slot);
   }
@@ -323,9 +310,9 @@ void dismantle(WorldState& world, int slot) {
   }
   dropByKind(world, slot);
   dropFootprints(world, model);
-  const bool was_floor = model.kind == ModelKind::kFloor;
+  const bool may_be_floor = !model.level_surfaces.empty();
   freeSlot(world, slot);
-  if (was_floor) measureFloor(world);
+  if (may_be_floor) measureFloor(world);
   wakeBodies(world);  // what sleeps on something falls once that is gone
 }
 
@@ -413,10 +400,11 @@ void reweigh(WorldState& world, int slot, double added) {
 
 void placeStatic(WorldState& world, Model& model, const Pose& pose) {
   world.physics.remove(model.bodies);
-  const int slot = world.slot_of_name.at(model.name);
-  const LinkBody& any = model.bodies.links.front();
-  model.bodies = world.physics.build(*model.description, pose, slot, any.group, any.mask);
+  model.pose = pose;
+  model.bodies = buildStatic(world, world.slot_of_name.at(model.name));
   world.physics.insert(model.bodies);
+  refitGeometry(world, model);
+  measureFloor(world);
 }
 
 /// `model::link::collision` of a part. A body of several links' parts knows their names only.
@@ -467,16 +455,23 @@ void placeItem(WorldState& world, Model& model, const EntityState& state) {
 
 }  // namespace
 
-void addCollisionGeometry(Model& model) {
+void refitGeometry(WorldState& world, Model& model) {
+  dropFootprints(world, model);
+  addCollisionGeometry(world, model);
+  updateFootprints(world, model);
+}
+
+void addCollisionGeometry(const WorldState& world, Model& model) {
   const auto& links = model.description->links;
+  if (model.isStatic()) model.level_surfaces = levelSurfaces(*model.description, model.pose);
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (const Collision& collision : links[i].collisions) {
       if (collision.shape.kind == Shape::Kind::kPlane) continue;
       const CollisionGeometry geometry{static_cast<int>(i), collision.pose_in_link,
                                        collision.shape};
       if (collision.shape.kind == Shape::Kind::kMesh && model.isStatic()) {
-        addTriangles(model, geometry);
-      } else {
+        addTriangles(world.floor, model, geometry);
+      } else if (!model.isStatic() || !isLow(world.floor, topOf(model, geometry))) {
         model.geometries.push_back(geometry);
       }
     }
@@ -486,10 +481,8 @@ void addCollisionGeometry(Model& model) {
 ModelBodies buildBodies(const WorldState& world, int slot) {
   const Model& model = *world.models[slot];
   if (canActivate(model)) return buildActivated(world, model);
-  const bool is_floor = model.kind == ModelKind::kFloor;
-  const int group = is_floor ? kFloorGroup : model.isStatic() ? kStaticGroup : kDynamicGroup;
-  return world.physics.build(*model.description, model.isStatic() ? model.pose : model.spawn_pose,
-                             slot, group, ~0);
+  if (model.isStatic()) return buildStatic(world, slot);
+  return world.physics.build(*model.description, model.spawn_pose, slot, kDynamicGroup, ~0);
 }
 
 void loadPlugins(WorldState& world, Model& model) {
@@ -548,8 +541,6 @@ void placeModel(WorldState& world, int slot, const EntityState& state) {
   } else if (!model.bodies.links.empty()) {
     moveBodies(model, state);
   }
-  if (model.isStatic()) model.pose = state.pose;
-  if (model.kind == ModelKind::kFloor) measureFloor(world);
   updateFootprints(world, model);
   alarm(world);
   wakeBodies(world);
@@ -715,7 +706,7 @@ void appendFootprints(const WorldState& world, const Model& model, const Pose& t
 
 /// A robot and its load move as one.
 void updateMover(WorldState& world, int robot) {
-  const Pose to_robot = basePose(world, robot).Inverse();
+  const Pose to_robot = Pose(0, 0, world.floor.z, 0, 0, 0) * basePose(world, robot).Inverse();
   std::vector<Footprint> local;
   appendFootprints(world, world.modelOf(robot), to_robot, robot, &local);
   const int unit = world.fleet.unit[robot];

@@ -36,7 +36,9 @@ void loadPlugins(WorldState& world, Model& model);
 /// A model's bodies as they are when it enters Bullet.
 ModelBodies buildBodies(const WorldState& world, int slot);
 /// Gives a model the geometries of its shapes, without footprints so far.
-void addCollisionGeometry(Model& model);
+void addCollisionGeometry(const WorldState& world, Model& model);
+/// The same for a static model that has them already, once it or the floor is elsewhere.
+void refitGeometry(WorldState& world, Model& model);
 /// The group of an ordinary model's footprints: its own rays pass them.
 inline int ownGroup(int slot) { return kMaxKivaId + 1 + slot; }
 /// Writes the footprints of a model anew, from where its links are now.

@@ -74,8 +74,9 @@ Footprint moved(Footprint geometry, double dx, double dy) {
 
 bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
   const Fleet& f = world.fleet;
+  const double z = world.floor.z;  // a swept footprint counts from there
   const auto meets = [&](const Footprint& other) {
-    return other.z_min <= swept.z_max && other.z_max >= swept.z_min &&
+    return other.z_min - z <= swept.z_max && other.z_max - z >= swept.z_min &&
            mayBeWithin(kNear, swept, other) && gap(swept, other) < kNear;
   };
   const auto approaches = [&](int i, double radius) {

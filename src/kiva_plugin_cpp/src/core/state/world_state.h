@@ -41,6 +41,15 @@ struct CollisionGeometry {
 
 struct JointedBody;
 
+/// What of a static model lies level at one height near the ground.
+struct LevelSurface {
+  double z = 0;                                                         ///< In world [m].
+  double area = 0;                                                      ///< [m2]
+  double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;  ///< In world [m].
+  double friction = 1;
+  bool is_plane = false;
+};
+
 struct Model {
   std::string name;
   ModelKind kind = ModelKind::kOther;
@@ -56,6 +65,7 @@ struct Model {
   std::shared_ptr<const JointedBody>
       jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<CollisionGeometry> geometries;
+  std::vector<LevelSurface> level_surfaces;  ///< Of a static model.
   std::vector<std::shared_ptr<Plugin>> plugins;
   std::vector<JointState> joints;  ///< In the description's order; of a model with free bodies.
   std::string robot_namespace;     ///< What its plugins were told.
