@@ -46,12 +46,12 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
               sdf::Errors* warnings) {
   for (uint64_t i = 0; i < model.LinkCount(); ++i) {
     description->links.push_back(describeLink(*model.LinkByIndex(i), scope, warnings));
-    for (SensorDescription& sensor : describeSensors(*model.LinkByIndex(i), scope)) {
-      description->sensors.push_back(std::move(sensor));
-    }
+    addSensors(*model.LinkByIndex(i), scope, description, warnings);
   }
   for (uint64_t i = 0; i < model.JointCount(); ++i) {
-    description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
+    buildOrLeaveOut("joint", warnings, [&] {
+      description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
+    });
   }
   for (auto& plugin : readPlugins(model.Element(), scope.origin.where)) {
     description->plugins.push_back(std::move(plugin));
