@@ -4,9 +4,9 @@
 #include <sdf/Collision.hh>
 #include <sdf/Visual.hh>
 
+#include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/inertia.h"
-#include "world_file/models.h"
 #include "world_file/shapes.h"
 
 namespace kiva {

@@ -4,6 +4,7 @@
 #include <sdf/Model.hh>
 
 #include "world_file/bounded_cache.h"
+#include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/files.h"
 #include "world_file/model_paths.h"

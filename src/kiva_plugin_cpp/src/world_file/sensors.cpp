@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sdf/Sensor.hh>
 
+#include "world_file/elements.h"
 #include "world_file/errors.h"
-#include "world_file/models.h"
 
 namespace kiva {
 namespace {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "world_file/bounded_cache.h"
+#include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/files.h"
 #include "world_file/model_library.h"

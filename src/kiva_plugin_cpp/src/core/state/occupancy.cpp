@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/models/floors.h"
+#include "core/state/floors.h"
 
 namespace kiva {
 namespace {
@@ -33,7 +33,7 @@ bool isInTheWay(const Floor& floor, const Footprint& other) {
 Floor withoutFloor(const WorldState& world) {
   Floor all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
-    if (!model || model->kind != ModelKind::kOther) continue;
+    if (!model || !model->owner->isObstacle()) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& f = world.obstacles[geometry.handle];
       const double reach = radiusOf(f) + world.grid_spacing;
@@ -122,7 +122,7 @@ Occupancy World::occupancy() const {
     }
   }
   for (const auto& model : world.models) {
-    if (!model || model->kind != ModelKind::kOther) continue;
+    if (!model || !model->owner->isObstacle()) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& footprint = world.obstacles[geometry.handle];
       if (isInTheWay(world.floor, footprint)) mark(footprint, &map);
