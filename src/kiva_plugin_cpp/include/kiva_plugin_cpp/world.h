@@ -50,6 +50,7 @@ struct StorageUnit {
   int carrier = -1;      ///< Index of the robot that carries it, -1 = none.
   int claimed_by = -1;   ///< Index of the robot that is about to, -1 = none.
   Pose pose_on_carrier;  ///< In the carrier's tower frame, while it is carried.
+  double raised = 0;     ///< How much higher than asked for it was put, to stand on the floor [m].
 };
 
 /// An item: fixed to its storage unit, or a body of its own where no unit was when it came.
@@ -71,14 +72,17 @@ struct PathPoint {
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+  double z = 0;  ///< Its height.
 };
 
 /// Which cells of the grid are in the way of robots: those where a model that belongs to no
-/// warehouse reaches in, or would be hit by a loaded robot that turns there.
+/// warehouse reaches in, or would be hit by a loaded robot that turns there, and those that are not
+/// on the floor as a whole. Where there is no floor, all around what stands there are taken.
 struct Occupancy {
   double x = 0, y = 0;        ///< The first cell's grid point, of the lowest x and y [m].
+  double z = 0;               ///< Of the floor [m].
   double spacing = 1;         ///< Edge of a cell [m].
-  int columns = 0, rows = 0;  ///< Cells along x and y that lie on the floor as a whole.
+  int columns = 0, rows = 0;  ///< Cells along x and y.
   std::vector<char> taken;    ///< Row by row, x first.
 };
 

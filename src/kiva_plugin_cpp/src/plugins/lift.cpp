@@ -72,7 +72,7 @@ void raiseSegment(WorldState& world, int i, int unit) {
 
 void lowerSegment(WorldState& world, int i, int unit) {
   moveTower(world, i, 0);
-  if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= 0) {
+  if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= world.floor.z) {
     putDown(world, i);
     world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
                         "dropped " + world.units[unit].name);

@@ -61,7 +61,7 @@ void serveUntilStopped() {
 
 kiva::WorldDescription load(const Settings& settings) {
   std::vector<std::string> warnings;
-  const auto out = kiva::loadWorld(settings.world_file, settings.model_paths, &warnings);
+  const auto out = kiva::loadWorld(settings.world_file, settings.world_model_paths, &warnings);
   for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
   return out;
 }

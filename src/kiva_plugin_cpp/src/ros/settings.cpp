@@ -118,6 +118,11 @@ std::string findWorld(const std::string& world, const Paths& folders) {
                            (list.empty() ? "nothing: no folder of worlds is known" : list));
 }
 
+Paths joined(Paths first, const Paths& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 /// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.
 std::string pathOf(const ros::NodeHandle& node, const std::string& name) {
   const std::string path = text(node, name, "");
@@ -132,8 +137,13 @@ Settings readSettings(const ros::NodeHandle& node) {
   const std::string world = text(node, "world", "");
   out.world_file = findWorld(world, split(text(node, "world_paths", worlds)));
   const std::string models = worlds.empty() ? "" : worlds + "/models";
-  out.model_paths =
-      split(text(node, "model_paths", models) + ":" + environment("GAZEBO_MODEL_PATH"));
+  const Paths ours = split(text(node, "model_paths", models));
+  Paths theirs = split(environment("GAZEBO_MODEL_PATH"));
+  for (const auto& path : kiva::exportedModelPaths(environment("ROS_PACKAGE_PATH"))) {
+    theirs.push_back(path);
+  }
+  out.model_paths = joined(ours, theirs);
+  out.world_model_paths = joined(theirs, ours);
   out.rtf = optionalNumber(node, "rtf", 0, "a factor above 0, or 0 (as fast as it goes),");
   const std::string whole = "a whole number, 0 or more,";
   out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));

@@ -19,7 +19,8 @@ namespace kiva_ros {
 ///                            .sdf; empty: an empty floor
 ///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
 ///   ~model_paths             folders of models, a:b; default: the same package's. Those that
-///                            GAZEBO_MODEL_PATH lists are searched after them
+///                            GAZEBO_MODEL_PATH lists, and those that packages export to Gazebo,
+///                            are searched before them for a world, after them for requests
 ///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; not set: what
 ///                            the world file says
 ///   ~seed                    of everything random, default 1
@@ -37,7 +38,8 @@ namespace kiva_ros {
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
 struct Settings {
   std::string world_file;
-  kiva::ModelPaths model_paths;
+  kiva::ModelPaths model_paths;        ///< For spawn requests: a preset is made of our models.
+  kiva::ModelPaths world_model_paths;  ///< For the world file: its author's come first.
   std::optional<double> rtf;
   kiva::WorldOptions world;
   bool lockstep = false;

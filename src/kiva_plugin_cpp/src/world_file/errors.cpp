@@ -117,6 +117,14 @@ sdf::Error withCause(const sdf::Error& error, const std::string& printed) {
 
 }  // namespace
 
+std::string causeOf(const sdf::Error& error) { return plain(error.Message()); }
+
+sdf::Error xmlError(const std::string& printed) {
+  sdf::Error error(ErrorCode::STRING_READ, "the XML is ill-formed: " + printed);
+  readXmlError(printed, &error);
+  return error;
+}
+
 sdf::Error noteAt(const sdf::ElementConstPtr& element, const std::string& message) {
   sdf::Error error(ErrorCode::ELEMENT_INVALID, message);
   sdf::ElementConstPtr known = element;

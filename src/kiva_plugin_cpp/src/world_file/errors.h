@@ -39,6 +39,22 @@ std::string address(const sdf::Error& error, const std::string& where);
 /// The address and the message.
 std::string describe(const sdf::Error& error, const std::string& where);
 
+/// The message in words that help its reader.
+std::string causeOf(const sdf::Error& error);
+/// What tinyxml2, which libsdformat reads with, has to say of a text that is no XML.
+sdf::Error xmlError(const std::string& printed);
+
+/// Builds a part, or tells in a warning that this part, a "joint" say, is left out and why.
+template <typename Build>
+void buildOrLeaveOut(const std::string& part, sdf::Errors* warnings, Build build) {
+  try {
+    build();
+  } catch (const SdfError& error) {
+    warnings->push_back(
+        reworded(error.error(), "this " + part + " is left out: " + causeOf(error.error())));
+  }
+}
+
 /// Throws SdfError for the first of libsdformat's errors, with the cause that it only printed;
 /// without any, appends the warnings that it printed.
 void throwErrors(const sdf::Errors& errors, const std::string& printed, sdf::Errors* warnings);

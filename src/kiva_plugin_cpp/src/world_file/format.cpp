@@ -53,8 +53,10 @@ std::set<std::string> absentParts(const std::string& text) {
   for (const std::string name : kLargeParts) {
     if (text.find("<" + name) == std::string::npos) absent.insert(name);
   }
-  // What libsdformat makes of a URDF's <mu1> and the like.
-  if (text.find("<robot") != std::string::npos) absent.erase("surface");
+  // What libsdformat makes of a URDF's <mu1>, <implicitSpringDamper> and the like.
+  if (text.find("<robot") != std::string::npos) {
+    for (const char* made : {"surface", "physics"}) absent.erase(made);
+  }
   return absent;
 }
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <sdf/JointAxis.hh>
 
+#include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/links.h"
-#include "world_file/models.h"
 
 namespace kiva {
 namespace {

@@ -4,9 +4,9 @@
 #include <sdf/Collision.hh>
 #include <sdf/Visual.hh>
 
+#include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/inertia.h"
-#include "world_file/models.h"
 #include "world_file/shapes.h"
 
 namespace kiva {
@@ -31,7 +31,7 @@ void addVisual(const sdf::Visual& from, const Origin& origin, Link* link, sdf::E
   visual.name = from.Name();
   visual.pose_in_link = resolved(from.SemanticPose(), from.Element());
   visual.shape = *shape;
-  readMaterial(from.Element(), &visual);
+  readMaterial(from.Element(), &visual, warnings);
   link->visuals.push_back(visual);
 }
 
@@ -44,10 +44,13 @@ Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnin
   link.gravity = from.Element()->Get<bool>("gravity", true).first;
   setInertia(from.Inertial(), &link);
   for (uint64_t i = 0; i < from.CollisionCount(); ++i) {
-    addCollision(*from.CollisionByIndex(i), scope.origin, &link, warnings);
+    buildOrLeaveOut("collision", warnings, [&] {
+      addCollision(*from.CollisionByIndex(i), scope.origin, &link, warnings);
+    });
   }
   for (uint64_t i = 0; i < from.VisualCount(); ++i) {
-    addVisual(*from.VisualByIndex(i), scope.origin, &link, warnings);
+    buildOrLeaveOut("visual", warnings,
+                    [&] { addVisual(*from.VisualByIndex(i), scope.origin, &link, warnings); });
   }
   return link;
 }

@@ -13,13 +13,12 @@
 
 #include "world_file/bounded_cache.h"
 #include "world_file/file_stamps.h"
+#include "world_file/mesh_limits.h"
 
 namespace kiva {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMostTriangles = 1000000;
 
 struct CachedMesh {
   std::shared_ptr<const Mesh> mesh;
@@ -31,10 +30,11 @@ std::string lower(std::string text) {
   return text;
 }
 
-void checkFormat(const std::string& file) {
+/// Its ending, in lower case.
+std::string formatOf(const std::string& file) {
   const std::string ending = lower(fs::path(file).extension().string());
   for (const char* known : {".dae", ".obj", ".stl"}) {
-    if (ending == known) return;
+    if (ending == known) return ending;
   }
   throw DescriptionError("meshes of the format '" + ending +
                          "' are not supported; expected .dae, .obj or .stl");
@@ -80,9 +80,7 @@ class Collector {
   }
 
   void add(const aiMesh& part, const aiMatrix4x4& pose) {
-    if (mesh_.triangles.size() + part.mNumFaces > kMostTriangles) {
-      throw DescriptionError("more than " + std::to_string(kMostTriangles) + " triangles");
-    }
+    checkTriangles(mesh_.triangles.size() + part.mNumFaces);
     const int first = static_cast<int>(mesh_.vertices.size());
     for (unsigned i = 0; i < part.mNumVertices; ++i) {
       const aiVector3D at = pose * part.mVertices[i];
@@ -120,7 +118,7 @@ void centre(Mesh* mesh) {
 }
 
 std::shared_ptr<const Mesh> read(const MeshRequest& request) {
-  checkFormat(request.file);
+  checkMeshFile(request.file, formatOf(request.file));
   Assimp::Importer importer;
   auto mesh =
       std::make_shared<Mesh>(Collector(*import(request.file, &importer), request).collect());

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/model_library.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <sdf/Model.hh>
-#include <sstream>
 
 #include "world_file/bounded_cache.h"
+#include "world_file/elements.h"
 #include "world_file/errors.h"
+#include "world_file/files.h"
+#include "world_file/model_paths.h"
 #include "world_file/models.h"
 #include "world_file/parser.h"
 #include "world_file/sensors.h"
+#include "world_file/xml.h"
 
 namespace kiva {
 namespace {
@@ -29,7 +28,7 @@ void readModel(const sdf::Model& model, const Origin& origin, sdf::Errors* warni
 LibraryModel readFile(const std::string& folder, const std::string& file,
                       const ModelPaths& model_paths) {
   LibraryModel result;
-  SdfDocument document = parseSdf(readText(file), model_paths);
+  SdfDocument document = parseSdf(readText(file, kMostBytes), model_paths);
   if (const sdf::Model* model = document.root->Model()) {
     readModel(*model, {file, model_paths}, &document.warnings, &result);
     addMeshFiles(*result.description, &document.files);
@@ -76,17 +75,6 @@ void addMeshFiles(const ModelDescription& description, std::set<std::string>* fi
       if (!collision.shape.mesh_file.empty()) files->insert(collision.shape.mesh_file);
     }
   }
-}
-
-std::string readText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    const char* const cause = file ? "is a folder" : std::strerror(errno);
-    throw DescriptionError(path + ": can't read this file: " + cause);
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 }  // namespace kiva

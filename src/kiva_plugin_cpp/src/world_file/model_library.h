@@ -9,7 +9,6 @@
 
 #include "kiva_plugin_cpp/world_file.h"
 #include "world_file/file_stamps.h"
-#include "world_file/includes.h"
 
 namespace kiva {
 
@@ -31,8 +30,5 @@ std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
 
 /// Adds the files of a model's meshes to `files`.
 void addMeshFiles(const ModelDescription& description, std::set<std::string>* files);
-
-/// The text of a file. Throws DescriptionError.
-std::string readText(const std::string& path);
 
 }  // namespace kiva

@@ -2,6 +2,9 @@
 #include "world_file/model_paths.h"
 
 #include <filesystem>
+#include <sdf/parser.hh>
+
+#include "world_file/errors.h"
 
 namespace kiva {
 namespace {
@@ -10,6 +13,8 @@ namespace fs = std::filesystem;
 
 constexpr char kScheme[] = "model://";
 constexpr std::size_t kSchemeLength = sizeof(kScheme) - 1;
+
+bool isModelUri(const std::string& uri) { return uri.compare(0, kSchemeLength, kScheme) == 0; }
 
 bool startsWith(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
@@ -20,6 +25,12 @@ bool isFile(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+/// `file:///path` and `/path`; empty for others.
+std::string absolutePath(const std::string& uri) {
+  const std::string path = startsWith(uri, "file://") ? uri.substr(7) : uri;
+  return !path.empty() && path[0] == '/' ? path : "";
+}
+
 bool isModel(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path / "model.config", ignored) || fs::is_regular_file(path, ignored);
@@ -27,9 +38,9 @@ bool isModel(const fs::path& path) {
 
 }  // namespace
 
-bool isModelUri(const std::string& uri) { return uri.compare(0, kSchemeLength, kScheme) == 0; }
-
 std::string findModel(const std::string& uri, const ModelPaths& paths) {
+  const std::string absolute = absolutePath(uri);
+  if (!absolute.empty()) return isModel(absolute) ? absolute : "";
   if (!isModelUri(uri) || uri.size() == kSchemeLength) return "";
   for (const std::string& folder : paths) {
     const fs::path path = fs::path(folder) / uri.substr(kSchemeLength);
@@ -65,6 +76,15 @@ std::string modelNotFound(const std::string& uri, const ModelPaths& paths) {
 
 std::string leftOut(const std::string& uri, const ModelPaths& paths) {
   return "this include is left out: " + modelNotFound(uri, paths);
+}
+
+std::string modelFile(const std::string& folder) {
+  if (!fs::is_directory(folder)) return folder;
+  ConsoleCapture console;
+  const std::string file = sdf::getModelFilePath(folder);
+  sdf::Errors warnings;
+  throwErrors({}, console.take(), &warnings);
+  return file;
 }
 
 void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files) {

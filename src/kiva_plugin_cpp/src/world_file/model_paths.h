@@ -8,10 +8,8 @@
 
 namespace kiva {
 
-/// Whether `uri` is looked up in the model paths: `model://name` or `model://name/file`.
-bool isModelUri(const std::string& uri);
-
-/// The folder, or the file, that `uri` names; empty if there is none.
+/// The folder, or the file, that the uri of an include names: `model://name` or `model://name/file`
+/// is looked up in the paths, `file:///path` and `/path` are as they are; empty if there is none.
 std::string findModel(const std::string& uri, const ModelPaths& paths);
 
 /// The file that the uri of a mesh names: `model://`, `package://`, `file://`, an absolute path, or
@@ -22,6 +20,9 @@ std::string findFile(const std::string& uri, const std::string& folder, const Mo
 std::string modelNotFound(const std::string& uri, const ModelPaths& paths);
 /// The same, and that the include goes without it.
 std::string leftOut(const std::string& uri, const ModelPaths& paths);
+
+/// The SDF file of the model in `folder`, as its model.config has it. Throws SdfError.
+std::string modelFile(const std::string& folder);
 
 /// Adds the files that would make `uri` a model: what was missing may come.
 void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files);

@@ -3,30 +3,13 @@
 
 #include <algorithm>
 
+#include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/links.h"
 #include "world_file/sensors.h"
 
 namespace kiva {
 namespace {
-
-/// Text of `element` and of all below it; a name that comes again is `name[2]`, `name[3]`, …, so
-/// that no value is lost.
-void addParameters(const sdf::ElementPtr& element, const std::string& path,
-                   Parameters* parameters) {
-  for (auto child = element->GetFirstElement(); child; child = child->GetNextElement()) {
-    const std::string base = path + child->GetName();
-    std::string key = base;
-    for (int count = 2; parameters->has(key); ++count) {
-      key = base + "[" + std::to_string(count) + "]";
-    }
-    if (child->GetFirstElement()) {
-      addParameters(child, key + "/", parameters);
-    } else {
-      parameters->set(key, child->GetValue() ? child->GetValue()->GetAsString() : "");
-    }
-  }
-}
 
 /// What is static in a model that moves does not: its links from `first` on are fixed.
 void holdToWorld(std::size_t first, ModelDescription* description) {
@@ -46,12 +29,12 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
               sdf::Errors* warnings) {
   for (uint64_t i = 0; i < model.LinkCount(); ++i) {
     description->links.push_back(describeLink(*model.LinkByIndex(i), scope, warnings));
-    for (SensorDescription& sensor : describeSensors(*model.LinkByIndex(i), scope)) {
-      description->sensors.push_back(std::move(sensor));
-    }
+    addSensors(*model.LinkByIndex(i), scope, description, warnings);
   }
   for (uint64_t i = 0; i < model.JointCount(); ++i) {
-    description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
+    buildOrLeaveOut("joint", warnings, [&] {
+      description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
+    });
   }
   for (auto& plugin : readPlugins(model.Element(), scope.origin.where)) {
     description->plugins.push_back(std::move(plugin));
@@ -92,34 +75,6 @@ ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
   addModel(model, {origin, "", Pose::Zero}, &description, warnings);
   putFirst(model.CanonicalLinkAndRelativeName().second, &description.links);
   return description;
-}
-
-std::vector<PluginDescription> readPlugins(const sdf::ElementPtr& element,
-                                           const std::string& where) {
-  std::vector<PluginDescription> plugins;
-  auto child = element->FindElement("plugin");
-  for (; child; child = child->GetNextElement("plugin")) {
-    PluginDescription plugin;
-    plugin.name = child->Get<std::string>("name");
-    plugin.filename = child->Get<std::string>("filename");
-    plugin.parameters = readParameters(child, where);
-    plugins.push_back(std::move(plugin));
-  }
-  return plugins;
-}
-
-Parameters readParameters(const sdf::ElementPtr& element, const std::string& where) {
-  Parameters parameters(address(noteAt(element, ""), where));
-  addParameters(element, "", &parameters);
-  return parameters;
-}
-
-Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,
-              const std::string& to) {
-  Pose result;
-  const sdf::Errors errors = pose.Resolve(result, to);
-  if (!errors.empty()) failAt(element, errors.front().Message());
-  return result;
 }
 
 }  // namespace kiva

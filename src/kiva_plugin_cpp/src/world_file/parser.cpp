@@ -8,25 +8,26 @@
 #include <sdf/parser.hh>
 #include <set>
 
+#include "world_file/bounded_cache.h"
 #include "world_file/checks.h"
-#include "world_file/cycles.h"
 #include "world_file/errors.h"
 #include "world_file/format.h"
-#include "world_file/includes.h"
+#include "world_file/include_graph.h"
 #include "world_file/model_paths.h"
-#include "world_file/tag_scanner.h"
+#include "world_file/preparation.h"
+#include "world_file/repair.h"
 
 namespace kiva {
 namespace {
 
-/// The paths come first: libsdformat would look into the current folder before it asks back. What
-/// is asked for is in none of them.
+/// The paths come first: libsdformat would look into the current folder before it asks back.
 sdf::ParserConfig parserConfig(const ModelPaths& model_paths, std::set<std::string>* missing) {
   sdf::ParserConfig config;
   for (const std::string& folder : model_paths) config.AddURIPath("model://", folder);
-  config.SetFindCallback([missing](const std::string& uri) {
-    missing->insert(uri);
-    return "";
+  config.SetFindCallback([&model_paths, missing](const std::string& uri) {
+    const std::string found = findModel(uri, model_paths);
+    if (found.empty()) missing->insert(uri);
+    return found;
   });
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::WARN);
   return config;
@@ -49,8 +50,9 @@ class GlobalConfig {
 };
 
 std::string rootOf(const std::string& text) {
-  TagScanner scanner(text);
-  return scanner.next() ? std::string(scanner.name) : "";
+  XmlDocument document;
+  document.Parse(text.data(), text.size());
+  return document.RootElement() ? document.RootElement()->Name() : "";
 }
 
 [[noreturn]] void failAtRoot(const std::string& root) {
@@ -97,7 +99,7 @@ void collectFiles(const sdf::ElementPtr& element, std::set<std::string>* files) 
   }
 }
 
-SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
+SdfDocument parseStrictly(const std::string& text, const ModelPaths& model_paths) {
   ConsoleCapture console;
   std::set<std::string> missing;
   const sdf::ParserConfig config = parserConfig(model_paths, &missing);
@@ -124,15 +126,10 @@ SdfDocument parse(const std::string& text, const ModelPaths& model_paths) {
       sdf::Error(sdf::ErrorCode::STRING_READ, "libsdformat gave up on this text: " + what));
 }
 
-}  // namespace
-
-bool isUrdf(const std::string& xml) { return rootOf(xml) == "robot"; }
-
-SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
-  checkIncludes(text);
-  checkCycles(text, model_paths);
+/// The same, with what libsdformat throws.
+SdfDocument parseOnce(const std::string& text, const ModelPaths& model_paths) {
   try {
-    return parse(text, model_paths);
+    return parseStrictly(text, model_paths);
   } catch (const SdfError&) {
     throw;
   } catch (const sdf::Exception& fault) {
@@ -142,13 +139,76 @@ SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   }
 }
 
-std::string modelFile(const std::string& folder) {
-  if (!std::filesystem::is_directory(folder)) return folder;
-  ConsoleCapture console;
-  const std::string file = sdf::getModelFilePath(folder);
+template <typename Parse>
+std::optional<sdf::Error> faultOf(Parse parse) {
+  try {
+    parse();
+    return std::nullopt;
+  } catch (const SdfError& error) {
+    return error.error();
+  }
+}
+
+void dropIncludes(XmlDocument* document) {
+  forAll(document->RootElement(), [](XmlElement* element) {
+    while (XmlElement* include = element->FirstChildElement("include")) {
+      element->DeleteChild(include);
+    }
+  });
+}
+
+/// What libsdformat has against a file of its own, its includes apart; each is asked once.
+std::string faultOfFile(const std::string& text, const std::string& file) {
+  static BoundedCache<std::string> cache(1024);
+  if (const auto known = cache.find(text)) return *known;
+  const auto fault = faultOf([&] {
+    const auto document = parseXml(text);
+    if (document->RootElement()) dropIncludes(document.get());
+    ConsoleCapture console;
+    const sdf::ParserConfig config;
+    const std::string rest = textOf(*document);
+    sdf::Errors errors, ignored;
+    const bool read = readInto(emptyDocument(rest), rest, false, config, &errors);
+    throwErrors(errors, console.take(), &ignored);
+    if (!read) failAtRoot(document->RootElement() ? document->RootElement()->Name() : "");
+  });
+  const std::string told = fault ? describe(*fault, file) : "";
+  cache.put(text, std::make_shared<const std::string>(told));
+  return told;
+}
+
+/// How often a text may be read anew without one of its faulty parts.
+std::size_t mostRepairs(const std::string& text) {
+  constexpr std::size_t kMostRead = 50'000'000;  // [byte]
+  return std::clamp<std::size_t>(kMostRead / (text.size() + 1), 10, 300);
+}
+
+}  // namespace
+
+bool isUrdf(const std::string& xml) { return rootOf(xml) == "robot"; }
+
+SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
+  const auto document = parseXml(text);
+  if (document->RootElement() && document->RootElement()->Name() == std::string("robot")) {
+    return parseOnce(text, model_paths);
+  }
   sdf::Errors warnings;
-  throwErrors({}, console.take(), &warnings);
-  return file;
+  modernizePoses(document.get());
+  IncludeGraph includes(model_paths, faultOfFile);
+  includes.prune(document.get(), &warnings);
+  const FaultOf fault_of = [&](const XmlDocument& tried) {
+    return faultOf([&] { parseOnce(textOf(tried), model_paths); });
+  };
+  for (std::size_t left = mostRepairs(text);; --left) {
+    try {
+      SdfDocument parsed = parseOnce(textOf(*document), model_paths);
+      parsed.warnings.insert(parsed.warnings.begin(), warnings.begin(), warnings.end());
+      parsed.files.insert(includes.files().begin(), includes.files().end());
+      return parsed;
+    } catch (const SdfError& error) {
+      if (left == 0 || !leaveOut(error.error(), fault_of, document.get(), &warnings)) throw;
+    }
+  }
 }
 
 }  // namespace kiva

@@ -19,10 +19,9 @@ struct SdfDocument {
   std::set<std::string> files;
 };
 
-/// Throws SdfError. Thread-safe, though one call waits for another.
+/// Faulty parts are left out, with a warning each. Throws SdfError where nothing would be left, or
+/// more than fifty million bytes would be read that way. Thread-safe, though one call waits for
+/// another.
 SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths);
-
-/// The SDF file of the model in `folder`, as its model.config has it. Throws SdfError.
-std::string modelFile(const std::string& folder);
 
 }  // namespace kiva

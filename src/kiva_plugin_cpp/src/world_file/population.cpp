@@ -4,36 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <sstream>
 
 namespace kiva {
 namespace {
 
-using Parts = std::vector<XmlPart>;
+constexpr std::size_t kMost = 10000;  // models
 
-constexpr std::size_t kMost = 10000;                // models
-constexpr std::size_t kLongest = 64 * 1024 * 1024;  // [byte]
-
-Parts childrenOf(const XmlPart& part) {
-  auto children = partsOf(part.inside);
-  if (!children) throw DescriptionError("<" + std::string(part.name) + "> is ill-formed");
-  return *children;
+std::string textIn(const XmlElement* around, const char* name, const char* fallback) {
+  const XmlElement* part = around ? around->FirstChildElement(name) : nullptr;
+  return part ? contentOf(part) : fallback;
 }
 
-std::string textOf(const Parts& parts, const char* name, const char* fallback) {
-  const XmlPart* part = findPart(parts, name);
-  return part ? trimmed(part->inside) : fallback;
-}
-
-std::vector<double> numbersOf(const Parts& parts, const char* name, std::size_t count,
+std::vector<double> numbersOf(const XmlElement* around, const char* name, std::size_t count,
                               const char* fallback) {
-  const auto numbers = parseNumbers(textOf(parts, name, fallback), count);
+  const auto numbers = parseNumbers(textIn(around, name, fallback), count);
   if (numbers) return *numbers;
   throw DescriptionError("expected " + std::to_string(count) + " finite numbers in <" + name + ">");
 }
 
-std::size_t countOf(const Parts& parts, const char* name) {
-  const double count = numbersOf(parts, name, 1, "1")[0];
+std::size_t countOf(const XmlElement* around, const char* name) {
+  const double count = numbersOf(around, name, 1, "1")[0];
   if (count >= 1 && count <= kMost && count == std::floor(count)) return std::size_t(count);
   throw DescriptionError("expected a whole number from 1 to " + std::to_string(kMost) + " in <" +
                          name + ">");
@@ -53,14 +43,12 @@ struct Region {
   }
 };
 
-Region regionOf(const Parts& parts) {
-  if (const XmlPart* cylinder = findPart(parts, "cylinder")) {
-    const Parts sizes = childrenOf(*cylinder);
-    const double diameter = 2 * numbersOf(sizes, "radius", 1, "1")[0];
-    return {{diameter, diameter, numbersOf(sizes, "length", 1, "1")[0]}, true};
+Region regionOf(const XmlElement& population) {
+  if (const XmlElement* cylinder = population.FirstChildElement("cylinder")) {
+    const double diameter = 2 * numbersOf(cylinder, "radius", 1, "1")[0];
+    return {{diameter, diameter, numbersOf(cylinder, "length", 1, "1")[0]}, true};
   }
-  const XmlPart* box = findPart(parts, "box");
-  const auto size = numbersOf(box ? childrenOf(*box) : Parts(), "size", 3, "1 1 1");
+  const auto size = numbersOf(population.FirstChildElement("box"), "size", 3, "1 1 1");
   return {{size[0], size[1], size[2]}, false};
 }
 
@@ -74,7 +62,7 @@ double radicalInverse(std::size_t index, std::size_t base) {
   return value;
 }
 
-std::vector<Vector3> gridPlaces(const Parts& distribution, std::size_t count) {
+std::vector<Vector3> gridPlaces(const XmlElement* distribution, std::size_t count) {
   const std::size_t rows = countOf(distribution, "rows"), columns = countOf(distribution, "cols");
   const auto step = numbersOf(distribution, "step", 3, "1 1 1");
   std::vector<Vector3> places;
@@ -108,82 +96,44 @@ std::vector<Vector3> sharesOf(const std::string& type, std::size_t count) {
   return shares;
 }
 
-std::vector<Vector3> placesOf(const Parts& parts) {
-  const std::size_t count = countOf(parts, "model_count");
-  const XmlPart* element = findPart(parts, "distribution");
-  const Parts distribution = element ? childrenOf(*element) : Parts();
-  const std::string type = textOf(distribution, "type", "random");
+std::vector<Vector3> placesOf(const XmlElement& population) {
+  const std::size_t count = countOf(&population, "model_count");
+  const XmlElement* const distribution = population.FirstChildElement("distribution");
+  const std::string type = textIn(distribution, "type", "random");
   if (type == "grid") return gridPlaces(distribution, count);
-  Region region = regionOf(parts);
+  Region region = regionOf(population);
   region.is_round = region.is_round && type.compare(0, 6, "linear") != 0;
   std::vector<Vector3> places = sharesOf(type, count);
   for (Vector3& place : places) place = region.at(place);
   return places;
 }
 
-/// What is the same in all clones, and what is not.
-struct Pattern {
-  std::string tag;     ///< model or include.
-  std::string name;    ///< Of the pattern.
-  std::string inside;  ///< But for pose and name.
-  Pose pose;
-};
-
-Pose poseOf(const Parts& parts) {
-  const auto pose = parsePose(textOf(parts, "pose", "0 0 0 0 0 0"));
+Pose poseOf(const XmlElement& element) {
+  const auto pose = parsePose(textIn(&element, "pose", "0 0 0 0 0 0"));
   if (!pose) throw DescriptionError("expected six finite numbers in <pose>");
   return *pose;
 }
 
-std::string flat(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-std::string nameOf(const XmlPart& element, const Parts& parts) {
-  if (element.name == "model") return attributeOf(element, "name").value_or("");
-  const std::string uri = textOf(parts, "uri", "");
-  return textOf(parts, "name", uri.substr(uri.rfind('/') + 1).c_str());
-}
-
-Pattern patternOf(const XmlPart& element) {
-  const Parts parts = childrenOf(element);
-  Pattern pattern{std::string(element.name), nameOf(element, parts), "", poseOf(parts)};
-  if (pattern.name.empty()) throw DescriptionError("expected a model with a name");
-  for (const XmlPart& part : parts) {
-    const bool varies = part.name == "pose" || (part.name == "name" && element.name == "include");
-    if (!varies) pattern.inside += flat(std::string(part.whole));
-  }
-  return pattern;
-}
-
-void addClone(const Pattern& pattern, std::size_t index, const Pose& pose, std::ostream* out) {
-  const std::string name = pattern.name + "_clone_" + std::to_string(index);
-  const bool is_model = pattern.tag == "model";
-  *out << '<' << pattern.tag
-       << (is_model ? " name=\"" + name + "\">" : "><name>" + name + "</name>") << "<pose>"
-       << pose.X() << ' ' << pose.Y() << ' ' << pose.Z() << ' ' << pose.Roll() << ' '
-       << pose.Pitch() << ' ' << pose.Yaw() << "</pose>" << pattern.inside << "</" << pattern.tag
-       << '>';
+std::string nameOf(const XmlElement& pattern) {
+  if (std::string(pattern.Name()) == "model") return attributeOf(pattern, "name");
+  const std::string uri = textIn(&pattern, "uri", "");
+  return textIn(&pattern, "name", uri.substr(uri.rfind('/') + 1).c_str());
 }
 
 }  // namespace
 
-std::string populate(const XmlPart& population) {
-  const Parts parts = childrenOf(population);
-  const XmlPart* element = findPart(parts, "model");
-  if (!element) element = findPart(parts, "include");
-  if (!element) throw DescriptionError("expected a <model>");
-  const Pattern pattern = patternOf(*element);
-  const std::vector<Vector3> places = placesOf(parts);
-  if (pattern.inside.size() * places.size() > kLongest) throw DescriptionError("it is too large");
-  std::ostringstream out;
-  out.precision(17);
-  const Pose origin = poseOf(parts);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    addClone(pattern, i, origin * Pose(places[i], Quaternion::Identity) * pattern.pose, &out);
+Population readPopulation(const XmlElement& population) {
+  Population out;
+  out.pattern = population.FirstChildElement("model");
+  if (!out.pattern) out.pattern = population.FirstChildElement("include");
+  if (!out.pattern) throw DescriptionError("expected a <model>");
+  out.name = nameOf(*out.pattern);
+  if (out.name.empty()) throw DescriptionError("expected a model with a name");
+  const Pose origin = poseOf(population), own = poseOf(*out.pattern);
+  for (const Vector3& place : placesOf(population)) {
+    out.poses.push_back(origin * Pose(place, Quaternion::Identity) * own);
   }
-  return out.str();
+  return out;
 }
 
 }  // namespace kiva

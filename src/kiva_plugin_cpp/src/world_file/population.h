@@ -2,14 +2,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "world_file/xml_parts.h"
+#include "world_file/xml.h"
 
 namespace kiva {
 
-/// The models that a `<population>` stands for, as SDF on one line: `name_clone_0`, `name_clone_1`,
-/// and so on, as Gazebo calls them. Random places are the same each time.
-/// Throws DescriptionError with the cause.
-std::string populate(const XmlPart& population);
+/// What a `<population>` puts where.
+struct Population {
+  const XmlElement* pattern = nullptr;  ///< A `<model>` or an `<include>`.
+  std::string name;                     ///< Of the pattern; clones are called `name_clone_0`, …
+  std::vector<Pose> poses;              ///< Of the clones, in world.
+};
+
+/// Random places are the same each time. Throws DescriptionError with the cause.
+Population readPopulation(const XmlElement& population);
 
 }  // namespace kiva

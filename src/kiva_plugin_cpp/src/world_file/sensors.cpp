@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sdf/Sensor.hh>
 
+#include "world_file/elements.h"
 #include "world_file/errors.h"
-#include "world_file/models.h"
 
 namespace kiva {
 namespace {
@@ -31,12 +31,14 @@ void copy(const ignition::math::Color& from, double* to) {
 
 }  // namespace
 
-std::vector<SensorDescription> describeSensors(const sdf::Link& link, const Scope& scope) {
-  std::vector<SensorDescription> sensors;
+void addSensors(const sdf::Link& link, const Scope& scope, ModelDescription* description,
+                sdf::Errors* warnings) {
   for (uint64_t i = 0; i < link.SensorCount(); ++i) {
-    sensors.push_back(describeSensor(*link.SensorByIndex(i), scope, scope.prefix + link.Name()));
+    buildOrLeaveOut("sensor", warnings, [&] {
+      description->sensors.push_back(
+          describeSensor(*link.SensorByIndex(i), scope, scope.prefix + link.Name()));
+    });
   }
-  return sensors;
 }
 
 Light describeLight(const sdf::Light& from, const Pose& pose) {

@@ -12,8 +12,9 @@
 
 namespace kiva {
 
-/// The sensors of a link. Throws SdfError.
-std::vector<SensorDescription> describeSensors(const sdf::Link& link, const Scope& scope);
+/// The sensors of a link.
+void addSensors(const sdf::Link& link, const Scope& scope, ModelDescription* description,
+                sdf::Errors* warnings);
 
 /// A light at that pose in world.
 Light describeLight(const sdf::Light& light, const Pose& pose);

@@ -163,13 +163,17 @@ std::string supported() {
 
 /// A number in `lower`…`upper` at `parent`/`name`, if it is there.
 void readWithin(const sdf::ElementPtr& parent, const std::string& name, double lower, double upper,
-                double* value) {
+                double* value, sdf::Errors* warnings) {
   if (!parent || !parent->HasElement(name)) return;
   const sdf::ElementPtr element = parent->FindElement(name);
-  *value = element->Get<double>();
-  if (*value >= lower && *value <= upper) return;
+  const double given = element->Get<double>();
+  if (given >= lower && given <= upper) {
+    *value = given;
+    return;
+  }
   const std::string range = std::isfinite(upper) ? "from 0 to 1" : "of 0 or above";
-  failAt(element, "expected a number " + range + ", found " + element->GetValue()->GetAsString());
+  warnings->push_back(noteAt(element, "this " + name + " is left out: expected a number " + range +
+                                          ", found " + element->GetValue()->GetAsString()));
 }
 
 sdf::ElementPtr descend(sdf::ElementPtr element, std::initializer_list<const char*> path) {
@@ -204,18 +208,18 @@ void readSurface(const sdf::ElementPtr& element, Collision* collision, sdf::Erro
   constexpr double kUnlimited = std::numeric_limits<double>::infinity();
   const sdf::ElementPtr ode = descend(element, {"surface", "friction", "ode"});
   const sdf::ElementPtr bullet = descend(element, {"surface", "friction", "bullet"});
-  readWithin(bullet, "friction", 0, kUnlimited, &collision->friction);
-  readWithin(ode, "mu", 0, kUnlimited, &collision->friction);
+  readWithin(bullet, "friction", 0, kUnlimited, &collision->friction, warnings);
+  readWithin(ode, "mu", 0, kUnlimited, &collision->friction, warnings);
   double across = collision->friction;
-  readWithin(ode, "mu2", 0, kUnlimited, &across);
+  readWithin(ode, "mu2", 0, kUnlimited, &across, warnings);
   if (across != collision->friction) {
     warnings->push_back(noteAt(ode, "mu2 is left out: friction is the same in every direction"));
   }
   readWithin(descend(element, {"surface", "bounce"}), "restitution_coefficient", 0, 1,
-             &collision->restitution);
+             &collision->restitution, warnings);
 }
 
-void readMaterial(const sdf::ElementPtr& element, Visual* visual) {
+void readMaterial(const sdf::ElementPtr& element, Visual* visual, sdf::Errors* warnings) {
   const sdf::ElementPtr material = element->FindElement("material");
   for (const char* name : {"diffuse", "ambient"}) {
     if (!material || !material->HasElement(name)) continue;
@@ -224,7 +228,7 @@ void readMaterial(const sdf::ElementPtr& element, Visual* visual) {
     break;
   }
   double transparency = 0;
-  readWithin(element, "transparency", 0, 1, &transparency);
+  readWithin(element, "transparency", 0, 1, &transparency, warnings);
   visual->rgba[3] *= 1 - transparency;
 }
 

@@ -29,6 +29,6 @@ std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origi
 void readSurface(const sdf::ElementPtr& element, Collision* collision, sdf::Errors* warnings);
 
 /// The colour of a `<visual>`.
-void readMaterial(const sdf::ElementPtr& element, Visual* visual);
+void readMaterial(const sdf::ElementPtr& element, Visual* visual, sdf::Errors* warnings);
 
 }  // namespace kiva

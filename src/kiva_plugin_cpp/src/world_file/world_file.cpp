@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sdf/Actor.hh>
 #include <sdf/Model.hh>
 #include <sdf/Physics.hh>
 #include <sdf/World.hh>
 #include <set>
 
 #include "world_file/bounded_cache.h"
+#include "world_file/elements.h"
 #include "world_file/errors.h"
-#include "world_file/includes.h"
+#include "world_file/files.h"
 #include "world_file/model_library.h"
 #include "world_file/model_paths.h"
 #include "world_file/models.h"
@@ -31,44 +31,52 @@ struct ParsedText {
   FileStamps stamps;
 };
 
-ModelInstance instantiate(const sdf::Model& model, const Origin& origin, sdf::Errors* warnings) {
-  ModelInstance instance;
-  instance.name = model.Name();
-  instance.pose = resolved(model.SemanticPose(), model.Element());
-  instance.description = std::make_shared<ModelDescription>(describeModel(model, origin, warnings));
-  return instance;
+void addModel(const sdf::Model& model, const Origin& origin, std::vector<ModelInstance>* models,
+              sdf::Errors* warnings) {
+  buildOrLeaveOut("model", warnings, [&] {
+    ModelInstance instance;
+    instance.name = model.Name();
+    instance.pose = resolved(model.SemanticPose(), model.Element());
+    instance.description =
+        std::make_shared<ModelDescription>(describeModel(model, origin, warnings));
+    models->push_back(std::move(instance));
+  });
 }
 
-void setPhysics(const sdf::World& from, WorldDescription* world) {
+void setPhysics(const sdf::Physics& from, WorldDescription* world) {
+  const double step = from.MaxStepSize(), factor = from.RealTimeFactor();
+  if (!std::isfinite(step) || step <= 0) {
+    failAt(from.Element(), "expected a max_step_size above 0 s");
+  }
+  if (!std::isfinite(factor) || factor < 0) {
+    failAt(from.Element(), "expected a real_time_factor of 0 or above");
+  }
+  world->step_size = step;
+  world->real_time_factor = factor;
+}
+
+void setGravity(const sdf::World& from, WorldDescription* world) {
+  if (!from.Gravity().IsFinite()) failAt(from.Element(), "expected a finite gravity");
   world->gravity = from.Gravity();
-  if (!world->gravity.IsFinite()) failAt(from.Element(), "expected a finite gravity");
-  const sdf::Physics* physics = from.PhysicsDefault();
-  if (!physics) return;
-  world->step_size = physics->MaxStepSize();
-  world->real_time_factor = physics->RealTimeFactor();
-  if (!std::isfinite(world->step_size) || world->step_size <= 0) {
-    failAt(physics->Element(), "expected a max_step_size above 0 s");
-  }
-  if (!std::isfinite(world->real_time_factor) || world->real_time_factor < 0) {
-    failAt(physics->Element(), "expected a real_time_factor of 0 or above");
-  }
 }
 
 void describeWorld(const sdf::World& from, const Origin& origin, WorldDescription* world,
                    sdf::Errors* warnings) {
   world->name = from.Name();
-  setPhysics(from, world);
+  buildOrLeaveOut("gravity", warnings, [&] { setGravity(from, world); });
+  if (from.PhysicsDefault()) {
+    buildOrLeaveOut("physics", warnings, [&] { setPhysics(*from.PhysicsDefault(), world); });
+  }
   world->plugins = readPlugins(from.Element(), origin.where);
   for (uint64_t i = 0; i < from.ModelCount(); ++i) {
-    world->models.push_back(instantiate(*from.ModelByIndex(i), origin, warnings));
+    addModel(*from.ModelByIndex(i), origin, &world->models, warnings);
   }
   for (uint64_t i = 0; i < from.LightCount(); ++i) {
     const sdf::Light& light = *from.LightByIndex(i);
-    const Pose pose = resolved(light.SemanticPose(), light.Element());
-    world->lights.push_back(describeLight(light, pose));
-  }
-  for (uint64_t i = 0; i < from.ActorCount(); ++i) {
-    warnings->push_back(noteAt(from.ActorByIndex(i)->Element(), "actors are left out"));
+    buildOrLeaveOut("light", warnings, [&] {
+      const Pose pose = resolved(light.SemanticPose(), light.Element());
+      world->lights.push_back(describeLight(light, pose));
+    });
   }
 }
 
@@ -83,7 +91,7 @@ ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
   if (parsed.is_world) {
     describeWorld(*root.WorldByIndex(0), origin, &parsed.world, &document.warnings);
   } else if (root.Model()) {
-    parsed.world.models.push_back(instantiate(*root.Model(), origin, &document.warnings));
+    addModel(*root.Model(), origin, &parsed.world.models, &document.warnings);
   } else if (root.Light()) {
     parsed.world.lights.push_back(describeLight(*root.Light(), root.Light()->RawPose()));
   }
@@ -119,13 +127,12 @@ class Reading {
   /// `parse` is given the text without its includes. Throws DescriptionError.
   template <typename Parse>
   ParsedText read(const std::string& xml, Parse parse) {
-    PreparedText prepared = prepare(xml);
-    const SplitText split = takeIncludes(prepared.xml);
     try {
-      ParsedText parsed = *parse(split.rest);
+      const PreparedText prepared = prepare(xml);
+      ParsedText parsed = *parse(prepared.rest);
       for (const sdf::Error& warning : prepared.warnings) warn(describe(warning, where_));
       for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
-      parsed.world.models = merge(split, std::move(parsed.world.models));
+      parsed.world.models = merge(prepared, std::move(parsed.world.models));
       std::move(lights_.begin(), lights_.end(), std::back_inserter(parsed.world.lights));
       for (ModelInstance& model : parsed.world.models) {
         const auto saved = prepared.poses.find(model.name);
@@ -147,7 +154,7 @@ class Reading {
   }
 
   /// In the order of the text.
-  std::vector<ModelInstance> merge(const SplitText& split, std::vector<ModelInstance> rest) {
+  std::vector<ModelInstance> merge(const PreparedText& split, std::vector<ModelInstance> rest) {
     if (split.includes.empty()) return rest;
     std::map<std::string, ModelInstance> originals;
     for (const ModelInstance& model : rest) originals[model.name] = model;
@@ -156,12 +163,12 @@ class Reading {
     models.reserve(split.includes.size() + rest.size());
     auto of_rest = rest.begin();
     for (const int index : split.order) {
-      if (index != SplitText::kOfRest) {
+      if (index != PreparedText::kOfRest) {
         const Include& include = split.includes[index];
         if (include.copy_of.empty()) {
           addInclude(include, &models);
         } else {
-          add(include, copyOf(originals.at(include.copy_of), include), &models);
+          addCopy(include, originals, &models);
         }
       } else if (of_rest != rest.end()) {
         models.push_back(std::move(*of_rest++));
@@ -171,6 +178,13 @@ class Reading {
     return models;
   }
 
+  void addCopy(const Include& include, const std::map<std::string, ModelInstance>& originals,
+               std::vector<ModelInstance>* models) {
+    const auto original = originals.find(include.copy_of);
+    if (original != originals.end()) return add(include, copyOf(original->second, include), models);
+    warn(at(include) + "this model is left out, as is '" + include.copy_of + "', which is like it");
+  }
+
   void addLight(const Include& include, Light light) {
     if (!include.name.empty()) light.name = include.name;
     if (include.pose) light.pose = *include.pose;
@@ -178,7 +192,12 @@ class Reading {
   }
 
   void addInclude(const Include& include, std::vector<ModelInstance>* models) {
-    const LibraryModel* model = library(include);
+    const LibraryModel* model = nullptr;
+    try {
+      model = library(include);
+    } catch (const DescriptionError& error) {
+      return warn(at(include) + "this include is left out: " + error.what());
+    }
     if (!model) return warn(at(include) + leftOut(include.uri, model_paths_));
     if (model->light) return addLight(include, *model->light);
     if (!model->description) {
@@ -189,11 +208,9 @@ class Reading {
   }
 
   void add(const Include& include, ModelInstance model, std::vector<ModelInstance>* models) {
-    models->push_back(std::move(model));
-    if (names_.insert(models->back().name).second) return;
-    throw DescriptionError(at(include) + "the name '" + models->back().name +
-                           "' is taken; expected every <model> in <world> to have a name of its "
-                           "own");
+    if (names_.insert(model.name).second) return models->push_back(std::move(model));
+    warn(at(include) + "it is left out: the name '" + model.name +
+         "' is taken; expected every <model> in <world> to have a name of its own");
   }
 
   /// Looked up once for each reading: five thousand shelves are one model. Null: there is none.
@@ -242,7 +259,7 @@ class Reading {
 
 WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
                            std::vector<std::string>* warnings) {
-  return parseWorld(readText(path), model_paths, path, warnings);
+  return parseWorld(readText(path, kMostBytes), model_paths, path, warnings);
 }
 
 WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,

@@ -226,24 +226,18 @@ void describe(A& a, JointState& s) {
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 448);
+  DESCRIBED(Model, 472);
   FIELDS(m.name, m.kind, m.serial, m.spawn_pose);
   if constexpr (A::kReads) m.owner = &ownerOf(m.kind);
   a.mostly(m.pose, m.spawn_pose);
   FIELDS(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
-  bool has_outlines = !m.geometries.empty();
-  FIELDS(has_outlines);
-  if (m.kind == ModelKind::kRobot) {
-    FIELDS(m.geometries);
-  } else if (A::kReads && has_outlines) {
-    addCollisionGeometry(m);
-  }
+  if (m.kind == ModelKind::kRobot) FIELDS(m.geometries);  // others follow from the description
 }
 
 template <class A>
 void describe(A& a, StorageUnit& u) {
-  DESCRIBED(StorageUnit, 128);
-  FIELDS(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier);
+  DESCRIBED(StorageUnit, 136);
+  FIELDS(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier, u.raised);
 }
 
 template <class A>
@@ -415,8 +409,8 @@ void describe(A& a, PluginState& p) {
 
 template <class A>
 void describe(A& a, Floor& f) {
-  DESCRIBED(Floor, 32);
-  FIELDS(f.min_x, f.max_x, f.min_y, f.max_y);
+  DESCRIBED(Floor, 40);
+  FIELDS(f.min_x, f.max_x, f.min_y, f.max_y, f.z);
 }
 
 template <class A>

@@ -128,7 +128,12 @@ void addFootprints(WorldState& world, Model& model) {
 }
 
 void rebuildObstacles(WorldState& world, const PhysicsState& state) {
-  for (int slot : slotsInOrder(world)) addFootprints(world, *world.models[slot]);
+  for (int slot : slotsInOrder(world)) {
+    Model& model = *world.models[slot];
+    const bool is_touched = model.in_physics || model.owner->isActivatedWhenNear();
+    if (model.geometries.empty() && is_touched) addCollisionGeometry(world, model);
+    addFootprints(world, model);
+  }
   // Worked out where the robot was when its load changed, they would be a rounding apart.
   for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
     world.obstacles.setMover(static_cast<int>(robot), state.movers[robot]);

@@ -11,8 +11,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kCell = 1.0;    // [m]
-constexpr int kMaxCells = 2048;  // a side; farther out nothing is indexed by cell
+constexpr double kCell = 1.0;           // [m]
+constexpr int kMaxCells = 2048;         // a side; farther out nothing is indexed by cell
+constexpr long kMostCellsEach = 16384;  // what covers more is asked for everywhere
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double halfX(const Footprint& f) {
@@ -240,7 +241,9 @@ bool Obstacles::isInside(const Box& box) const {
 void Obstacles::link(int handle, Place& place, const Box& box) {
   place.linked = true;
   place.range = range(box);
-  place.everywhere = !isInside(box);
+  const Range& cells = place.range;
+  const long count = (cells.x1 - cells.x0 + 1L) * (cells.y1 - cells.y0 + 1L);
+  place.everywhere = !isInside(box) || count > kMostCellsEach;
   if (place.everywhere) {
     everywhere_.push_back(handle);
     return;

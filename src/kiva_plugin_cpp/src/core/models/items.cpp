@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/models/items.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/models/load.h"
@@ -18,6 +19,16 @@ Model& unitBelow(const WorldState& world, const Model& model) {
   return *world.models[world.units[world.items[model.index].unit].model];
 }
 
+/// The unit that an item lies on. One that was raised onto the floor takes along what would lie on
+/// it had the floor been where it was thought to be.
+int findUnit(const WorldState& world, Model& item) {
+  const Vector3 lift(0, 0, std::max(0.0, world.floor.z));
+  const int raised = unitAt(world, item.pose.Pos() + lift);
+  if (raised < 0 || world.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
+  item.pose.Pos().Z() += world.units[raised].raised;
+  return raised;
+}
+
 }  // namespace
 
 void Items::add(WorldState& world, Model& model) const {
@@ -26,7 +37,7 @@ void Items::add(WorldState& world, Model& model) const {
   item.id = numberIn(model.name, "item");
   item.model = model.slot;
   item.mass = massOf(*model.description);
-  item.unit = unitAt(world, model.pose.Pos());
+  item.unit = findUnit(world, model);
   if (item.unit >= 0) item.pose_in_unit = unitPose(world, item.unit).Inverse() * model.pose;
   item.spawn_pose_in_unit = item.pose_in_unit;
   model.index = static_cast<int>(world.items.size());

@@ -71,7 +71,7 @@ void putDown(WorldState& world, int robot) {
   StorageUnit& u = world.units[unit];
   Model& model = *world.models[u.model];
   const Pose pose = unitPose(world, unit);
-  model.pose = Pose(pose.X(), pose.Y(), 0, 0, 0, pose.Rot().Yaw());
+  model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
   u.carrier = -1;
   unload(world, robot);
   moved(world, model);

@@ -13,6 +13,7 @@
 #include "core/motion/dynamics.h"
 #include "core/motion/joints.h"
 #include "core/state/fleet_plugin.h"
+#include "core/state/floors.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
 
@@ -51,7 +52,7 @@ void checkInstance(const WorldState& world, const ModelInstance& instance) {
 ModelKind classify(const ModelInstance& instance) {
   const ModelDescription& description = *instance.description;
   if (isRobot(description)) return ModelKind::kRobot;
-  if (isFloor(description)) return ModelKind::kFloor;
+  if (isFloor(instance)) return ModelKind::kFloor;
   if (instance.name.rfind("conveyor_belt", 0) == 0) return ModelKind::kBelt;
   if (description.is_static) return ModelKind::kOther;
   if (numberIn(instance.name, "storage_unit")) return ModelKind::kStorageUnit;

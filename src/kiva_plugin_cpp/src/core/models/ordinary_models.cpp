@@ -3,30 +3,14 @@
 
 #include <algorithm>
 
+#include "core/models/floors.h"
 #include "core/motion/joints.h"
+#include "core/state/floors.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
 
 namespace kiva {
 namespace {
-
-constexpr double kFlat = 0.005;  // [m]; what rises less above the ground is floor
-
-/// The floor is what the floor models cover together, but for `without`.
-void measureFloor(WorldState& world, const Model* without = nullptr) {
-  Bounds all;
-  world.floor_friction = 1;
-  for (const auto& model : world.models) {
-    if (!model || model.get() == without || !model->owner->isFloor()) continue;
-    for (const Link& link : model->description->links) {
-      for (const Collision& collision : link.collisions) {
-        all.add(bounds(collision.shape, model->pose * link.pose_in_model * collision.pose_in_link));
-        world.floor_friction = collision.friction;
-      }
-    }
-  }
-  world.floor = all.empty() ? Floor() : Floor{all.min.X(), all.max.X(), all.min.Y(), all.max.Y()};
-}
 
 void insertBodies(WorldState& world, Model& model) {
   model.bodies = model.owner->build(world, model);
@@ -35,18 +19,6 @@ void insertBodies(WorldState& world, Model& model) {
 }
 
 }  // namespace
-
-bool isFloor(const ModelDescription& description) {
-  if (!description.is_static) return false;
-  bool flat = false;
-  for (const Link& link : description.links) {
-    for (const Collision& collision : link.collisions) {
-      if (collision.shape.kind == Shape::Kind::kPlane) return true;
-      flat = true;
-    }
-  }
-  return flat && bounds(description).max.Z() <= kFlat;
-}
 
 void setBodyState(LinkBody& link, const EntityState& to) {
   link.place(toBullet(to.pose));
@@ -70,12 +42,16 @@ void OrdinaryModels::add(WorldState& world, Model& model) const {
     world.bodies.push_back(model.slot);
     initJoints(model);
   }
-  if (!isFloor()) addCollisionGeometry(model);
+  addCollisionGeometry(world, model);
+  if (model.isStatic()) measureFloor(world);
 }
 
 void OrdinaryModels::remove(WorldState& world, Model& model) const {
   auto& slots = world.bodies;
   slots.erase(std::remove(slots.begin(), slots.end(), model.slot), slots.end());
+  const bool may_be_floor = !model.level_surfaces.empty();
+  model.level_surfaces.clear();
+  if (may_be_floor) measureFloor(world);
 }
 
 void OrdinaryModels::place(WorldState& world, Model& model, const EntityState& state) const {
@@ -86,6 +62,8 @@ void OrdinaryModels::place(WorldState& world, Model& model, const EntityState& s
   world.physics.remove(model.bodies);
   model.pose = state.pose;
   insertBodies(world, model);
+  refitGeometry(world, model);
+  measureFloor(world);
 }
 
 void OrdinaryModels::reset(WorldState& world, Model& model) const {
@@ -127,28 +105,8 @@ bool OrdinaryModels::push(WorldState& /*world*/, Model& model, int link, const V
 }
 
 ModelBodies OrdinaryModels::build(const WorldState& world, const Model& model) const {
-  const bool is_static = model.isStatic();
-  return world.physics.build(*model.description, is_static ? model.pose : model.spawn_pose,
-                             model.slot, is_static ? kStaticGroup : kDynamicGroup, ~0);
-}
-
-void Floors::add(WorldState& world, Model& model) const {
-  OrdinaryModels::add(world, model);
-  measureFloor(world);
-}
-
-void Floors::remove(WorldState& world, Model& model) const {
-  OrdinaryModels::remove(world, model);
-  measureFloor(world, &model);
-}
-
-void Floors::place(WorldState& world, Model& model, const EntityState& state) const {
-  OrdinaryModels::place(world, model, state);
-  measureFloor(world);
-}
-
-ModelBodies Floors::build(const WorldState& world, const Model& model) const {
-  return world.physics.build(*model.description, model.pose, model.slot, kFloorGroup, ~0);
+  if (model.isStatic()) return buildStatic(world, model);
+  return world.physics.build(*model.description, model.spawn_pose, model.slot, kDynamicGroup, ~0);
 }
 
 }  // namespace kiva

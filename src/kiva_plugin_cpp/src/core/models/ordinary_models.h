@@ -34,16 +34,9 @@ class ConveyorBelts : public OrdinaryModels {
 /// What wheels roll on. All floors together make the ground that robots may stand on.
 class Floors : public OrdinaryModels {
  public:
-  void add(WorldState& world, Model& model) const override;
-  void remove(WorldState& world, Model& model) const override;
-  void place(WorldState& world, Model& model, const EntityState& state) const override;
-  ModelBodies build(const WorldState& world, const Model& model) const override;
   bool isFloor() const override { return true; }
   bool isObstacle() const override { return false; }
 };
-
-/// Whether a model is a floor: static, and flat on the ground.
-bool isFloor(const ModelDescription& description);
 
 /// Puts a model's bodies there, at that velocity.
 void moveBodies(Model& model, const EntityState& to);

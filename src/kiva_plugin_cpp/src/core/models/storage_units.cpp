@@ -7,6 +7,7 @@
 #include "core/contact/activation.h"
 #include "core/models/load.h"
 #include "core/models/ordinary_models.h"
+#include "core/state/floors.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
 #include "core/state/unit_geometry.h"
@@ -24,7 +25,8 @@ bool standsStill(const WorldState& world, const Model& model) {
   const btRigidBody& body = *model.bodies.links.front().body;
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
   return up > kTilt && body.getLinearVelocity().length() < kStill &&
-         body.getAngularVelocity().length() < kStill && unitPose(world, model.index).Z() < kAbove;
+         body.getAngularVelocity().length() < kStill &&
+         unitPose(world, model.index).Z() - world.floor.z < kAbove;
 }
 
 /// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
@@ -59,10 +61,11 @@ void StorageUnits::add(WorldState& world, Model& model) const {
   unit.id = numberIn(model.name, "storage_unit");
   unit.model = model.slot;
   unit.mass = massOf(*model.description);
+  raiseToFloor(world, &unit, &model);
   model.index = static_cast<int>(world.units.size());
   world.units.push_back(unit);
   world.unit_of_id[unit.id] = model.index;
-  addCollisionGeometry(model);
+  addCollisionGeometry(world, model);
   if (!standsUpright(world, model.index)) letFall(world, model);
 }
 
@@ -152,7 +155,7 @@ ModelBodies StorageUnits::build(const WorldState& world, const Model& model) con
 void StorageUnits::deactivated(WorldState& world, Model& model) const {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
-    model.pose = Pose(pose.X(), pose.Y(), 0, 0, 0, pose.Rot().Yaw());
+    model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
   }
   model.disturbed = false;
 }

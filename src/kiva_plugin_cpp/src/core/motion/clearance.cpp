@@ -105,8 +105,11 @@ Footprint sweep(const FleetState& f, int i, double time) {
 /// Whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
 bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
   const FleetState& f = world.fleet;
+  Footprint lifted = swept;  // it counts from the floor
+  lifted.z_min += world.floor.z;
+  lifted.z_max += world.floor.z;
   const auto meets = [&](const Footprint& other) {
-    return shareHeight(other, swept) && mayBeWithin(kNear, swept, other) &&
+    return shareHeight(other, lifted) && mayBeWithin(kNear, swept, other) &&
            gap(swept, other) < kNear;
   };
   const auto approaches = [&](int i, double radius) {

@@ -84,7 +84,7 @@ Sensor sensorOf(const WorldState& world, int robot) {
   const FleetState& f = world.fleet;
   const LaserParameters& laser = f.robots[robot].laser;
   const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
-  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, laser.z, c, s};
+  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.z + laser.z, c, s};
 }
 
 void castScan(const WorldState& world, int robot, std::vector<RayHit>* hits) {

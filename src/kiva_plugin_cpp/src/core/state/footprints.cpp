@@ -4,15 +4,14 @@
 #include <algorithm>
 
 #include "core/geometry/triangle_footprint.h"
+#include "core/state/floors.h"
 #include "core/state/poses.h"
 
 namespace kiva {
 namespace {
 
-constexpr double kFlat = 0.005;  // [m]; what rises less above the ground is floor
-
-/// What lies flat on the ground, as the floor of a building does, is in nobody's way.
-void addTriangles(Model& model, CollisionGeometry geometry) {
+/// What belongs to the floor, in the mesh of a building say, is in nobody's way.
+void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) {
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
       model.pose * model.description->links[geometry.link].pose_in_model * geometry.pose_in_link;
@@ -20,8 +19,14 @@ void addTriangles(Model& model, CollisionGeometry geometry) {
     geometry.triangle = static_cast<int>(i);
     geometry.corners = std::make_shared<Triangle>(cornersOf(mesh, geometry.triangle, pose));
     const Footprint flat = makeFootprint(*geometry.corners);
-    if (flat.z_max > kFlat) model.geometries.push_back(geometry);
+    if (!isLow(floor, flat.z_max)) model.geometries.push_back(geometry);
   }
+}
+
+/// In world [m].
+double topOf(const Model& model, const CollisionGeometry& geometry) {
+  const Pose link = model.pose * model.description->links[geometry.link].pose_in_model;
+  return bounds(geometry.shape, link * geometry.pose_in_link).max.Z();
 }
 
 /// The footprints of one model, of `group`, in the frame whose inverse is given.
@@ -49,7 +54,7 @@ void appendFootprints(const WorldState& world, const Model& model, const Pose& t
 
 /// A robot and its load move as one.
 void updateMover(WorldState& world, int robot) {
-  const Pose to_robot = basePose(world, robot).Inverse();
+  const Pose to_robot = Pose(0, 0, world.floor.z, 0, 0, 0) * basePose(world, robot).Inverse();
   std::vector<Footprint> local;
   appendFootprints(world, world.modelOf(robot), to_robot, robot, &local);
   const int unit = world.fleet.unit[robot];
@@ -74,16 +79,24 @@ void updateStanding(WorldState& world, Model& model) {
 
 }  // namespace
 
-void addCollisionGeometry(Model& model) {
+void refitGeometry(WorldState& world, Model& model) {
+  hideFootprints(world, model);
+  model.geometries.clear();
+  addCollisionGeometry(world, model);
+  moved(world, model);
+}
+
+void addCollisionGeometry(const WorldState& world, Model& model) {
   const auto& links = model.description->links;
+  if (model.isStatic()) model.level_surfaces = levelSurfaces(*model.description, model.pose);
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (const Collision& collision : links[i].collisions) {
       if (collision.shape.kind == Shape::Kind::kPlane) continue;
       const CollisionGeometry geometry{static_cast<int>(i), collision.pose_in_link,
                                        collision.shape};
       if (collision.shape.kind == Shape::Kind::kMesh && model.isStatic()) {
-        addTriangles(model, geometry);
-      } else {
+        addTriangles(world.floor, model, geometry);
+      } else if (!model.isStatic() || !isLow(world.floor, topOf(model, geometry))) {
         model.geometries.push_back(geometry);
       }
     }

@@ -10,7 +10,9 @@
 namespace kiva {
 
 /// Gives a model the geometry of its collision shapes, without footprints so far.
-void addCollisionGeometry(Model& model);
+void addCollisionGeometry(const WorldState& world, Model& model);
+/// The same for a static model that has them already, once it or the floor is elsewhere.
+void refitGeometry(WorldState& world, Model& model);
 /// A model, or a robot's load, is somewhere else or shaped otherwise: its footprints follow, and
 /// whoever asks World::unitsRevision hears of units and items that moved. Whoever moves a model
 /// calls this, and nothing else follows.

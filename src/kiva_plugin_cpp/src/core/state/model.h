@@ -28,6 +28,15 @@ struct CollisionGeometry {
   std::shared_ptr<std::array<Vector3, 3>> corners = nullptr;  ///< Of that triangle, in world.
 };
 
+/// What of a static model lies level at one height near the ground.
+struct LevelSurface {
+  double z = 0;                                                         ///< In world [m].
+  double area = 0;                                                      ///< [m2]
+  double min_x = 1e300, max_x = -1e300, min_y = 1e300, max_y = -1e300;  ///< In world [m].
+  double friction = 1;
+  bool is_plane = false;
+};
+
 /// What becomes of the models of one kind: who adds, removes, places and resets them, tells where
 /// they are and how they touch others. One object a kind, in core/models; nobody else asks which
 /// kind a model is.
@@ -114,6 +123,7 @@ struct Model {
   std::shared_ptr<const JointedBody>
       jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<CollisionGeometry> geometries;
+  std::vector<LevelSurface> level_surfaces;  ///< Of a static model.
   std::vector<std::shared_ptr<Plugin>> plugins;
   std::vector<JointState> joints;  ///< In the description's order; of a model with free bodies.
   std::string robot_namespace;     ///< What its plugins were told.

@@ -7,7 +7,7 @@ namespace kiva {
 
 Pose basePose(const WorldState& world, int robot) {
   const Fleet& f = world.fleet;
-  return Pose(f.x[robot], f.y[robot], 0, 0, 0, f.yaw[robot]);
+  return Pose(f.x[robot], f.y[robot], world.floor.z, 0, 0, f.yaw[robot]);
 }
 
 Pose towerPose(const WorldState& world, int robot) {

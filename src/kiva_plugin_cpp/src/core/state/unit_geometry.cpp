@@ -32,7 +32,7 @@ double underside(const WorldState& world, int unit) {
 
 bool standsUpright(const WorldState& world, int unit) {
   const Pose pose = unitPose(world, unit);
-  return std::abs(pose.Z()) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
+  return std::abs(pose.Z() - world.floor.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
 }
 
 int unitAt(const WorldState& world, const Vector3& point) {

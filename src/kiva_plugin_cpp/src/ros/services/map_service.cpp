@@ -18,6 +18,7 @@ bool MapService::get(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& res
   map.info.height = static_cast<uint32_t>(found.rows);
   map.info.origin.position.x = found.x - found.spacing / 2;
   map.info.origin.position.y = found.y - found.spacing / 2;
+  map.info.origin.position.z = found.z;
   map.info.origin.orientation.w = 1;
   for (const char taken : found.taken) map.data.push_back(taken ? 100 : 0);
   return true;
