@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ignition/math/Matrix3.hh>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+/// A box, cylinder, capsule or ellipsoid in any position, as rays see it.
+class Solid {
+ public:
+  /// `rotation`: of the shape, in the frame that rays are told in.
+  Solid(const Shape& shape, const Quaternion& rotation);
+
+  static bool canBe(Shape::Kind kind);
+
+  /// Distance [m] along the unit vector `direction` from `from`, relative to the solid's centre, to
+  /// the surface, from outside or inside; +inf = none.
+  double cast(const Vector3& from, const Vector3& direction) const;
+
+ private:
+  Shape::Kind kind_;
+  Vector3 half_;  // box: half the edges; ellipsoid: radii; else radius, radius, half the length [m]
+  ignition::math::Matrix3d to_shape_;
+};
+
+}  // namespace kiva
