@@ -6,6 +6,7 @@
 
 #include "core/control/commands.h"
 #include "core/motion/cruise.h"
+#include "core/motion/drives.h"
 #include "core/sensing/sensing.h"
 
 namespace kiva {
@@ -43,18 +44,18 @@ double farthestStop(const WorldState& world, const Robot& r, double obstacle) {
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(Fleet& f, int i, double stop, double dt) {
-  const DriveParameters& drive = f.robots[i].drive;
+void planStop(WorldState& world, int i, double stop) {
+  Fleet& f = world.fleet;
   const double speed = std::abs(f.reference_speed[i]), here = f.reference[i];
   const double way = stop - here;
-  const double usual = drive.acceleration, hardest = drive.emergency_deceleration;
+  const double usual = plannedAcceleration(world, i), hardest = plannedBraking(world, i);
   if (usual == 0) {
     f.goal[i] = std::max(stop, here);
     return;
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
   f.deceleration[i] = std::clamp(needed, usual, hardest);
-  const double shortest = speed * speed / (2 * hardest) + speed * dt;
+  const double shortest = speed * speed / (2 * hardest) + speed * world.dt;
   f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
@@ -65,11 +66,13 @@ struct View {
   double obstacle;   // where it is now
   double approach;   // how fast it comes by itself
   double speed;      // of this robot
+  double usual;      // its braking, and
+  double hardest;    // that for an obstacle [m/s²]
   double scan_time;  // until the next look [s]
   int model;
 };
 
-View look(const WorldState& world, Robot& r, int i) {
+View look(WorldState& world, Robot& r, int i) {
   const double along = alongSegment(world.fleet, i);
   const Ahead ahead = lookAhead(world, i);
   View view;
@@ -79,6 +82,9 @@ View look(const WorldState& world, Robot& r, int i) {
   view.obstacle = along + ahead.distance;
   view.approach = approachSpeed(r, ahead, along, view.scan_time);
   view.speed = std::abs(world.fleet.reference_speed[i]);
+  const double usual = plannedAcceleration(world, i);
+  view.usual = usual > 0 ? usual : 1e9;
+  view.hardest = plannedBraking(world, i);
   view.model = ahead.model;
   r.seen_distance = ahead.faces ? ahead.distance : 0;
   r.seen_from = along;
@@ -88,25 +94,24 @@ View look(const WorldState& world, Robot& r, int i) {
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
 double firstStop(const WorldState& world, const Robot& r, const View& view) {
-  const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
   // The other one comes on until it has seen this robot too, then brakes as this one does.
   const double comes =
-      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
+      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * view.usual);
   const double expected = view.obstacle - comes;
   const double stop = farthestStop(world, r, expected);
   if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
   const double next = farthestStop(world, r, expected - view.approach * view.scan_time);
-  const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
+  const double braking = view.speed * view.speed / (2 * view.usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
 double revisedStop(const WorldState& world, const Robot& r, const View& view) {
-  const double hardest = r.drive.emergency_deceleration;
   const double gap = view.obstacle - view.reference - reach(r);
-  const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
-                        (view.speed + view.approach) * view.scan_time + kClearance;
+  const double needed =
+      (view.speed * view.speed + view.approach * view.approach) / (2 * view.hardest) +
+      (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
   if (view.goal + reach(r) + kClearance <= view.obstacle) return view.goal;
   return std::min(view.goal, farthestStop(world, r, view.obstacle));
@@ -121,7 +126,7 @@ void guard(WorldState& world, int i) {
   const std::string& name = world.models[view.model]->name;
   markBlocked(world, i, name, name + " is in the way");
   stopCruise(world.fleet, i);
-  planStop(world.fleet, i, stop, world.dt);
+  planStop(world, i, stop);
 }
 
 bool isOnGuard(const Robot& r) {

@@ -6,6 +6,7 @@
 
 #include "core/control/commands.h"
 #include "core/motion/cruise.h"
+#include "core/motion/drives.h"
 
 namespace kiva {
 namespace {
@@ -31,11 +32,12 @@ OnLine onLine(const Fleet& f, int i, const MotionSegment& segment) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
 }
 
-void start(Fleet& f, int i, const OnLine& at) {
+void start(WorldState& world, int i, const OnLine& at) {
+  Fleet& f = world.fleet;
   Robot& robot = f.robots[i];
   f.setProfile(i, {at.along, at.speed});
   f.goal[i] = 0;
-  f.deceleration[i] = robot.drive.acceleration;
+  f.acceleration[i] = f.deceleration[i] = plannedAcceleration(world, i);
   robot.segment_started = true;
   robot.overdue = 0;
   robot.look_now = true;
@@ -70,7 +72,7 @@ void driveSegment(WorldState& world, int i) {
   const MotionSegment segment = r.segments.front();
   const OnLine at = onLine(f, i, segment);
   if (!r.segment_started) {
-    start(f, i, at);
+    start(world, i, at);
     setWheels(f, i, 0, 0);
     return;  // the laser looks first
   }
@@ -84,11 +86,11 @@ void driveSegment(WorldState& world, int i) {
   const double heading = f.yaw[i] - segment.yaw;
   const bool exact = isExact(lag) && isExact(heading) && isExact(at.across);
   if (exact && !segment.reverse &&
-      tryCruise(world, i, alongLine(segment, top, r.drive.acceleration))) {
+      tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }
   Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, r.drive.acceleration, f.deceleration[i], world.dt);
+  profile.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
   f.setProfile(i, profile);
   setWheels(f, i, profile.speed + kAlongGain * lag,
             -kHeadingGain * heading - kLineGain * at.speed * at.across);

@@ -117,8 +117,8 @@ void describe(A& a, DriveParameters& d) {
 
 template <class A>
 void describe(A& a, LiftParameters& l) {
-  DESCRIBED(LiftParameters, 40);
-  a(l.fitted, l.height, l.time, l.max_load, l.proximity);
+  DESCRIBED(LiftParameters, 48);
+  a(l.fitted, l.height, l.time, l.max_load, l.max_force, l.proximity);
 }
 
 template <class A>
@@ -135,9 +135,11 @@ void describe(A& a, MotionSegment& l) {
 
 template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 512);
+  DESCRIBED(Robot, 568);
   a(r.name, r.id, r.model, r.mass, r.inertia, r.half_length, r.half_width, r.height);
+  a(r.centre[0], r.centre[1], r.tyre_friction[0], r.tyre_friction[1]);
   a(r.load_mass, r.load_inertia, r.load_half_length, r.load_half_width);
+  a(r.load_centre[0], r.load_centre[1]);
   a(r.drive, r.lift, r.laser, r.has_motion, r.has_rotation);
   a(r.segments, r.reported_shelf, r.segment_started, r.overdue);
   a(r.look_now, r.seen_distance, r.seen_from, r.seen_model);

@@ -9,6 +9,7 @@
 #include "core/models/models.h"
 #include "core/motion/clearance.h"
 #include "core/motion/cruise.h"
+#include "core/motion/drives.h"
 #include "core/motion/jointed.h"
 #include "core/motion/traction.h"
 
@@ -142,7 +143,10 @@ void lookAroundBody(WorldState& world, Model& model) {
   const double near = kNear + 4 * fastest * world.dt;
   std::vector<int> close;
   for (const CollisionGeometry& geometry : model.geometries) {
-    inspect(world, world.obstacles[geometry.handle], 4 * fastest, near, &close);
+    Footprint own = world.obstacles[geometry.handle];
+    own.z_min -= near;  // it may fall, or be thrown, upon something
+    own.z_max += near;
+    inspect(world, own, 4 * fastest, near, &close);
   }
   for (int slot : close) activateOther(world, slot);
 }
@@ -186,15 +190,19 @@ void release(WorldState& world) {
 
 void pullPlanar(WorldState& world, int robot) {
   Fleet& f = world.fleet;
-  const btRigidBody& body = *world.modelOf(robot).bodies.links.front().body;
-  const btVector3& at = body.getWorldTransform().getOrigin();
-  const btVector3 ahead = body.getWorldTransform().getBasis().getColumn(0);
+  const LinkBody& planar = world.modelOf(robot).bodies.links.front();
+  // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
+  const btVector3 arm = toBullet(centreFromOrigin(f, robot));
+  const btVector3 velocity =
+      planar.body->getLinearVelocity() - planar.body->getAngularVelocity().cross(arm);
+  const btTransform pose = planar.linkPose();
+  const btVector3 at = pose.getOrigin(), ahead = pose.getBasis().getColumn(0);
   f.x[robot] = at.x();
   f.y[robot] = at.y();
   f.yaw[robot] += wrapAngle(std::atan2(ahead.y(), ahead.x()) - f.yaw[robot]);
-  f.vx[robot] = body.getLinearVelocity().x();
-  f.vy[robot] = body.getLinearVelocity().y();
-  f.yaw_rate[robot] = body.getAngularVelocity().z();
+  f.vx[robot] = velocity.x();
+  f.vy[robot] = velocity.y();
+  f.yaw_rate[robot] = planar.body->getAngularVelocity().z();
   for (int wheel = 0; wheel < 2; ++wheel) {
     f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.dt;
   }
@@ -261,16 +269,17 @@ ModelBodies buildPlanar(const WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const Model& model = world.modelOf(robot);
   Link link;
-  link.mass = r.mass + r.load_mass;
-  const double inertia = r.inertia + r.load_inertia;
-  link.principal_moments.Set(inertia, inertia, inertia);
+  const Vehicle vehicle = vehicleOf(r, groundOf(world));
+  link.mass = vehicle.mass;
+  link.principal_moments.Set(vehicle.inertia, vehicle.inertia, vehicle.inertia);
+  link.inertial_pose_in_link.Pos().Set(vehicle.centre[0], vehicle.centre[1], 0);
   link.gravity = false;
   ModelDescription planar;
   planar.links.push_back(link);
   ModelBodies bodies =
       world.physics.build(planar, basePose(world, robot), r.model, kRobotGroup, ~kFloorGroup);
   LinkBody& body = bodies.links.front();
-  const btTransform base = toBullet(basePose(world, robot)).inverse();
+  const btTransform base = (toBullet(basePose(world, robot)) * body.mass_frame).inverse();
   const auto add = [&](const Model& part_of, int slot) {
     for (std::size_t i = 0; i < part_of.description->links.size(); ++i) {
       const btTransform at = base * toBullet(linkPose(world, part_of, static_cast<int>(i)));
@@ -357,12 +366,14 @@ void drive(WorldState& world) {
     if (isJointed(f.robots[i])) {
       driveJointed(world, i);
     } else {
-      applyTraction(f, i, world.gravityDown(), world.dt);
+      applyTraction(f, i, groundOf(world), world.dt);
     }
     if (!f.activated[i]) continue;
     btRigidBody& body = *world.modelOf(i).bodies.links.front().body;
-    body.setLinearVelocity({f.vx[i], f.vy[i], 0});
-    body.setAngularVelocity({0, 0, f.yaw_rate[i]});
+    const btVector3 turning(0, 0, f.yaw_rate[i]);
+    body.setLinearVelocity(btVector3(f.vx[i], f.vy[i], 0) +
+                           turning.cross(toBullet(centreFromOrigin(f, i))));
+    body.setAngularVelocity(turning);
   }
 }
 

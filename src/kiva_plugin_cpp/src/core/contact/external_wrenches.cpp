@@ -8,6 +8,7 @@
 #include "core/models/load.h"
 #include "core/models/models.h"
 #include "core/motion/cruise.h"
+#include "core/motion/drives.h"
 
 namespace kiva {
 namespace {
@@ -60,14 +61,15 @@ bool pushBody(LinkBody& link, const Vector3& force, const Vector3& torque) {
 bool pushRobot(WorldState& world, int robot, const Vector3& at, const Vector3& force,
                const Vector3& torque) {
   Fleet& f = world.fleet;
-  const Robot& r = f.robots[robot];
-  const Vector3 arm = at - basePose(world, robot).Pos();
+  const Vehicle vehicle = vehicleOf(f.robots[robot], groundOf(world));
+  const Vector3 centre = centreFromOrigin(f, robot);
+  const Vector3 arm = at - basePose(world, robot).Pos() - centre;
+  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.dt;
   f.awake[robot] = 1;
   stopCruise(f, robot);
-  const double mass = r.mass + r.load_mass, inertia = r.inertia + r.load_inertia;
-  f.vx[robot] += force.X() / mass * world.dt;
-  f.vy[robot] += force.Y() / mass * world.dt;
-  f.yaw_rate[robot] += (torque + arm.Cross(force)).Z() / inertia * world.dt;
+  f.vx[robot] += force.X() / vehicle.mass * world.dt + turn * centre.Y();
+  f.vy[robot] += force.Y() / vehicle.mass * world.dt - turn * centre.X();
+  f.yaw_rate[robot] += turn;
   return true;
 }
 

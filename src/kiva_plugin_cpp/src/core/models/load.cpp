@@ -8,6 +8,7 @@
 #include "core/geometry/footprint.h"
 #include "core/models/models.h"
 #include "core/motion/cruise.h"
+#include "core/motion/jointed_body.h"
 
 namespace kiva {
 namespace {
@@ -16,31 +17,17 @@ constexpr double kAboveFloor = 0.05;  // [m]: what is lower is a leg's foot, not
 constexpr double kOnFloor = 0.005;    // [m]
 constexpr double kUpright = 0.9999;   // cosine of a tilt of 0.8°
 
-double inertiaAboutOrigin(const WorldState& world, int unit) {
-  const Model& model = *world.models[world.units[unit].model];
-  double inertia = 0;
-  for (const Link& link : model.description->links) {
-    const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
-    const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
-    inertia += up.X() * up.X() * link.principal_moments.X() +
-               up.Y() * up.Y() * link.principal_moments.Y() +
-               up.Z() * up.Z() * link.principal_moments.Z() +
-               link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
-  }
-  for (const Item& item : world.items) {
-    if (item.unit != unit) continue;
-    inertia +=
-        item.mass * (std::pow(item.pose_in_unit.X(), 2) + std::pow(item.pose_in_unit.Y(), 2));
-  }
-  return inertia;
-}
-
 void loadRobot(WorldState& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
   const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
-  const double offset = in_robot.X() * in_robot.X() + in_robot.Y() * in_robot.Y();
+  SpatialInertia load;
+  load.add(sumUnit(world, unit), in_robot);
+  const Vector3 centre = load.centre();
   r.load_mass = world.units[unit].mass;
-  r.load_inertia = inertiaAboutOrigin(world, unit) + r.load_mass * offset;
+  r.load_centre[0] = centre.X();
+  r.load_centre[1] = centre.Y();
+  r.load_inertia =
+      load.inertia()(2, 2) + load.mass() * (centre.X() * centre.X() + centre.Y() * centre.Y());
   Bounds box;
   const Model& model = *world.models[world.units[unit].model];
   for (const Link& link : model.description->links) {
@@ -135,6 +122,7 @@ void unload(WorldState& world, int robot) {
   Robot& r = f.robots[robot];
   f.unit[robot] = -1;
   r.load_mass = r.load_inertia = r.load_half_length = r.load_half_width = 0;
+  r.load_centre[0] = r.load_centre[1] = 0;
   f.awake[robot] = 1;  // its tower may have to come down
   stopCruise(f, robot);
   updateFootprints(world, world.modelOf(robot));

@@ -81,6 +81,15 @@ void reindex(WorldState& world, int from, int to) {
   updateFootprints(world, model);
 }
 
+/// Of the tyres, where the model has wheels.
+void setTyres(const ModelDescription& description, Robot* robot) {
+  const char* const wheels[] = {"left_wheel", "right_wheel"};
+  for (int side = 0; side < 2; ++side) {
+    const Link* wheel = description.findLink(wheels[side]);
+    if (wheel) robot->tyre_friction[side] = tyreFriction(*wheel);
+  }
+}
+
 }  // namespace
 
 bool isRobot(const ModelDescription& description) {
@@ -89,16 +98,20 @@ bool isRobot(const ModelDescription& description) {
 }
 
 void weighRobot(const ModelDescription& description, Robot* robot) {
-  robot->mass = robot->inertia = 0;
+  robot->mass = robot->inertia = robot->centre[0] = robot->centre[1] = 0;
   for (const Link& link : description.links) {
     const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
     const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
     const double own = up.X() * up.X() * link.principal_moments.X() +
                        up.Y() * up.Y() * link.principal_moments.Y() +
                        up.Z() * up.Z() * link.principal_moments.Z();
+    for (int axis = 0; axis < 2; ++axis) {
+      robot->centre[axis] += link.mass * centre.Pos()[axis];
+    }
     robot->mass += link.mass;
     robot->inertia += own + link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
   }
+  for (double& moment : robot->centre) moment /= robot->mass;
 }
 
 void addRobot(WorldState& world, int slot) {
@@ -110,6 +123,7 @@ void addRobot(WorldState& world, int slot) {
   checkPose(model);
   configure(world, *model.description, &robot);
   weighRobot(*model.description, &robot);
+  setTyres(*model.description, &robot);
   Pose centre;
   const Shape geometry = measure(*model.description, &robot, &centre);
   model.geometries.push_back({-1, centre, geometry, -1});

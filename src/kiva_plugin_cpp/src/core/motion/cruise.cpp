@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/motion/clearance.h"
-#include "core/motion/traction.h"
+#include "core/motion/drives.h"
 
 namespace kiva {
 namespace {
@@ -21,12 +21,14 @@ bool keepsUp(const Fleet& f, int i, const Motion& per) {
          isExact(f.yaw_rate[i] - per.yaw * v);
 }
 
-bool hasForce(const Robot& robot, const Motion& per, double deceleration, double gravity) {
+bool hasForce(const Robot& robot, const Motion& per, double deceleration, const Ground& ground) {
   if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
   if (per.acceleration == 0) return false;
   const double hardest = kMargin * std::max(per.acceleration, deceleration);
-  const double limit = per.yaw != 0 ? turningLimit(robot, gravity) : drivingLimit(robot, gravity);
-  return hardest < limit;
+  const Vehicle vehicle = vehicleOf(robot, ground);
+  if (per.yaw == 0) return hardest < std::min(drivingLimit(vehicle), brakingLimit(vehicle));
+  return std::max(turningEffort(vehicle, hardest, per.top_speed),
+                  turningEffort(vehicle, -hardest, per.top_speed)) < 1;
 }
 
 /// What the robot covers of the floor while its reference goes on by `way`.
@@ -136,7 +138,7 @@ bool tryCruise(WorldState& world, int i, const Motion& per) {
   if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
       f.cruise_until[i] > now || f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
       std::abs(f.reference_speed[i]) > per.top_speed || !keepsUp(f, i, per) ||
-      !hasForce(r, per, f.deceleration[i], world.gravityDown())) {
+      !hasForce(r, per, f.deceleration[i], groundOf(world))) {
     return false;
   }
   const double turn = per.yaw * r.drive.wheel_separation / 2;
