@@ -25,6 +25,7 @@ from warehouse_test import (
     pose,
     sim_time,
     spawn,
+    step_until,
     world,
 )
 
@@ -66,15 +67,16 @@ class Rates(unittest.TestCase):
         gap = self.usual_gap("/clock", Clock, lambda m: m.clock, 100)
         self.assertEqual(gap, 0.01)
 
-    def test_time_passes_as_fast_as_was_asked_for(self):
+    def test_time_passes_no_faster_than_was_asked_for(self):
+        """How much slower is up to the machine; unpaced, it would be a hundred times as fast."""
         with Collector("/clock", Clock) as clocks:
             begin = clocks.next(1)[0].clock.to_sec(), time.monotonic()
             end = clocks.next(200)[-1].clock.to_sec(), time.monotonic()
-        self.assertAlmostEqual((end[0] - begin[0]) / (end[1] - begin[1]), 1.0, delta=0.15)
+        self.assertLess((end[0] - begin[0]) / (end[1] - begin[1]), 2)
 
     def test_the_pace_is_told(self):
         with Collector("/gazebo/performance_metrics", PerformanceMetrics) as metrics:
-            metrics.first(lambda m: abs(m.real_time_factor - 1) < 0.15)
+            metrics.first(lambda m: 0 < m.real_time_factor < 2)
 
     def test_of_one_robot(self):
         def stamp(message):
@@ -92,14 +94,12 @@ class Rates(unittest.TestCase):
 
     def test_model_states_under_both_names(self):
         for topic in ("/model_states", "/gazebo/model_states"):
-            with (
-                Collector(topic, ModelStates) as models,
-                Collector("/kiva1/odom", Odometry) as odom,
-            ):
-                odom.first()
+            with Collector(topic, ModelStates) as models, Paused():
                 models.clear()
-                odom.next(20)  # a second
-                self.assertAlmostEqual(len(models.messages), 50, delta=15)
+                for seconds_passed in (1, 2):
+                    step_until(sim_time() + 1)
+                    models.wait_for(lambda m, n=50 * seconds_passed: len(m) >= n)
+                self.assertLessEqual(len(models.messages), 101)
 
 
 class OneRobot(unittest.TestCase):

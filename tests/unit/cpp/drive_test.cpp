@@ -2,6 +2,7 @@
 //
 // The drive models: traction against the jointed reference, and what friction and torque allow.
 #include "core/motion/traction.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -72,7 +73,7 @@ struct Bare {
     }
   }
   double wheel(int side) const { return fleet.wheel_speed[side][0]; }
-  Fleet fleet;
+  FleetState fleet;
   const double g = 9.81, dt = 0.001;
 };
 
@@ -282,7 +283,7 @@ TEST(Jointed, BrakesForAnObstacleNoHarderThanItsLoadAllows) {
   w.runUntilIdle(1);
   EXPECT_EQ(w.count(Event::Kind::kCollision), 0);
   EXPECT_EQ(w.count(Event::Kind::kBlocked), 1);
-  EXPECT_NEAR(w.x(1), w.world.fleet().goal[0] + 20, kMillimetre);
+  EXPECT_NEAR(w.x(1), insideOf(w.world).fleet.goal[0] + 20, kMillimetre);
 }
 
 }  // namespace

@@ -120,6 +120,34 @@ TEST_F(UserPlugin, AMissingLibraryIsOneWarningThatNamesItAndWhatWasSearched) {
   w.expectAt(1, 1, 0);
 }
 
+TEST_F(UserPlugin, ALibraryOfASourcedWorkspaceIsFound) {
+  setPath("");
+  const char* prefixes = std::getenv("CMAKE_PREFIX_PATH");
+  const std::string before = prefixes ? prefixes : "";
+  setenv("CMAKE_PREFIX_PATH", ("/nowhere:" + libraryFolder() + "/..").c_str(), true);
+  w.spawnText(withElement(kivaText(), patrol("<x>3</x>")), "kiva1", 0, 0);
+  setenv("CMAKE_PREFIX_PATH", before.c_str(), true);
+  EXPECT_TRUE(w.world.takeWarnings().empty());
+  w.runUntil([&] { return std::abs(w.x(1) - 3) < kMillimetre; }, 20);
+}
+
+TEST_F(UserPlugin, ADocumentDoesNotChooseTheFolderOfALibrary) {
+  const std::string path = libraryFolder() + "/libhello_plugin.so";
+  for (const std::string& name : {path, std::string("../lib/libhello_plugin.so")}) {
+    w.spawnText(withElement(kivaText(), "<plugin name='patrol' filename='" + name + "'/>"), "kiva1",
+                0, 0);
+    const auto warnings = w.world.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_PRED2(contains, warnings[0], "'" + name + "' is a path");
+    w.world.remove("kiva1");
+  }
+  // Nor does the dynamic linker, which knows the system's libraries.
+  w.spawnText(withElement(kivaText(), "<plugin name='c' filename='libc.so.6'/>"), "kiva1", 0, 0);
+  const auto warnings = w.world.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_PRED2(contains, warnings[0], "there is no library 'libc.so.6'");
+}
+
 TEST_F(UserPlugin, AFileThatIsNoLibraryIsNamed) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "kiva_no_library";
   std::filesystem::create_directories(folder);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/commands.h"
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/state/tasks.h"
 #include "plugins/motion.h"
 
 namespace kiva {
@@ -15,15 +15,16 @@ namespace {
 constexpr double kGain = 20;      // [1/s] yaw rate for angle lagged
 constexpr double kStuck = 0.3;    // [rad] behind the profile
 constexpr double kOverdue = 2.0;  // [s]
-constexpr double kReserve = 0.9;  // of the motors' acceleration, so that errors can be mended
+constexpr double kReserve = 0.9;  // of the motors' torque, so that errors can be mended
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
 /// motors and floor can. 0 = at once, where they are without limit.
 double turnAcceleration(WorldState& world, int i, double angle) {
   const double time =
       world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
-  const double limit = turningLimit(plannedVehicle(world, i), angle);
-  const double acceleration = std::min(2 * M_PI / (time * time), kReserve * limit);
+  Vehicle vehicle = plannedVehicle(world, i);
+  vehicle.torque *= kReserve;
+  const double acceleration = std::min(2 * M_PI / (time * time), turningLimit(vehicle, angle));
   return std::isinf(acceleration) ? 0 : acceleration;
 }
 
@@ -33,15 +34,15 @@ double turnSpeed(const Robot& robot, double dt) {
 }
 
 void turnSegment(WorldState& world, int i) {
-  Fleet& f = world.fleet;
-  Robot& r = f.robots[i];
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[i];
+  const Robot& r = f.robots[i];
   if (halting(world, i)) return;
-  if (!r.segment_started) {
-    r.segment_started = true;
+  if (task.phase == Phase::kStarting) {
+    task.phase = Phase::kTurning;
     f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
-    f.goal[i] = r.segments.front().yaw;
+    f.goal[i] = task.segments.front().yaw;
     f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - f.yaw[i]));
-    r.overdue = 0;
   }
   const double lag = f.reference[i] - f.yaw[i];
   const bool ended = f.reference[i] == f.goal[i];
@@ -49,8 +50,8 @@ void turnSegment(WorldState& world, int i) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
   }
-  if (ended) r.overdue += world.dt;
-  if (std::abs(lag) > kStuck || r.overdue > kOverdue) {
+  if (ended) task.overdue += world.dt;
+  if (std::abs(lag) > kStuck || task.overdue > kOverdue) {
     return haltRobot(world, i, "", "is stuck: it can't turn");
   }
   const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
@@ -68,11 +69,10 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_rotation = true;
 }
 
-void RotationPlugin::beforeStep(WorldState& world) {
-  const Fleet& f = world.fleet;
+void RotationPlugin::control(WorldState& world) const {
   for (int i : world.stepped_singly) {
-    if (f.robots[i].segments.empty()) continue;
-    if (f.robots[i].segments.front().kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
+    const MotionSegment* at = world.fleet.tasks[i].segment();
+    if (at && at->kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
   }
 }
 

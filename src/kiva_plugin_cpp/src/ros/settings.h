@@ -3,11 +3,13 @@
 
 #include <ros/ros.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
-#include "reporter.h"
+#include "ros/publishing/reporter.h"
 
 namespace kiva_ros {
 
@@ -18,13 +20,17 @@ namespace kiva_ros {
 ///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
 ///   ~model_paths             folders of models, a:b; default: the same package's. Those that
 ///                            GAZEBO_MODEL_PATH lists are searched after them
-///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; -1 (default):
-///                            what the world file says
+///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; not set: what
+///                            the world file says
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say
 ///   ~lockstep                true: time advances by ~step alone; default false
 ///   ~autosave                how many checkpoints to keep for /warehouse/undo, one a simulated
-///                            second; default 0
+///                            second; default 0: only that before the last reset
+///   ~checkpoint_folder       of checkpoints that are files; default: warehouse/checkpoints in
+///                            ROS_HOME, or in ~/.ros
+///   ~checkpoint_limit        [MB] of checkpoints in memory, of those in that folder, and of those
+///                            for undo, each; default 1000
 ///   ~record                  bag file to write a recording to; empty (default): none
 ///   ~replay                  recording to run again, in place of ~world; empty (default): none
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
@@ -32,11 +38,13 @@ namespace kiva_ros {
 struct Settings {
   std::string world_file;
   kiva::ModelPaths model_paths;
-  double rtf = -1;
+  std::optional<double> rtf;
   kiva::WorldOptions world;
   bool lockstep = false;
   int autosave = 0;
-  std::string record, replay;  ///< Paths, or empty.
+  std::string checkpoint_folder;
+  std::uintmax_t checkpoint_limit = 0;  ///< [bytes]
+  std::string record, replay;           ///< Paths, or empty.
   Reporter::Rates rates;
 };
 

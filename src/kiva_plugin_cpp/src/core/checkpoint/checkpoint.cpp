@@ -8,13 +8,13 @@
 
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
-#include "core/sensing/sensing.h"
+#include "core/sensing/scans.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -46,7 +46,9 @@ void makeModels(WorldState& world, DescriptionTable table) {
   }
   for (std::int32_t description : table.of_slot) {
     world.models.push_back(description < 0 ? nullptr : std::make_unique<Model>());
-    if (description >= 0) world.models.back()->description = shared.at(description);
+    if (description < 0) continue;
+    world.models.back()->description = shared.at(description);
+    world.models.back()->slot = static_cast<int>(world.models.size()) - 1;
   }
 }
 
@@ -64,8 +66,7 @@ void describeSetting(A& a, WorldState& world) {
 
 /// Whether a model has a state of its own; what is static or lies on a unit has none.
 bool hasState(const Model& model) {
-  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit ||
-         (model.in_physics && !model.isStatic());
+  return model.owner->isActivatedWhenNear() || (model.in_physics && !model.isStatic());
 }
 
 /// What changes from step to step.
@@ -76,7 +77,8 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
     if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) a(*model);
   }
   a(world.fleet, world.units, world.items);
-  a(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due);
+  a(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
+    world.sighted, world.crashes);
   a(world.top_speed, world.external_inputs);
   a(physics);
 }
@@ -84,7 +86,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  a(world.commands, world.events, world.status_changes);
+  a(world.last_command, world.commands, world.events, world.status_changes);
 }
 
 void indexModels(WorldState& world) {

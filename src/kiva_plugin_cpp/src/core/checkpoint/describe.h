@@ -7,6 +7,7 @@
 #include "core/checkpoint/plugin_states.h"
 #include "core/checkpoint/rebuild.h"
 #include "core/models/models.h"
+#include "core/state/footprints.h"
 
 namespace kiva {
 
@@ -134,16 +135,26 @@ void describe(A& a, MotionSegment& l) {
 }
 
 template <class A>
+void describe(A& a, Sighting& s) {
+  DESCRIBED(Sighting, 32);
+  a(s.taken, s.distance, s.model, s.faces, s.along);
+}
+
+template <class A>
+void describe(A& a, Task& t) {
+  DESCRIBED(Task, 264);
+  a(t.phase, t.command, t.goal, t.segments, t.overdue, t.sighting, t.last_sighting, t.blocked_by,
+    t.blocked_reason, t.reported_shelf);
+}
+
+template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 568);
+  DESCRIBED(Robot, 368);
   a(r.name, r.id, r.model, r.mass, r.inertia, r.half_length, r.half_width, r.height);
   a(r.centre[0], r.centre[1], r.tyre_friction[0], r.tyre_friction[1]);
   a(r.load_mass, r.load_inertia, r.load_half_length, r.load_half_width);
   a(r.load_centre[0], r.load_centre[1]);
-  a(r.drive, r.lift, r.laser, r.has_motion, r.has_rotation);
-  a(r.segments, r.reported_shelf, r.segment_started, r.overdue);
-  a(r.look_now, r.seen_distance, r.seen_from, r.seen_model);
-  a(r.stopping, r.halting, r.blocked_by, r.blocked_reason);  // its ray_fan comes with its laser
+  a(r.drive, r.lift, r.laser, r.has_motion, r.has_rotation);  // its ray_fan comes with its laser
 }
 
 template <class A>
@@ -153,14 +164,13 @@ void describe(A& a, Stance& s) {
 }
 
 template <class A>
-void describe(A& a, Fleet& f) {
-  DESCRIBED(Fleet, 840);
+void describe(A& a, FleetState& f) {
+  DESCRIBED(FleetState, 864);
   a(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
-  a(f.stance, f.tower, f.unit, f.status, f.state, f.awake, f.activated, f.look_again);
+  a(f.stance, f.tower, f.unit, f.status, f.state, f.last_end, f.awake, f.activated, f.clear_until);
   a(f.reference, f.reference_speed, f.goal, f.deceleration);
-  a(f.cruising, f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed, f.acceleration,
-    f.cruise_until);
-  a(f.robots, f.index_of_id);
+  a(f.cruising, f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed, f.acceleration);
+  a(f.robots, f.index_of_id, f.tasks);
 }
 
 // --- models, storage units, items
@@ -185,8 +195,9 @@ void describe(A& a, JointState& s) {
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 432);
+  DESCRIBED(Model, 448);
   a(m.name, m.kind, m.serial, m.spawn_pose);
+  if constexpr (A::kReads) m.owner = &ownerOf(m.kind);
   a.mostly(m.pose, m.spawn_pose);
   a(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
   bool has_outlines = !m.geometries.empty();
@@ -272,8 +283,8 @@ void describe(A& a, Impact& i) {
 
 template <class A>
 void describe(A& a, Event& e) {
-  DESCRIBED(Event, 192);
-  a(e.time, e.kind, e.model, e.other, e.text, e.impact);
+  DESCRIBED(Event, 200);
+  a(e.time, e.kind, e.model, e.other, e.text, e.command, e.impact);
 }
 
 template <class A>
@@ -329,6 +340,12 @@ template <class A>
 void describe(A& a, TouchingPair& t) {
   DESCRIBED(TouchingPair, 112);
   a(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
+}
+
+template <class A>
+void describe(A& a, Crash& c) {
+  DESCRIBED(Crash, 40);
+  a(c.kiva_id, c.with);
 }
 
 template <class A>

@@ -6,8 +6,9 @@
 #include <utility>
 
 #include "core/contact/activation.h"
-#include "core/contact/joints.h"
-#include "core/models/models.h"
+#include "core/motion/joints.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
 
 namespace kiva {
 namespace {
@@ -121,7 +122,7 @@ void writeContacts(WorldState& world, std::vector<ContactMemory> memories) {
 
 void buildModel(WorldState& world, int slot, const std::vector<BodyState>& states) {
   Model& model = *world.models[slot];
-  model.bodies = buildBodies(world, slot);
+  model.bodies = model.owner->build(world, model);
   for (std::size_t i = 0; i < states.size() && i < model.bodies.links.size(); ++i) {
     writeBody(states[i], *model.bodies.links[i].body);
   }
@@ -134,7 +135,7 @@ std::vector<int> slotsInPhysics(const WorldState& world) {
   std::vector<int> slots;
   for (int slot : slotsInOrder(world)) {
     const Model& model = *world.models[slot];
-    if (model.in_physics && !canActivate(model)) slots.push_back(slot);
+    if (model.in_physics && !model.owner->isActivatedWhenNear()) slots.push_back(slot);
   }
   slots.insert(slots.end(), world.activated.begin(), world.activated.end());
   return slots;
@@ -155,7 +156,7 @@ void rebuildObstacles(WorldState& world) {
   for (int slot : slotsInOrder(world)) {
     Model& model = *world.models[slot];
     for (CollisionGeometry& geometry : model.geometries) geometry.handle = -1;
-    updateFootprints(world, model);
+    moved(world, model);
   }
 }
 

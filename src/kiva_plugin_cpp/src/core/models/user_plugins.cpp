@@ -7,23 +7,46 @@
 #include <filesystem>
 #include <ignition/plugin/Loader.hh>
 #include <sstream>
+#include <vector>
 
 namespace kiva {
 namespace {
 
-std::string pluginPath() {
-  const char* path = std::getenv("KIVA_PLUGIN_PATH");
-  return path ? path : "";
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
 }
 
-/// The library's full path, or the bare name where only the dynamic linker can tell.
-std::string locate(const std::string& filename) {
-  std::istringstream folders(pluginPath());
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path file = std::filesystem::path(folder) / filename;
-    if (!folder.empty() && std::filesystem::exists(file)) return file.string();
+/// The folders that KIVA_PLUGIN_PATH lists, then those of the libraries of sourced workspaces.
+std::vector<std::filesystem::path> libraryFolders() {
+  std::vector<std::filesystem::path> out;
+  const auto add = [&out](const char* list, const char* below) {
+    std::istringstream folders(environment(list));
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      if (!folder.empty()) out.push_back(std::filesystem::path(folder) / below);
+    }
+  };
+  add("KIVA_PLUGIN_PATH", "");
+  add("CMAKE_PREFIX_PATH", "lib");
+  return out;
+}
+
+/// The library's path; empty, with the reason, if there is none. A document from anywhere names it,
+/// so it does not get to choose the folder.
+std::string locate(const std::string& filename, std::string* why) {
+  if (filename.find('/') != std::string::npos) {
+    *why = "'" + filename + "' is a path; a library's name was expected";
+    return "";
   }
-  return filename;
+  std::error_code error;
+  for (const std::filesystem::path& folder : libraryFolders()) {
+    const std::filesystem::path file = folder / filename;
+    if (std::filesystem::is_regular_file(file, error)) return file.string();
+  }
+  *why = "there is no library '" + filename + "' (searched KIVA_PLUGIN_PATH='" +
+         environment("KIVA_PLUGIN_PATH") + "' and lib/ in CMAKE_PREFIX_PATH='" +
+         environment("CMAKE_PREFIX_PATH") + "')";
+  return "";
 }
 
 /// Why the dynamic linker can't open it; empty if it can. Ignition's loader only prints.
@@ -34,25 +57,14 @@ std::string linkerError(const std::string& library) {
   return "";
 }
 
-/// Whether the linker found no such file at all; one that lacks another library is broken.
-bool isMissing(const std::string& library, const std::string& error) {
-  return !std::filesystem::exists(library) && error.rfind(library + ":", 0) == 0;
-}
-
 /// Null, with the reason, if there is no such library.
 std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::string& where,
                                     std::string* why) {
-  const std::string library = locate(filename);
+  const std::string library = locate(filename, why);
+  if (library.empty()) return nullptr;
   const std::string error = linkerError(library);
-  const std::string searched =
-      " (searched KIVA_PLUGIN_PATH='" + pluginPath() + "' and where the dynamic linker looks)";
-  if (!error.empty() && isMissing(library, error)) {
-    *why = "there is no library '" + filename + "'" + searched;
-    return nullptr;
-  }
   if (!error.empty()) {
-    throw DescriptionError(where + ": plugin library '" + filename + "' can't be loaded: " + error +
-                           searched);
+    throw DescriptionError(where + ": plugin library '" + filename + "' can't be loaded: " + error);
   }
   // One loader for all, for as long as the program runs: a library must outlive its objects.
   static ignition::plugin::Loader loader;

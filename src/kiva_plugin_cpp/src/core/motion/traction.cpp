@@ -174,7 +174,7 @@ double speedAfter(const Vehicle& v, const Wheel& wheel) {
 
 }  // namespace
 
-void applyTraction(Fleet& fleet, int i, const Ground& ground, double dt) {
+void applyTraction(FleetState& fleet, int i, const Ground& ground, double dt) {
   const Vehicle v = vehicleOf(fleet.robots[i], ground);
   const double c = std::cos(fleet.yaw[i]), s = std::sin(fleet.yaw[i]);
   const double cx = v.centre[0], cy = v.centre[1], turn = fleet.yaw_rate[i];
@@ -209,7 +209,7 @@ void integrate(Fleet& fleet, int i, double dt) {
   }
 }
 
-bool atRest(const Fleet& fleet, int i) {
+bool atRest(const FleetState& fleet, int i) {
   return std::abs(fleet.vx[i]) < kRestSpeed && std::abs(fleet.vy[i]) < kRestSpeed &&
          std::abs(fleet.yaw_rate[i]) < kRestSpeed && fleet.wheel_target[0][i] == 0 &&
          fleet.wheel_target[1][i] == 0;

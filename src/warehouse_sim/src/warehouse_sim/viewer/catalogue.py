@@ -7,9 +7,7 @@ from warehouse_msgs.msg import KivaStatus
 from warehouse_sim import tracking
 from warehouse_sim.models import kind_and_number
 from warehouse_sim.viewer import schemas
-
-STATUS = ("IDLE", "BUSY", "BLOCKED")
-STATE = ("IDLE", "MOVING_X", "MOVING_Y", "ROTATING", "LIFTING", "BLOCKED")
+from warehouse_sim.words import STATE, STATUS
 
 
 def robots(fleet, is_blocked):

@@ -105,6 +105,12 @@ class NewWarehouse(_Body):
     shelves: Int32 = 0
 
 
+class NewRobot(_Body):
+    x: Number = Field(description="[m], of a grid point")
+    y: Number = Field(description="[m], of a grid point")
+    heading: Number = Field(0, description="[rad] about z, by quarter turns; 0: along x")
+
+
 class Reset(_Body):
     time_too: StrictBool = Field(True, description="false: models alone go back to where they came")
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "ros/simulation/simulation_thread.h"
+
+namespace kiva_ros {
+
+/// The five command topics, one subscriber each whatever the number of robots.
+class CommandTopics {
+ public:
+  CommandTopics(ros::NodeHandle& root, SimulationThread& simulation);
+
+ private:
+  template <typename Message, typename Convert>
+  void subscribe(ros::NodeHandle& root, const std::string& topic, Convert convert);
+
+  SimulationThread& simulation_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace kiva_ros

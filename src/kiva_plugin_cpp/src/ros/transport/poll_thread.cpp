@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "poll_thread.h"
+
+#include <ros/poll_manager.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+namespace kiva_ros {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(1);  // it may be gone already
+
+constexpr int kListenQueue = 4096;
+
+}  // namespace
+
+void raiseListenBacklog() {
+  for (const auto& file : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int fd = std::atoi(file.path().filename().c_str());
+    int listens = 0;
+    socklen_t size = sizeof listens;
+    if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens) {
+      listen(fd, kListenQueue);
+    }
+  }
+}
+
+PollThread::PollThread()
+    : connection_(ros::PollManager::instance()->addPollThreadListener([this] {
+        {
+          const std::lock_guard<std::mutex> lock(mutex_);
+          ++turns_;
+        }
+        turned_.notify_all();
+      })) {}
+
+PollThread::~PollThread() { ros::PollManager::instance()->removePollThreadListener(connection_); }
+
+void PollThread::wake() { ros::PollManager::instance()->getPollSet().signal(); }
+
+void PollThread::flush() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  // The turn under way may have looked before; the next one empties the queues.
+  const std::uint64_t enough = turns_ + 2;
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (turns_ < enough && std::chrono::steady_clock::now() < end) {
+    const std::uint64_t now = turns_;
+    lock.unlock();
+    wake();
+    lock.lock();
+    turned_.wait_until(lock, end, [&] { return turns_ > now; });
+  }
+}
+
+}  // namespace kiva_ros
