@@ -52,9 +52,14 @@ class Browser:
         """Waits until an expression holds, and returns its value."""
         end = time.monotonic() + self._patience
         while not (value := self.read(f"page && ({expression})")):
-            assert time.monotonic() < end, f"waited in vain: {expression}; {self.complaints()}"
+            assert time.monotonic() < end, f"waited in vain: {expression}; {self._told()}"
             time.sleep(0.05)
         return value
+
+    def _told(self):
+        """What the page says to a person and to its console."""
+        said = {name: self.text(name) for name in ("tip", "answer", "name", "link")}
+        return f"{said}; {self.complaints()}"
 
     def text(self, element):
         return self.read(f"document.getElementById('{element}').textContent")

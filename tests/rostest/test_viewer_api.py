@@ -122,6 +122,8 @@ class ChangingWhatStands(ViewerTest):
         _, robot = ask("/robots", at)
         self.assertEqual(command(5, "lift", status=1, shelf_id=1)[1]["outcome"], "done")
         self.refused(409, "kiva5 carries", ask("/robots/5", method="DELETE"))
+        self.assertEqual(command(5, "lift", status=0)[1]["outcome"], "done")
+        self.assertEqual(ask("/robots/5", method="DELETE")[0], 200)
 
 
 class ViewerApi(ViewerTest):
@@ -155,6 +157,8 @@ class ViewerApi(ViewerTest):
         status, answer = command(1, "rot", direction=1)
         self.assertEqual((status, answer["outcome"]), (200, "done"))
         self.assertEqual([e["kind"] for e in answer["events"]], ["ACCEPTED", "DONE"])
+        self.assertEqual(len({e["command"] for e in answer["events"]} - {0}), 1)
+        wait_until(lambda: ask("/robots/1")[1]["last_end"] == "DONE", "how it ended")
         _, told = ask(f"/events?model=kiva1&since={answer['events'][0]['id'] - 1}")
         self.assertEqual(told["events"][: len(answer["events"])], answer["events"])
 

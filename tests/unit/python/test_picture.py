@@ -82,7 +82,7 @@ class Scene(FakeRos):
         out.models, out.model_look, out.pose = ["person1"], [3], [2, 1, 0, 0, 0, 0, 1]
         self.callbacks["/warehouse/scenery"](out)
 
-    def drive(self, x=1.0, status=KivaStatus.STATUS_IDLE, shelf=0):
+    def drive(self, x=1.0, status=KivaStatus.STATUS_IDLE, shelf=0, ended=0):
         others = len(self.numbers) - 1
         self.callbacks["/warehouse/fleet"](
             FleetState(
@@ -92,6 +92,7 @@ class Scene(FakeRos):
                 yaw=[0] * (others + 1),
                 status=bytes([status, *[0] * others]),
                 shelf_id=[shelf, *[0] * others],
+                last_end=bytes([ended, *[0] * others]),
             )
         )
 
@@ -204,9 +205,9 @@ def test_a_robot_that_is_gone_takes_its_name_along(scene):
 def test_of_very_many_robots_those_with_trouble_are_named():
     scene = Scene(robots=300)
     assert not [m for m in scene.shown().values() if m.ns == "names"]
-    scene.callbacks["/warehouse/events"](Event(kind=Event.BLOCKED, model="kiva7"))
-    scene.drive()
-    assert [m.text for m in scene.shown().values() if m.ns == "names"] == ["kiva7"]
+    scene.drive(ended=Event.BLOCKED)
+    first = f"kiva{scene.numbers[0]}"
+    assert [m.text for m in scene.shown().values() if m.ns == "names"] == [first]
 
 
 def test_status_has_its_colour(scene):
@@ -217,11 +218,9 @@ def test_status_has_its_colour(scene):
 
 def test_who_was_blocked_shows_it_until_the_next_command(scene):
     idle = scene.shown()["robots"]
-    scene.callbacks["/warehouse/events"](Event(kind=Event.BLOCKED, model="kiva2"))
-    scene.drive()
+    scene.drive(ended=Event.BLOCKED)
     blocked = scene.shown()["robots"]
     assert changed_colours(idle, blocked) == {colour(KivaStatus.STATUS_BLOCKED)}
-    scene.callbacks["/warehouse/events"](Event(kind=Event.ACCEPTED, model="kiva2"))
     scene.drive()
     assert changed_colours(blocked, scene.shown()["robots"]) == {colour(KivaStatus.STATUS_IDLE)}
 

@@ -252,7 +252,7 @@ class World {
   /// The whole state as bytes: time, models and what is in motion, commands under way and pending,
   /// events not yet taken, what plugins save. This world and any that restores the bytes go on the
   /// same from here, bit by bit, as long as they are given the same commands.
-  std::string checkpoint();
+  std::string checkpoint() const;
   /// Makes this world the one that was saved, whatever it was before. Throws CheckpointError, with
   /// nothing changed, if the bytes are damaged or of another version, and DescriptionError if a
   /// plugin of a model can't be loaded.

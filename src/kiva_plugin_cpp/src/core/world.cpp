@@ -381,7 +381,7 @@ std::vector<ContactPoint> World::contacts(const std::string& model) const {
   return contactsOf(*state_, at->second);
 }
 
-std::string World::checkpoint() { return kiva::checkpoint(*state_); }
+std::string World::checkpoint() const { return kiva::checkpoint(*state_); }
 std::uint64_t World::stateHash() const { return kiva::stateHash(*state_); }
 
 void World::restore(const std::string& checkpoint) {

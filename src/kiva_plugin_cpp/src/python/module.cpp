@@ -392,8 +392,8 @@ py::object events(Host& host) {
   const auto lock = host.use();
   py::list rows;
   for (const Event& e : host.world.takeEvents()) {
-    rows.append(py::make_tuple(e.time, static_cast<int>(e.kind), e.model, e.other, e.text,
-                               e.command));
+    rows.append(
+        py::make_tuple(e.time, static_cast<int>(e.kind), e.model, e.other, e.text, e.command));
   }
   host.world.takeStatusChanges();
   return py::module_::import("numpy").attr("array")(rows, eventType());
@@ -534,7 +534,8 @@ don't match, an unknown robot, NaN or infinity. What a robot can't do is refused
       "rot", &rot, py::arg("kiva_id"), py::arg("direction"),
       "Turn by 90 degrees: 1 counterclockwise, -1 clockwise. Arguments and errors as of mov().");
   world.def("lift", &lift, py::arg("kiva_id"), py::arg("status"), py::arg("shelf_id"),
-            "Carry (1) or drop (0) storage unit shelf_id; drop, 0: whichever it carries. Arguments and errors as of mov().");
+            "Carry (1) or drop (0) storage unit shelf_id; drop, 0: whichever it carries. Arguments "
+            "and errors as of mov().");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
       R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].

@@ -71,7 +71,7 @@ class Work:
     def __init__(self, handle, steps, feedback, result):
         self.handle, self.steps = handle, steps
         self.feedback, self.result = feedback, result
-        self.is_accepted = False  # the command of the first step
+        self.command = None  # the number of the first step's, once it was accepted
 
     @property
     def robot(self):
@@ -79,11 +79,11 @@ class Work:
 
     def hears(self, event):
         """Takes an event of its robot in; True if it ends the command that was sent."""
-        if event.kind == Event.ACCEPTED:
-            self.is_accepted = True
-        elif event.kind == Event.REFUSED:
-            return not self.is_accepted  # else that of somebody else's command
-        return self.is_accepted and event.kind in (Event.DONE, Event.BLOCKED)
+        if self.command is None:
+            if event.kind == Event.ACCEPTED:
+                self.command = event.command
+            return event.kind == Event.REFUSED
+        return event.command == self.command and event.kind in (Event.DONE, Event.BLOCKED)
 
 
 def _is_cancelled(handle):
@@ -169,7 +169,7 @@ class RobotActions:
         handle.set_rejected(result, text)
 
     def _send(self, work):
-        work.is_accepted = False
+        work.command = None
         wanted = work.steps[0].command
         self._publishers[wanted.topic].publish(wanted.message)
 

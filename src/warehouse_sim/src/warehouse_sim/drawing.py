@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse from above, drawn by matplotlib without a screen."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 
 from warehouse_msgs.msg import KivaStatus
 from warehouse_sim import looks, markers, poses, tracking
+from warehouse_sim.words import shown_status
 
 UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour of what nobody described
 STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
@@ -28,7 +29,6 @@ class Moment:
     states: object = None  # UnitStates of the same revision
     fleet: object = None  # FleetState
     scenery: object = None  # Scenery
-    blocked: set = field(default_factory=set)  # names of robots whose last command ended so
 
     @property
     def complete(self):
@@ -82,7 +82,7 @@ class Drawing:
         self._axes.add_collection(LineCollection(lines, colors=[markers.GRID], linewidths=0.5))
 
     def _heading(self, moment):
-        counts = np.bincount(_status(moment), minlength=3)
+        counts = np.bincount(shown_status(moment.fleet), minlength=3)
         colours = {name: markers.STATUS_COLOURS[number] for name, number in STATUS.items()}
         keys = [
             Patch(color=c, label=f"{name} {counts[STATUS[name]]}") for name, c in colours.items()
@@ -107,17 +107,10 @@ def _look(moment, kind):
     return 2 * np.maximum(-low, high)[:2], looks.parts(look)[0].colour[:3]
 
 
-def _status(moment):
-    # rospy reads uint8[] as bytes.
-    status = np.frombuffer(bytes(moment.fleet.status), np.uint8).copy()
-    status[[f"kiva{n}" in moment.blocked for n in moment.fleet.kiva_id]] = STATUS["blocked"]
-    return status
-
-
 def _robots(axes, moment):
     fleet = moment.fleet
     at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
-    colours = markers.STATUS_COLOURS[_status(moment)]
+    colours = markers.STATUS_COLOURS[shown_status(moment.fleet)]
     size, _ = _look(moment, "kiva")
     body = _placed(_rectangle(size), at, yaw)
     axes.add_collection(

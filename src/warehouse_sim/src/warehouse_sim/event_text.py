@@ -26,8 +26,7 @@ def word(event):
 
 def line(event, coloured=False):
     """Time [s, simulated], model, what happened, which command, who else took part, and why."""
-    command = getattr(event, "command", 0)
-    number = f"#{command}" if command else ""
+    number = f"#{event.command}" if event.command else ""
     kind = f"{word(event):<9}"
     if coloured:
         kind = f"\033[{COLOURS.get(event.kind, _DIM)}m{kind}\033[0m"

@@ -5,7 +5,6 @@ import numpy as np
 from visualization_msgs.msg import MarkerArray
 
 from warehouse_msgs.msg import (
-    Event,
     FleetPaths,
     FleetState,
     KivaStatus,
@@ -18,19 +17,18 @@ from warehouse_sim.chosen import Chosen
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 from warehouse_sim.paths import PathTopics, ways
 from warehouse_sim.shapes import ShapeArray
+from warehouse_sim.words import shown_status
 
 
-def fleet_shapes(scenery, fleet, blocked, heights, chosen):
+def fleet_shapes(scenery, fleet, heights, chosen):
     """Markers of a FleetState.
 
-    `blocked` names the robots whose last command ended so, `heights` are those of the units that
-    are carried, by robot's number, and `chosen` is one robot's, 0 = none.
+    `heights` are those of the units that are carried, by robot's number, and `chosen` is one
+    robot's, 0 = none.
     """
     at = np.column_stack([fleet.x, fleet.y, fleet.yaw]).reshape(-1, 3)
     numbers = list(map(int, fleet.kiva_id))
-    # rospy reads uint8[] as bytes.
-    status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
-    status[[f"kiva{number}" in blocked for number in numbers]] = KivaStatus.STATUS_BLOCKED
+    status = shown_status(fleet)
     look = looks.named(scenery, "kiva")
     trouble = {n for n, s in zip(numbers, status) if s == KivaStatus.STATUS_BLOCKED}
     lift = np.array([heights.get(n, 0.0) for n in numbers])
@@ -63,8 +61,6 @@ class Picture:
     def __init__(self, ros):
         self._shapes, self._news = {}, []
         self._scenery, self._fixed = None, []
-        self._blocked = set()
-        ros.Subscriber("/warehouse/events", Event, self._note, queue_size=1000)
         self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
@@ -75,13 +71,6 @@ class Picture:
         )
         self._topic = LazyPublisher(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
         self._chosen, self._paths = Chosen(ros), PathTopics(ros)
-
-    def _note(self, event):
-        """The status BLOCKED itself lasts but a moment; it shows until the next command."""
-        if event.kind == Event.BLOCKED:
-            self._blocked.add(event.model)
-        elif event.kind == Event.ACCEPTED:
-            self._blocked.discard(event.model)
 
     def _all(self):
         return ShapeArray(list(self._shapes.values()))
@@ -106,7 +95,7 @@ class Picture:
         floor = looks.floor(scenery, fleet, states)
         return [
             *markers.floor(floor, scenery.grid_spacing or 1.0),
-            *fleet_shapes(scenery, fleet, self._blocked, heights, self._chosen.number),
+            *fleet_shapes(scenery, fleet, heights, self._chosen.number),
             *markers.paths([points for _, points in ways(fleet, self._newest["paths"])]),
             *load_shapes(scenery, objects, states),
             *self._of_scenery(scenery),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbers in messages as the words that the messages define for them."""
 
+import numpy as np
+
 from warehouse_msgs.msg import Event, KivaStatus
 
 
@@ -13,3 +15,15 @@ def _constants(kind, prefix=""):
 EVENT = _constants(Event)
 STATUS = _constants(KivaStatus, "STATUS_")
 STATE = _constants(KivaStatus, "STATE_")
+
+
+def shown_status(fleet):
+    """The status of each robot in a FleetState, (n,) uint8, as a person shall see it.
+
+    BLOCKED itself lasts but a moment; it shows until the robot's next command is accepted.
+    """
+    # rospy reads uint8[] as bytes.
+    status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
+    ended_blocked = np.frombuffer(bytes(fleet.last_end), np.uint8) == Event.BLOCKED
+    status[ended_blocked] = KivaStatus.STATUS_BLOCKED
+    return status

@@ -191,6 +191,12 @@ class Page {
     else this.details.go(...cell, at);
   }
 
+  /** Selects what was clicked; no cell is wanted any more. */
+  choose(name) {
+    this.builder.want(false);
+    this.select(name);
+  }
+
   leave() {
     if (this.builder.wantsCell) this.builder.want(false);
     else this.select(null);

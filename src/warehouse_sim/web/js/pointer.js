@@ -7,7 +7,7 @@ const STILL = { mouse: 6, touch: 14 }; // [px]; further, it was a drag
 const FINGER = 22; // how far beside a robot a finger may be [px]
 
 export class Pointer {
-  /** `page` has select(name), details, world and take(cell), which may want the next cell. */
+  /** `page` has choose(name), details, world and take(cell), which may want the next cell. */
   constructor(page, picker, overlays) {
     Object.assign(this, { page, picker, overlays, hovered: null });
     const { canvas } = picker.stage;
@@ -34,7 +34,7 @@ export class Pointer {
     const meant = this.at(at);
     const { cell } = meant;
     const hit = meant.hit ?? (isTouch && !cell && this.picker.robotNear(...at, FINGER));
-    if (hit) this.page.select(this.page.world.nameOf(hit));
+    if (hit) this.page.choose(this.page.world.nameOf(hit));
     else if (cell) this.page.take(cell, at);
   }
 

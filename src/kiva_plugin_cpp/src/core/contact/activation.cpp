@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/motion/clearance.h"
 #include "core/motion/dynamics.h"
@@ -23,6 +24,13 @@ void activateWhole(WorldState& world, int slot) {
   activate(world, robot < 0 ? model : world.modelOf(robot));
 }
 
+/// In an order that does not depend on how the obstacles are indexed.
+void activateAll(WorldState& world, std::vector<int> slots) {
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  for (int slot : slots) activateWhole(world, slot);
+}
+
 /// Looks whether the robot can be left alone for a while; else lets it and what it could touch
 /// enter Bullet.
 void lookAround(WorldState& world, int robot) {
@@ -35,7 +43,7 @@ void lookAround(WorldState& world, int robot) {
     least = std::min(least, findClose(world, own, speed, kReach, &close));
   }
   if (!close.empty()) activate(world, world.modelOf(robot));
-  for (int slot : close) activateWhole(world, slot);
+  activateAll(world, std::move(close));
   // It may be another that comes, and both may speed up.
   const double way = 2 * (world.top_speed + kCornerSpeed) * world.dt;
   const double free_steps = std::floor((least - kNear) / way - 1);
@@ -61,7 +69,7 @@ void lookAroundBody(WorldState& world, Model& model) {
     own.z_max += near;
     findClose(world, own, 4 * fastest, near, &close);
   }
-  for (int slot : close) activateWhole(world, slot);
+  activateAll(world, std::move(close));
 }
 
 void release(WorldState& world) {

@@ -83,7 +83,9 @@ Vector3 halfOf(const Shape& shape) {
 }  // namespace
 
 Solid::Solid(const Shape& shape, const Quaternion& rotation)
-    : kind_(shape.kind), half_(halfOf(shape)), to_shape_(rotation.Inverse()) {}
+    : kind(shape.kind),
+      half(halfOf(shape)),
+      axes{rotation.XAxis(), rotation.YAxis(), rotation.ZAxis()} {}
 
 bool Solid::canBe(Shape::Kind kind) {
   return kind == Shape::Kind::kBox || kind == Shape::Kind::kCylinder ||
@@ -91,7 +93,10 @@ bool Solid::canBe(Shape::Kind kind) {
 }
 
 double Solid::cast(const Vector3& from, const Vector3& direction) const {
-  const Span span = inside(kind_, half_, to_shape_ * from, to_shape_ * direction);
+  const auto in_shape = [this](const Vector3& v) {
+    return Vector3(axes[0].Dot(v), axes[1].Dot(v), axes[2].Dot(v));
+  };
+  const Span span = inside(kind, half, in_shape(from), in_shape(direction));
   if (span.empty() || span.leave < 0) return kInfinity;
   return span.enter >= 0 ? span.enter : span.leave;
 }

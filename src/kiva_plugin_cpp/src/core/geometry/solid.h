@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ignition/math/Matrix3.hh>
-
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
 
 /// A box, cylinder, capsule or ellipsoid in any position, as rays see it.
-class Solid {
- public:
+struct Solid {
+  Solid() = default;
   /// `rotation`: of the shape, in the frame that rays are told in.
   Solid(const Shape& shape, const Quaternion& rotation);
 
@@ -19,10 +17,9 @@ class Solid {
   /// the surface, from outside or inside; +inf = none.
   double cast(const Vector3& from, const Vector3& direction) const;
 
- private:
-  Shape::Kind kind_;
-  Vector3 half_;  // box: half the edges; ellipsoid: radii; else radius, radius, half the length [m]
-  ignition::math::Matrix3d to_shape_;
+  Shape::Kind kind = Shape::Kind::kBox;
+  Vector3 half;  ///< Box: half the edges; ellipsoid: radii; else radius, radius, half length [m].
+  Vector3 axes[3];  ///< Of the shape, in that frame.
 };
 
 }  // namespace kiva

@@ -30,9 +30,6 @@ constexpr double kAsleep = 0.005;  // [m/s, rad/s]
 // The solver ends when an iteration changes no velocity by more than the root of this.
 constexpr double kSolved = 1e-12;  // [m2/s2]
 
-// Third user index of a body that was put somewhere, with a velocity, since the last step.
-constexpr int kPlaced = 1;
-
 /// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
 /// boxes, and a fast body would sink in before its parts are looked at.
 template <typename Base>
@@ -403,6 +400,7 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
     const JointEnds ends{bodyOf(description, out, joint.parent),
                          bodyOf(description, out, joint.child)};
     out.joints.push_back(makeJoint(joint, ends, toBullet(pose)));
+    mark(*out.joints.back(), model, static_cast<int>(out.joints.size()));
   }
   return out;
 }
@@ -430,7 +428,7 @@ bool Physics::anyAwake() const {
 }
 
 void Physics::step(double dt) {
-  if (!anyAwake()) return;
+  if (!anyAwake()) return motions_.clear();
   noteMotions(dt);
   world_.stepSimulation(dt, 0);
 }
@@ -492,9 +490,7 @@ double Physics::impactShare(const btPersistentManifold& pair, const btManifoldPo
 
 void Physics::contacts(std::vector<Contact>* out) const {
   out->clear();
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold* manifold =
-        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+  for (const btPersistentManifold* manifold : manifolds()) {
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
       if (!isTouching(point)) continue;
@@ -525,19 +521,15 @@ void Physics::contacts(std::vector<Contact>* out) const {
   }
 }
 
-std::vector<btPersistentManifold*> Physics::manifolds() const {
-  auto& dispatcher = const_cast<btCollisionDispatcher&>(dispatcher_);
-  btPersistentManifold** const first = dispatcher.getInternalManifoldPointer();
-  return {first, first + dispatcher.getNumManifolds()};
+std::vector<btPersistentManifold*> Physics::makeManifolds() {
+  world_.updateAabbs();
+  world_.computeOverlappingPairs();
+  return dispatcher_.makeManifolds(world_.getPairCache(), world_.getDispatchInfo());
 }
-
-void Physics::findContacts() { world_.performDiscreteCollisionDetection(); }
 
 std::vector<TouchPoint> Physics::touchPoints(int model) const {
   std::vector<TouchPoint> out;
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold* manifold =
-        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+  for (const btPersistentManifold* manifold : manifolds()) {
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
       if (!isTouching(point)) continue;

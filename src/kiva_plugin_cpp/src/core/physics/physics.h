@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/physics/box_contacts.h"
+#include "core/physics/ordered_bullet.h"
 #include "core/physics/round_contacts.h"
 #include "kiva_plugin_cpp/description.h"
 
@@ -22,6 +23,9 @@ Vector3 fromBullet(const btVector3& v);
 
 /// Who touches whom: collision filter groups.
 enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
+
+/// Third user index of a body that was put somewhere, with a velocity, since the last step.
+constexpr int kPlaced = 1;
 
 /// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
 /// friction a body.
@@ -104,10 +108,10 @@ class Physics {
   void setGravity(const Vector3& gravity);
   /// Pairs of models that touch now, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
-  /// The pairs of bodies that Bullet keeps contacts of, with their contacts.
-  std::vector<btPersistentManifold*> manifolds() const;
-  /// Finds the contacts of this moment, as a step does at its beginning.
-  void findContacts();
+  /// What Bullet keeps of contacts, in an order that follows from the bodies.
+  std::vector<btPersistentManifold*> manifolds() const { return dispatcher_.manifolds(); }
+  /// A manifold, still without contacts, for every two parts that are near each other.
+  std::vector<btPersistentManifold*> makeManifolds();
   /// Every point at which that model touches another now, itself being a.
   std::vector<TouchPoint> touchPoints(int model) const;
   /// First body on a ray, as a fraction of `range`; +inf = none.
@@ -133,10 +137,10 @@ class Physics {
   btDefaultCollisionConfiguration configuration_;
   BoxBoxContacts::Creator box_contacts_;
   RoundContacts::Creator round_contacts_, swapped_round_contacts_;
-  btCollisionDispatcher dispatcher_;
+  OrderedDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_;
+  OrderedSolver solver_;
+  ContactIslandWorld world_;
 
   std::vector<Motion> motions_;  ///< By a body's second user index.
   double dt_ = 0;                ///< Of the last step [s].

@@ -75,8 +75,6 @@ void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message)
       throw std::runtime_error(path_ + ": the keyframe at step " + std::to_string(step_) +
                                " can't be restored: " + error.what());
     }
-  } else if (topic == kCheckpointedTopic) {
-    world.checkpoint();
   } else if (const auto mov = message.instantiate<warehouse_msgs::MoveTo>()) {
     world.post(fromMessage(*mov));
   } else if (const auto along = message.instantiate<warehouse_msgs::MoveAlong>()) {

@@ -68,7 +68,7 @@ class ApiBackend:
 
     async def robots(self):
         await self.look()
-        return catalogue.robots(self.feed["fleet"], self.model.is_blocked)
+        return catalogue.robots(self.feed["fleet"])
 
     async def robot(self, number):
         """Raises HTTPException."""

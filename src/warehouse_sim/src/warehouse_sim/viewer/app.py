@@ -46,10 +46,9 @@ class Viewer:
         entry = self.journal.add(event)
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
-                self._loop.call_soon_threadsafe(self._note, event, entry)
+                self._loop.call_soon_threadsafe(self._note, entry)
 
-    def _note(self, event, entry):
-        self.model.note(event)
+    def _note(self, entry):
         self.commander.note(entry)
         self.hub.news()
 

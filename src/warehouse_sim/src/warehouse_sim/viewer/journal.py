@@ -41,6 +41,7 @@ def entry_of(event):
     return {
         "time": round(event.header.stamp.to_sec(), 3),
         "kind": EVENT.get(event.kind, str(event.kind)),
+        "command": event.command,
         "model": event.model,
         "other": event.other,
         "text": event.text,
