@@ -40,7 +40,8 @@ struct DriveParameters {
   double wheel_separation = 0.52;       ///< Between the wheels' centres [m].
   double wheel_inertia = 0.03;          ///< Of one wheel with its motor, about its axle [kg m²].
   double motor_torque = 90.0;           ///< Limit of one motor at its wheel [Nm].
-  double friction = 0.8;                ///< Coulomb coefficient between wheel and floor.
+  double friction = 0.8;                ///< Coulomb coefficient between wheel and floor; where the
+                                        ///< tyre's own or the floor's is smaller, that one counts.
   double drive_wheel_load = 0.8;  ///< Share of the weight on the driven wheels; casters: the rest.
   double quarter_turn_time = 0.625;  ///< For 90° from rest to rest [s]; 0 = at once.
 };
@@ -50,6 +51,7 @@ struct LiftParameters {
   double height = 0.10;     ///< Stroke of the tower [m].
   double time = 2.2;        ///< For the whole stroke [s]; 0 = at once.
   double max_load = 450.0;  ///< [kg]
+  double max_force = 5500;  ///< At which it stalls: weight of the load and what holds that [N].
   double proximity = 0.1;   ///< Largest distance between the centres of robot and unit [m].
 };
 
@@ -69,16 +71,20 @@ struct LaserParameters {
 struct Robot {
   std::string name;
   int id = 0;
-  int model = -1;               ///< Index in the world's models.
-  double mass = 145;            ///< Without load [kg].
-  double inertia = 12;          ///< About z through the centre, without load [kg m²].
-  double half_length = 0.38;    ///< Of the chassis, along its x axis [m].
-  double half_width = 0.32;     ///< [m]
-  double height = 0.40;         ///< Of its highest point above the floor, tower down [m].
-  double load_mass = 0;         ///< [kg]
-  double load_inertia = 0;      ///< About z through the robot's centre [kg m²].
-  double load_half_length = 0;  ///< Of what it carries, along the chassis' x axis [m].
-  double load_half_width = 0;   ///< [m]
+  int model = -1;             ///< Index in the world's models.
+  double mass = 145;          ///< Without load [kg].
+  double inertia = 12;        ///< About z through the robot's origin, without load [kg m²].
+  double centre[2] = {0, 0};  ///< Of mass, without load, in the chassis frame [m].
+  /// Coulomb coefficients of the tyres: left, right.
+  double tyre_friction[2] = {1e16, 1e16};
+  double half_length = 0.38;       ///< Of the chassis, along its x axis [m].
+  double half_width = 0.32;        ///< [m]
+  double height = 0.40;            ///< Of its highest point above the floor, tower down [m].
+  double load_mass = 0;            ///< [kg]
+  double load_inertia = 0;         ///< About z through the robot's origin [kg m²].
+  double load_centre[2] = {0, 0};  ///< Its centre of mass, in the chassis frame [m].
+  double load_half_length = 0;     ///< Of what it carries, along the chassis' x axis [m].
+  double load_half_width = 0;      ///< [m]
   DriveParameters drive;
   LiftParameters lift;
   LaserParameters laser;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/drives.h"
 #include "core/sensing/look_ahead.h"
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
@@ -35,18 +36,18 @@ double farthestStop(const WorldState& world, int robot, double obstacle) {
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(FleetState& f, int i, double stop, double dt) {
-  const DriveParameters& drive = f.robots[i].drive;
+void planStop(WorldState& world, int i, double stop) {
+  FleetState& f = world.fleet;
   const double speed = std::abs(f.reference_speed[i]), here = f.reference[i];
   const double way = stop - here;
-  const double usual = drive.acceleration, hardest = drive.emergency_deceleration;
+  const double usual = plannedAcceleration(world, i), hardest = plannedBraking(world, i);
   if (usual == 0) {
     f.goal[i] = std::max(stop, here);
     return;
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
   f.deceleration[i] = std::clamp(needed, usual, hardest);
-  const double shortest = speed * speed / (2 * hardest) + speed * dt;
+  const double shortest = speed * speed / (2 * hardest) + speed * world.dt;
   f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
@@ -57,10 +58,12 @@ struct View {
   double obstacle;   // where it is now
   double approach;   // how fast it comes by itself
   double speed;      // of this robot
+  double usual;      // its braking, and
+  double hardest;    // that for an obstacle [m/s²]
   double scan_time;  // until the next look [s]
 };
 
-View viewOf(const WorldState& world, int i) {
+View viewOf(WorldState& world, int i) {
   const FleetState& f = world.fleet;
   const Sighting& now = f.tasks[i].sighting;
   View view;
@@ -70,21 +73,22 @@ View viewOf(const WorldState& world, int i) {
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
   view.speed = std::abs(f.reference_speed[i]);
+  const double usual = plannedAcceleration(world, i);
+  view.usual = usual > 0 ? usual : 1e9;
+  view.hardest = plannedBraking(world, i);
   return view;
 }
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
 double firstStop(const WorldState& world, int robot, const View& view) {
-  const Robot& r = world.fleet.robots[robot];
-  const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
   // The other one comes on until it has seen this robot too, then brakes as this one does.
   const double comes =
-      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
+      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * view.usual);
   const double expected = view.obstacle - comes;
   const double stop = farthestStop(world, robot, expected);
   if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
   const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
-  const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
+  const double braking = view.speed * view.speed / (2 * view.usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
@@ -92,10 +96,10 @@ double firstStop(const WorldState& world, int robot, const View& view) {
 /// by now, or even two hard stops would hardly do.
 double revisedStop(const WorldState& world, int robot, const View& view) {
   const Robot& r = world.fleet.robots[robot];
-  const double hardest = r.drive.emergency_deceleration;
   const double gap = view.obstacle - view.reference - halfLength(r);
-  const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
-                        (view.speed + view.approach) * view.scan_time + kClearance;
+  const double needed =
+      (view.speed * view.speed + view.approach * view.approach) / (2 * view.hardest) +
+      (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
   if (view.goal + halfLength(r) + kClearance <= view.obstacle) return view.goal;
   return std::min(view.goal, farthestStop(world, robot, view.obstacle));
@@ -110,7 +114,7 @@ void brake(WorldState& world, int i) {
   if (stop == view.goal) return;
   const std::string& name = world.models[task.sighting.model]->name;
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
-  planStop(world.fleet, i, stop, world.dt);
+  planStop(world, i, stop);
 }
 
 }  // namespace

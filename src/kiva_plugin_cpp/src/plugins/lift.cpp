@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/lift.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "core/contact/activation.h"
 #include "core/models/load.h"
@@ -11,6 +14,37 @@
 
 namespace kiva {
 namespace {
+
+constexpr double kStalled = 0.5;      // [s] at its largest force, then the lift gives up
+constexpr double kSpareForce = 1.25;  // times the weight of the largest load, unless it is told
+constexpr double kOnTop = 0.001;      // [m]: what reaches less far down is above, and not beside
+
+/// What a load that rises will meet next.
+struct Above {
+  double clearance = 1e9;  // [m]
+  int model = -1;
+};
+
+Above findAbove(const WorldState& world, int i) {
+  Above above;
+  for (const Footprint& own : world.obstacles.footprints(i)) {
+    world.obstacles.near(own.x, own.y, radiusOf(own), [&](const Footprint& other) {
+      const double clearance = other.z_min - own.z_max;
+      if (other.group == i || clearance < -kOnTop || clearance >= above.clearance) return;
+      if (gap(own, other) < 0) above = {std::max(0.0, clearance), other.model};
+    });
+  }
+  return above;
+}
+
+/// With what it resists being lifted [N]: by its weight, unless it is fixed or a robot, whose
+/// wheels stay on the floor.
+double resistance(const WorldState& world, const Model& model) {
+  if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
+  double mass = 0;
+  for (const Link& link : model.description->links) mass += link.mass;
+  return mass * world.gravityDown();
+}
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: half of it at 4·height/time², half at minus that.
@@ -51,15 +85,54 @@ void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
   }
 }
 
-/// The tower comes down without a unit, then the command ends in BLOCKED.
-void abandon(WorldState& world, int i) {
+void putDownOnFloor(WorldState& world, int i, int unit) {
+  if (unit < 0 || world.fleet.unit[i] != unit) return;
+  if (unitPose(world, unit).Z() > world.floor.z) return;
+  putDown(world, i);
+  world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
+                      "dropped " + world.units[unit].name);
+}
+
+/// The tower comes down, a unit that it has stands on the floor again, then the command ends in
+/// BLOCKED.
+void abandon(WorldState& world, int i, int unit) {
   moveTower(world, i, 0);
+  putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) endStop(world, i);
+}
+
+/// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
+/// a load that is too heavy. It gives up after a while.
+void stall(WorldState& world, int i, double before) {
+  FleetState& f = world.fleet;
+  const Robot& r = f.robots[i];
+  double& overdue = f.tasks[i].overdue;
+  if (f.unit[i] < 0) return;
+  double force = r.load_mass * world.gravityDown();
+  const Above above = findAbove(world, i);
+  const bool meets = f.tower[i] - before > above.clearance;
+  if (meets) force += resistance(world, *world.models[above.model]);
+  if (force <= r.lift.max_force) {
+    overdue = 0;
+    return;
+  }
+  const double height = meets ? before + above.clearance : before;
+  f.setProfile(i, {height, 0});
+  f.tower[i] = height;
+  overdue += world.dt;
+  if (overdue < kStalled) return;
+  const std::string other = meets ? world.models[above.model]->name : "";
+  char text[160];
+  std::snprintf(text, sizeof text, "its lift stalls at %g N%s%s", r.lift.max_force,
+                meets ? " beneath " : ": the load is too heavy", other.c_str());
+  giveUp(world, i, other, text);
 }
 
 void raiseSegment(WorldState& world, int i, int unit) {
   Robot& r = world.fleet.robots[i];
+  const double before = world.fleet.tower[i];
   moveTower(world, i, r.lift.height);
+  stall(world, i, before);
   if (world.fleet.unit[i] < 0 && world.fleet.tower[i] >= towerGap(world, i, unit)) {
     takeUp(world, i, unit);
   }
@@ -72,11 +145,7 @@ void raiseSegment(WorldState& world, int i, int unit) {
 
 void lowerSegment(WorldState& world, int i, int unit) {
   moveTower(world, i, 0);
-  if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= world.floor.z) {
-    putDown(world, i);
-    world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
-                        "dropped " + world.units[unit].name);
-  }
+  putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
@@ -85,7 +154,7 @@ void liftSegment(WorldState& world, int i) {
   const MotionSegment segment = task.segments.front();
   if (task.phase == Phase::kStarting) begin(world, i);
   checkUnit(world, i, segment);
-  if (task.phase == Phase::kAbandoning) return abandon(world, i);
+  if (task.phase == Phase::kAbandoning) return abandon(world, i, segment.unit);
   if (segment.kind == MotionSegment::Kind::kRaise) raiseSegment(world, i, segment.unit);
   if (segment.kind == MotionSegment::Kind::kLower) lowerSegment(world, i, segment.unit);
 }
@@ -105,6 +174,7 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   lift.height = p.number("height", lift.height, 0.001, 10);
   lift.time = p.number("time", lift.time, 0, 1000);
   lift.max_load = p.number("max_load", lift.max_load, 0, 1e6);
+  lift.max_force = p.number("max_force", kSpareForce * 9.81 * lift.max_load, 0, 1e9);
   lift.proximity = p.number("proximity", lift.proximity, 0, 10);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/motion/cruise.h"
+#include "core/motion/drives.h"
 #include "core/state/tasks.h"
 
 namespace kiva {
@@ -31,11 +32,12 @@ OnLine onLine(const Fleet& f, int i, const MotionSegment& segment) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
 }
 
-void begin(FleetState& f, int i, const OnLine& at) {
+void begin(WorldState& world, int i, const OnLine& at) {
+  FleetState& f = world.fleet;
   f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
   f.goal[i] = 0;
-  f.deceleration[i] = f.robots[i].drive.acceleration;
+  f.acceleration[i] = f.deceleration[i] = plannedAcceleration(world, i);
 }
 
 ReferenceMotion alongLine(const MotionSegment& segment, double top_speed, double acceleration) {
@@ -65,7 +67,7 @@ void driveSegment(WorldState& world, int i) {
   const MotionSegment segment = f.tasks[i].segments.front();
   const OnLine at = onLine(f, i, segment);
   if (f.tasks[i].phase == Phase::kStarting) {
-    begin(f, i, at);
+    begin(world, i, at);
     setWheels(f, i, 0, 0);
     return;  // the laser looks first
   }
@@ -79,11 +81,11 @@ void driveSegment(WorldState& world, int i) {
   const double heading = f.yaw[i] - segment.yaw;
   const bool exact = isExact(lag) && isExact(heading) && isExact(at.across);
   if (exact && !segment.reverse &&
-      tryCruise(world, i, alongLine(segment, top, r.drive.acceleration))) {
+      tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }
   Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, r.drive.acceleration, f.deceleration[i], world.dt);
+  profile.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
   f.setProfile(i, profile);
   setWheels(f, i, profile.speed + kAlongGain * lag,
             -kHeadingGain * heading - kLineGain * at.speed * at.across);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/motion/cruise.h"
-#include "core/motion/traction.h"
+#include "core/motion/drives.h"
 #include "core/state/tasks.h"
 #include "plugins/motion.h"
 
@@ -15,14 +15,16 @@ namespace {
 constexpr double kGain = 20;      // [1/s] yaw rate for angle lagged
 constexpr double kStuck = 0.3;    // [rad] behind the profile
 constexpr double kOverdue = 2.0;  // [s]
-constexpr double kReserve = 0.9;  // of the possible acceleration, so that errors can be mended
+constexpr double kReserve = 0.9;  // of the motors' torque, so that errors can be mended
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
 /// motors and floor can. 0 = at once, where they are without limit.
-double turnAcceleration(const Robot& robot, double gravity) {
-  const double time = robot.drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
-  const double acceleration =
-      std::min(2 * M_PI / (time * time), kReserve * turningLimit(robot, gravity));
+double turnAcceleration(WorldState& world, int i, double angle) {
+  const double time =
+      world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
+  Vehicle vehicle = plannedVehicle(world, i);
+  vehicle.torque *= kReserve;
+  const double acceleration = std::min(2 * M_PI / (time * time), turningLimit(vehicle, angle));
   return std::isinf(acceleration) ? 0 : acceleration;
 }
 
@@ -40,7 +42,7 @@ void turnSegment(WorldState& world, int i) {
     task.phase = Phase::kTurning;
     f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
     f.goal[i] = task.segments.front().yaw;
-    f.deceleration[i] = turnAcceleration(r, world.gravityDown());
+    f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - f.yaw[i]));
   }
   const double lag = f.reference[i] - f.yaw[i];
   const bool ended = f.reference[i] == f.goal[i];

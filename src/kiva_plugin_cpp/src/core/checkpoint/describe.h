@@ -139,9 +139,9 @@ void describe(A& a, DriveParameters& d) {
 
 template <class A>
 void describe(A& a, LiftParameters& l) {
-  DESCRIBED(LiftParameters, 40);
+  DESCRIBED(LiftParameters, 48);
   FIELDS(l.fitted, within(l.height, 0.001, 10), within(l.time, 0, 1000), within(l.max_load, 0, 1e6),
-         within(l.proximity, 0, 10));
+         within(l.max_force, 0, 1e9), within(l.proximity, 0, 10));
 }
 
 template <class A>
@@ -174,11 +174,14 @@ void describe(A& a, Task& t) {
 
 template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 312);
+  DESCRIBED(Robot, 368);
   FIELDS(r.name, within(r.id, 1, kMaxKivaId), r.model, within(r.mass, 1e-9, 1e12),
          within(r.inertia, 0, 1e15), within(r.half_length, 0, 100), within(r.half_width, 0, 100),
          within(r.height, -100, 100));
+  FIELDS(within(r.centre[0], -100, 100), within(r.centre[1], -100, 100),
+         within(r.tyre_friction[0], 0, kEndless), within(r.tyre_friction[1], 0, kEndless));
   FIELDS(within(r.load_mass, 0, 1e12), within(r.load_inertia, 0, 1e15),
+         within(r.load_centre[0], -100, 100), within(r.load_centre[1], -100, 100),
          within(r.load_half_length, 0, 100), within(r.load_half_width, 0, 100));
   FIELDS(r.drive, r.lift, r.laser, r.has_motion,
          r.has_rotation);  // its ray_fan comes with its laser
@@ -268,7 +271,7 @@ void describe(A& a, BodyState& b) {
   DESCRIBED(BodyState, 568);
   FIELDS(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
          b.predicted_angular_velocity, b.force, b.torque, within(b.mass, 1e-9, 1e12),
-         b.inverse_inertia, within(b.activation, 1, 5), b.resting, b.parts, b.faceted);
+         b.inverse_inertia, within(b.activation, 1, 5), b.placed, b.resting, b.parts, b.faceted);
 }
 
 template <class A>
@@ -307,13 +310,22 @@ void describe(A& a, ContactMemory& c) {
   }
 }
 
+template <class A>
+void describe(A& a, Solid& s) {
+  DESCRIBED(Solid, 104);
+  FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
+}
+
 /// Of a mover: it has no body of its own, and no triangles.
 template <class A>
 void describe(A& a, Footprint& f) {
-  DESCRIBED(Footprint, 96);
+  DESCRIBED(Footprint, 112);
+  std::optional<Solid> solid;
+  if (f.solid) solid = *f.solid;
   FIELDS(f.kind, within(f.x, -100, 100), within(f.y, -100, 100), within(f.c, -1.001, 1.001),
          within(f.s, -1.001, 1.001), within(f.hx, 0, 100), within(f.hy, 0, 100), f.z_min, f.z_max,
-         f.model, f.group);
+         f.model, f.group, solid);
+  if constexpr (A::kReads) f.solid = solid ? std::make_shared<const Solid>(*solid) : nullptr;
 }
 
 template <class A>

@@ -64,7 +64,10 @@ void lookAroundBody(WorldState& world, Model& model) {
   const double near = kNear + 4 * fastest * world.dt;
   std::vector<int> close;
   for (const CollisionGeometry& geometry : model.geometries) {
-    findClose(world, world.obstacles[geometry.handle], 4 * fastest, near, &close);
+    Footprint own = world.obstacles[geometry.handle];
+    own.z_min -= near;  // it may fall, or be thrown, upon something
+    own.z_max += near;
+    findClose(world, own, 4 * fastest, near, &close);
   }
   activateAll(world, std::move(close));
 }

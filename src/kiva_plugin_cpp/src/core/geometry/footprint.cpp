@@ -105,6 +105,7 @@ Footprint makeFootprint(const Shape& shape, const Pose& pose) {
   out.kind = Footprint::Kind::kOther;
   const Vector3 half = (box.max - box.min) * 0.5;
   out.hx = std::hypot(half.X(), half.Y());
+  if (Solid::canBe(shape.kind)) out.solid = std::make_shared<Solid>(shape, pose.Rot());
   return out;
 }
 

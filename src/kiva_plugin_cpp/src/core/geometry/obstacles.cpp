@@ -42,18 +42,17 @@ double gapToCircle(const Footprint& box, const Footprint& circle) {
   return std::hypot(along, across) - circle.hx;
 }
 
-/// Entry distance of the ray (x, y) + t (dx, dy) into a circle, or +inf.
+/// Distance along the ray (x, y) + t (dx, dy) to a circle, from outside or inside, or +inf.
 double castCircle(const Footprint& f, double radius, double x, double y, double dx, double dy) {
   const double ox = x - f.x, oy = y - f.y;
   const double b = ox * dx + oy * dy;
   const double c = ox * ox + oy * oy - radius * radius;
   const double discriminant = b * b - c;
-  if (discriminant < 0 || c < 0 || b > 0) return kInfinity;
-  return -b - std::sqrt(discriminant);
+  if (discriminant < 0 || (c > 0 && b > 0)) return kInfinity;
+  return c > 0 ? -b - std::sqrt(discriminant) : -b + std::sqrt(discriminant);
 }
 
-/// The slab test (Kay and Kajiya 1986) in the box's own axes. A ray that starts inside passes, as
-/// it does in Bullet.
+/// The slab test (Kay and Kajiya 1986) in the box's own axes.
 double castBox(const Footprint& f, double x, double y, double dx, double dy) {
   const double ox = x - f.x, oy = y - f.y;
   const double px = ox * f.c + oy * f.s, py = -ox * f.s + oy * f.c;
@@ -70,7 +69,23 @@ double castBox(const Footprint& f, double x, double y, double dx, double dy) {
     enter = std::max(enter, std::min(t0, t1));
     leave = std::min(leave, std::max(t0, t1));
   }
-  return enter <= leave && enter >= 0 ? enter : kInfinity;
+  if (enter > leave || leave < 0) return kInfinity;
+  return enter >= 0 ? enter : leave;
+}
+
+double castSolid(const Footprint& f, double x, double y, double z, double dx, double dy) {
+  const double ox = x - f.x, oy = y - f.y, up = z - 0.5 * (f.z_min + f.z_max);
+  return f.solid->cast({ox * f.c + oy * f.s, -ox * f.s + oy * f.c, up},
+                       {dx * f.c + dy * f.s, -dx * f.s + dy * f.c, 0});
+}
+
+/// Bullet sees bodies from outside; from inside one looks back from the far end.
+double castHull(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
+                double range) {
+  const double outside = castBody(body, from, direction, range);
+  if (outside < kInfinity) return outside;
+  const double back = castBody(body, from + direction * range, -direction, range);
+  return back < kInfinity ? range - back : kInfinity;
 }
 
 double castOne(const Footprint& f, double x, double y, double z, double dx, double dy,
@@ -87,9 +102,10 @@ double castOne(const Footprint& f, double x, double y, double z, double dx, doub
     case Footprint::Kind::kTriangle:
       return castTriangle(*f.triangle, x, y, z, dx, dy);
     case Footprint::Kind::kOther:
+      if (f.solid) return castSolid(f, x, y, z, dx, dy);
       // What has no body now, as a unit that nobody is near, is seen as its circle.
       if (!f.body) return castCircle(f, f.hx, x, y, dx, dy);
-      return castBody(*f.body, {x, y, z}, {dx, dy, 0}, range);
+      return castHull(*f.body, {x, y, z}, {dx, dy, 0}, range);
   }
   return kInfinity;
 }

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstdint>
 #include <ignition/math/Vector3.hh>
+#include <memory>
 #include <vector>
 
+#include "core/geometry/solid.h"
 #include "kiva_plugin_cpp/fleet.h"
 
 class btCollisionObject;
@@ -24,7 +26,7 @@ struct Footprint {
     kCircle,    ///< An upright cylinder of radius hx.
     kSphere,    ///< A sphere of radius hx; narrower off its middle height.
     kTriangle,  ///< `triangle`, within a rectangle hx × hy along the world's axes.
-    kOther      ///< Bounded by a circle of radius hx; a ray asks `body` for the truth.
+    kOther      ///< Bounded by a circle of radius hx; a ray asks `solid` or `body` for the truth.
   };
   Kind kind = Kind::kBox;
   double x = 0, y = 0;
@@ -33,6 +35,7 @@ struct Footprint {
   double z_min = 0, z_max = 0;
   int model = -1;  ///< Whose it is: index in the world's models.
   int group = -1;  ///< Robot index for a robot and what it carries; rays of that robot pass.
+  std::shared_ptr<const Solid> solid;       ///< For kOther: centred on the footprint, in its frame.
   const btCollisionObject* body = nullptr;  ///< For kOther; null: the circle is the truth.
   const std::array<ignition::math::Vector3d, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
 };
@@ -126,8 +129,8 @@ class Obstacles {
     return false;
   }
 
-  /// The first footprint on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but
-  /// for those of `group`.
+  /// The first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but for
+  /// those of `group`: of what it begins in, the inside.
   RayHit cast(double x, double y, double z, double dx, double dy, double range, int group) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contact/activation.h"
+#include "core/motion/jointed_body.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
 #include "core/state/unit_geometry.h"
@@ -12,31 +13,17 @@
 namespace kiva {
 namespace {
 
-double inertiaAboutOrigin(const WorldState& world, int unit) {
-  const Model& model = *world.models[world.units[unit].model];
-  double inertia = 0;
-  for (const Link& link : model.description->links) {
-    const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
-    const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
-    inertia += up.X() * up.X() * link.principal_moments.X() +
-               up.Y() * up.Y() * link.principal_moments.Y() +
-               up.Z() * up.Z() * link.principal_moments.Z() +
-               link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
-  }
-  for (const Item& item : world.items) {
-    if (item.unit != unit) continue;
-    inertia +=
-        item.mass * (std::pow(item.pose_in_unit.X(), 2) + std::pow(item.pose_in_unit.Y(), 2));
-  }
-  return inertia;
-}
-
 void loadRobot(WorldState& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
   const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
-  const double offset = in_robot.X() * in_robot.X() + in_robot.Y() * in_robot.Y();
+  SpatialInertia load;
+  load.add(sumUnit(world, unit), in_robot);
+  const Vector3 centre = load.centre();
   r.load_mass = world.units[unit].mass;
-  r.load_inertia = inertiaAboutOrigin(world, unit) + r.load_mass * offset;
+  r.load_centre[0] = centre.X();
+  r.load_centre[1] = centre.Y();
+  r.load_inertia =
+      load.inertia()(2, 2) + load.mass() * (centre.X() * centre.X() + centre.Y() * centre.Y());
   Bounds box;
   const Model& model = *world.models[world.units[unit].model];
   for (const Link& link : model.description->links) {
@@ -82,6 +69,7 @@ void unload(WorldState& world, int robot) {
   Robot& r = f.robots[robot];
   f.unit[robot] = -1;
   r.load_mass = r.load_inertia = r.load_half_length = r.load_half_width = 0;
+  r.load_centre[0] = r.load_centre[1] = 0;
   moved(world.fleet, robot);  // its tower may have to come down
   moved(world, world.modelOf(robot));
   rebuildBody(world, world.modelOf(robot));

@@ -7,6 +7,7 @@
 #include "core/contact/activation.h"
 #include "core/geometry/angle.h"
 #include "core/models/load.h"
+#include "core/motion/drives.h"
 #include "core/motion/jointed_body.h"
 #include "core/sensing/scans.h"
 #include "core/state/fleet_plugin.h"
@@ -76,15 +77,28 @@ void reindex(WorldState& world, int from, int to) {
 }
 
 void weigh(const ModelDescription& description, Robot* robot) {
-  robot->mass = robot->inertia = 0;
+  robot->mass = robot->inertia = robot->centre[0] = robot->centre[1] = 0;
   for (const Link& link : description.links) {
     const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
     const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
     const double own = up.X() * up.X() * link.principal_moments.X() +
                        up.Y() * up.Y() * link.principal_moments.Y() +
                        up.Z() * up.Z() * link.principal_moments.Z();
+    for (int axis = 0; axis < 2; ++axis) {
+      robot->centre[axis] += link.mass * centre.Pos()[axis];
+    }
     robot->mass += link.mass;
     robot->inertia += own + link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
+  }
+  for (double& moment : robot->centre) moment /= robot->mass;
+}
+
+/// Of the tyres, where the model has wheels.
+void setTyres(const ModelDescription& description, Robot* robot) {
+  const char* const wheels[] = {"left_wheel", "right_wheel"};
+  for (int side = 0; side < 2; ++side) {
+    const Link* wheel = description.findLink(wheels[side]);
+    if (wheel) robot->tyre_friction[side] = tyreFriction(*wheel);
   }
 }
 
@@ -112,6 +126,7 @@ void Robots::add(WorldState& world, Model& model) const {
   checkPose(model);
   configure(world, *model.description, &robot);
   weigh(*model.description, &robot);
+  setTyres(*model.description, &robot);
   Pose centre;
   const Shape box = measure(*model.description, &robot, &centre);
   model.geometries.push_back({-1, centre, box, -1});
@@ -194,13 +209,14 @@ bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& 
                   const Vector3& force, const Vector3& torque) const {
   FleetState& f = world.fleet;
   const int i = model.index;
-  const Robot& r = f.robots[i];
-  const Vector3 arm = at - basePose(world, i).Pos();
+  const Vehicle vehicle = vehicleOf(f.robots[i], groundOf(world));
+  const Vector3 centre = centreFromOrigin(f, i);
+  const Vector3 arm = at - basePose(world, i).Pos() - centre;
+  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.dt;
   moved(f, i);
-  const double mass = r.mass + r.load_mass, inertia = r.inertia + r.load_inertia;
-  f.vx[i] += force.X() / mass * world.dt;
-  f.vy[i] += force.Y() / mass * world.dt;
-  f.yaw_rate[i] += (torque + arm.Cross(force)).Z() / inertia * world.dt;
+  f.vx[i] += force.X() / vehicle.mass * world.dt + turn * centre.Y();
+  f.vy[i] += force.Y() / vehicle.mass * world.dt - turn * centre.X();
+  f.yaw_rate[i] += turn;
   return true;
 }
 
@@ -208,16 +224,17 @@ ModelBodies Robots::build(const WorldState& world, const Model& model) const {
   const int robot = model.index;
   const Robot& r = world.fleet.robots[robot];
   Link link;
-  link.mass = r.mass + r.load_mass;
-  const double inertia = r.inertia + r.load_inertia;
-  link.principal_moments.Set(inertia, inertia, inertia);
+  const Vehicle vehicle = vehicleOf(r, groundOf(world));
+  link.mass = vehicle.mass;
+  link.principal_moments.Set(vehicle.inertia, vehicle.inertia, vehicle.inertia);
+  link.inertial_pose_in_link.Pos().Set(vehicle.centre[0], vehicle.centre[1], 0);
   link.gravity = false;
   ModelDescription planar;
   planar.links.push_back(link);
   ModelBodies bodies =
       world.physics.build(planar, basePose(world, robot), model.slot, kRobotGroup, ~kFloorGroup);
   LinkBody& body = bodies.links.front();
-  const btTransform base = toBullet(basePose(world, robot)).inverse();
+  const btTransform base = (toBullet(basePose(world, robot)) * body.mass_frame).inverse();
   const auto add = [&](const Model& part) {
     for (std::size_t i = 0; i < part.description->links.size(); ++i) {
       const btTransform at = base * toBullet(kiva::linkPose(world, part, static_cast<int>(i)));

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/motion/clearance.h"
-#include "core/motion/traction.h"
+#include "core/motion/drives.h"
 
 namespace kiva {
 namespace {
@@ -19,12 +19,15 @@ bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
          isExact(f.yaw_rate[i] - per.yaw * v);
 }
 
-bool hasForce(const Robot& robot, const ReferenceMotion& per, double deceleration, double gravity) {
+bool hasForce(const Robot& robot, const ReferenceMotion& per, double deceleration,
+              const Ground& ground) {
   if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
   if (per.acceleration == 0) return false;
   const double hardest = kMargin * std::max(per.acceleration, deceleration);
-  const double limit = per.yaw != 0 ? turningLimit(robot, gravity) : drivingLimit(robot, gravity);
-  return hardest < limit;
+  const Vehicle vehicle = vehicleOf(robot, ground);
+  if (per.yaw == 0) return hardest < std::min(drivingLimit(vehicle), brakingLimit(vehicle));
+  return std::max(turningEffort(vehicle, hardest, per.top_speed),
+                  turningEffort(vehicle, -hardest, per.top_speed)) < 1;
 }
 
 constexpr int kBlock = 16;  // robots that are stepped together
@@ -100,7 +103,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
       f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
       std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
-      !keepsUp(f, i, per) || !hasForce(r, per, f.deceleration[i], world.gravityDown())) {
+      !keepsUp(f, i, per) || !hasForce(r, per, f.deceleration[i], groundOf(world))) {
     return false;
   }
   const double turn = per.yaw * r.drive.wheel_separation / 2;

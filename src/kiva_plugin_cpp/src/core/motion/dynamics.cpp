@@ -6,6 +6,7 @@
 
 #include "core/geometry/angle.h"
 #include "core/motion/cruise.h"
+#include "core/motion/drives.h"
 #include "core/motion/jointed.h"
 #include "core/motion/joints.h"
 #include "core/motion/traction.h"
@@ -23,20 +24,25 @@ btRigidBody& bodyOf(const WorldState& world, int robot) {
 void pushBody(const WorldState& world, int robot) {
   const Fleet& f = world.fleet;
   btRigidBody& body = bodyOf(world, robot);
-  body.setLinearVelocity({f.vx[robot], f.vy[robot], 0});
-  body.setAngularVelocity({0, 0, f.yaw_rate[robot]});
+  const btVector3 turning(0, 0, f.yaw_rate[robot]);
+  const btVector3 arm = toBullet(centreFromOrigin(f, robot));
+  body.setLinearVelocity(btVector3(f.vx[robot], f.vy[robot], 0) + turning.cross(arm));
+  body.setAngularVelocity(turning);
 }
 
 void readBody(WorldState& world, int robot) {
   Fleet& f = world.fleet;
   const btRigidBody& body = bodyOf(world, robot);
-  const btVector3& at = body.getWorldTransform().getOrigin();
-  const btVector3 ahead = body.getWorldTransform().getBasis().getColumn(0);
+  // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
+  const btVector3 arm = toBullet(centreFromOrigin(f, robot));
+  const btVector3 velocity = body.getLinearVelocity() - body.getAngularVelocity().cross(arm);
+  const btTransform pose = world.modelOf(robot).bodies.links.front().linkPose();
+  const btVector3 at = pose.getOrigin(), ahead = pose.getBasis().getColumn(0);
   f.x[robot] = at.x();
   f.y[robot] = at.y();
   f.yaw[robot] += wrapAngle(std::atan2(ahead.y(), ahead.x()) - f.yaw[robot]);
-  f.vx[robot] = body.getLinearVelocity().x();
-  f.vy[robot] = body.getLinearVelocity().y();
+  f.vx[robot] = velocity.x();
+  f.vy[robot] = velocity.y();
   f.yaw_rate[robot] = body.getAngularVelocity().z();
   for (int wheel = 0; wheel < 2; ++wheel) {
     f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.dt;
@@ -87,7 +93,7 @@ void actuate(WorldState& world) {
     if (isJointed(f.robots[i])) {
       driveJointed(world, i);
     } else {
-      applyTraction(f, i, world.gravityDown(), world.dt);
+      applyTraction(f, i, groundOf(world), world.dt);
     }
     if (f.activated[i]) pushBody(world, i);
   }

@@ -90,6 +90,7 @@ class Step {
   void run() {
     read();
     findContacts();
+    loadSprings();
     const double limit = drive_.acceleration == 0 ? kUnlimited : drive_.motor_torque * dt_;
     // A motor holds its wheel at the target as long as its torque suffices; then it gives what it
     // has, and the wheel's speed is found with the floor's.
@@ -148,7 +149,7 @@ class Step {
     for (int wheel = 0; wheel < 2; ++wheel) {
       const JointedBody::Wheel& w = body_.wheels[wheel];
       const btVector3 at = w.centre + down * w.radius;
-      add({at, heightOf(at), w.friction * floor_friction_, wheel});
+      add({at, heightOf(at), std::min(w.friction, floor_friction_), wheel});
     }
     const double tilted = up_.x() * up_.x() + up_.y() * up_.y();
     const bool low_only = tilted < body_.low_feet_reach * body_.low_feet_reach;
@@ -156,7 +157,18 @@ class Step {
     for (int i = 0; i < feet; ++i) {
       const JointedBody::Foot& foot = body_.feet[i];
       add({foot.centre - up_ * foot.radius, heightOf(foot.centre) - foot.radius,
-           foot.friction * floor_friction_, -1});
+           std::min(foot.friction, floor_friction_), -1});
+    }
+  }
+
+  /// Casters are sprung: they bear their share of the weight wherever the chassis leans to.
+  void loadSprings() {
+    const double force = body_.spring_share * gravity_ / body_.inverse_mass;
+    for (int i = 0; i < body_.low_feet && force > 0; ++i) {
+      const JointedBody::Foot& foot = body_.feet[i];
+      if (foot.radius == 0 || heightOf(foot.centre) - foot.radius > kForeseen) continue;
+      springs_push_ += up_ * (force * dt_ * body_.inverse_mass);
+      springs_twist_ += (foot.centre - body_.centre).cross(up_) * (force * dt_);
     }
   }
 
@@ -218,6 +230,7 @@ class Step {
         twist -= body_.axle * (body_.spin_inertia * (target_[wheel] - before_.spin[wheel]));
       }
     }
+    twist += springs_twist_;
     const double impulse[5] = {twist.x(), twist.y(), twist.z(), spin[0], spin[1]};
     double change[5];
     for (int i = 0; i < 5; ++i) {
@@ -226,7 +239,7 @@ class Step {
     }
     // The origin's velocity is what was kept: since then the centre has gone on around it.
     const btVector3 centripetal = w.cross(w.cross(body_.centre));
-    after_.linear = before_.linear - (centripetal + up_ * gravity_) * dt_;
+    after_.linear = before_.linear - (centripetal + up_ * gravity_) * dt_ + springs_push_;
     after_.turning = w + btVector3(change[0], change[1], change[2]);
     for (int wheel = 0; wheel < 2; ++wheel) {
       const bool is_free = free >> wheel & 1;
@@ -287,12 +300,32 @@ class Step {
   double cos_yaw_ = 1, sin_yaw_ = 0;
   double target_[2];  // of the spins
   Velocities before_, after_;
+  btVector3 springs_push_{0, 0, 0};   // what they change of the velocity [m/s]
+  btVector3 springs_twist_{0, 0, 0};  // their angular impulse [Nm s]
   FloorContacts contacts_;
 };
 
 }  // namespace
 
 void driveJointed(WorldState& world, int robot) { Step(world, robot).run(); }
+
+Vehicle jointedVehicle(WorldState& world, int robot, const Ground& ground) {
+  const Robot& r = world.fleet.robots[robot];
+  const JointedBody& body = jointedBody(world, robot);
+  Vehicle v = vehicleOf(r, ground);
+  const double height = body.centre.z() + body.axle_height;
+  v.lift_ahead = height / body.rear_reach;
+  v.lift_braking = height / body.front_reach;
+  v.lift_sideways = height / r.drive.wheel_separation;
+  const double reach = v.centre[0] > 0 ? body.front_reach : body.rear_reach;
+  const double leaning = std::abs(v.centre[0]) / reach;  // share of the weight on a caster's stop
+  const double on_wheels = r.drive.drive_wheel_load - leaning;
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    v.friction[wheel] = std::min(body.wheels[wheel].friction, ground.friction);
+    v.grip[wheel] = v.friction[wheel] * v.mass * ground.gravity * v.weight(wheel, on_wheels);
+  }
+  return v;
+}
 
 void settleJointed(WorldState& world, int robot) {
   FleetState& f = world.fleet;

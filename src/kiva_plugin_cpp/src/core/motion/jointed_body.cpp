@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kiva {
 namespace {
@@ -27,17 +28,21 @@ const Link& findWheel(const Model& model, int side) {
                          std::string(kWheelNames[side]) + "'");
 }
 
-/// Radius and grip are those of the tyre: the wheel's first round shape. It touches the floor in
-/// one point beneath its middle, as a crowned tyre does.
-JointedBody::Wheel makeWheel(const Link& link, const DriveParameters& drive) {
-  JointedBody::Wheel wheel{toBullet(link.pose_in_model.Pos()), drive.wheel_radius, drive.friction};
-  for (const Collision& collision : link.collisions) {
+/// The wheel's first round shape; null if it has none.
+const Collision* tyreOf(const Link& wheel) {
+  for (const Collision& collision : wheel.collisions) {
     const Shape::Kind kind = collision.shape.kind;
-    if (kind != Shape::Kind::kCylinder && kind != Shape::Kind::kSphere) continue;
-    wheel.radius = collision.shape.radius;
-    wheel.friction = collision.friction;
-    break;
+    if (kind == Shape::Kind::kCylinder || kind == Shape::Kind::kSphere) return &collision;
   }
+  return nullptr;
+}
+
+/// Its radius is that of the tyre, which touches the floor in one point beneath its middle, as a
+/// crowned tyre does.
+JointedBody::Wheel makeWheel(const Link& link, const DriveParameters& drive) {
+  JointedBody::Wheel wheel{toBullet(link.pose_in_model.Pos()), drive.wheel_radius,
+                           std::min(drive.friction, tyreFriction(link))};
+  if (const Collision* tyre = tyreOf(link)) wheel.radius = tyre->shape.radius;
   return wheel;
 }
 
@@ -100,16 +105,20 @@ void sortFeet(JointedBody* body) {
   }
 }
 
-/// The unit with its items, in the unit's frame.
-SpatialInertia sumLoad(const WorldState& world, int unit) {
-  SpatialInertia sum;
-  for (const Link& link : world.models[world.units[unit].model]->description->links) {
-    sum.add(link, link.pose_in_model);
+/// The casters' springs, and how far from the axle the robot leans on what.
+void measureCasters(const Robot& robot, JointedBody* body) {
+  int casters = 0;
+  body->front_reach = body->rear_reach = 0;
+  const double axle = 0.5 * (body->wheels[0].centre.x() + body->wheels[1].centre.x());
+  for (int i = 0; i < body->low_feet; ++i) {
+    const JointedBody::Foot& foot = body->feet[i];
+    casters += foot.radius > 0;
+    body->front_reach = std::max(body->front_reach, foot.centre.x() - axle);
+    body->rear_reach = std::max(body->rear_reach, axle - foot.centre.x());
   }
-  for (const Item& item : world.items) {
-    if (item.unit == unit) sum.addPoint(item.mass, item.pose_in_unit.Pos());
-  }
-  return sum;
+  if (body->front_reach == 0) body->front_reach = robot.half_length;
+  if (body->rear_reach == 0) body->rear_reach = robot.half_length;
+  body->spring_share = casters > 0 ? (1 - robot.drive.drive_wheel_load) / casters : 0;
 }
 
 /// Where the unit is on its robot; upright on the floor plane, as far as this goes.
@@ -213,6 +222,7 @@ std::shared_ptr<JointedBody> make(const WorldState& world, int robot, const Spat
   body->axle.setValue(0, 1, 0);
   const SpatialInertia sum = addUp(world, robot, body.get());
   sortFeet(body.get());
+  measureCasters(r, body.get());
   body->inverse_mass = 1 / sum.mass();
   body->centre = toBullet(sum.centre());
   body->spin_inertia = r.drive.wheel_inertia;
@@ -238,7 +248,7 @@ SpatialInertia loadOf(const WorldState& world, int robot) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return SpatialInertia();
   const JointedBody* old = world.modelOf(robot).jointed.get();
-  return old && hasLoadOf(*old, world, robot) ? old->load : sumLoad(world, unit);
+  return old && hasLoadOf(*old, world, robot) ? old->load : sumUnit(world, unit);
 }
 
 /// Robots of one description are the same while they carry nothing and the tower is down; a step
@@ -257,6 +267,22 @@ std::shared_ptr<const JointedBody> shareBare(WorldState& world, int robot) {
 }
 
 }  // namespace
+
+SpatialInertia sumUnit(const WorldState& world, int unit) {
+  SpatialInertia sum;
+  for (const Link& link : world.models[world.units[unit].model]->description->links) {
+    sum.add(link, link.pose_in_model);
+  }
+  for (const Item& item : world.items) {
+    if (item.unit == unit) sum.addPoint(item.mass, item.pose_in_unit.Pos());
+  }
+  return sum;
+}
+
+double tyreFriction(const Link& wheel) {
+  const Collision* tyre = tyreOf(wheel);
+  return tyre ? tyre->friction : std::numeric_limits<double>::max();
+}
 
 const JointedBody& jointedBody(WorldState& world, int robot) {
   Model& model = world.modelOf(robot);

@@ -34,6 +34,9 @@ struct JointedBody {
   std::vector<Foot> feet;
   double low_feet_reach;  ///< What is not a low foot stays off the floor up to that sine of a tilt,
   int low_feet = 0;       ///< the first ones of `feet`.
+  double spring_share;    ///< Of the weight that each caster's spring bears.
+  double front_reach;     ///< Of the foremost low foot, ahead of the axle [m].
+  double rear_reach;      ///< Of the last one, behind it [m].
 
   double inverse_mass;   ///< With load and wheels [1/kg].
   btVector3 centre;      ///< Of mass.
@@ -47,6 +50,12 @@ struct JointedBody {
   double load_mass = 0, load_inertia = 0;
   SpatialInertia load;  ///< In the unit's frame.
 };
+
+/// A storage unit with its items, in its frame.
+SpatialInertia sumUnit(const WorldState& world, int unit);
+
+/// Coulomb coefficient of the tyre of a wheel's link: its first round shape.
+double tyreFriction(const Link& wheel);
 
 /// The robot's mechanism with its present load and tower. Throws DescriptionError if it lacks a
 /// link `left_wheel` or `right_wheel`.

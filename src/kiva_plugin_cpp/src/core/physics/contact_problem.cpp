@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/physics/coulomb.h"
+
 namespace kiva {
 namespace {
 
@@ -114,20 +116,18 @@ double ContactProblem::sweep() {
   return change;
 }
 
-/// Both directions along the ground, drawn back onto Coulomb's circle.
+/// Both directions along the ground at once, on Coulomb's circle.
 double ContactProblem::relaxFriction(int c) {
-  double change = 0, before[2];
-  double* along = &x[first_[c] + 1];
+  const int row = first_[c] + 1;
+  const double before[2] = {x[row], x[row + 1]};
+  const double slip[2] = {
+      residual(row) - a[row][row] * before[0] - a[row][row + 1] * before[1],
+      residual(row + 1) - a[row + 1][row] * before[0] - a[row + 1][row + 1] * before[1]};
+  solveCoulomb(a[row][row], a[row][row + 1], a[row + 1][row + 1], slip, friction_[c] * x[first_[c]],
+               &x[row]);
+  double change = 0;
   for (int i = 0; i < 2; ++i) {
-    const int row = first_[c] + 1 + i;
-    before[i] = along[i];
-    along[i] -= residual(row) / a[row][row];
-  }
-  const double limit = friction_[c] * x[first_[c]], size = std::hypot(along[0], along[1]);
-  for (int i = 0; i < 2; ++i) {
-    if (size > limit) along[i] *= limit / size;
-    const int row = first_[c] + 1 + i;
-    change = std::max(change, std::abs(along[i] - before[i]) * a[row][row]);
+    change = std::max(change, std::abs(x[row + i] - before[i]) * a[row + i][row + i]);
   }
   return change;
 }

@@ -19,8 +19,10 @@ constexpr double kMargin = 0.0002;  // [m]
 // Bullet's own distance at which contacts are foreseen.
 constexpr double kForesight = 0.02;  // [m]
 
-// Share of its depth by which a bouncing body is lifted out in a step; more would throw it.
+// Share of its depth by which a body that could bounce is lifted out in a step; more would throw
+// it. What moves faster than Bullet lets bounce is not lifted: it leaves by itself.
 constexpr double kGentle = 0.02;
+constexpr double kBouncing = 0.2;  // [m/s]
 
 // What is slower for two seconds falls asleep; Bullet's own 0.8 m/s would stop a pendulum.
 constexpr double kAsleep = 0.005;  // [m/s, rad/s]
@@ -284,17 +286,34 @@ bool isTouching(const btManifoldPoint& point) {
   return point.getDistance() <= 0 || point.getAppliedImpulse() > 0;
 }
 
-/// Gives a new contact the friction and restitution of the two parts that touch.
+/// Of the contact's points against each other, along its normal [m/s].
+double normalSpeed(const btManifoldPoint& point, const btCollisionObject* a,
+                   const btCollisionObject* b) {
+  btScalar speed = 0;
+  for (const btCollisionObject* object : {a, b}) {
+    const btRigidBody* body = btRigidBody::upcast(object);
+    const btVector3 arm = point.getPositionWorldOnB() - object->getWorldTransform().getOrigin();
+    const btScalar along = body->getVelocityInLocalPoint(arm).dot(point.m_normalWorldOnB);
+    speed += object == a ? along : -along;
+  }
+  return std::abs(speed);
+}
+
+/// Gives a contact the friction and restitution of the two parts that touch: as in Gazebo, the
+/// smaller of both. It is called in every step that finds the contact.
 bool combineMaterials(btManifoldPoint& point, const btCollisionObjectWrapper* a, int, int,
                       const btCollisionObjectWrapper* b, int, int) {
   const BodyPart* part_a = partOf(a);
   const BodyPart* part_b = partOf(b);
   if (part_a && part_b) {
-    point.m_combinedFriction = part_a->friction * part_b->friction;
-    point.m_combinedRestitution = part_a->restitution * part_b->restitution;
+    point.m_combinedFriction = std::min(part_a->friction, part_b->friction);
+    point.m_combinedRestitution = std::min(part_a->restitution, part_b->restitution);
     if (part_a->restitution > 0 || part_b->restitution > 0) {  // not foreseen: they sink in a bit
+      const bool bounces =
+          point.m_combinedRestitution > 0 &&
+          normalSpeed(point, a->getCollisionObject(), b->getCollisionObject()) > kBouncing;
       point.m_contactPointFlags |= BT_CONTACT_FLAG_HAS_CONTACT_ERP;
-      point.m_contactERP = kGentle;
+      point.m_contactERP = bounces ? 0 : kGentle;
     }
   }
   return true;
@@ -325,6 +344,7 @@ void LinkBody::place(const btTransform& link_pose) {
   body->setWorldTransform(pose);
   body->setInterpolationWorldTransform(pose);
   body->updateInertiaTensor();
+  body->setUserIndex3(kPlaced);
 }
 
 btVector3 LinkBody::velocityAtOrigin() const {
@@ -333,7 +353,11 @@ btVector3 LinkBody::velocityAtOrigin() const {
 }
 
 Physics::Physics(const Vector3& gravity)
-    : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    : round_contacts_(false, configuration_.getCollisionAlgorithmCreateFunc(
+                                 CYLINDER_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE)),
+      swapped_round_contacts_(true, round_contacts_.at_edges),
+      dispatcher_(&configuration_),
+      world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   gContactAddedCallback = combineMaterials;
   world_.setGravity(toBullet(gravity));
   world_.setForceUpdateAllAabbs(false);
@@ -343,6 +367,12 @@ Physics::Physics(const Vector3& gravity)
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
+  for (int round : {CYLINDER_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
+    for (int flat : {STATIC_PLANE_PROXYTYPE, BOX_SHAPE_PROXYTYPE}) {
+      dispatcher_.registerCollisionCreateFunc(round, flat, &round_contacts_);
+      dispatcher_.registerCollisionCreateFunc(flat, round, &swapped_round_contacts_);
+    }
+  }
   // All corners of what lands on a plane at once: one a step would tip it over.
   configuration_.setPlaneConvexMultipointIterations(4, 4);
   btContactSolverInfo& solver = world_.getSolverInfo();
@@ -398,8 +428,8 @@ bool Physics::anyAwake() const {
 }
 
 void Physics::step(double dt) {
-  if (!anyAwake()) return before_.clear();
-  noteVelocities();
+  if (!anyAwake()) return motions_.clear();
+  noteMotions(dt);
   world_.stepSimulation(dt, 0);
 }
 
@@ -413,25 +443,49 @@ void Physics::setGravity(const Vector3& gravity) {
   }
 }
 
-void Physics::noteVelocities() {
+void Physics::noteMotions(double dt) {
+  dt_ = dt;
   auto& bodies = world_.getNonStaticRigidBodies();
-  before_.resize(bodies.size());
+  motions_.resize(bodies.size());
   for (int i = 0; i < bodies.size(); ++i) {
-    bodies[i]->setUserIndex2(i);
-    before_[i] = {bodies[i]->getLinearVelocity(), bodies[i]->getAngularVelocity()};
+    btRigidBody& body = *bodies[i];
+    body.setUserIndex2(i);
+    const Velocity driven{body.getLinearVelocity(), body.getAngularVelocity()};
+    // Bullet keeps the velocity that a step ended with beside that which may be set.
+    const Velocity ended{body.getInterpolationLinearVelocity(),
+                         body.getInterpolationAngularVelocity()};
+    const btVector3 force =
+        body.getGravity() / std::max(SIMD_EPSILON, body.getInvMass()) + body.getTotalForce();
+    const Velocity pushed{driven.linear + force * body.getLinearFactor() * body.getInvMass() * dt,
+                          driven.angular + body.getInvInertiaTensorWorld() * body.getTotalTorque() *
+                                               body.getAngularFactor() * dt};
+    motions_[i] = {body.getUserIndex3() == kPlaced ? driven : ended, driven, pushed};
+    body.setUserIndex3(-1);
   }
 }
 
-double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint& point) const {
+double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint& point,
+                         Velocity Motion::*when) const {
   const btVector3 at = point.getPositionWorldOnB();
   const auto velocity = [&](const btCollisionObject* body) {
     const int index = body->isStaticObject() ? -1 : body->getUserIndex2();
-    if (index < 0 || index >= static_cast<int>(before_.size())) return btVector3(0, 0, 0);
+    if (index < 0 || index >= static_cast<int>(motions_.size())) return btVector3(0, 0, 0);
     const btVector3 arm = at - body->getWorldTransform().getOrigin();
-    return before_[index].linear + before_[index].angular.cross(arm);
+    const Velocity& v = motions_[index].*when;
+    return v.linear + v.angular.cross(arm);
   };
   const btVector3 relative = velocity(pair.getBody1()) - velocity(pair.getBody0());
   return std::max(0.0, relative.dot(point.m_normalWorldOnB));
+}
+
+/// What share of the contact's impulse ended approach from before the step, and not what motors and
+/// forces added in it: the contact let pass what closes the gap.
+double Physics::impactShare(const btPersistentManifold& pair, const btManifoldPoint& point) const {
+  const double closing = std::max(0.0, point.getDistance()) / dt_;
+  const double was = approach(pair, point, &Motion::before) - closing;
+  const double is = approach(pair, point, &Motion::pushed) - closing;
+  if (was <= 0) return 0;
+  return is > was ? was / is : 1;
 }
 
 void Physics::contacts(std::vector<Contact>* out) const {
@@ -455,8 +509,8 @@ void Physics::contacts(std::vector<Contact>* out) const {
         pair->model_b = b;
       }
       const double impulse = point.getAppliedImpulse();
-      pair->impulse += impulse;
-      const double speed = approach(*manifold, point);
+      pair->impulse += impulse * impactShare(*manifold, point);
+      const double speed = approach(*manifold, point, &Motion::driven);
       pair->nearing = std::max(pair->nearing, speed);
       if (impulse <= pair->most) continue;
       pair->most = impulse;

@@ -11,6 +11,7 @@
 
 #include "core/physics/box_contacts.h"
 #include "core/physics/ordered_bullet.h"
+#include "core/physics/round_contacts.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
@@ -22,6 +23,9 @@ Vector3 fromBullet(const btVector3& v);
 
 /// Who touches whom: collision filter groups.
 enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
+
+/// Third user index of a body that was put somewhere, with a velocity, since the last step.
+constexpr int kPlaced = 1;
 
 /// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
 /// friction a body.
@@ -70,7 +74,8 @@ struct Contact {
   Vector3 point;       ///< In world.
   Vector3 normal;      ///< From b to a.
   double speed = 0;    ///< Of approach before the step [m/s].
-  double impulse = 0;  ///< Of all their contacts in the step [Ns].
+  double impulse = 0;  ///< Of all their contacts in the step, as far as it ended approach that
+                       ///< was there before the step; what holds against pushes is not in it [Ns].
   double most = -1;    ///< Of the hardest one.
   double nearing = 0;  ///< Like `speed`, of the contact where it is largest [m/s].
 };
@@ -114,20 +119,31 @@ class Physics {
 
  private:
   bool anyAwake() const;
-  void noteVelocities();
-  double approach(const btPersistentManifold& pair, const btManifoldPoint& point) const;
+  struct Velocity {
+    btVector3 linear, angular;
+  };
+  /// Of a body about a step.
+  struct Motion {
+    Velocity before;  ///< When the last step had ended.
+    Velocity driven;  ///< When this one began: motors have set it since.
+    Velocity pushed;  ///< With what forces add in it.
+  };
 
-  BoxBoxContacts::Creator box_contacts_;
+  void noteMotions(double dt);
+  double approach(const btPersistentManifold& pair, const btManifoldPoint& point,
+                  Velocity Motion::*when) const;
+  double impactShare(const btPersistentManifold& pair, const btManifoldPoint& point) const;
+
   btDefaultCollisionConfiguration configuration_;
+  BoxBoxContacts::Creator box_contacts_;
+  RoundContacts::Creator round_contacts_, swapped_round_contacts_;
   OrderedDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
   OrderedSolver solver_;
   ContactIslandWorld world_;
 
-  struct Velocity {
-    btVector3 linear, angular;
-  };
-  std::vector<Velocity> before_;  ///< The step, by a body's second user index.
+  std::vector<Motion> motions_;  ///< By a body's second user index.
+  double dt_ = 0;                ///< Of the last step [s].
 };
 
 }  // namespace kiva

@@ -49,6 +49,7 @@ BodyState readBody(const btRigidBody& body) {
   s.mass = body.getMass();
   s.inverse_inertia = body.getInvInertiaDiagLocal();
   s.activation = body.getActivationState();
+  s.placed = body.getUserIndex3() == kPlaced;
   s.resting = body.getDeactivationTime();
   readParts(*static_cast<const btCompoundShape*>(body.getCollisionShape()), &s);
   return s;
@@ -70,6 +71,7 @@ void writeBody(const BodyState& s, btRigidBody& body) {
   body.applyTorque(s.torque);
   body.forceActivationState(s.activation);
   body.setDeactivationTime(s.resting);
+  body.setUserIndex3(s.placed ? kPlaced : -1);
 }
 
 MotorState readMotor(const btTypedConstraint& joint) {

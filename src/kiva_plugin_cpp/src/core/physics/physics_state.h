@@ -18,6 +18,7 @@ struct BodyState {
   double mass = 0;
   btVector3 inverse_inertia;  ///< Along the principal axes.
   int activation = 0;
+  bool placed = false;             ///< Since the last step.
   double resting = 0;              ///< Since it moved last [s].
   std::vector<btTransform> parts;  ///< In the body.
   std::vector<bool> faceted;       ///< Whose boxes know their faces and edges.
