@@ -33,7 +33,7 @@ void checkModels(const WorldState& parts) {
 }
 
 void checkRobots(const WorldState& parts) {
-  const Fleet& f = parts.fleet;
+  const FleetState& f = parts.fleet;
   for (int i = 0; i < f.size(); ++i) {
     const Robot& r = f.robots[i];
     ASSERT_EQ(f.find(r.id), i);
@@ -46,9 +46,9 @@ void checkRobots(const WorldState& parts) {
       const bool own = footprint.model == r.model;
       ASSERT_TRUE(own || (f.unit[i] >= 0 && footprint.model == parts.units[f.unit[i]].model));
     }
-    for (const MotionSegment& segment : r.segments)
+    for (const MotionSegment& segment : f.tasks[i].segments)
       ASSERT_LT(segment.unit, static_cast<int>(parts.units.size()));
-    ASSERT_EQ(r.segments.empty(), f.status[i] == Status::kIdle) << r.name;
+    ASSERT_EQ(f.tasks[i].segments.empty(), f.status[i] == Status::kIdle) << r.name;
     ASSERT_TRUE(std::isfinite(f.x[i] + f.y[i] + f.yaw[i] + f.vx[i] + f.vy[i]));
     if (f.unit[i] < 0) {
       ASSERT_EQ(r.load_mass, 0);
@@ -78,7 +78,7 @@ void checkUnits(const WorldState& parts) {
       ASSERT_EQ(o.handle < 0, unit.carrier >= 0) << unit.name;
     }
     if (unit.claimed_by < 0) continue;
-    const auto& segments = parts.fleet.robots.at(unit.claimed_by).segments;
+    const auto& segments = parts.fleet.tasks.at(unit.claimed_by).segments;
     ASSERT_TRUE(std::any_of(segments.begin(), segments.end(),
                             [u](const MotionSegment& segment) {
                               return segment.kind == MotionSegment::Kind::kRaise &&

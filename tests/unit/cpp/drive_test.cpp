@@ -72,7 +72,7 @@ struct Bare {
     }
   }
   double wheel(int side) const { return fleet.wheel_speed[side][0]; }
-  Fleet fleet;
+  FleetState fleet;
   const double g = 9.81, dt = 0.001;
 };
 

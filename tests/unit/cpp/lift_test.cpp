@@ -228,9 +228,21 @@ TEST_F(Lift, RefusesAnUnknownUnit) {
   for (int shelf : {0, -1, 7}) {
     w.carry(1, shelf);
     EXPECT_PRED2(contains, w.refusal(), "there is no storage_unit" + std::to_string(shelf));
+    if (shelf == 0) continue;  // whatever it carries
     w.drop(1, shelf);
     EXPECT_PRED2(contains, w.refusal(), "there is no storage_unit" + std::to_string(shelf));
   }
+}
+
+TEST_F(Lift, DropsWhateverItCarriesWhereNoUnitIsNamed) {
+  w.drop(1, 0);
+  EXPECT_PRED2(contains, w.refusal(), "it carries nothing");
+  w.carry(1, 1);
+  w.runUntilIdle(1);
+  w.drop(1, 0);
+  w.runUntilIdle(1);
+  EXPECT_EQ(w.loadOf(1), 0);
+  EXPECT_EQ(w.last(Event::Kind::kDropped).other, "storage_unit1");
 }
 
 TEST_F(Lift, RefusesWhatIsTooHeavyItemsIncluded) {

@@ -5,12 +5,10 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <string>
 #include <vector>
 
 #include "kiva_plugin_cpp/description.h"
-#include "kiva_plugin_cpp/profile.h"
 #include "kiva_plugin_cpp/viewable_memory.h"
 
 namespace kiva {
@@ -67,19 +65,6 @@ struct LaserParameters {
   double z = 0.2;                          ///< Above the floor [m].
 };
 
-/// One thing a robot does at a time; a command is a row of them.
-struct MotionSegment {
-  enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
-  Kind kind = Kind::kTurn;
-  double x = 0;                    ///< Drive: where it ends, in world [m].
-  double y = 0;                    ///< Drive [m].
-  double yaw = 0;                  ///< Turn, drive: heading in world, unwrapped [rad].
-  bool reverse = false;            ///< Drive: backwards, against the heading.
-  bool on_grid = true;             ///< Drive: along a grid line.
-  int unit = -1;                   ///< Raise, lower: index of the storage unit.
-  State state = State::kRotating;  ///< What the robot reports meanwhile.
-};
-
 /// What is asked once and read seldom.
 struct Robot {
   std::string name;
@@ -99,19 +84,7 @@ struct Robot {
   LaserParameters laser;
   bool has_motion = false;
   bool has_rotation = false;
-  std::deque<MotionSegment> segments;  ///< Those of the current command, the first under way.
-  int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
-  bool segment_started = false;
-  double overdue = 0;          ///< Since the profile ended without the robot being there [s].
-  bool look_now = false;       ///< A segment begins: look ahead before it drives off.
-  double seen_distance = 0;    ///< What the laser saw last on this segment [m], 0 = nothing yet,
-  double seen_from = 0;        ///< from where on the segment [m],
-  int seen_model = -1;         ///< and what it was.
-  int ray_fan = -1;            ///< Index of its laser's directions among the world's.
-  bool stopping = false;       ///< The command is ending in BLOCKED, as soon as the robot stands.
-  bool halting = false;        ///< The same, with locked wheels.
-  std::string blocked_by;      ///< A model's name, or empty.
-  std::string blocked_reason;  ///< Why, for a person.
+  int ray_fan = -1;  ///< Index of its laser's directions among the world's.
 };
 
 /// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
@@ -133,36 +106,17 @@ using Column = std::vector<T, ViewableAllocator<T>>;
 struct Fleet {
   Column<double> x, y, yaw;  ///< Yaw is unwrapped: it counts full turns.
   Column<double> vx, vy, yaw_rate;
-  Column<double> wheel_speed[2];   ///< Left, right [rad/s].
-  Column<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
-  Column<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
-  Column<Stance> stance;           ///< Of jointed robots; others stand upright.
-  Column<double> tower;            ///< Height of the tower above its rest [m].
-  Column<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
+  Column<double> wheel_speed[2];  ///< Left, right [rad/s].
+  Column<double> wheel_angle[2];  ///< Left, right, unwrapped [rad].
+  Column<Stance> stance;          ///< Of jointed robots; others stand upright.
+  Column<double> tower;           ///< Height of the tower above its rest [m].
+  Column<std::int32_t> unit;      ///< Index of the carried storage unit, -1 = none.
   Column<Status> status;
   Column<State> state;
-  Column<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
-  Column<std::uint8_t> activated;    ///< 1 = stepped by Bullet, since something is near.
-  Column<std::uint64_t> look_again;  ///< Step at which something could have come near.
-
-  // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
-  Column<double> reference, reference_speed;
-  Column<double> goal;          ///< Where it is to end.
-  Column<double> deceleration;  ///< With which it is to end.
-
-  // Of robots that follow their references exactly, see src/core/cruise.h.
-  Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
-  Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis.
-  Column<double> per_wheel[2];             ///< And its wheels.
-  Column<double> top_speed, acceleration;  ///< Of the reference.
-  Column<double> cruise_until;             ///< Step to which nothing can come near.
+  /// How its last command ended, until the next is accepted: 0 = none yet, else the value of
+  /// Event::Kind, kDone or kBlocked.
+  Column<std::uint8_t> last_end;
   std::vector<Robot> robots;
-
-  Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
-  void setProfile(int i, const Profile& profile) {
-    reference[i] = profile.position;
-    reference_speed[i] = profile.speed;
-  }
 
   int size() const { return static_cast<int>(robots.size()); }
   /// Index of the robot with that id, -1 if there is none.

@@ -63,6 +63,11 @@ struct Item {
   double mass = 0;          ///< [kg]
 };
 
+/// A place on the floor, in world [m].
+struct PathPoint {
+  double x = 0, y = 0;
+};
+
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
@@ -222,7 +227,9 @@ class World {
   const std::vector<Item>& items() const;
   Pose storageUnitPose(int unit) const;  ///< In world.
   Pose itemPose(int item) const;         ///< In world.
-  Pose basePose(int robot) const;        ///< Of the chassis on the floor, in world.
+  /// Where the robot is still to turn or to stop on its present way.
+  std::vector<PathPoint> pathAhead(int robot) const;
+  Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;
   const Floor& floor() const;
@@ -245,7 +252,7 @@ class World {
   /// The whole state as bytes: time, models and what is in motion, commands under way and pending,
   /// events not yet taken, what plugins save. This world and any that restores the bytes go on the
   /// same from here, bit by bit, as long as they are given the same commands.
-  std::string checkpoint();
+  std::string checkpoint() const;
   /// Makes this world the one that was saved, whatever it was before. Throws CheckpointError, with
   /// nothing changed, if the bytes are damaged or of another version, and DescriptionError if a
   /// plugin of a model can't be loaded.

@@ -11,15 +11,17 @@
 #include "core/contact/activation.h"
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
-#include "core/contact/joints.h"
 #include "core/control/commands.h"
-#include "core/models/load.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
-#include "core/motion/cruise.h"
-#include "core/sensing/sensing.h"
-#include "core/state/world_state.h"
-#include "plugins/fleet_plugin.h"
+#include "core/motion/dynamics.h"
+#include "core/motion/joints.h"
+#include "core/sensing/look_ahead.h"
+#include "core/sensing/scans.h"
+#include "core/state/fleet_plugin.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+#include "plugins/plugin_table.h"
 
 namespace kiva {
 namespace {
@@ -33,8 +35,8 @@ constexpr double kMostArm = 1000;                     // [m]
 
 void loadWorldPlugins(WorldState& world, const std::vector<PluginDescription>& plugins) {
   for (const PluginDescription& plugin : plugins) {
-    if (isGridPlugin(plugin.filename)) {
-      configureGrid(world, plugin.parameters);
+    if (plugin.filename == kGridPlugin) {
+      world.grid_spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
       plugin.parameters.rejectUnread();
     } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
       world.world_plugins.push_back(std::move(own));
@@ -55,73 +57,46 @@ void forEachUserPlugin(WorldState& world, Call call) {
   }
 }
 
-void afterStep(WorldState& world) {
-  for (auto& plugin : world.fleet_plugins) plugin->afterStep(world);
-  forEachUserPlugin(world, [&](Plugin& p) { p.afterStep(*world.owner, world.dt); });
+/// Decides upon what was seen: who brakes, who stops, who begins what.
+void decide(WorldState& world) {
+  haltCrashed(world);
+  for (const auto& plugin : world.fleet_plugins) plugin->react(world);
+  acceptCommands(world);
+}
+
+void control(WorldState& world) {
+  for (const auto& plugin : world.fleet_plugins) plugin->control(world);
+}
+
+void advanceTime(WorldState& world) {
+  ++world.steps;
+  ++world.total_steps;
+}
+
+void sense(WorldState& world) {
+  findDueScans(world);
+  lookAhead(world);
 }
 
 /// -1 = none.
 int linkIndex(const Model* model, const std::string& name) {
-  if (!model) return -1;
-  const auto& links = model->description->links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i].name == name) return static_cast<int>(i);
-  }
-  return -1;
+  return model ? linkIndex(*model->description, name) : -1;
 }
 
 /// Whatever robots foresaw holds no more.
 void beginAnew(WorldState& world) {
-  for (int i = 0; i < world.fleet.size(); ++i) stopCruise(world.fleet, i);
   alarm(world);
-}
-
-int shelfId(const WorldState& world, int robot) {
-  const int unit = world.fleet.unit[robot];
-  return unit < 0 ? 0 : world.units[unit].id;
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    if (world.fleet.awake[i]) moved(world.fleet, i);
+  }
 }
 
 }  // namespace
 
-WorldState::WorldState(const WorldDescription& description, const WorldOptions& world_options)
-    : name(description.name),
-      gravity(description.gravity),
-      options(world_options),
-      dt(description.step_size),
-      physics(description.gravity),
-      fleet_plugins(makeFleetPlugins()) {}
-
-WorldState::~WorldState() {
-  for (auto& model : models) {
-    if (model && model->in_physics) physics.remove(model->bodies);
-  }
-}
-
-void WorldState::report(Event::Kind kind, const std::string& model, const std::string& other,
-                        const std::string& text, const Impact& impact) {
-  events.push_back({time(), kind, model, other, text, impact});
-}
-
-void WorldState::warn(const std::string& subject, const std::string& text) {
-  if (warned.insert(subject).second) warnings.push_back(text);
-}
-
-void WorldState::setStatus(int robot, Status status, State state) {
-  Robot& r = fleet.robots[robot];
-  const int shelf = shelfId(*this, robot);
-  if (fleet.status[robot] == status && fleet.state[robot] == state && r.reported_shelf == shelf) {
-    return;
-  }
-  fleet.status[robot] = status;
-  fleet.state[robot] = state;
-  r.reported_shelf = shelf;
-  status_changes.push_back(
-      {time(), r.id, status, state, shelf, fleet.x[robot], fleet.y[robot], fleet.yaw[robot]});
-}
-
 World::World(const WorldDescription& description, const WorldOptions& options)
     : state_(std::make_unique<WorldState>(description, options)) {
   state_->owner = this;
+  state_->fleet_plugins = makeFleetPlugins();
   for (const Light& light : description.lights) setLight(light);
   spawn(description.models);
   loadWorldPlugins(*state_, description.plugins);
@@ -134,21 +109,18 @@ const WorldState& insideOf(const World& world) { return *world.state_; }
 
 void World::step() {
   WorldState& world = *state_;
-  acceptCommands(world);
-  forEachUserPlugin(world, [&](Plugin& p) { p.beforeStep(*this, world.dt); });
+  decide(world);
+  forEachUserPlugin(world, [&](Plugin& plugin) { plugin.beforeStep(*this, world.dt); });
   applyExternalWrenches(world);
   updateActivation(world);
-  for (auto& plugin : world.fleet_plugins) plugin->beforeStep(world);
-  drive(world);
-  driveJoints(world);
+  control(world);
+  actuate(world);
   world.physics.step(world.dt);
-  settle(world);
-  readJoints(world);
-  ++world.steps;
-  ++world.total_steps;
-  findDueScans(world);
-  reportCollisions(world);
-  afterStep(world);
+  integrate(world);
+  advanceTime(world);
+  sense(world);
+  observeCollisions(world);
+  forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.dt); });
 }
 
 double World::time() const { return state_->time(); }
@@ -184,7 +156,8 @@ void World::setGravity(const Vector3& gravity) {
 void World::reset(bool time_too) {
   WorldState& world = *state_;
   forgetContacts(world, -1);
-  for (int slot : slotsInOrder(world)) resetModel(world, slot);
+  world.crashes.clear();
+  for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
   if (time_too) {
@@ -234,7 +207,9 @@ std::optional<EntityState> World::state(const std::string& model, const std::str
   const Model* found = state_->find(model);
   if (!found) return std::nullopt;
   if (link.empty()) return modelState(*state_, *found);
-  return linkState(*state_, *found, link);
+  const int index = linkIndex(found, link);
+  if (index < 0) return std::nullopt;
+  return linkState(*state_, *found, index);
 }
 
 std::shared_ptr<const ModelDescription> World::description(const std::string& model) const {
@@ -243,9 +218,9 @@ std::shared_ptr<const ModelDescription> World::description(const std::string& mo
 }
 
 bool World::setState(const std::string& model, const EntityState& state) {
-  const auto at = state_->slot_of_name.find(model);
-  if (at == state_->slot_of_name.end()) return false;
-  placeModel(*state_, at->second, state);
+  Model* found = state_->find(model);
+  if (!found) return false;
+  placeModel(*state_, *found, state);
   return true;
 }
 
@@ -258,9 +233,10 @@ void World::states(std::vector<EntityState>* out) const {
 
 bool World::setLinkState(const std::string& model, const std::string& link,
                          const EntityState& state) {
-  const int index = linkIndex(state_->find(model), link);
+  Model* found = state_->find(model);
+  const int index = linkIndex(found, link);
   if (index < 0) return false;
-  placeLink(*state_, state_->slot_of_name.at(model), index, state);
+  placeLink(*state_, *found, index, state);
   return true;
 }
 
@@ -269,15 +245,17 @@ void World::linkStates(std::vector<std::string>* names, std::vector<EntityState>
   states->clear();
   for (int slot : slotsInOrder(*state_)) {
     const Model& model = *state_->models[slot];
-    for (const Link& link : model.description->links) {
-      names->push_back(model.name + "::" + link.name);
-      states->push_back(*linkState(*state_, model, link.name));
+    const auto& links = model.description->links;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      names->push_back(model.name + "::" + links[i].name);
+      states->push_back(linkState(*state_, model, static_cast<int>(i)));
     }
   }
 }
 
 bool World::setLinkInertia(const std::string& model, const Link& link) {
-  const int index = linkIndex(state_->find(model), link.name);
+  Model* found = state_->find(model);
+  const int index = linkIndex(found, link.name);
   if (index < 0) return false;
   const ignition::math::MassMatrix3d inertia(link.mass, link.principal_moments, Vector3::Zero);
   const bool is_usable =
@@ -289,7 +267,7 @@ bool World::setLinkInertia(const std::string& model, const Link& link) {
         "no body is like that; expected a mass above 0 kg, principal moments above 0 kg m², none "
         "larger than the sum of the other two, and a centre of mass near the link");
   }
-  reweighLink(*state_, state_->slot_of_name.at(model), index, link);
+  reweighLink(*state_, *found, index, link);
   return true;
 }
 
@@ -320,9 +298,9 @@ const ExternalInputs& World::externalInputs() const { return state_->external_in
 
 bool World::applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                         const Vector3& torque) {
-  const int index = linkIndex(state_->find(model), link);
-  if (index < 0) return false;
-  return pushLink(*state_, state_->slot_of_name.at(model), index, force, torque);
+  Model* found = state_->find(model);
+  const int index = linkIndex(found, link);
+  return index >= 0 && pushLink(*state_, *found, index, force, torque);
 }
 
 bool World::apply(const Wrench& wrench) {
@@ -364,6 +342,13 @@ const std::vector<StorageUnit>& World::storageUnits() const { return state_->uni
 const std::vector<Item>& World::items() const { return state_->items; }
 Pose World::storageUnitPose(int unit) const { return unitPose(*state_, unit); }
 Pose World::itemPose(int item) const { return kiva::itemPose(*state_, item); }
+std::vector<PathPoint> World::pathAhead(int robot) const {
+  std::vector<PathPoint> points;
+  for (const MotionSegment& segment : state_->fleet.tasks[robot].segments) {
+    if (segment.kind == MotionSegment::Kind::kDrive) points.push_back({segment.x, segment.y});
+  }
+  return points;
+}
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
 std::uint64_t World::unitsRevision() const { return state_->units_revision; }
 const Floor& World::floor() const { return state_->floor; }
@@ -384,11 +369,7 @@ const std::vector<int>& World::scansDue() const { return state_->scans_due; }
 
 double World::rayCast(const Vector3& from, double yaw, double range, const std::string& but) const {
   const Model* passed = state_->find(but);
-  int group = -1;
-  if (passed) {
-    const bool is_robot = passed->kind == ModelKind::kRobot;
-    group = is_robot ? passed->index : ownGroup(state_->slot_of_name.at(but));
-  }
+  const int group = passed ? passed->owner->group(*passed) : -1;
   return state_->obstacles
       .cast(from.X(), from.Y(), from.Z(), std::cos(yaw), std::sin(yaw), range, group)
       .range;
@@ -400,7 +381,7 @@ std::vector<ContactPoint> World::contacts(const std::string& model) const {
   return contactsOf(*state_, at->second);
 }
 
-std::string World::checkpoint() { return kiva::checkpoint(*state_); }
+std::string World::checkpoint() const { return kiva::checkpoint(*state_); }
 std::uint64_t World::stateHash() const { return kiva::stateHash(*state_); }
 
 void World::restore(const std::string& checkpoint) {
@@ -409,6 +390,7 @@ void World::restore(const std::string& checkpoint) {
   next.world->owner = this;
   next.world->options.plugins = state_->options.plugins;
   next.world->warned = state_->warned;
+  next.world->fleet_plugins = makeFleetPlugins();
   next.world->models_revision = state_->models_revision + 1;
   next.world->units_revision = state_->units_revision + 1;
   state_.swap(next.world);

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/commands.h"
-#include "core/motion/cruise.h"
-#include "core/sensing/sensing.h"
+#include "core/sensing/look_ahead.h"
+#include "core/sensing/scans.h"
+#include "core/state/footprints.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -15,35 +16,26 @@ constexpr double kClearance = 0.05;   // [m] kept to an obstacle on a way off th
 constexpr double kTopApproach = 3.0;  // [m/s]; what comes faster is another thing come into view
 constexpr double kSoon = 1e-3;        // [m]
 
-double alongSegment(const Fleet& f, int i) {
-  const MotionSegment& segment = f.robots[i].segments.front();
-  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
-         std::sin(segment.yaw) * (f.y[i] - segment.y);
-}
-
 /// Speed [m/s] at which what is ahead comes nearer by itself, from two looks; 0 if unknown. Of what
 /// comes into view from the side, one look may meet a corner far back, and the next its face.
-double approachSpeed(const Robot& r, const Ahead& ahead, double along, double between) {
-  if (!ahead.faces || r.seen_model != ahead.model || r.seen_distance <= 0) return 0;
-  const double speed = (r.seen_distance - ahead.distance - (along - r.seen_from)) / between;
+double approachSpeed(const Sighting& before, const Sighting& now, double between) {
+  if (!now.faces || !before.faces || before.model != now.model) return 0;
+  const double speed = (before.distance - now.distance - (now.along - before.along)) / between;
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
 
-/// From the robot's centre to the front of it and its load [m].
-double reach(const Robot& r) { return std::max(r.half_length, r.load_half_length); }
-
 /// How far along the segment the robot may go: a grid point before the cell of what is ahead, or,
 /// off the grid, a little before it.
-double farthestStop(const WorldState& world, const Robot& r, double obstacle) {
-  if (!r.segments.front().on_grid) {
-    return obstacle - reach(r) - kClearance;
+double farthestStop(const WorldState& world, int robot, double obstacle) {
+  if (!world.fleet.tasks[robot].segments.front().on_grid) {
+    return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
   }
   const double cell = world.grid_spacing;
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(Fleet& f, int i, double stop, double dt) {
+void planStop(FleetState& f, int i, double stop, double dt) {
   const DriveParameters& drive = f.robots[i].drive;
   const double speed = std::abs(f.reference_speed[i]), here = f.reference[i];
   const double way = stop - here;
@@ -66,67 +58,59 @@ struct View {
   double approach;   // how fast it comes by itself
   double speed;      // of this robot
   double scan_time;  // until the next look [s]
-  int model;
 };
 
-View look(const WorldState& world, Robot& r, int i) {
-  const double along = alongSegment(world.fleet, i);
-  const Ahead ahead = lookAhead(world, i);
+View viewOf(const WorldState& world, int i) {
+  const FleetState& f = world.fleet;
+  const Sighting& now = f.tasks[i].sighting;
   View view;
-  view.reference = world.fleet.reference[i];
-  view.goal = world.fleet.goal[i];
-  view.scan_time = static_cast<double>(scanPeriod(world, r)) * world.dt;
-  view.obstacle = along + ahead.distance;
-  view.approach = approachSpeed(r, ahead, along, view.scan_time);
-  view.speed = std::abs(world.fleet.reference_speed[i]);
-  view.model = ahead.model;
-  r.seen_distance = ahead.faces ? ahead.distance : 0;
-  r.seen_from = along;
-  r.seen_model = ahead.model;
+  view.reference = f.reference[i];
+  view.goal = f.goal[i];
+  view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.dt;
+  view.obstacle = now.along + now.distance;
+  view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
+  view.speed = std::abs(f.reference_speed[i]);
   return view;
 }
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(const WorldState& world, const Robot& r, const View& view) {
+double firstStop(const WorldState& world, int robot, const View& view) {
+  const Robot& r = world.fleet.robots[robot];
   const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
   // The other one comes on until it has seen this robot too, then brakes as this one does.
   const double comes =
       2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
   const double expected = view.obstacle - comes;
-  const double stop = farthestStop(world, r, expected);
+  const double stop = farthestStop(world, robot, expected);
   if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
-  const double next = farthestStop(world, r, expected - view.approach * view.scan_time);
+  const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
   const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
-double revisedStop(const WorldState& world, const Robot& r, const View& view) {
+double revisedStop(const WorldState& world, int robot, const View& view) {
+  const Robot& r = world.fleet.robots[robot];
   const double hardest = r.drive.emergency_deceleration;
-  const double gap = view.obstacle - view.reference - reach(r);
+  const double gap = view.obstacle - view.reference - halfLength(r);
   const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
                         (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
-  if (view.goal + reach(r) + kClearance <= view.obstacle) return view.goal;
-  return std::min(view.goal, farthestStop(world, r, view.obstacle));
+  if (view.goal + halfLength(r) + kClearance <= view.obstacle) return view.goal;
+  return std::min(view.goal, farthestStop(world, robot, view.obstacle));
 }
 
-void guard(WorldState& world, int i) {
-  Robot& r = world.fleet.robots[i];
-  const View view = look(world, r, i);
-  if (view.model < 0) return;
-  const double stop = r.stopping ? revisedStop(world, r, view) : firstStop(world, r, view);
+void brake(WorldState& world, int i) {
+  const Task& task = world.fleet.tasks[i];
+  if (!task.drives() || !task.sighting.taken || task.sighting.model < 0) return;
+  const View view = viewOf(world, i);
+  const bool brakes = task.phase == Phase::kBraking;
+  const double stop = brakes ? revisedStop(world, i, view) : firstStop(world, i, view);
   if (stop == view.goal) return;
-  const std::string& name = world.models[view.model]->name;
-  markBlocked(world, i, name, name + " is in the way");
-  stopCruise(world.fleet, i);
+  const std::string& name = world.models[task.sighting.model]->name;
+  stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world.fleet, i, stop, world.dt);
-}
-
-bool isOnGuard(const Robot& r) {
-  return r.laser.fitted && !r.segments.empty() && r.segment_started && !r.halting &&
-         r.segments.front().kind == MotionSegment::Kind::kDrive && !r.segments.front().reverse;
 }
 
 }  // namespace
@@ -144,19 +128,9 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   laser.z = p.number("z", laser.z, 0, 10);
 }
 
-void LaserPlugin::afterStep(WorldState& world) {
-  Fleet& f = world.fleet;
-  const auto watch = [&](int i) {
-    if (!isOnGuard(f.robots[i])) return;
-    f.robots[i].look_now = false;
-    guard(world, i);
-  };
-  for (int i : world.scans_due) {
-    if (f.awake[i]) watch(i);
-  }
-  for (int i : world.stepped_singly) {
-    if (f.robots[i].look_now) watch(i);
-  }
+void LaserPlugin::react(WorldState& world) const {
+  for (int i : world.sighted) brake(world, i);
+  world.sighted.clear();
 }
 
 }  // namespace kiva

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/contact/activation.h"
-#include "core/control/commands.h"
 #include "core/models/load.h"
+#include "core/state/poses.h"
+#include "core/state/tasks.h"
+#include "core/state/unit_geometry.h"
 
 namespace kiva {
 namespace {
@@ -23,32 +25,36 @@ void moveTower(WorldState& world, int i, double height) {
   world.fleet.tower[i] = profile.position;
 }
 
-void start(WorldState& world, int i) {
-  world.fleet.robots[i].segment_started = true;
+void begin(WorldState& world, int i) {
+  world.fleet.tasks[i].phase = Phase::kLifting;
   world.fleet.setProfile(i, {world.fleet.tower[i], 0});
+}
+
+void giveUp(WorldState& world, int i, const std::string& by, const std::string& reason) {
+  stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
 void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
-  if (segment.unit < 0) return markBlocked(world, i, "", "the storage unit was deleted");
+  if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
   const StorageUnit& unit = world.units[segment.unit];
   const bool above = unitDistance(world, i, segment.unit) <= world.fleet.robots[i].lift.proximity &&
                      standsUpright(world, segment.unit);
   if (segment.kind == MotionSegment::Kind::kRaise && unit.carrier >= 0) {
-    markBlocked(world, i, unit.name, unit.name + " is carried by another robot");
+    giveUp(world, i, unit.name, unit.name + " is carried by another robot");
   } else if (segment.kind == MotionSegment::Kind::kRaise && !above) {
-    markBlocked(world, i, unit.name, unit.name + " is no longer above it");
+    giveUp(world, i, unit.name, unit.name + " is no longer above it");
   } else if (segment.kind == MotionSegment::Kind::kLower &&
              world.fleet.tower[i] > towerGap(world, i, segment.unit)) {
-    markBlocked(world, i, unit.name, unit.name + " was taken off it");
+    giveUp(world, i, unit.name, unit.name + " was taken off it");
   }
 }
 
 /// The tower comes down without a unit, then the command ends in BLOCKED.
 void abandon(WorldState& world, int i) {
   moveTower(world, i, 0);
-  if (world.fleet.tower[i] == 0) endBlocked(world, i);
+  if (world.fleet.tower[i] == 0) endStop(world, i);
 }
 
 void raiseSegment(WorldState& world, int i, int unit) {
@@ -58,8 +64,9 @@ void raiseSegment(WorldState& world, int i, int unit) {
     takeUp(world, i, unit);
   }
   if (world.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(world, i);  // its load is higher than when it was taken up
-  world.report(Event::Kind::kLifted, r.name, world.units[unit].name, "");
+  rebuildBody(world, world.modelOf(i));  // its load is higher than when it was taken up
+  world.reportCommand(Event::Kind::kLifted, i, world.units[unit].name,
+                      "lifted " + world.units[unit].name);
   finishSegment(world, i);
 }
 
@@ -67,23 +74,25 @@ void lowerSegment(WorldState& world, int i, int unit) {
   moveTower(world, i, 0);
   if (world.fleet.unit[i] == unit && unitPose(world, unit).Z() <= 0) {
     putDown(world, i);
-    world.report(Event::Kind::kDropped, world.fleet.robots[i].name, world.units[unit].name, "");
+    world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
+                        "dropped " + world.units[unit].name);
   }
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
 void liftSegment(WorldState& world, int i) {
-  const MotionSegment segment = world.fleet.robots[i].segments.front();
-  if (!world.fleet.robots[i].segment_started) start(world, i);
+  const Task& task = world.fleet.tasks[i];
+  const MotionSegment segment = task.segments.front();
+  if (task.phase == Phase::kStarting) begin(world, i);
   checkUnit(world, i, segment);
-  if (world.fleet.robots[i].stopping) return abandon(world, i);
+  if (task.phase == Phase::kAbandoning) return abandon(world, i);
   if (segment.kind == MotionSegment::Kind::kRaise) raiseSegment(world, i, segment.unit);
   if (segment.kind == MotionSegment::Kind::kLower) lowerSegment(world, i, segment.unit);
 }
 
 /// A tower whose unit was deleted comes down by itself.
 void lowerEmptyTower(WorldState& world, int i) {
-  Fleet& f = world.fleet;
+  FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
   moveTower(world, i, 0);
 }
@@ -99,15 +108,14 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   lift.proximity = p.number("proximity", lift.proximity, 0, 10);
 }
 
-void LiftPlugin::beforeStep(WorldState& world) {
-  const Fleet& f = world.fleet;
+void LiftPlugin::control(WorldState& world) const {
+  const FleetState& f = world.fleet;
   for (int i : world.stepped_singly) {
-    if (!f.robots[i].segments.empty()) {
-      const MotionSegment::Kind kind = f.robots[i].segments.front().kind;
-      if (kind == MotionSegment::Kind::kRaise || kind == MotionSegment::Kind::kLower)
-        liftSegment(world, i);
-    } else if (f.tower[i] > 0 && f.unit[i] < 0) {
-      lowerEmptyTower(world, i);
+    const MotionSegment* at = f.tasks[i].segment();
+    if (!at && f.tower[i] > 0 && f.unit[i] < 0) lowerEmptyTower(world, i);
+    if (!at) continue;
+    if (at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower) {
+      liftSegment(world, i);
     }
   }
 }

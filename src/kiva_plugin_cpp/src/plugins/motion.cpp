@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/control/commands.h"
 #include "core/motion/cruise.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -31,46 +31,41 @@ OnLine onLine(const Fleet& f, int i, const MotionSegment& segment) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
 }
 
-void start(Fleet& f, int i, const OnLine& at) {
-  Robot& robot = f.robots[i];
+void begin(FleetState& f, int i, const OnLine& at) {
+  f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
   f.goal[i] = 0;
-  f.deceleration[i] = robot.drive.acceleration;
-  robot.segment_started = true;
-  robot.overdue = 0;
-  robot.look_now = true;
-  robot.seen_model = -1;
-  robot.seen_distance = 0;
+  f.deceleration[i] = f.robots[i].drive.acceleration;
 }
 
-Motion alongLine(const MotionSegment& segment, double top_speed, double acceleration) {
+ReferenceMotion alongLine(const MotionSegment& segment, double top_speed, double acceleration) {
   return {std::cos(segment.yaw), std::sin(segment.yaw), 0, top_speed, acceleration};
 }
 
-bool arrived(const Fleet& f, int i, const OnLine& at) {
+bool arrived(const FleetState& f, int i, const OnLine& at) {
   return f.reference[i] == f.goal[i] && std::abs(at.along - f.goal[i]) < kThereDistance &&
          stands(f, i);
 }
 
 /// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
 bool giveUp(WorldState& world, int i, const OnLine& at) {
-  const Fleet& f = world.fleet;
-  Robot& r = world.fleet.robots[i];
-  if (f.reference[i] == f.goal[i]) r.overdue += world.dt;
+  FleetState& f = world.fleet;
+  double& overdue = f.tasks[i].overdue;
+  if (f.reference[i] == f.goal[i]) overdue += world.dt;
   const double lag = std::abs(f.reference[i] - at.along);
-  if (lag < kStuck && r.overdue < kOverdue) return false;
+  if (lag < kStuck && overdue < kOverdue) return false;
   haltRobot(world, i, "", "is stuck: its wheels turn or stall without getting it on");
   return true;
 }
 
 void driveSegment(WorldState& world, int i) {
-  Fleet& f = world.fleet;
-  Robot& r = f.robots[i];
+  FleetState& f = world.fleet;
+  const Robot& r = f.robots[i];
   if (halting(world, i)) return;
-  const MotionSegment segment = r.segments.front();
+  const MotionSegment segment = f.tasks[i].segments.front();
   const OnLine at = onLine(f, i, segment);
-  if (!r.segment_started) {
-    start(f, i, at);
+  if (f.tasks[i].phase == Phase::kStarting) {
+    begin(f, i, at);
     setWheels(f, i, 0, 0);
     return;  // the laser looks first
   }
@@ -117,15 +112,14 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_motion = true;
 }
 
-void MotionPlugin::beforeStep(WorldState& world) {
-  const Fleet& f = world.fleet;
+void MotionPlugin::control(WorldState& world) const {
   for (int i : world.stepped_singly) {
-    if (f.robots[i].segments.empty()) continue;
-    if (f.robots[i].segments.front().kind == MotionSegment::Kind::kDrive) driveSegment(world, i);
+    const MotionSegment* at = world.fleet.tasks[i].segment();
+    if (at && at->kind == MotionSegment::Kind::kDrive) driveSegment(world, i);
   }
 }
 
-void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
+void setWheels(FleetState& f, int i, double speed, double yaw_rate) {
   const DriveParameters& d = f.robots[i].drive;
   const double turn = yaw_rate * d.wheel_separation / 2;
   f.wheel_target[0][i] = (speed - turn) / d.wheel_radius;
@@ -137,10 +131,10 @@ bool stands(const Fleet& f, int i) {
 }
 
 bool halting(WorldState& world, int i) {
-  Fleet& f = world.fleet;
-  if (!f.robots[i].halting) return false;
+  FleetState& f = world.fleet;
+  if (f.tasks[i].phase != Phase::kHalting) return false;
   setWheels(f, i, 0, 0);
-  if (stands(f, i)) endBlocked(world, i);
+  if (stands(f, i)) endStop(world, i);
   return true;
 }
 

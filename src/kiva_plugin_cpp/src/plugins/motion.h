@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plugins/fleet_plugin.h"
+#include "core/state/fleet_plugin.h"
 
 namespace kiva {
 
@@ -10,11 +10,11 @@ class MotionPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_motion.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void beforeStep(WorldState& world) override;
+  void control(WorldState& world) const override;
 };
 
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
-void setWheels(Fleet& fleet, int i, double speed, double yaw_rate);
+void setWheels(FleetState& fleet, int i, double speed, double yaw_rate);
 
 /// How near is there.
 constexpr double kThereDistance = 1e-5;  // [m]

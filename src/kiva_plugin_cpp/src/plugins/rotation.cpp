@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/commands.h"
 #include "core/motion/cruise.h"
 #include "core/motion/traction.h"
+#include "core/state/tasks.h"
 #include "plugins/motion.h"
 
 namespace kiva {
@@ -32,15 +32,15 @@ double turnSpeed(const Robot& robot, double dt) {
 }
 
 void turnSegment(WorldState& world, int i) {
-  Fleet& f = world.fleet;
-  Robot& r = f.robots[i];
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[i];
+  const Robot& r = f.robots[i];
   if (halting(world, i)) return;
-  if (!r.segment_started) {
-    r.segment_started = true;
+  if (task.phase == Phase::kStarting) {
+    task.phase = Phase::kTurning;
     f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
-    f.goal[i] = r.segments.front().yaw;
+    f.goal[i] = task.segments.front().yaw;
     f.deceleration[i] = turnAcceleration(r, world.gravityDown());
-    r.overdue = 0;
   }
   const double lag = f.reference[i] - f.yaw[i];
   const bool ended = f.reference[i] == f.goal[i];
@@ -48,8 +48,8 @@ void turnSegment(WorldState& world, int i) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
   }
-  if (ended) r.overdue += world.dt;
-  if (std::abs(lag) > kStuck || r.overdue > kOverdue) {
+  if (ended) task.overdue += world.dt;
+  if (std::abs(lag) > kStuck || task.overdue > kOverdue) {
     return haltRobot(world, i, "", "is stuck: it can't turn");
   }
   const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
@@ -67,11 +67,10 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_rotation = true;
 }
 
-void RotationPlugin::beforeStep(WorldState& world) {
-  const Fleet& f = world.fleet;
+void RotationPlugin::control(WorldState& world) const {
   for (int i : world.stepped_singly) {
-    if (f.robots[i].segments.empty()) continue;
-    if (f.robots[i].segments.front().kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
+    const MotionSegment* at = world.fleet.tasks[i].segment();
+    if (at && at->kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
   }
 }
 

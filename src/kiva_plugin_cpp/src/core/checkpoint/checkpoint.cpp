@@ -6,15 +6,16 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
-#include "core/sensing/sensing.h"
+#include "core/sensing/scans.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -44,9 +45,15 @@ void makeModels(WorldState& world, DescriptionTable table) {
   for (ModelDescription& d : table.descriptions) {
     shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
   }
-  for (std::int32_t description : table.of_slot) {
+  for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
+    const std::int32_t description = table.of_slot[slot];
+    if (description >= static_cast<std::int32_t>(shared.size())) {
+      throw ArchiveError("there is no such description", "of_slot[" + std::to_string(slot) + "]");
+    }
     world.models.push_back(description < 0 ? nullptr : std::make_unique<Model>());
-    if (description >= 0) world.models.back()->description = shared.at(description);
+    if (description < 0) continue;
+    world.models.back()->description = shared[description];
+    world.models.back()->slot = static_cast<int>(world.models.size()) - 1;
   }
 }
 
@@ -55,36 +62,36 @@ template <class A>
 void describeSetting(A& a, WorldState& world) {
   DescriptionTable table;
   if constexpr (!A::kReads) table = tableOf(world);
-  a(table.descriptions, table.of_slot);
+  FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  a(world.name, world.gravity, world.options, world.dt, world.grid_spacing, world.floor,
-    world.floor_friction);
-  a(world.free_slots, world.next_serial, world.world_plugin_descriptions);
+  FIELDS(world.name, world.gravity, world.options, within(world.dt, 1e-6, 1),
+         within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
+  FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }
 
 /// Whether a model has a state of its own; what is static or lies on a unit has none.
 bool hasState(const Model& model) {
-  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit ||
-         (model.in_physics && !model.isStatic());
+  return model.owner->isActivatedWhenNear() || (model.in_physics && !model.isStatic());
 }
 
 /// What changes from step to step.
 template <class A>
 void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
-  a(world.steps, world.total_steps, world.dt_since, world.dt_since_time);
+  FIELDS(world.steps, world.total_steps, world.dt_since, world.dt_since_time);
   for (auto& model : world.models) {
-    if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) a(*model);
+    if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) FIELDS(*model);
   }
-  a(world.fleet, world.units, world.items);
-  a(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due);
-  a(world.top_speed, world.external_inputs);
-  a(physics);
+  FIELDS(world.fleet, world.units, world.items);
+  FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
+         world.sighted, world.crashes);
+  FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
+  FIELDS(physics);
 }
 
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  a(world.commands, world.events, world.status_changes);
+  FIELDS(world.last_command, world.commands, world.events, world.status_changes);
 }
 
 void indexModels(WorldState& world) {
@@ -94,7 +101,7 @@ void indexModels(WorldState& world) {
   for (std::size_t i = 0; i < world.units.size(); ++i) {
     world.unit_of_id[world.units[i].id] = static_cast<int>(i);
   }
-  for (Item& item : world.items) item.name = world.models.at(item.model)->name;
+  for (Item& item : world.items) item.name = world.models[item.model]->name;
   for (Robot& robot : world.fleet.robots) setRays(world, &robot);
 }
 
@@ -142,14 +149,16 @@ Restored read(const std::string& bytes) {
   describeQueues(reader, *out.world);
   reader(out.plugins);
   if (reader.left() > 0) throw ArchiveError("it has bytes left over");
+  checkConsistent(*out.world, physics);
   indexModels(*out.world);
-  renew(*out.world, physics);
+  rebuild(*out.world, physics);
   return out;
 }
 
 }  // namespace
 
-std::string checkpoint(WorldState& world) {
+std::string checkpoint(const WorldState& saved) {
+  auto& world = const_cast<WorldState&>(saved);  // describing changes nothing unless it reads
   PhysicsState physics = readPhysics(world);
   std::vector<PluginState> plugins = savePlugins(world);
   Writer writer;
@@ -158,7 +167,6 @@ std::string checkpoint(WorldState& world) {
   describeMotion(writer, world, physics);
   describeQueues(writer, world);
   writer(plugins);
-  renew(world, physics);
   return sealed(writer.bytes);
 }
 
@@ -173,11 +181,7 @@ Restored readCheckpoint(const std::string& bytes) {
 std::uint64_t stateHash(const WorldState& world) {
   Hasher hasher;
   PhysicsState physics = readPhysics(world);
-  physics.contacts.clear();  // their order has no meaning
-  // Nor has it a meaning which slots are free.
-  auto& bodies = physics.bodies;
-  const auto is_empty = [](const std::vector<BodyState>& states) { return states.empty(); };
-  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), is_empty), bodies.end());
+  physics.contacts.clear();  // a restored world lacks those that the next step drops
   // Describing changes nothing unless it reads.
   describeMotion(hasher, const_cast<WorldState&>(world), physics);
   std::vector<PluginState> plugins = savePlugins(world);

@@ -11,9 +11,8 @@
 
 namespace kiva {
 
-/// The whole state as bytes. What Bullet and the obstacles remember of how they came to be is not
-/// in it; they are built anew, here and where the bytes are read, so that both go on the same.
-std::string checkpoint(WorldState& world);
+/// The whole state as bytes: all that the world's future follows from.
+std::string checkpoint(const WorldState& world);
 
 /// A world read back; its plugins are still to be restored.
 struct Restored {

@@ -7,6 +7,7 @@
 #include "core/checkpoint/plugin_states.h"
 #include "core/checkpoint/rebuild.h"
 #include "core/models/models.h"
+#include "core/state/footprints.h"
 
 namespace kiva {
 
@@ -19,6 +20,21 @@ namespace kiva {
 #define DESCRIBED(type, size)
 #endif
 
+// --- the last value of each enum, so that none beyond it is read
+
+constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
+constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
+constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
+constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kLift; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kDeleted; }
+constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
+constexpr Status lastOf(Status) { return Status::kBlocked; }
+constexpr State lastOf(State) { return State::kBlocked; }
+constexpr Drive lastOf(Drive) { return Drive::kJointed; }
+constexpr MotionSegment::Kind lastOf(MotionSegment::Kind) { return MotionSegment::Kind::kLower; }
+constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
+constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOther; }
+
 // --- descriptions
 
 template <class A>
@@ -28,7 +44,7 @@ void describe(A& a, Mesh& m) {
   for (const auto& triangle : m.triangles) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
-  a(m.vertices, corners, m.min, m.max);
+  FIELDS(m.vertices, corners, m.min, m.max);
   if constexpr (A::kReads) {
     m.triangles.resize(corners.size() / 3);
     for (std::size_t i = 0; i < m.triangles.size() * 3; ++i) m.triangles[i / 3][i % 3] = corners[i];
@@ -38,39 +54,41 @@ void describe(A& a, Mesh& m) {
 template <class A>
 void describe(A& a, Shape& s) {
   DESCRIBED(Shape, 184);
-  a(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size, s.mesh_file, s.mesh_scale);
+  FIELDS(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size, s.mesh_file, s.mesh_scale);
   bool has_mesh = s.mesh != nullptr;
-  a(has_mesh);
+  FIELDS(has_mesh);
   if (!has_mesh) return;
   Mesh mesh = A::kReads ? Mesh() : *s.mesh;
-  a(mesh);
+  FIELDS(mesh);
   if constexpr (A::kReads) s.mesh = std::make_shared<const Mesh>(std::move(mesh));
 }
 
 template <class A>
 void describe(A& a, Collision& c) {
   DESCRIBED(Collision, 304);
-  a(c.name, c.pose_in_link, c.shape, c.friction, c.restitution);
+  FIELDS(c.name, c.pose_in_link, c.shape, c.friction, c.restitution);
 }
 
 template <class A>
 void describe(A& a, Visual& v) {
   DESCRIBED(Visual, 320);
-  a(v.name, v.pose_in_link, v.shape, v.rgba);
+  FIELDS(v.name, v.pose_in_link, v.shape, v.rgba);
 }
 
 template <class A>
 void describe(A& a, Link& l) {
   DESCRIBED(Link, 272);
-  a(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
-    l.collisions, l.visuals);
+  FIELDS(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
+         l.collisions, l.visuals);
 }
 
 template <class A>
 void describe(A& a, Joint& j) {
   DESCRIBED(Joint, 216);
-  a(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model, j.lower, j.upper,
-    j.max_effort, j.max_velocity, j.damping, j.friction);
+  FIELDS(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model,
+         within(j.lower, -kEndless, kEndless), within(j.upper, -kEndless, kEndless),
+         within(j.max_effort, -kEndless, kEndless), within(j.max_velocity, -kEndless, kEndless),
+         j.damping, j.friction);
 }
 
 template <class A>
@@ -81,29 +99,30 @@ void describe(A& a, Parameters& p) {
     keys.push_back(key);
     texts.push_back(text);
   }
-  a(where, keys, texts);
+  FIELDS(where, keys, texts);
   if constexpr (A::kReads) {
+    if (texts.size() != keys.size()) throw ArchiveError("as many as there are keys", "texts");
     p = Parameters(where);
-    for (std::size_t i = 0; i < keys.size(); ++i) p.set(keys[i], texts.at(i));
+    for (std::size_t i = 0; i < keys.size(); ++i) p.set(keys[i], texts[i]);
   }
 }
 
 template <class A>
 void describe(A& a, PluginDescription& p) {
   DESCRIBED(PluginDescription, 192);
-  a(p.name, p.filename, p.parameters);
+  FIELDS(p.name, p.filename, p.parameters);
 }
 
 template <class A>
 void describe(A& a, SensorDescription& s) {
   DESCRIBED(SensorDescription, 328);
-  a(s.name, s.type, s.link, s.pose_in_link, s.update_rate, s.parameters, s.plugins);
+  FIELDS(s.name, s.type, s.link, s.pose_in_link, s.update_rate, s.parameters, s.plugins);
 }
 
 template <class A>
 void describe(A& a, ModelDescription& m) {
   DESCRIBED(ModelDescription, 128);
-  a(m.is_static, m.links, m.joints, m.plugins, m.sensors, m.nested_models);
+  FIELDS(m.is_static, m.links, m.joints, m.plugins, m.sensors, m.nested_models);
 }
 
 // --- the fleet
@@ -111,54 +130,77 @@ void describe(A& a, ModelDescription& m) {
 template <class A>
 void describe(A& a, DriveParameters& d) {
   DESCRIBED(DriveParameters, 88);
-  a(d.drive, d.speed, d.acceleration, d.emergency_deceleration, d.wheel_radius, d.wheel_separation,
-    d.wheel_inertia, d.motor_torque, d.friction, d.drive_wheel_load, d.quarter_turn_time);
+  FIELDS(d.drive, within(d.speed, 0, 10), within(d.acceleration, 0, 100),
+         within(d.emergency_deceleration, 0, 100), within(d.wheel_radius, 0.005, 1),
+         within(d.wheel_separation, 0.01, 10), within(d.wheel_inertia, 1e-6, 100),
+         within(d.motor_torque, 0, 1e5), within(d.friction, 0, 10),
+         within(d.drive_wheel_load, 0.01, 1), within(d.quarter_turn_time, 0, 1000));
 }
 
 template <class A>
 void describe(A& a, LiftParameters& l) {
   DESCRIBED(LiftParameters, 40);
-  a(l.fitted, l.height, l.time, l.max_load, l.proximity);
+  FIELDS(l.fitted, within(l.height, 0.001, 10), within(l.time, 0, 1000), within(l.max_load, 0, 1e6),
+         within(l.proximity, 0, 10));
 }
 
 template <class A>
 void describe(A& a, LaserParameters& l) {
   DESCRIBED(LaserParameters, 64);
-  a(l.fitted, l.rays, l.min_angle, l.max_angle, l.min_range, l.max_range, l.rate, l.x, l.z);
+  FIELDS(l.fitted, within(l.rays, 1, 10000), within(l.min_angle, -M_PI, M_PI),
+         within(l.max_angle, l.min_angle, M_PI), within(l.min_range, 0, 100),
+         within(l.max_range, l.min_range, 100), within(l.rate, 0.01, 1000), within(l.x, -10, 10),
+         within(l.z, 0, 10));
 }
 
 template <class A>
 void describe(A& a, MotionSegment& l) {
   DESCRIBED(MotionSegment, 48);
-  a(l.kind, l.x, l.y, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
+  FIELDS(l.kind, l.x, l.y, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
+}
+
+template <class A>
+void describe(A& a, Sighting& s) {
+  DESCRIBED(Sighting, 32);
+  FIELDS(s.taken, within(s.distance, 0, kEndless), s.model, s.faces, s.along);
+}
+
+template <class A>
+void describe(A& a, Task& t) {
+  DESCRIBED(Task, 264);
+  FIELDS(t.phase, t.command, t.goal, t.segments, t.overdue, t.sighting, t.last_sighting,
+         t.blocked_by, t.blocked_reason, t.reported_shelf);
 }
 
 template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 512);
-  a(r.name, r.id, r.model, r.mass, r.inertia, r.half_length, r.half_width, r.height);
-  a(r.load_mass, r.load_inertia, r.load_half_length, r.load_half_width);
-  a(r.drive, r.lift, r.laser, r.has_motion, r.has_rotation);
-  a(r.segments, r.reported_shelf, r.segment_started, r.overdue);
-  a(r.look_now, r.seen_distance, r.seen_from, r.seen_model);
-  a(r.stopping, r.halting, r.blocked_by, r.blocked_reason);  // its ray_fan comes with its laser
+  DESCRIBED(Robot, 312);
+  FIELDS(r.name, within(r.id, 1, kMaxKivaId), r.model, within(r.mass, 1e-9, 1e12),
+         within(r.inertia, 0, 1e15), within(r.half_length, 0, 100), within(r.half_width, 0, 100),
+         within(r.height, -100, 100));
+  FIELDS(within(r.load_mass, 0, 1e12), within(r.load_inertia, 0, 1e15),
+         within(r.load_half_length, 0, 100), within(r.load_half_width, 0, 100));
+  FIELDS(r.drive, r.lift, r.laser, r.has_motion,
+         r.has_rotation);  // its ray_fan comes with its laser
 }
 
 template <class A>
 void describe(A& a, Stance& s) {
   DESCRIBED(Stance, 48);
-  a(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
+  FIELDS(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
 }
 
 template <class A>
-void describe(A& a, Fleet& f) {
-  DESCRIBED(Fleet, 840);
-  a(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
-  a(f.stance, f.tower, f.unit, f.status, f.state, f.awake, f.activated, f.look_again);
-  a(f.reference, f.reference_speed, f.goal, f.deceleration);
-  a(f.cruising, f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed, f.acceleration,
-    f.cruise_until);
-  a(f.robots, f.index_of_id);
+void describe(A& a, FleetState& f) {
+  DESCRIBED(FleetState, 864);
+  FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
+  FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
+         within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), within(f.awake, 0, 1),
+         within(f.activated, 0, 1), within(f.clear_until, -kEndless, kEndless));
+  FIELDS(f.reference, f.reference_speed, f.goal, f.deceleration);
+  FIELDS(within(f.cruising, -1, 0), f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed,
+         f.acceleration);
+  FIELDS(f.robots, f.index_of_id, f.tasks);
 }
 
 // --- models, storage units, items
@@ -166,31 +208,33 @@ void describe(A& a, Fleet& f) {
 template <class A>
 void describe(A& a, CollisionGeometry& o) {
   DESCRIBED(CollisionGeometry, 288);
-  a(o.link, o.pose_in_link, o.shape);
+  FIELDS(o.link, o.pose_in_link, o.shape);
 }
 
 template <class A>
 void describe(A& a, JointSettings& s) {
   DESCRIBED(JointSettings, 48);
-  a(s.damping, s.friction, s.lower, s.upper, s.motor_speed, s.motor_effort);
+  FIELDS(s.damping, s.friction, within(s.lower, -kEndless, kEndless),
+         within(s.upper, -kEndless, kEndless), s.motor_speed, s.motor_effort);
 }
 
 template <class A>
 void describe(A& a, JointState& s) {
   DESCRIBED(JointState, 64);
-  a(s.position, s.rate, s.settings);
+  FIELDS(s.position, s.rate, s.settings);
 }
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 432);
-  a(m.name, m.kind, m.serial, m.spawn_pose);
+  DESCRIBED(Model, 448);
+  FIELDS(m.name, m.kind, m.serial, m.spawn_pose);
+  if constexpr (A::kReads) m.owner = &ownerOf(m.kind);
   a.mostly(m.pose, m.spawn_pose);
-  a(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
+  FIELDS(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
   bool has_outlines = !m.geometries.empty();
-  a(has_outlines);
+  FIELDS(has_outlines);
   if (m.kind == ModelKind::kRobot) {
-    a(m.geometries);
+    FIELDS(m.geometries);
   } else if (A::kReads && has_outlines) {
     addCollisionGeometry(m);
   }
@@ -199,13 +243,13 @@ void describe(A& a, Model& m) {
 template <class A>
 void describe(A& a, StorageUnit& u) {
   DESCRIBED(StorageUnit, 128);
-  a(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier);
+  FIELDS(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier);
 }
 
 template <class A>
 void describe(A& a, Item& i) {
   DESCRIBED(Item, 200);
-  a(i.id, i.model, i.unit, i.pose_in_unit, i.mass);  // its name is its model's
+  FIELDS(i.id, i.model, i.unit, i.pose_in_unit, i.mass);  // its name is its model's
   a.mostly(i.spawn_pose_in_unit, i.pose_in_unit);
 }
 
@@ -213,45 +257,74 @@ void describe(A& a, Item& i) {
 
 template <class A>
 void describe(A& a, btVector3& v) {
-  a(v.m_floats[0], v.m_floats[1], v.m_floats[2]);
+  FIELDS(v.m_floats[0], v.m_floats[1], v.m_floats[2]);
 }
 
 template <class A>
 void describe(A& a, btTransform& t) {
-  a(t.getBasis()[0], t.getBasis()[1], t.getBasis()[2], t.getOrigin());
+  btMatrix3x3& basis = t.getBasis();
+  FIELDS(basis[0], basis[1], basis[2], t.getOrigin());
+  if (A::kReads && !(std::abs(basis.determinant() - 1) < kUnitError)) {
+    throw ArchiveError("expected a rotation", "basis");
+  }
 }
 
 template <class A>
 void describe(A& a, BodyState& b) {
-  DESCRIBED(BodyState, 464);
-  a(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
-    b.predicted_angular_velocity, b.force, b.torque, b.activation, b.resting);
+  DESCRIBED(BodyState, 568);
+  FIELDS(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
+         b.predicted_angular_velocity, b.force, b.torque, within(b.mass, 1e-9, 1e12),
+         b.inverse_inertia, within(b.activation, 1, 5), b.resting, b.parts, b.faceted);
+}
+
+template <class A>
+void describe(A& a, MotorState& m) {
+  DESCRIBED(MotorState, 24);
+  FIELDS(m.powered, m.speed, m.effort);
+}
+
+template <class A>
+void describe(A& a, ModelInPhysics& m) {
+  DESCRIBED(ModelInPhysics, 56);
+  FIELDS(m.slot, m.links, m.motors);
 }
 
 template <class A>
 void describe(A& a, BodyAddress& b) {
-  a(b.model, b.link, b.is_plane);
+  FIELDS(b.model, b.link, b.is_surface);
 }
 
 template <class A>
 void describe(A& a, btManifoldPoint& p) {
-  a(p.m_localPointA, p.m_localPointB, p.m_positionWorldOnA, p.m_positionWorldOnB,
-    p.m_normalWorldOnB, p.m_distance1, p.m_combinedFriction, p.m_combinedRollingFriction,
-    p.m_combinedSpinningFriction, p.m_combinedRestitution, p.m_partId0, p.m_partId1, p.m_index0,
-    p.m_index1, p.m_contactPointFlags, p.m_appliedImpulse, p.m_prevRHS, p.m_appliedImpulseLateral1,
-    p.m_appliedImpulseLateral2, p.m_contactMotion1, p.m_contactMotion2, p.m_contactCFM,
-    p.m_contactERP, p.m_frictionCFM, p.m_lifeTime, p.m_lateralFrictionDir1,
-    p.m_lateralFrictionDir2);
+  FIELDS(p.m_localPointA, p.m_localPointB, p.m_positionWorldOnA, p.m_positionWorldOnB,
+         p.m_normalWorldOnB, p.m_distance1, p.m_combinedFriction, p.m_combinedRollingFriction,
+         p.m_combinedSpinningFriction, p.m_combinedRestitution, p.m_partId0, p.m_partId1,
+         p.m_index0, p.m_index1, p.m_contactPointFlags, p.m_appliedImpulse, p.m_prevRHS,
+         p.m_appliedImpulseLateral1, p.m_appliedImpulseLateral2, p.m_contactMotion1,
+         p.m_contactMotion2, p.m_contactCFM, p.m_contactERP, p.m_frictionCFM, p.m_lifeTime,
+         p.m_lateralFrictionDir1, p.m_lateralFrictionDir2);
 }
 
 template <class A>
 void describe(A& a, ContactMemory& c) {
-  a(c.a, c.b, c.points);
+  FIELDS(c.a, c.b, c.part_a, c.part_b, c.points);
+  if (A::kReads && c.points.size() > MANIFOLD_CACHE_SIZE) {
+    throw ArchiveError("Bullet keeps no more than four", "points");
+  }
+}
+
+/// Of a mover: it has no body of its own, and no triangles.
+template <class A>
+void describe(A& a, Footprint& f) {
+  DESCRIBED(Footprint, 96);
+  FIELDS(f.kind, within(f.x, -100, 100), within(f.y, -100, 100), within(f.c, -1.001, 1.001),
+         within(f.s, -1.001, 1.001), within(f.hx, 0, 100), within(f.hy, 0, 100), f.z_min, f.z_max,
+         f.model, f.group);
 }
 
 template <class A>
 void describe(A& a, PhysicsState& p) {
-  a(p.bodies, p.contacts);
+  FIELDS(p.models, p.contacts, p.movers);
 }
 
 // --- the world
@@ -259,58 +332,58 @@ void describe(A& a, PhysicsState& p) {
 template <class A>
 void describe(A& a, Command& c) {
   DESCRIBED(Command, 40);
-  a(c.kind, c.kiva_id, c.x, c.y, c.direction, c.lift, c.shelf_id);
+  FIELDS(c.kind, c.kiva_id, c.x, c.y, c.direction, c.lift, c.shelf_id);
 }
 
 template <class A>
 void describe(A& a, Impact& i) {
   DESCRIBED(Impact, 80);
-  a(i.point, i.normal, i.speed, i.impulse);
+  FIELDS(i.point, i.normal, i.speed, i.impulse);
 }
 
 template <class A>
 void describe(A& a, Event& e) {
-  DESCRIBED(Event, 192);
-  a(e.time, e.kind, e.model, e.other, e.text, e.impact);
+  DESCRIBED(Event, 200);
+  FIELDS(e.time, e.kind, e.model, e.other, e.text, e.command, e.impact);
 }
 
 template <class A>
 void describe(A& a, Period& p) {
-  a(p.start, p.end);
+  FIELDS(p.start, within(p.end, -kEndless, kEndless));
 }
 
 template <class A>
 void describe(A& a, Wrench& w) {
   DESCRIBED(Wrench, 144);
-  a(w.model, w.link, w.force, w.torque, w.period);
+  FIELDS(w.model, w.link, w.force, w.torque, w.period);
 }
 
 template <class A>
 void describe(A& a, Effort& e) {
   DESCRIBED(Effort, 88);
-  a(e.model, e.joint, e.effort, e.period);
+  FIELDS(e.model, e.joint, e.effort, e.period);
 }
 
 template <class A>
 void describe(A& a, Light& l) {
   DESCRIBED(Light, 240);
-  a(l.name, l.kind, l.pose, l.diffuse, l.specular, l.attenuation_constant, l.attenuation_linear,
-    l.attenuation_quadratic, l.direction, l.cast_shadows);
+  FIELDS(l.name, l.kind, l.pose, l.diffuse, l.specular, l.attenuation_constant,
+         l.attenuation_linear, l.attenuation_quadratic, l.direction, l.cast_shadows);
 }
 
 template <class A>
 void describe(A& a, OdeSettings& o) {
   DESCRIBED(OdeSettings, 72);
-  a(o.auto_disable_bodies, o.sor_pgs_precon_iters, o.sor_pgs_iters, o.sor_pgs_w,
-    o.sor_pgs_rms_error_tol, o.contact_surface_layer, o.contact_max_correcting_vel, o.cfm, o.erp,
-    o.max_contacts);
+  FIELDS(o.auto_disable_bodies, o.sor_pgs_precon_iters, o.sor_pgs_iters, o.sor_pgs_w,
+         o.sor_pgs_rms_error_tol, o.contact_surface_layer, o.contact_max_correcting_vel, o.cfm,
+         o.erp, o.max_contacts);
 }
 
 template <class A>
 void describe(A& a, ExternalInputs& i) {
   std::vector<Light> lights;
   for (const auto& [name, light] : i.lights) lights.push_back(light);
-  a(i.wrenches, i.efforts, lights, i.ode);
+  FIELDS(i.wrenches, i.efforts, lights, i.ode);
   if constexpr (A::kReads) {
     i.lights.clear();
     for (Light& light : lights) i.lights[light.name] = std::move(light);
@@ -320,30 +393,36 @@ void describe(A& a, ExternalInputs& i) {
 template <class A>
 void describe(A& a, StatusChange& s) {
   DESCRIBED(StatusChange, 48);
-  a(s.time, s.kiva_id, s.status, s.state, s.shelf_id, s.x, s.y, s.yaw);
+  FIELDS(s.time, s.kiva_id, s.status, s.state, s.shelf_id, s.x, s.y, s.yaw);
 }
 
 template <class A>
 void describe(A& a, TouchingPair& t) {
   DESCRIBED(TouchingPair, 112);
-  a(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
+  FIELDS(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
+}
+
+template <class A>
+void describe(A& a, Crash& c) {
+  DESCRIBED(Crash, 40);
+  FIELDS(c.kiva_id, c.with);
 }
 
 template <class A>
 void describe(A& a, PluginState& p) {
-  a(p.model, p.index, p.state);
+  FIELDS(p.model, p.index, p.state);
 }
 
 template <class A>
 void describe(A& a, Floor& f) {
   DESCRIBED(Floor, 32);
-  a(f.min_x, f.max_x, f.min_y, f.max_y);
+  FIELDS(f.min_x, f.max_x, f.min_y, f.max_y);
 }
 
 template <class A>
 void describe(A& a, WorldOptions& o) {
   DESCRIBED(WorldOptions, 48);
-  a(o.seed, o.drive, o.always_in_bullet);  // the table of plugins stays the world's own
+  FIELDS(o.seed, o.drive, o.always_in_bullet);  // the table of plugins stays the world's own
 }
 
 #undef DESCRIBED

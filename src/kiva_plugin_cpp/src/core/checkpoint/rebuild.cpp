@@ -1,50 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/checkpoint/rebuild.h"
 
-#include <new>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
-#include "core/contact/activation.h"
-#include "core/contact/joints.h"
-#include "core/models/models.h"
+#include "core/motion/joints.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
 
 namespace kiva {
 namespace {
-
-BodyState readBody(const btRigidBody& body) {
-  BodyState s;
-  s.pose = body.getWorldTransform();
-  s.predicted_pose = body.getInterpolationWorldTransform();
-  s.velocity = body.getLinearVelocity();
-  s.angular_velocity = body.getAngularVelocity();
-  s.predicted_velocity = body.getInterpolationLinearVelocity();
-  s.predicted_angular_velocity = body.getInterpolationAngularVelocity();
-  s.force = body.getTotalForce();
-  s.torque = body.getTotalTorque();
-  s.activation = body.getActivationState();
-  s.resting = body.getDeactivationTime();
-  return s;
-}
-
-void writeBody(const BodyState& s, btRigidBody& body) {
-  body.setWorldTransform(s.pose);
-  body.setInterpolationWorldTransform(s.predicted_pose);
-  body.setLinearVelocity(s.velocity);
-  body.setAngularVelocity(s.angular_velocity);
-  body.setInterpolationLinearVelocity(s.predicted_velocity);
-  body.setInterpolationAngularVelocity(s.predicted_angular_velocity);
-  body.updateInertiaTensor();
-  body.clearForces();
-  body.applyCentralForce(s.force);
-  body.applyTorque(s.torque);
-  body.forceActivationState(s.activation);
-  body.setDeactivationTime(s.resting);
-}
-
-bool operator==(const BodyAddress& a, const BodyAddress& b) {
-  return a.model == b.model && a.link == b.link && a.is_plane == b.is_plane;
-}
 
 /// Whose a body is. Asked only, never gone through: its order is none.
 using Addresses = std::unordered_map<const btCollisionObject*, BodyAddress>;
@@ -64,16 +33,46 @@ Addresses addresses(const WorldState& world) {
   return out;
 }
 
+/// When Bullet got it; a model's bodies come together.
+int arrivalOf(const Model& model) {
+  if (model.bodies.links.empty()) return -1;
+  return model.bodies.links.front().body->getBroadphaseHandle()->getUid();
+}
+
+std::vector<int> slotsInPhysics(const WorldState& world) {
+  std::vector<int> slots;
+  for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
+    if (world.models[slot] && world.models[slot]->in_physics) {
+      slots.push_back(static_cast<int>(slot));
+    }
+  }
+  std::sort(slots.begin(), slots.end(), [&world](int a, int b) {
+    return arrivalOf(*world.models[a]) < arrivalOf(*world.models[b]);
+  });
+  return slots;
+}
+
+ModelInPhysics readModel(const WorldState& world, int slot) {
+  ModelInPhysics out;
+  out.slot = slot;
+  const Model& model = *world.models[slot];
+  if (model.isStatic()) return out;
+  for (const LinkBody& link : model.bodies.links) out.links.push_back(readBody(*link.body));
+  for (const auto& joint : model.bodies.joints) out.motors.push_back(readMotor(*joint));
+  return out;
+}
+
 std::vector<ContactMemory> readContacts(const WorldState& world) {
   const std::vector<btPersistentManifold*> manifolds = world.physics.manifolds();
   std::vector<ContactMemory> out;
   if (manifolds.empty()) return out;
   const Addresses address = addresses(world);
   for (const btPersistentManifold* manifold : manifolds) {
-    // Bullet does not look for contacts of bodies asleep.
-    const bool asleep = !manifold->getBody0()->isActive() && !manifold->getBody1()->isActive();
-    if (manifold->getNumContacts() == 0 || asleep) continue;
-    ContactMemory memory{address.at(manifold->getBody0()), address.at(manifold->getBody1()), {}};
+    ContactMemory memory{address.at(manifold->getBody0()),
+                         address.at(manifold->getBody1()),
+                         manifold->m_companionIdA,
+                         manifold->m_companionIdB,
+                         {}};
     for (int i = 0; i < manifold->getNumContacts(); ++i) {
       memory.points.push_back(manifold->getContactPoint(i));
     }
@@ -82,80 +81,57 @@ std::vector<ContactMemory> readContacts(const WorldState& world) {
   return out;
 }
 
-void swapSides(btManifoldPoint& p) {
-  std::swap(p.m_localPointA, p.m_localPointB);
-  std::swap(p.m_positionWorldOnA, p.m_positionWorldOnB);
-  std::swap(p.m_partId0, p.m_partId1);
-  std::swap(p.m_index0, p.m_index1);
-  p.m_normalWorldOnB = -p.m_normalWorldOnB;
+auto keyOf(const BodyAddress& a, const BodyAddress& b, int part_a, int part_b) {
+  return std::make_tuple(a.model, a.link, a.is_surface, b.model, b.link, b.is_surface, part_a,
+                         part_b);
 }
 
-/// Whether both are about the same two parts of the same two bodies.
-bool isSame(const ContactMemory& a, const ContactMemory& b) {
-  return a.a == b.a && a.b == b.b && a.points.front().m_index0 == b.points.front().m_index0 &&
-         a.points.front().m_index1 == b.points.front().m_index1;
-}
-
-/// Bullet finds the contacts again; their points and impulses are those that it remembered.
-void writeContacts(WorldState& world, std::vector<ContactMemory> memories) {
+/// A contact that has no manifold any more, since its bodies have parted in the last step, would
+/// have been dropped at the beginning of the next.
+void writeContacts(WorldState& world, const std::vector<ContactMemory>& memories) {
   if (memories.empty()) return;
-  world.physics.findContacts();
+  std::map<decltype(keyOf({}, {}, 0, 0)), const ContactMemory*> memory_of;
+  for (const ContactMemory& m : memories) memory_of[keyOf(m.a, m.b, m.part_a, m.part_b)] = &m;
   const Addresses address = addresses(world);
-  for (btPersistentManifold* manifold : world.physics.manifolds()) {
-    if (manifold->getNumContacts() == 0) continue;
-    const ContactMemory found{address.at(manifold->getBody0()),
-                              address.at(manifold->getBody1()),
-                              {manifold->getContactPoint(0)}};
-    for (ContactMemory& memory : memories) {
-      if (memory.a == found.b && memory.b == found.a) {
-        std::swap(memory.a, memory.b);
-        for (btManifoldPoint& point : memory.points) swapSides(point);
-      }
-      if (!isSame(memory, found)) continue;
-      manifold->clearManifold();
-      for (const btManifoldPoint& point : memory.points) manifold->addManifoldPoint(point);
-      break;
-    }
+  for (btPersistentManifold* manifold : world.physics.makeManifolds()) {
+    const auto memory =
+        memory_of.find(keyOf(address.at(manifold->getBody0()), address.at(manifold->getBody1()),
+                             manifold->m_companionIdA, manifold->m_companionIdB));
+    if (memory == memory_of.end()) continue;
+    for (const btManifoldPoint& point : memory->second->points) manifold->addManifoldPoint(point);
   }
 }
 
-void buildModel(WorldState& world, int slot, const std::vector<BodyState>& states) {
-  Model& model = *world.models[slot];
-  model.bodies = buildBodies(world, slot);
-  for (std::size_t i = 0; i < states.size() && i < model.bodies.links.size(); ++i) {
-    writeBody(states[i], *model.bodies.links[i].body);
+void buildModel(WorldState& world, const ModelInPhysics& state) {
+  Model& model = *world.models.at(state.slot);
+  model.bodies = model.owner->build(world, model);
+  if (!model.isStatic() && (state.links.size() != model.bodies.links.size() ||
+                            state.motors.size() != model.bodies.joints.size())) {
+    throw std::invalid_argument("'" + model.name + "' has other bodies than its model");
+  }
+  for (std::size_t i = 0; i < state.links.size(); ++i) {
+    writeBody(state.links[i], *model.bodies.links[i].body);
   }
   world.physics.insert(model.bodies);
   restoreLimits(model);
-}
-
-/// First what is in Bullet for good, in the order in which it came, then what visits.
-std::vector<int> slotsInPhysics(const WorldState& world) {
-  std::vector<int> slots;
-  for (int slot : slotsInOrder(world)) {
-    const Model& model = *world.models[slot];
-    if (model.in_physics && !canActivate(model)) slots.push_back(slot);
+  for (std::size_t i = 0; i < state.motors.size(); ++i) {
+    writeMotor(state.motors[i], *model.bodies.joints[i]);
   }
-  slots.insert(slots.end(), world.activated.begin(), world.activated.end());
-  return slots;
 }
 
-void rebuildPhysics(WorldState& world, const PhysicsState& state) {
-  for (auto& model : world.models) {
-    if (model && !model->bodies.links.empty()) world.physics.remove(model->bodies);
-  }
-  world.physics.~Physics();
-  new (&world.physics) Physics(world.gravity);
-  for (int slot : slotsInPhysics(world)) buildModel(world, slot, state.bodies[slot]);
-  writeContacts(world, state.contacts);
+/// One that was not touched in Bullet has those from before it entered.
+void addFootprints(WorldState& world, Model& model) {
+  const bool is_in = model.in_physics;
+  if (model.owner->isActivatedWhenNear() && !model.disturbed) model.in_physics = false;
+  moved(world, model);
+  model.in_physics = is_in;
 }
 
-void rebuildObstacles(WorldState& world) {
-  world.obstacles.clear();
-  for (int slot : slotsInOrder(world)) {
-    Model& model = *world.models[slot];
-    for (CollisionGeometry& geometry : model.geometries) geometry.handle = -1;
-    updateFootprints(world, model);
+void rebuildObstacles(WorldState& world, const PhysicsState& state) {
+  for (int slot : slotsInOrder(world)) addFootprints(world, *world.models[slot]);
+  // Worked out where the robot was when its load changed, they would be a rounding apart.
+  for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
+    world.obstacles.setMover(static_cast<int>(robot), state.movers[robot]);
   }
 }
 
@@ -163,21 +139,19 @@ void rebuildObstacles(WorldState& world) {
 
 PhysicsState readPhysics(const WorldState& world) {
   PhysicsState state;
-  state.bodies.resize(world.models.size());
-  for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
-    const Model* model = world.models[slot].get();
-    if (!model || !model->in_physics || model->isStatic()) continue;
-    for (const LinkBody& link : model->bodies.links) {
-      state.bodies[slot].push_back(readBody(*link.body));
-    }
-  }
+  for (int slot : slotsInPhysics(world)) state.models.push_back(readModel(world, slot));
   state.contacts = readContacts(world);
+  for (int robot = 0; robot < world.fleet.size(); ++robot) {
+    state.movers.push_back(world.obstacles.ofMover(robot));
+  }
   return state;
 }
 
-void renew(WorldState& world, const PhysicsState& state) {
-  rebuildPhysics(world, state);
-  rebuildObstacles(world);
+void rebuild(WorldState& world, const PhysicsState& state) {
+  world.physics.setGravity(world.gravity);
+  for (const ModelInPhysics& model : state.models) buildModel(world, model);
+  writeContacts(world, state.contacts);
+  rebuildObstacles(world, state);
 }
 
 }  // namespace kiva

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/control/commands.h"
-#include "core/models/models.h"
+#include "core/state/footprints.h"
 
 namespace kiva {
 namespace {
@@ -20,44 +19,33 @@ constexpr double kQuiet = 0.002, kImpact = 0.01;
 // What counts as nearing: a share of the speed at first, and at least so much [m/s].
 constexpr double kShare = 0.01, kNearing = 0.001;
 
-std::uint64_t stepsIn(const WorldState& world, double seconds) {
-  return static_cast<std::uint64_t>(std::ceil(seconds / world.dt));
-}
-
-bool isHandled(const Model& model) {
-  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
-}
-
-/// The robot that is in that contact: the model itself, or who carries it. -1 = none.
 int robotIn(const WorldState& world, const Model& model) {
-  if (model.kind == ModelKind::kRobot) return model.index;
-  if (model.kind == ModelKind::kStorageUnit) return world.units[model.index].carrier;
-  return -1;
+  return model.owner->robot(world, model);
 }
 
 bool isCollision(const WorldState& world, const Contact& contact) {
   const Model& a = *world.models[contact.model_a];
   const Model& b = *world.models[contact.model_b];
-  if (a.kind == ModelKind::kFloor || b.kind == ModelKind::kFloor) return false;
-  if (!isHandled(a) && !isHandled(b)) return false;
-  const int robot_a = robotIn(world, a);
-  return robot_a < 0 || robot_a != robotIn(world, b);
+  if (a.owner->isFloor() || b.owner->isFloor()) return false;
+  if (!a.owner->tellsCollisions() && !b.owner->tellsCollisions()) return false;
+  const int robot = robotIn(world, a);
+  return robot < 0 || robot != robotIn(world, b);
 }
 
 bool areApart(const WorldState& world, const TouchingPair& pair) {
   bool apart = true;
   forFootprints(world, pair.model_a, [&](const Footprint& a) {
     forFootprints(world, pair.model_b, [&](const Footprint& b) {
-      const bool level = a.z_min <= b.z_max && b.z_min <= a.z_max;
-      if (level && gap(a, b) < kApart) apart = false;
+      if (shareHeight(a, b) && gap(a, b) < kApart) apart = false;
     });
   });
   return apart;
 }
 
-void halt(WorldState& world, const Model& model, const Model& other) {
+/// A robot in it is to stop.
+void noteCrash(WorldState& world, const Model& model, const Model& other) {
   const int robot = robotIn(world, model);
-  if (robot >= 0) haltRobot(world, robot, other.name, "collision with " + other.name);
+  if (robot >= 0) world.crashes.push_back({world.fleet.robots[robot].id, other.name});
 }
 
 void tell(WorldState& world, TouchingPair* pair) {
@@ -70,8 +58,8 @@ void tell(WorldState& world, TouchingPair* pair) {
   }
   pair->tell_at = 0;
   world.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name, impact);
-  halt(world, *a, *b);
-  halt(world, *b, *a);
+  noteCrash(world, *a, *b);
+  noteCrash(world, *b, *a);
 }
 
 void tellWhatIsOver(WorldState& world) {
@@ -87,37 +75,32 @@ TouchingPair& pairOf(WorldState& world, const Contact& contact) {
   const Impact impact{contact.point, contact.normal, contact.speed, 0};
   const std::uint64_t now = world.total_steps;
   world.touching.push_back({contact.model_a, contact.model_b, now, impact,
-                            now + stepsIn(world, kQuiet), now + stepsIn(world, kImpact)});
+                            now + world.stepsIn(kQuiet), now + world.stepsIn(kImpact)});
   return world.touching.back();
 }
 
 void touch(WorldState& world, const Contact& contact) {
   for (int slot : {contact.model_a, contact.model_b}) {
-    Model& model = *world.models[slot];
-    if (model.kind != ModelKind::kStorageUnit || world.units[model.index].carrier >= 0) continue;
-    if (!model.disturbed) {
-      model.disturbed = true;  // from now on it is where its body is
-      updateFootprints(world, model);
-    }
+    world.models[slot]->owner->touched(world, *world.models[slot]);
   }
   TouchingPair& pair = pairOf(world, contact);
   pair.last_step = world.total_steps;
   if (pair.tell_at == 0) return;
   pair.impact.impulse += contact.impulse;
   if (contact.nearing <= std::max(kNearing, kShare * pair.impact.speed)) return;
-  pair.tell_at = std::min(pair.tell_latest, world.total_steps + stepsIn(world, kQuiet));
+  pair.tell_at = std::min(pair.tell_latest, world.total_steps + world.stepsIn(kQuiet));
 }
 
 }  // namespace
 
-void reportCollisions(WorldState& world) {
+void observeCollisions(WorldState& world) {
   if (world.activated.empty() && world.touching.empty()) return;
   world.physics.contacts(&world.contacts);
   for (const Contact& contact : world.contacts) {
     if (isCollision(world, contact)) touch(world, contact);
   }
   tellWhatIsOver(world);
-  const auto keep = stepsIn(world, kForget);
+  const auto keep = world.stepsIn(kForget);
   const auto over = [&](const TouchingPair& pair) {
     return pair.last_step + keep < world.total_steps && areApart(world, pair);
   };

@@ -5,9 +5,9 @@
 
 namespace kiva {
 
-/// Reports each contact that should not be once, when its impact is over, and stops the robots in
-/// it.
-void reportCollisions(WorldState& world);
+/// Tells each contact that should not be once, when its impact is over, and notes the robots in it
+/// as WorldState::crashes.
+void observeCollisions(WorldState& world);
 /// Forgets a model that is going, -1 = all; what has not been told yet is.
 void forgetContacts(WorldState& world, int slot);
 

@@ -13,7 +13,8 @@ namespace kiva {
 void applyExternalWrenches(WorldState& world);
 /// For the next step: a force on the link's centre of mass and a torque, in world. Returns false
 /// if the link does not move.
-bool pushLink(WorldState& world, int slot, int link, const Vector3& force, const Vector3& torque);
+bool pushLink(WorldState& world, Model& model, int link, const Vector3& force,
+              const Vector3& torque);
 /// A model is going.
 void forgetExternalInputs(WorldState& world, const std::string& model);
 

@@ -3,31 +3,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
-#include "core/models/load.h"
-#include "core/motion/cruise.h"
-#include "core/sensing/sensing.h"
+#include "core/control/route.h"
+#include "core/state/tasks.h"
+#include "core/state/unit_geometry.h"
 
 namespace kiva {
 namespace {
-
-constexpr double kHalfPi = M_PI / 2;
-constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
-constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
-constexpr double kGoalTolerance = 0.001;       // [m]: for numbers that clients computed
-constexpr int kRecoverCells = 2;               // around a robot that looks for a free grid point
-constexpr double kRoomStep = 0.1;              // [m]: in which it looks for room to turn
-constexpr double kRoomReach = 1.5;             // [m]
-
-struct Refusal : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-struct Point {
-  double x = 0, y = 0;
-  double& operator[](int axis) { return axis == 0 ? x : y; }
-};
 
 struct Plan {
   std::deque<MotionSegment> segments;
@@ -41,156 +23,6 @@ std::string format(const char* pattern, Args... args) {
   std::snprintf(text, sizeof text, pattern, args...);
   return text;
 }
-
-double nearestGrid(const WorldState& world, double coordinate) {
-  return std::round(coordinate / world.grid_spacing) * world.grid_spacing;
-}
-
-/// The heading nearest to `near` that points along `angle`; of two opposite ones the left turn.
-double headingNear(double near, double angle) {
-  const double turn = wrapAngle(angle - near);
-  return near + (turn < -M_PI + 1e-6 ? turn + 2 * M_PI : turn);
-}
-
-bool isOnFloor(const WorldState& world, const Point& p) {
-  const double half = world.grid_spacing / 2 - 1e-6;
-  const Floor& floor = world.floor;
-  return p.x - half >= floor.min_x && p.x + half <= floor.max_x && p.y - half >= floor.min_y &&
-         p.y + half <= floor.max_y;
-}
-
-/// The free grid point nearest to a place. Throws Refusal if there is none near.
-Point nearestFree(const WorldState& world, int robot, const Point& from) {
-  Point best;
-  double least = 1e9;
-  for (int i = -kRecoverCells; i <= kRecoverCells; ++i) {
-    for (int j = -kRecoverCells; j <= kRecoverCells; ++j) {
-      const Point p{nearestGrid(world, from.x) + i * world.grid_spacing,
-                    nearestGrid(world, from.y) + j * world.grid_spacing};
-      const double distance = std::hypot(p.x - from.x, p.y - from.y);
-      if (distance >= least || !isOnFloor(world, p) || !isFree(world, robot, p.x, p.y)) continue;
-      least = distance;
-      best = p;
-    }
-  }
-  if (least > 1e8) throw Refusal("it is off the grid and no free grid point is near");
-  return best;
-}
-
-/// The nearest place straight ahead or behind where the robot has room to turn; here, if it has
-/// room here or nowhere.
-Point roomToTurn(const WorldState& world, int robot) {
-  const Fleet& f = world.fleet;
-  const Point here{f.x[robot], f.y[robot]};
-  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
-  for (int step = 0; step * kRoomStep <= kRoomReach; ++step) {
-    for (double way : {step * kRoomStep, -step * kRoomStep}) {
-      const Point p{here.x + c * way, here.y + s * way};
-      if (isFree(world, robot, p.x, p.y)) return p;
-    }
-  }
-  return here;
-}
-
-/// Plans the way of one robot, segment by segment; knows where each segment will leave it.
-class Planner {
- public:
-  Planner(const WorldState& world, int robot)
-      : state_(world),
-        robot_(robot),
-        at_{nearestGrid(world, world.fleet.x[robot]), nearestGrid(world, world.fleet.y[robot])},
-        yaw_(std::round(world.fleet.yaw[robot] / kHalfPi) * kHalfPi) {
-    const Fleet& f = world.fleet;
-    const double off = std::hypot(f.x[robot] - at_.x, f.y[robot] - at_.y);
-    if (off > kOnGrid) {
-      recover();
-    } else if (std::abs(f.yaw[robot] - yaw_) > kSquare) {
-      turnTo(yaw_);
-    }
-  }
-
-  Point at() const { return at_; }
-
-  void rotate(int direction) { turnTo(yaw_ + direction * kHalfPi); }
-
-  /// Drives along one axis to that coordinate, facing it.
-  void driveTo(int axis, double coordinate) {
-    const double way = coordinate - at_[axis];
-    if (std::abs(way) < kGoalTolerance) return;
-    const double angle = axis * kHalfPi + (way < 0 ? M_PI : 0);
-    const double heading = headingNear(yaw_, angle);
-    if (std::abs(heading - yaw_) > kSquare) turnTo(heading);
-    at_[axis] = coordinate;
-    MotionSegment segment = makeDrive(axis == 0 ? State::kMovingX : State::kMovingY);
-    segments_.push_back(segment);
-  }
-
-  void lift(MotionSegment::Kind kind, int unit) {
-    MotionSegment segment;
-    segment.kind = kind;
-    segment.unit = unit;
-    segment.state = State::kLifting;
-    segments_.push_back(segment);
-  }
-
-  std::deque<MotionSegment> takeSegments() { return std::move(segments_); }
-
- private:
-  void turnTo(double heading) {
-    if (!state_.fleet.robots[robot_].has_rotation) throw Refusal("it has no rotation plugin");
-    MotionSegment segment;
-    segment.yaw = yaw_ = heading;
-    segments_.push_back(segment);
-  }
-
-  MotionSegment makeDrive(State state) const {
-    MotionSegment segment;
-    segment.kind = MotionSegment::Kind::kDrive;
-    segment.x = at_.x;
-    segment.y = at_.y;
-    segment.yaw = yaw_;
-    segment.state = state;
-    return segment;
-  }
-
-  /// Back to the grid from wherever it was pushed: out to where there is room to turn, then
-  /// straight to a grid point, by the smaller turn, forwards or backwards.
-  void recover() {
-    const Fleet& f = state_.fleet;
-    const Point here{f.x[robot_], f.y[robot_]}, room = roomToTurn(state_, robot_);
-    const Point to = nearestFree(state_, robot_, room);
-    yaw_ = f.yaw[robot_];
-    driveOff(here, room);
-    driveOff(room, to);
-    const double square = std::round(yaw_ / kHalfPi) * kHalfPi;
-    if (std::abs(square - yaw_) > kSquare) turnTo(square);
-    yaw_ = square;
-  }
-
-  /// Straight from one place to another, off the grid.
-  void driveOff(const Point& from, const Point& to) {
-    const double dx = to.x - from.x, dy = to.y - from.y;
-    if (std::hypot(dx, dy) < kOnGrid) return;
-    const double ahead = headingNear(yaw_, std::atan2(dy, dx));
-    const double back = headingNear(yaw_, std::atan2(-dy, -dx));
-    const bool reverse = std::abs(back - yaw_) < std::abs(ahead - yaw_);
-    const double heading = reverse ? back : ahead;
-    if (std::abs(heading - yaw_) > kSquare) turnTo(heading);
-    yaw_ = heading;
-    at_ = to;
-    MotionSegment segment =
-        makeDrive(std::abs(dx) > std::abs(dy) ? State::kMovingX : State::kMovingY);
-    segment.reverse = reverse;
-    segment.on_grid = false;
-    segments_.push_back(segment);
-  }
-
-  const WorldState& state_;
-  int robot_;
-  Point at_;
-  double yaw_;
-  std::deque<MotionSegment> segments_;
-};
 
 void checkGoal(const WorldState& world, const Point& goal) {
   if (isOnFloor(world, goal)) return;
@@ -227,21 +59,21 @@ Plan planMoveTo(const WorldState& world, int robot, const Command& command) {
   checkMotion(world, robot);
   const Point goal{checkedGoal(world, command.x, 'x'), checkedGoal(world, command.y, 'y')};
   checkGoal(world, goal);
-  Planner planner(world, robot);
-  planner.driveTo(0, goal.x);
-  planner.driveTo(1, goal.y);
-  return {planner.takeSegments(), format("go to (%g, %g)", goal.x, goal.y), ""};
+  Route route(world, robot);
+  route.driveTo(0, goal.x);
+  route.driveTo(1, goal.y);
+  return {route.takeSegments(), format("go to (%g, %g)", goal.x, goal.y), ""};
 }
 
 Plan planMoveAlong(const WorldState& world, int robot, int axis, double asked) {
   checkMotion(world, robot);
   const double distance = checkedDistance(world, asked);
-  Planner planner(world, robot);
-  Point goal = planner.at();
+  Route route(world, robot);
+  Point goal = route.at();
   goal[axis] += distance;
   checkGoal(world, goal);
-  planner.driveTo(axis, goal[axis]);
-  return {planner.takeSegments(), format("go %g m along %c", distance, axis == 0 ? 'x' : 'y'), ""};
+  route.driveTo(axis, goal[axis]);
+  return {route.takeSegments(), format("go %g m along %c", distance, axis == 0 ? 'x' : 'y'), ""};
 }
 
 Plan planRotate(const WorldState& world, int robot, int direction) {
@@ -249,9 +81,9 @@ Plan planRotate(const WorldState& world, int robot, int direction) {
     throw Refusal(
         format("direction %d: 1 (counterclockwise) or -1 (clockwise) was expected", direction));
   }
-  Planner planner(world, robot);
-  planner.rotate(direction);
-  return {planner.takeSegments(), direction > 0 ? "turn counterclockwise" : "turn clockwise", ""};
+  Route route(world, robot);
+  route.rotate(direction);
+  return {route.takeSegments(), direction > 0 ? "turn counterclockwise" : "turn clockwise", ""};
 }
 
 int findUnit(const WorldState& world, int id) {
@@ -283,19 +115,27 @@ void checkCarry(const WorldState& world, int robot, int unit) {
   }
 }
 
+/// What a drop that names no unit means.
+int carriedUnit(const WorldState& world, int robot) {
+  const int unit = world.fleet.unit[robot];
+  if (unit < 0) throw Refusal("it carries nothing");
+  return unit;
+}
+
 Plan planLift(const WorldState& world, int robot, const Command& command) {
   if (!world.fleet.robots[robot].lift.fitted) throw Refusal("it has no lift plugin");
   if (command.lift != 0 && command.lift != 1) {
     throw Refusal(format("status %d: 1 (carry) or 0 (drop) was expected", command.lift));
   }
-  const int unit = findUnit(world, command.shelf_id);
   const bool carry = command.lift == 1;
+  const int unit = carry || command.shelf_id != 0 ? findUnit(world, command.shelf_id)
+                                                  : carriedUnit(world, robot);
   if (carry) checkCarry(world, robot, unit);
   const std::string& name = world.units[unit].name;
   if (!carry && world.fleet.unit[robot] != unit) throw Refusal("it does not carry " + name);
-  Planner planner(world, robot);
-  planner.lift(carry ? MotionSegment::Kind::kRaise : MotionSegment::Kind::kLower, unit);
-  return {planner.takeSegments(), (carry ? "carry " : "drop ") + name, name};
+  Route route(world, robot);
+  route.lift(carry ? MotionSegment::Kind::kRaise : MotionSegment::Kind::kLower, unit);
+  return {route.takeSegments(), (carry ? "carry " : "drop ") + name, name};
 }
 
 Plan plan(const WorldState& world, int robot, const Command& command) {
@@ -320,52 +160,31 @@ const char* stateName(State state) {
   return names[static_cast<int>(state)];
 }
 
-void become(WorldState& world, int robot, Status status, State state) {
-  world.fleet.robots[robot].segment_started = false;
-  world.fleet.look_again[robot] = 0;  // it moves otherwise from now on
-  world.setStatus(robot, status, state);
-}
-
-void start(WorldState& world, int robot, Plan plan) {
-  Robot& r = world.fleet.robots[robot];
-  world.report(Event::Kind::kAccepted, r.name, plan.other, plan.text);
-  r.segments = std::move(plan.segments);
-  r.stopping = r.halting = false;
-  if (r.segments.empty()) {
-    world.report(Event::Kind::kDone, r.name, "", "is there already");
-    return;
-  }
-  for (const MotionSegment& segment : r.segments) {
-    if (segment.kind == MotionSegment::Kind::kRaise) world.units[segment.unit].claimed_by = robot;
-  }
-  world.fleet.awake[robot] = 1;
-  become(world, robot, Status::kBusy, r.segments.front().state);
+void start(WorldState& world, int robot, std::uint32_t number, Plan plan) {
+  Task& task = world.fleet.tasks[robot];
+  task.command = number;
+  task.goal = plan.text;
+  world.reportCommand(Event::Kind::kAccepted, robot, plan.other, plan.text);
+  beginTask(world, robot, std::move(plan.segments));
 }
 
 void answer(WorldState& world, const Command& command) {
   const int robot = world.fleet.find(command.kiva_id);
   const std::string name = "kiva" + std::to_string(command.kiva_id);
+  const std::uint32_t number = ++world.last_command;
   try {
     if (robot < 0) throw Refusal("there is no robot " + name);
     if (world.fleet.status[robot] != Status::kIdle) {
       throw Refusal(std::string("it is not idle but ") + stateName(world.fleet.state[robot]));
     }
-    start(world, robot, plan(world, robot, command));
+    start(world, robot, number, plan(world, robot, command));
   } catch (const Refusal& refusal) {
-    world.report(Event::Kind::kRefused, name, "", refusal.what());
+    world.events.push_back(
+        {world.time(), Event::Kind::kRefused, name, "", refusal.what(), number, {}});
   }
 }
 
-void becomeIdle(WorldState& world, int robot) {
-  Fleet& f = world.fleet;
-  clearCommand(world, robot);
-  f.wheel_target[0][robot] = f.wheel_target[1][robot] = 0;
-  become(world, robot, Status::kIdle, State::kIdle);
-}
-
 }  // namespace
-
-double wrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
 
 void acceptCommands(WorldState& world) {
   while (!world.commands.empty()) {
@@ -374,54 +193,12 @@ void acceptCommands(WorldState& world) {
   }
 }
 
-void finishSegment(WorldState& world, int robot) {
-  Robot& r = world.fleet.robots[robot];
-  if (r.stopping) return endBlocked(world, robot);
-  r.segments.pop_front();
-  if (!r.segments.empty()) return become(world, robot, Status::kBusy, r.segments.front().state);
-  becomeIdle(world, robot);
-  world.report(Event::Kind::kDone, r.name, "", "");
-}
-
-void markBlocked(WorldState& world, int robot, const std::string& by, const std::string& reason) {
-  Robot& r = world.fleet.robots[robot];
-  if (r.segments.empty()) return;
-  if (!r.stopping) {
-    r.blocked_by = by;
-    r.blocked_reason = reason;
+void haltCrashed(WorldState& world) {
+  for (const Crash& crash : world.crashes) {
+    const int robot = world.fleet.find(crash.kiva_id);
+    if (robot >= 0) haltRobot(world, robot, crash.with, "collision with " + crash.with);
   }
-  r.stopping = true;
-  world.setStatus(robot, Status::kBlocked, State::kBlocked);
-}
-
-void endBlocked(WorldState& world, int robot) {
-  const Robot& r = world.fleet.robots[robot];
-  const std::string by = r.blocked_by, reason = r.blocked_reason;
-  becomeIdle(world, robot);
-  world.report(Event::Kind::kBlocked, r.name, by, reason);
-}
-
-void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason) {
-  Robot& r = world.fleet.robots[robot];
-  if (r.segments.empty()) return;
-  const MotionSegment::Kind kind = r.segments.front().kind;
-  if (kind != MotionSegment::Kind::kTurn && kind != MotionSegment::Kind::kDrive)
-    return;  // it stands, and goes on
-  markBlocked(world, robot, by, reason);
-  stopCruise(world.fleet, robot);
-  r.halting = true;
-}
-
-void clearCommand(WorldState& world, int robot) {
-  Robot& r = world.fleet.robots[robot];
-  for (const MotionSegment& segment : r.segments) {
-    if (segment.unit >= 0 && world.units[segment.unit].claimed_by == robot) {
-      world.units[segment.unit].claimed_by = -1;
-    }
-  }
-  stopCruise(world.fleet, robot);
-  r.segments.clear();
-  r.segment_started = r.stopping = r.halting = false;
+  world.crashes.clear();
 }
 
 }  // namespace kiva

@@ -77,6 +77,8 @@ class Obstacles {
 
   /// The footprints of robot `robot`, in its frame; instead of those it had.
   void setMover(int robot, std::vector<Footprint> local);
+  /// The same, as they were set.
+  const std::vector<Footprint>& ofMover(int robot) const { return movers_[robot].local; }
   /// The last mover takes its index, as in the fleet.
   void removeMover(int robot);
   /// Indexes it anew if it is not, or within the next `way` [m] might not be, where it was.

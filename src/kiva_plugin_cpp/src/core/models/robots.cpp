@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "core/contact/activation.h"
-#include "core/control/commands.h"
-#include "core/geometry/footprint.h"
+#include "core/geometry/angle.h"
 #include "core/models/load.h"
-#include "core/models/models.h"
-#include "core/motion/cruise.h"
 #include "core/motion/jointed_body.h"
-#include "core/sensing/sensing.h"
-#include "plugins/fleet_plugin.h"
+#include "core/sensing/scans.h"
+#include "core/state/fleet_plugin.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -22,16 +22,10 @@ constexpr double kUprightAngle = 1e-3;  // [rad]
 constexpr double kNearFloor = 1.0;      // [m]: from where a spawned robot is put on the floor
 
 int idIn(const std::string& name) {
-  const std::string digits = name.rfind("kiva", 0) == 0 ? name.substr(4) : "";
-  const bool number = !digits.empty() && digits.size() <= 7 && digits[0] != '0' &&
-                      digits.find_first_not_of("0123456789") == std::string::npos;
-  const int id = number ? std::stoi(digits) : 0;
-  if (id < 1 || id > kMaxKivaId) {
-    throw DescriptionError("model '" + name +
-                           "': a robot is called kiva<id> with an id from 1 to " +
-                           std::to_string(kMaxKivaId));
-  }
-  return id;
+  const int id = numberIn(name, "kiva");
+  if (id >= 1 && id <= kMaxKivaId) return id;
+  throw DescriptionError("model '" + name + "': a robot is called kiva<id> with an id from 1 to " +
+                         std::to_string(kMaxKivaId));
 }
 
 void checkPose(const Model& model) {
@@ -78,17 +72,10 @@ void reindex(WorldState& world, int from, int to) {
     if (unit.carrier == from) unit.carrier = to;
     if (unit.claimed_by == from) unit.claimed_by = to;
   }
-  updateFootprints(world, model);
+  moved(world, model);
 }
 
-}  // namespace
-
-bool isRobot(const ModelDescription& description) {
-  return std::any_of(description.plugins.begin(), description.plugins.end(),
-                     [](const PluginDescription& p) { return p.filename == kMotionPlugin; });
-}
-
-void weighRobot(const ModelDescription& description, Robot* robot) {
+void weigh(const ModelDescription& description, Robot* robot) {
   robot->mass = robot->inertia = 0;
   for (const Link& link : description.links) {
     const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
@@ -101,77 +88,87 @@ void weighRobot(const ModelDescription& description, Robot* robot) {
   }
 }
 
-void addRobot(WorldState& world, int slot) {
-  Model& model = *world.models[slot];
+void stand(FleetState& f, int robot, const EntityState& at) {
+  f.x[robot] = at.pose.X();
+  f.y[robot] = at.pose.Y();
+  f.yaw[robot] = at.pose.Rot().Yaw();
+  f.vx[robot] = at.twist.linear.X();
+  f.vy[robot] = at.twist.linear.Y();
+  f.yaw_rate[robot] = at.twist.angular.Z();
+}
+
+}  // namespace
+
+bool isRobot(const ModelDescription& description) {
+  return std::any_of(description.plugins.begin(), description.plugins.end(),
+                     [](const PluginDescription& p) { return p.filename == kMotionPlugin; });
+}
+
+void Robots::add(WorldState& world, Model& model) const {
   Robot robot;
   robot.name = model.name;
   robot.id = idIn(model.name);
-  robot.model = slot;
+  robot.model = model.slot;
   checkPose(model);
   configure(world, *model.description, &robot);
-  weighRobot(*model.description, &robot);
+  weigh(*model.description, &robot);
   Pose centre;
-  const Shape geometry = measure(*model.description, &robot, &centre);
-  model.geometries.push_back({-1, centre, geometry, -1});
+  const Shape box = measure(*model.description, &robot, &centre);
+  model.geometries.push_back({-1, centre, box, -1});
   const double yaw = model.pose.Rot().Yaw();
   const bool jointed = robot.drive.drive == Drive::kJointed;
   setRays(world, &robot);
   world.top_speed = std::max(world.top_speed, robot.drive.speed);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
-  updateFootprints(world, model);
+  moved(world, model);
   if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
 }
 
-void removeRobot(WorldState& world, int robot) {
+void Robots::remove(WorldState& world, Model& model) const {
+  const int robot = model.index, last = world.fleet.size() - 1;
+  if (robot < 0) return;  // it never joined
   if (world.fleet.unit[robot] >= 0) putDown(world, robot);
   for (StorageUnit& unit : world.units) {
     if (unit.claimed_by == robot) unit.claimed_by = -1;
   }
-  const int last = world.fleet.size() - 1;
   world.fleet.remove(robot);
   world.obstacles.removeMover(robot);
   world.scans_due.clear();  // indices have changed
+  world.sighted.clear();
   if (robot != last) reindex(world, last, robot);
 }
 
-void placeRobot(WorldState& world, int robot, const EntityState& state) {
-  Fleet& fleet = world.fleet;
-  stopCruise(fleet, robot);
-  if (!fleet.robots[robot].segments.empty()) {
-    markBlocked(world, robot, "", "was moved by hand");
-    endBlocked(world, robot);
+void Robots::place(WorldState& world, Model& model, const EntityState& state) const {
+  const int robot = model.index;
+  if (world.fleet.tasks[robot].phase != Phase::kIdle) {
+    endBlocked(world, robot, "", "was moved by hand");
   }
-  fleet.x[robot] = state.pose.X();
-  fleet.y[robot] = state.pose.Y();
-  fleet.yaw[robot] = state.pose.Rot().Yaw();
-  fleet.vx[robot] = state.twist.linear.X();
-  fleet.vy[robot] = state.twist.linear.Y();
-  fleet.yaw_rate[robot] = state.twist.angular.Z();
-  fleet.awake[robot] = 1;
-  fleet.look_again[robot] = 0;
-  Model& model = world.modelOf(robot);
-  if (model.in_physics) {
-    deactivate(world, model);
-    activate(world, model);
-  }
-  updateFootprints(world, model);
+  stand(world.fleet, robot, state);
+  moved(world.fleet, robot);
+  rebuildBody(world, model);
 }
 
-void resetRobot(WorldState& world, int robot) {
-  Fleet& fleet = world.fleet;
+void Robots::reset(WorldState& world, Model& model) const {
+  FleetState& fleet = world.fleet;
+  const int robot = model.index;
   if (fleet.unit[robot] >= 0) putDown(world, robot);
   fleet.tower[robot] = 0;
   fleet.stance[robot] = Stance();
-  placeRobot(world, robot, {world.modelOf(robot).spawn_pose, {}});
+  place(world, model, {model.spawn_pose, {}});
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
-  updateFootprints(world, world.modelOf(robot));
 }
 
-Pose robotLinkPose(const WorldState& world, int robot, int link) {
+EntityState Robots::state(const WorldState& world, const Model& model) const {
+  return robotState(world, model.index);
+}
+
+/// Wheels turned and tower raised.
+Pose Robots::linkPose(const WorldState& world, const Model& model, int link) const {
   const Fleet& fleet = world.fleet;
-  const Link& description = world.modelOf(robot).description->links[link];
+  const int robot = model.index;
+  const Link& description = model.description->links[link];
   const Pose pose = basePose(world, robot) * description.pose_in_model;
   if (description.name == "tower") {
     return Pose(0, 0, fleet.tower[robot], 0, 0, 0) * pose;
@@ -184,6 +181,67 @@ Pose robotLinkPose(const WorldState& world, int robot, int link) {
     return pose * Pose(Vector3::Zero, Quaternion(axle, angle));
   }
   return pose;
+}
+
+void Robots::reweigh(WorldState& world, Model& model, double /*added*/) const {
+  moved(world.fleet, model.index);
+  weigh(*model.description, &world.fleet.robots[model.index]);
+  rebuildBody(world, model);
+}
+
+/// The wheels' grip answers in the same step.
+bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& at,
+                  const Vector3& force, const Vector3& torque) const {
+  FleetState& f = world.fleet;
+  const int i = model.index;
+  const Robot& r = f.robots[i];
+  const Vector3 arm = at - basePose(world, i).Pos();
+  moved(f, i);
+  const double mass = r.mass + r.load_mass, inertia = r.inertia + r.load_inertia;
+  f.vx[i] += force.X() / mass * world.dt;
+  f.vy[i] += force.Y() / mass * world.dt;
+  f.yaw_rate[i] += (torque + arm.Cross(force)).Z() / inertia * world.dt;
+  return true;
+}
+
+ModelBodies Robots::build(const WorldState& world, const Model& model) const {
+  const int robot = model.index;
+  const Robot& r = world.fleet.robots[robot];
+  Link link;
+  link.mass = r.mass + r.load_mass;
+  const double inertia = r.inertia + r.load_inertia;
+  link.principal_moments.Set(inertia, inertia, inertia);
+  link.gravity = false;
+  ModelDescription planar;
+  planar.links.push_back(link);
+  ModelBodies bodies =
+      world.physics.build(planar, basePose(world, robot), model.slot, kRobotGroup, ~kFloorGroup);
+  LinkBody& body = bodies.links.front();
+  const btTransform base = toBullet(basePose(world, robot)).inverse();
+  const auto add = [&](const Model& part) {
+    for (std::size_t i = 0; i < part.description->links.size(); ++i) {
+      const btTransform at = base * toBullet(kiva::linkPose(world, part, static_cast<int>(i)));
+      for (const Collision& collision : part.description->links[i].collisions) {
+        body.shape.add(collision, at * toBullet(collision.pose_in_link), part.slot);
+      }
+    }
+  };
+  add(model);
+  const int unit = world.fleet.unit[robot];
+  if (unit >= 0) add(*world.models[world.units[unit].model]);
+  body.body->setLinearFactor({1, 1, 0});
+  body.body->setAngularFactor({0, 0, 1});
+  body.body->setActivationState(DISABLE_DEACTIVATION);
+  return bodies;
+}
+
+void Robots::activated(WorldState& world, Model& model) const {
+  world.fleet.activated[model.index] = 1;
+  moved(world.fleet, model.index);
+}
+
+void Robots::deactivated(WorldState& world, Model& model) const {
+  world.fleet.activated[model.index] = 0;
 }
 
 }  // namespace kiva

@@ -1,25 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Kiva robots: in arrays as long as they are alone, see contact/activation.h.
 #pragma once
 
 #include "core/state/world_state.h"
 
 namespace kiva {
 
+class Robots : public ModelOwner {
+ public:
+  void add(WorldState& world, Model& model) const override;
+  void remove(WorldState& world, Model& model) const override;
+  void place(WorldState& world, Model& model, const EntityState& state) const override;
+  void reset(WorldState& world, Model& model) const override;
+  EntityState state(const WorldState& world, const Model& model) const override;
+  Pose linkPose(const WorldState& world, const Model& model, int link) const override;
+  void reweigh(WorldState& world, Model& model, double added) const override;
+  bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
+            const Vector3& torque) const override;
+  /// With its load one body that slides and turns on the floor plane.
+  ModelBodies build(const WorldState& world, const Model& model) const override;
+  bool isActivatedWhenNear() const override { return true; }
+  void activated(WorldState& world, Model& model) const override;
+  void deactivated(WorldState& world, Model& model) const override;
+  bool followsBodies(const Model& /*model*/) const override { return false; }
+  bool drivesJoints() const override { return true; }
+  bool tellsCollisions() const override { return true; }
+  int robot(const WorldState& /*world*/, const Model& model) const override { return model.index; }
+  int group(const Model& model) const override { return model.index; }
+};
+
 /// Whether the description is a Kiva robot's: it names the motion plugin.
 bool isRobot(const ModelDescription& description);
-
-/// Takes its mass and its inertia about z through the model's origin from the links.
-void weighRobot(const ModelDescription& description, Robot* robot);
-/// Makes a robot of the model in that slot, by its plugins' parameters. Throws DescriptionError.
-void addRobot(WorldState& world, int slot);
-/// Takes it out of the fleet; what it carries is put down.
-void removeRobot(WorldState& world, int robot);
-/// Puts it there; a command it is at ends in BLOCKED.
-void placeRobot(WorldState& world, int robot, const EntityState& state);
-/// Back to where it was spawned: at rest, tower down, without load or command.
-void resetRobot(WorldState& world, int robot);
-
-/// Of one of its links, wheels turned and tower raised, in world.
-Pose robotLinkPose(const WorldState& world, int robot, int link);
 
 }  // namespace kiva

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether a robot, wherever it may go within a short time, can come near anything. A robot looks
-// again whenever it begins to move otherwise, so that one that stands need not be reckoned with as
-// if it moved.
+// Until when a robot's way is free: whether, wherever it may go within a short time, it can come
+// near anything. FleetState::clear_until keeps the answer until the robot moves otherwise, so that
+// one that stands need not be reckoned with as if it moved.
 #pragma once
 
 #include "core/state/world_state.h"
@@ -11,15 +11,23 @@ namespace kiva {
 
 /// Nearer than that Bullet decides [m]; less than what is between two that turn in adjacent cells.
 constexpr double kNear = 0.004;
+/// [m/s] of a chassis' corner in the fastest turn.
+constexpr double kCornerSpeed = 3.2;
 
-/// The robot with its load as one upright box, in world.
-Footprint footprintOf(const Fleet& fleet, int robot);
-/// The circle that holds it however it turns.
-Footprint turned(Footprint geometry);
-/// What it covers while it goes by (dx, dy) [m] along its heading.
-Footprint moved(Footprint geometry, double dx, double dy);
+/// Looks for how long nothing can come near the robot, and notes it in clear_until. Returns false,
+/// with nothing noted, if that is no time worth speaking of.
+bool findClearance(WorldState& world, int robot);
 
-/// Whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
-bool isClear(const WorldState& world, int robot, const Footprint& swept, double time);
+/// Whether the way is free for long enough to cruise on it.
+bool hasClearance(const WorldState& world, int robot);
+
+/// What of others is near the footprint `own`, no point of which goes faster than `speed` [m/s]:
+/// slots of models that it could touch in the next step go to `close`. Returns the least gap to
+/// anything foreign, at most `reach`; both in [m].
+double findClose(const WorldState& world, const Footprint& own, double speed, double reach,
+                 std::vector<int>* close);
+
+/// How fast any point of the robot may go within the next step [m/s].
+double pointSpeed(const FleetState& fleet, int robot);
 
 }  // namespace kiva

@@ -10,18 +10,16 @@
 namespace kiva {
 namespace {
 
-constexpr double kHorizons[] = {0.3, 0.08};  // [s] for which the way may be found free
-constexpr double kRetry = 0.05;  // [s] after which one looks again that had somebody near
-constexpr double kMargin = 2;    // of force to spare: a profile's last steps are uneven
+constexpr double kMargin = 2;  // of force to spare: a profile's last steps are uneven
 
 /// Whether the chassis is just as fast as its reference says.
-bool keepsUp(const Fleet& f, int i, const Motion& per) {
+bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
   const double v = f.reference_speed[i];
   return isExact(f.vx[i] - per.x * v) && isExact(f.vy[i] - per.y * v) &&
          isExact(f.yaw_rate[i] - per.yaw * v);
 }
 
-bool hasForce(const Robot& robot, const Motion& per, double deceleration, double gravity) {
+bool hasForce(const Robot& robot, const ReferenceMotion& per, double deceleration, double gravity) {
   if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
   if (per.acceleration == 0) return false;
   const double hardest = kMargin * std::max(per.acceleration, deceleration);
@@ -29,47 +27,18 @@ bool hasForce(const Robot& robot, const Motion& per, double deceleration, double
   return hardest < limit;
 }
 
-/// What the robot covers of the floor while its reference goes on by `way`.
-Footprint sweep(const Fleet& f, int i, double way) {
-  if (f.per_yaw[i] != 0) return turned(footprintOf(f, i));
-  return moved(footprintOf(f, i), f.per_x[i] * way, f.per_y[i] * way);
-}
-
-/// How far the reference goes at most in that time.
-double wayWithin(const Fleet& f, int i, double time) {
-  const double way = f.goal[i] - f.reference[i];
-  const double most = f.top_speed[i] * time;
-  return std::clamp(way, -most, most);
-}
-
-/// Looks ahead at step `now`; returns whether the robot may cruise on, for a while.
-bool renew(WorldState& world, int i, double now) {
-  Fleet& f = world.fleet;
-  for (const double horizon : kHorizons) {
-    const bool turns = f.per_yaw[i] != 0;
-    const double time =
-        turns ? horizon : std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
-    const double way = wayWithin(f, i, time);
-    if (!isClear(world, i, sweep(f, i, way), time)) continue;
-    world.obstacles.follow(i, turns ? 0 : std::abs(way));
-    f.cruise_until[i] = now + std::floor(time / world.dt);
-    return true;
-  }
-  return false;
-}
-
 constexpr int kBlock = 16;  // robots that are stepped together
 
 /// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
 /// reference has ended, or its time is over at step `now`.
-__attribute__((target_clones("avx2", "default"))) bool advance(Fleet& f, int begin, int end,
+__attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
                                                                double dt, double now) {
   const std::int64_t* __restrict mask = f.cruising.data();
   const double* __restrict goal = f.goal.data();
   const double* __restrict top = f.top_speed.data();
   const double* __restrict acceleration = f.acceleration.data();
   const double* __restrict deceleration = f.deceleration.data();
-  const double* __restrict until = f.cruise_until.data();
+  const double* __restrict until = f.clear_until.data();
   const double* __restrict per_x = f.per_x.data();
   const double* __restrict per_y = f.per_y.data();
   const double* __restrict per_yaw = f.per_yaw.data();
@@ -117,26 +86,21 @@ __attribute__((target_clones("avx2", "default"))) bool advance(Fleet& f, int beg
   return attention != 0;
 }
 
-double retryStep(const WorldState& world, double now) { return now + std::ceil(kRetry / world.dt); }
-
 void attend(WorldState& world, int i, double now) {
-  Fleet& f = world.fleet;
-  if (f.reference[i] == f.goal[i]) return stopCruise(f, i);
-  if (f.cruise_until[i] > now || renew(world, i, now)) return;
-  stopCruise(f, i);
-  f.cruise_until[i] = retryStep(world, now);
+  FleetState& f = world.fleet;
+  const bool ended = f.reference[i] == f.goal[i];
+  if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) moved(f, i);
 }
 
 }  // namespace
 
-bool tryCruise(WorldState& world, int i, const Motion& per) {
-  Fleet& f = world.fleet;
+bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
+  FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
-  const auto now = static_cast<double>(world.total_steps);
   if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
-      f.cruise_until[i] > now || f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
-      std::abs(f.reference_speed[i]) > per.top_speed || !keepsUp(f, i, per) ||
-      !hasForce(r, per, f.deceleration[i], world.gravityDown())) {
+      f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
+      std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
+      !keepsUp(f, i, per) || !hasForce(r, per, f.deceleration[i], world.gravityDown())) {
     return false;
   }
   const double turn = per.yaw * r.drive.wheel_separation / 2;
@@ -148,24 +112,14 @@ bool tryCruise(WorldState& world, int i, const Motion& per) {
   f.per_wheel[1][i] = (ahead + turn) / r.drive.wheel_radius;
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
-  if (!renew(world, i, now)) {
-    f.cruise_until[i] = retryStep(world, now);
-    return false;
-  }
   f.cruising[i] = -1;
-  return true;
-}
-
-void stopCruise(Fleet& f, int i) {
-  if (f.cruising[i] == 0) return;
+  if (findClearance(world, i)) return true;
   f.cruising[i] = 0;
-  f.look_again[i] = 0;
-  f.cruise_until[i] = 0;
-  for (int wheel = 0; wheel < 2; ++wheel) f.wheel_target[wheel][i] = f.wheel_speed[wheel][i];
+  return false;
 }
 
 void cruise(WorldState& world) {
-  Fleet& f = world.fleet;
+  FleetState& f = world.fleet;
   const auto next = static_cast<double>(world.total_steps + 1);
   bool any_loaded = false;
   for (int begin = 0; begin < f.size(); begin += kBlock) {
@@ -180,7 +134,7 @@ void cruise(WorldState& world) {
       if (f.cruising[i] != 0) attend(world, i, next);
     }
   }
-  if (any_loaded) ++world.units_revision;
+  if (any_loaded) world.unitsMoved();
 }
 
 }  // namespace kiva

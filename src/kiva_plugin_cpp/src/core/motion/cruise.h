@@ -12,9 +12,10 @@
 
 namespace kiva {
 
-/// What a unit of a segment's reference moves, and how the reference goes.
-struct Motion {
-  double x = 0, y = 0, yaw = 0;  ///< Of the chassis in world [m, m, rad].
+/// Where the reference of a segment goes: what a unit of it [m or rad] moves the chassis in world,
+/// and how fast it may go.
+struct ReferenceMotion {
+  double x = 0, y = 0, yaw = 0;  ///< [m, m, rad] a unit.
   double top_speed = 0;          ///< [m/s or rad/s]
   double acceleration = 0;       ///< [m/s² or rad/s²]; 0 = at once.
 };
@@ -23,11 +24,8 @@ struct Motion {
 inline bool isExact(double error) { return std::abs(error) < 2e-11; }
 
 /// Lets the robot cruise along its segment from this step on, if it is fit for it and its way is
-/// free.
-bool tryCruise(WorldState& world, int robot, const Motion& per);
-
-/// Back to the equations, from the next step on.
-void stopCruise(Fleet& fleet, int robot);
+/// free. It does until something else moves it, see moved().
+bool tryCruise(WorldState& world, int robot, const ReferenceMotion& per);
 
 /// One step of all who cruise. Those whose reference ends, or who may have somebody near, stop.
 void cruise(WorldState& world);

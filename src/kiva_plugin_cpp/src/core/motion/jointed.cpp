@@ -275,7 +275,7 @@ class Step {
     return needed;
   }
 
-  Fleet& f_;
+  FleetState& f_;
   const int robot_;
   const DriveParameters& drive_;
   const JointedBody& body_;
@@ -295,7 +295,7 @@ class Step {
 void driveJointed(WorldState& world, int robot) { Step(world, robot).run(); }
 
 void settleJointed(WorldState& world, int robot) {
-  Fleet& f = world.fleet;
+  FleetState& f = world.fleet;
   Stance& stance = f.stance[robot];
   const Tilt tilt(stance);
   const btVector3 turning = tilt.turning(stance, f.yaw_rate[robot]);
@@ -305,7 +305,7 @@ void settleJointed(WorldState& world, int robot) {
   stance.roll += (turning.x() + heading_rate * tilt.sin_pitch) * world.dt;
 }
 
-bool restJointed(Fleet& f, int robot) {
+bool restJointed(FleetState& f, int robot) {
   Stance& s = f.stance[robot];
   const double rocking =
       std::max({std::abs(s.climb_rate), std::abs(s.roll_rate), std::abs(s.pitch_rate)});

@@ -18,6 +18,6 @@ void driveJointed(WorldState& world, int robot);
 /// Moves the chassis up, down and about by one step; its place in the plane has been found.
 void settleJointed(WorldState& world, int robot);
 /// Ends the last of a standing chassis' rocking. Returns whether it is little enough for that.
-bool restJointed(Fleet& fleet, int robot);
+bool restJointed(FleetState& fleet, int robot);
 
 }  // namespace kiva

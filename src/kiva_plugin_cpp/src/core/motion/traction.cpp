@@ -101,7 +101,7 @@ double speedAfter(const Vehicle& v, const Wheel& wheel) {
 
 }  // namespace
 
-void applyTraction(Fleet& fleet, int i, double gravity, double dt) {
+void applyTraction(FleetState& fleet, int i, double gravity, double dt) {
   const Vehicle v = vehicle(fleet.robots[i], gravity);
   const double c = std::cos(fleet.yaw[i]), s = std::sin(fleet.yaw[i]);
   double forward = c * fleet.vx[i] + s * fleet.vy[i];
@@ -155,7 +155,7 @@ double turningLimit(const Robot& robot, double gravity) {
   return 2 * force * v.half_gap / (v.inertia + 2 * spin * v.half_gap);
 }
 
-bool atRest(const Fleet& fleet, int i) {
+bool atRest(const FleetState& fleet, int i) {
   return std::abs(fleet.vx[i]) < kRestSpeed && std::abs(fleet.vy[i]) < kRestSpeed &&
          std::abs(fleet.yaw_rate[i]) < kRestSpeed && fleet.wheel_target[0][i] == 0 &&
          fleet.wheel_target[1][i] == 0;

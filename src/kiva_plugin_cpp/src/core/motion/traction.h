@@ -3,13 +3,13 @@
 // A differential drive on the floor as five degrees of freedom: a planar chassis and two wheels.
 #pragma once
 
-#include "kiva_plugin_cpp/fleet.h"
+#include "core/state/fleet_state.h"
 
 namespace kiva {
 
 /// Changes velocities and wheel speeds of robot `i` by one step's motor torques and floor friction;
 /// positions stay. `dt` in [s].
-void applyTraction(Fleet& fleet, int i, double gravity, double dt);
+void applyTraction(FleetState& fleet, int i, double gravity, double dt);
 
 /// Moves robot `i` by one step at its velocities (semi-implicit Euler, as Bullet does).
 void integrate(Fleet& fleet, int i, double dt);
@@ -21,6 +21,6 @@ double drivingLimit(const Robot& robot, double gravity);
 double turningLimit(const Robot& robot, double gravity);
 
 /// Exactly at rest: no motion, no motor asked for any.
-bool atRest(const Fleet& fleet, int i);
+bool atRest(const FleetState& fleet, int i);
 
 }  // namespace kiva

@@ -370,6 +370,7 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
     const JointEnds ends{bodyOf(description, out, joint.parent),
                          bodyOf(description, out, joint.child)};
     out.joints.push_back(makeJoint(joint, ends, toBullet(pose)));
+    mark(*out.joints.back(), model, static_cast<int>(out.joints.size()));
   }
   return out;
 }
@@ -397,7 +398,7 @@ bool Physics::anyAwake() const {
 }
 
 void Physics::step(double dt) {
-  if (!anyAwake()) return;
+  if (!anyAwake()) return before_.clear();
   noteVelocities();
   world_.stepSimulation(dt, 0);
 }
@@ -435,9 +436,7 @@ double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint
 
 void Physics::contacts(std::vector<Contact>* out) const {
   out->clear();
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold* manifold =
-        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+  for (const btPersistentManifold* manifold : manifolds()) {
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
       if (!isTouching(point)) continue;
@@ -468,19 +467,15 @@ void Physics::contacts(std::vector<Contact>* out) const {
   }
 }
 
-std::vector<btPersistentManifold*> Physics::manifolds() const {
-  auto& dispatcher = const_cast<btCollisionDispatcher&>(dispatcher_);
-  btPersistentManifold** const first = dispatcher.getInternalManifoldPointer();
-  return {first, first + dispatcher.getNumManifolds()};
+std::vector<btPersistentManifold*> Physics::makeManifolds() {
+  world_.updateAabbs();
+  world_.computeOverlappingPairs();
+  return dispatcher_.makeManifolds(world_.getPairCache(), world_.getDispatchInfo());
 }
-
-void Physics::findContacts() { world_.performDiscreteCollisionDetection(); }
 
 std::vector<TouchPoint> Physics::touchPoints(int model) const {
   std::vector<TouchPoint> out;
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold* manifold =
-        const_cast<btCollisionDispatcher&>(dispatcher_).getManifoldByIndexInternal(i);
+  for (const btPersistentManifold* manifold : manifolds()) {
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
       if (!isTouching(point)) continue;

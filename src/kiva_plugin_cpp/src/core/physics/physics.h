@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/physics/box_contacts.h"
+#include "core/physics/ordered_bullet.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
@@ -102,10 +103,10 @@ class Physics {
   void setGravity(const Vector3& gravity);
   /// Pairs of models that touch now, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
-  /// The pairs of bodies that Bullet keeps contacts of, with their contacts.
-  std::vector<btPersistentManifold*> manifolds() const;
-  /// Finds the contacts of this moment, as a step does at its beginning.
-  void findContacts();
+  /// What Bullet keeps of contacts, in an order that follows from the bodies.
+  std::vector<btPersistentManifold*> manifolds() const { return dispatcher_.manifolds(); }
+  /// A manifold, still without contacts, for every two parts that are near each other.
+  std::vector<btPersistentManifold*> makeManifolds();
   /// Every point at which that model touches another now, itself being a.
   std::vector<TouchPoint> touchPoints(int model) const;
   /// First body on a ray, as a fraction of `range`; +inf = none.
@@ -118,10 +119,10 @@ class Physics {
 
   BoxBoxContacts::Creator box_contacts_;
   btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_;
+  OrderedDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
-  btDiscreteDynamicsWorld world_;
+  OrderedSolver solver_;
+  ContactIslandWorld world_;
 
   struct Velocity {
     btVector3 linear, angular;

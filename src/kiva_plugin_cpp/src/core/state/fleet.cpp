@@ -13,21 +13,12 @@ void forEachArray(Fleet& f, Visit visit) {
   for (int wheel = 0; wheel < 2; ++wheel) {
     visit(f.wheel_speed[wheel]);
     visit(f.wheel_angle[wheel]);
-    visit(f.wheel_target[wheel]);
-    visit(f.per_wheel[wheel]);
   }
-  for (auto* array : {&f.reference, &f.reference_speed, &f.goal, &f.deceleration, &f.per_x,
-                      &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.cruise_until}) {
-    visit(*array);
-  }
-  visit(f.cruising);
   visit(f.stance);
   visit(f.unit);
   visit(f.status);
   visit(f.state);
-  visit(f.awake);
-  visit(f.activated);
-  visit(f.look_again);
+  visit(f.last_end);
 }
 
 }  // namespace

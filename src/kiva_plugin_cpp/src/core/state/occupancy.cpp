@@ -77,7 +77,7 @@ Occupancy World::occupancy() const {
   map.rows = y.count;
   map.taken.assign(static_cast<std::size_t>(x.count) * y.count, 0);
   for (const auto& model : world.models) {
-    if (!model || model->kind != ModelKind::kOther) continue;
+    if (!model || !model->owner->isObstacle()) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& footprint = world.obstacles[geometry.handle];
       if (isInTheWay(footprint)) mark(footprint, &map);

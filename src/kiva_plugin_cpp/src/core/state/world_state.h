@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a world in one place. The modules beside this file are functions over it:
-//   models      spawn, remove, read, set, reset
-//   activation  who is stepped by Bullet and who in arrays
-//   commands    what robots are asked for, and what becomes of it
-//   load        storage units and items: carried, put down, where they are
+// The state of a world in one place. The rooms above this one are functions over it, in the order
+// in which World::step calls them; none includes one that stands behind it here:
+//   motion      wheels on the floor, references that are followed, until when a way is free
+//   contact     who is stepped by Bullet and who in arrays, collisions, forces from outside
+//   models      what comes and goes: robots, storage units, items, all else
 //   sensing     scans, and what lies ahead
-//   collisions  contacts that should not be
+//   control     what robots are asked for, and what becomes of it
 //   checkpoint  all of it as bytes, and back
-//   joints      motors, damping and positions of ordinary models' joints
-//   intervene   what clients apply for a while
 #pragma once
 
 #include <array>
@@ -22,46 +20,13 @@
 
 #include "core/geometry/obstacles.h"
 #include "core/physics/physics.h"
-#include "kiva_plugin_cpp/plugin.h"
+#include "core/state/fleet_state.h"
+#include "core/state/model.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
 
 class FleetPlugin;
-
-/// One footprint of a model, and the shape it comes from.
-struct CollisionGeometry {
-  int link = 0;
-  Pose pose_in_link;
-  Shape shape;
-  int handle = -1;    ///< In Obstacles; -1 for those of a robot and its load, which are a mover's.
-  int triangle = -1;  ///< Of the mesh of a static model: each of them is one of these.
-  std::shared_ptr<std::array<Vector3, 3>> corners = nullptr;  ///< Of that triangle, in world.
-};
-
-struct JointedBody;
-
-struct Model {
-  std::string name;
-  ModelKind kind = ModelKind::kOther;
-  std::shared_ptr<const ModelDescription> description;
-  std::uint64_t serial = 0;  ///< Order of arrival.
-  Pose spawn_pose;           ///< In world.
-  Pose pose;                 ///< In world; of a model that has no body now.
-  int index = -1;            ///< In the fleet, the storage units or the items, by kind.
-  ModelBodies bodies;
-  bool in_physics = false;         ///< Its bodies are in Bullet now.
-  std::uint64_t active_until = 0;  ///< Step up to which something near keeps it in Bullet.
-  bool disturbed = false;          ///< Touched since it was activated.
-  std::shared_ptr<const JointedBody>
-      jointed;  ///< Of a robot of that drive; made when it is asked for.
-  std::vector<CollisionGeometry> geometries;
-  std::vector<std::shared_ptr<Plugin>> plugins;
-  std::vector<JointState> joints;  ///< In the description's order; of a model with free bodies.
-  std::string robot_namespace;     ///< What its plugins were told.
-
-  bool isStatic() const { return description->is_static; }
-};
 
 /// Two models in contact.
 struct TouchingPair {
@@ -70,6 +35,12 @@ struct TouchingPair {
   Impact impact;                  ///< So far, its normal from b to a.
   std::uint64_t tell_at = 0;      ///< The step at which it is told, if it is over; 0 = it has been.
   std::uint64_t tell_latest = 0;  ///< The step at which it is told, over or not.
+};
+
+/// A collision that was seen, and stops that robot.
+struct Crash {
+  int kiva_id = 0;
+  std::string with;  ///< A model's name.
 };
 
 /// Directions of a laser's rays in the frame of its robot, as (cos, sin).
@@ -101,7 +72,7 @@ struct WorldState {
   std::uint64_t total_steps = 0;  // ever; what schedules count by
 
   Physics physics;
-  Fleet fleet;
+  FleetState fleet;
   Obstacles obstacles{fleet};
   std::vector<StorageUnit> units;
   std::vector<Item> items;
@@ -127,7 +98,7 @@ struct WorldState {
   Floor floor;
   double floor_friction = 1;  // Coulomb coefficient of the floor's surface
 
-  std::vector<std::unique_ptr<FleetPlugin>> fleet_plugins;
+  std::vector<std::shared_ptr<const FleetPlugin>> fleet_plugins;
   std::vector<std::shared_ptr<Plugin>> world_plugins;
   std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
@@ -135,11 +106,20 @@ struct WorldState {
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;
-  std::vector<Contact> contacts;  // scratch
+  std::vector<Contact> contacts;   // scratch
+  std::vector<int> sighted;        // robots whose lasers looked ahead in the last step
+  std::vector<Crash> crashes;      // of the last step
+  std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
   std::vector<std::string> warnings;
   std::set<std::string> warned;
 
+  /// A storage unit, or an item that lies on none, is somewhere else or changed hands.
+  void unitsMoved() { ++units_revision; }
+  /// Steps that last at least so long [s].
+  std::uint64_t stepsIn(double seconds) const {
+    return static_cast<std::uint64_t>(std::ceil(seconds / dt));
+  }
   double time() const { return dt_since_time + static_cast<double>(steps - dt_since) * dt; }
   double gravityDown() const { return -gravity.Z(); }
   Model& modelOf(int robot) { return *models[fleet.robots[robot].model]; }
@@ -151,6 +131,9 @@ struct WorldState {
 
   void report(Event::Kind kind, const std::string& model, const std::string& other,
               const std::string& text, const Impact& impact = {});
+  /// The same of what became of a robot's command.
+  void reportCommand(Event::Kind kind, int robot, const std::string& other,
+                     const std::string& text);
   /// Tells what was left out, once for each `subject`.
   void warn(const std::string& subject, const std::string& text);
   /// Sets what the robot reports, and records it if it is new.

@@ -142,16 +142,15 @@ bool updatePoses(const kiva::World& world, warehouse_msgs::Scenery* scenery) {
 warehouse_msgs::FleetPaths pathsOf(const kiva::World& world) {
   warehouse_msgs::FleetPaths out;
   out.stamp = ros::Time(world.time());
-  for (const kiva::Robot& robot : world.fleet().robots) {
-    const std::size_t before = out.x.size();
-    for (const kiva::MotionSegment& segment : robot.segments) {
-      if (segment.kind != kiva::MotionSegment::Kind::kDrive) continue;
-      out.x.push_back(segment.x);
-      out.y.push_back(segment.y);
+  for (int robot = 0; robot < world.fleet().size(); ++robot) {
+    const std::vector<kiva::PathPoint> path = world.pathAhead(robot);
+    if (path.empty()) continue;
+    for (const kiva::PathPoint& point : path) {
+      out.x.push_back(point.x);
+      out.y.push_back(point.y);
     }
-    if (out.x.size() == before) continue;
-    out.kiva_id.push_back(robot.id);
-    out.points.push_back(static_cast<std::uint32_t>(out.x.size() - before));
+    out.kiva_id.push_back(world.fleet().robots[robot].id);
+    out.points.push_back(static_cast<std::uint32_t>(path.size()));
   }
   return out;
 }

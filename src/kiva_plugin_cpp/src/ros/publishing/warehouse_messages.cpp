@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/geometry/angle.h"
 #include "ros/messages/convert.h"
 
 namespace kiva_ros {
@@ -18,9 +19,6 @@ static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REF
 static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
-
-/// The world counts full turns; clients expect -π…π.
-double wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
 
 /// The number in `kiva<id>` of the robot at that index, 0 for none.
 int idOf(const kiva::Fleet& fleet, int robot) { return robot < 0 ? 0 : fleet.robots[robot].id; }
@@ -39,6 +37,7 @@ warehouse_msgs::Event toMessage(const kiva::Event& event) {
   out.model = event.model;
   out.other = event.other;
   out.text = event.text;
+  out.command = event.command;
   return out;
 }
 
@@ -65,7 +64,7 @@ warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status) {
   out.shelf_id = status.shelf_id;
   out.pose.x = status.x;
   out.pose.y = status.y;
-  out.pose.theta = wrapped(status.yaw);
+  out.pose.theta = kiva::wrapAngle(status.yaw);
   return out;
 }
 
@@ -108,9 +107,10 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   out.vx.assign(f.vx.begin(), f.vx.end());
   out.vy.assign(f.vy.begin(), f.vy.end());
   out.yaw_rate.assign(f.yaw_rate.begin(), f.yaw_rate.end());
+  out.last_end.assign(f.last_end.begin(), f.last_end.end());
   for (int i = 0; i < f.size(); ++i) {
     out.kiva_id.push_back(f.robots[i].id);
-    out.yaw.push_back(wrapped(f.yaw[i]));
+    out.yaw.push_back(kiva::wrapAngle(f.yaw[i]));
     out.status.push_back(static_cast<std::uint8_t>(f.status[i]));
     out.state.push_back(static_cast<std::uint8_t>(f.state[i]));
     out.shelf_id.push_back(shelfOf(world, i));

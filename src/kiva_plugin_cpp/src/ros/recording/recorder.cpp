@@ -2,7 +2,6 @@
 #include "recorder.h"
 
 #include <ros/console.h>
-#include <std_msgs/Empty.h>
 #include <std_msgs/String.h>
 #include <std_msgs/UInt8MultiArray.h>
 #include <tf2_msgs/TFMessage.h>
@@ -78,13 +77,12 @@ bool Recorder::beforeStep(kiva::World& world) {
   if (changed_) {
     write(kKeyframeTopic, keyframe(world.checkpoint()));  // commands that wait are in it
   } else {
-    if (checkpointed_) write(kCheckpointedTopic, std_msgs::Empty());
     for (const kiva::Command& command : commands_) write(command);
   }
   for (const auto& input : inputs_) {
     attempt([&](rosbag::Bag& bag) { input(bag, stamp()); });
   }
-  changed_ = checkpointed_ = false;
+  changed_ = false;
   commands_.clear();
   inputs_.clear();
   return true;

@@ -23,7 +23,6 @@ class Recorder : public StepHook {
   explicit Recorder(const std::string& path);
 
   void onCommand(const kiva::Command& command) override;
-  void onCheckpoint() override { checkpointed_ = true; }
   void onChange() override { changed_ = true; }
   /// Something else takes effect at the step to come: `write` puts it into the bag.
   void onInput(std::function<void(rosbag::Bag&, const ros::Time&)> write);
@@ -52,7 +51,7 @@ class Recorder : public StepHook {
   std::uint32_t index_ = 0;                         ///< Of the next message within this step.
   std::vector<kiva::Command> commands_;
   std::vector<std::function<void(rosbag::Bag&, const ros::Time&)>> inputs_;
-  bool changed_ = true, checkpointed_ = false;
+  bool changed_ = true;
 };
 
 }  // namespace kiva_ros

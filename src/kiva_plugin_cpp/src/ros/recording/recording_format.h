@@ -8,7 +8,6 @@
 //   /tf                          where the robots are, twice a second: for RViz
 //   /warehouse/keyframe          std_msgs/UInt8MultiArray: a checkpoint, at the beginning and
 //                                whenever models came, went or were moved from outside
-//   /warehouse/checkpointed      std_msgs/Empty: a checkpoint was taken, which leaves its trace
 //
 // Messages are stamped by simulated time since the beginning, counted in steps, so that no reset
 // and no restore makes it go back; the nanoseconds beyond a step keep the order within it.
@@ -23,7 +22,6 @@ namespace kiva_ros {
 
 constexpr char kHashTopic[] = "/warehouse/state_hash";
 constexpr char kKeyframeTopic[] = "/warehouse/keyframe";
-constexpr char kCheckpointedTopic[] = "/warehouse/checkpointed";
 
 /// Of message number `index` within a step.
 inline ros::Time recordingStamp(std::uint64_t step, double step_size, std::uint32_t index) {

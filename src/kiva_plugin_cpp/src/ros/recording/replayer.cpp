@@ -81,8 +81,6 @@ void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message)
   const std::string& topic = message.getTopic();
   if (topic == kKeyframeTopic) {
     restore(world, message);
-  } else if (topic == kCheckpointedTopic) {
-    world.checkpoint();
   } else if (const auto command = commandIn(message)) {
     world.post(*command);
   } else if (!isReport(message)) {

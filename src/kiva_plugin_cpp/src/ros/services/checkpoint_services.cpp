@@ -82,7 +82,6 @@ double CheckpointServices::undoHere(kiva::World& world, double seconds_back) {
 
 void CheckpointServices::remember(kiva::World& world) {
   const auto most = static_cast<std::size_t>(std::max(options_.autosave, 1));
-  simulation_.noteCheckpoint();
   ring_.push_back({age_, world.checkpoint()});
   ring_bytes_ += ring_.back().bytes.size();
   while (ring_.size() > most || ring_bytes_ > options_.most_bytes) {

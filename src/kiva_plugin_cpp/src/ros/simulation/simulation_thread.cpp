@@ -105,15 +105,8 @@ SimulationThread::Stepped SimulationThread::step(std::uint32_t steps,
   }
 }
 
-void SimulationThread::noteCheckpoint() {
-  for (StepHook* hook : hooks_) hook->onCheckpoint();
-}
-
 std::string SimulationThread::checkpoint() {
-  return run([this](kiva::World& world) {
-    noteCheckpoint();
-    return world.checkpoint();
-  });
+  return run([](kiva::World& world) { return world.checkpoint(); });
 }
 
 double SimulationThread::restore(const std::string& checkpoint) {

@@ -74,8 +74,6 @@ class SimulationThread {
   /// the steps that are left are not made. Not from the step thread.
   Stepped step(std::uint32_t steps, const std::function<bool()>& is_abandoned);
 
-  /// From the step thread: somebody took a checkpoint of the world.
-  void noteCheckpoint();
   /// A checkpoint of the world.
   std::string checkpoint();
   /// Goes back, or ahead, to a checkpoint. Returns the time [s] then. Throws what World::restore

@@ -11,8 +11,6 @@ class StepHook {
   virtual ~StepHook() = default;
   /// A command was posted; it is answered at the next step.
   virtual void onCommand(const kiva::Command& /*command*/) {}
-  /// A checkpoint was taken, which leaves its trace in the world.
-  virtual void onCheckpoint() {}
   /// Everything is about to go back to where it was spawned.
   virtual void beforeReset(kiva::World& /*world*/) {}
   /// Models came, went or were moved from outside.
