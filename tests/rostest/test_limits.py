@@ -237,6 +237,24 @@ class Resets(unittest.TestCase):
                 self.assertEqual(state("kiva1").pose, before)
             commander.close()
 
+    def test_a_command_that_no_step_came_for_is_refused(self):
+        with Node(world="paper"), Paused():
+            commander = Commander()
+            self.assertTrue(save("here").success)
+            ways = {
+                "was reset": lambda: control("reset_world"),
+                "went back": lambda: restore("here"),
+            }
+            for reason, act in ways.items():
+                commander.events.clear()
+                commander.send("/rot", kiva_id=1, direction=1)
+                wait_until(lambda: " 1 commands" in call("/gazebo/step", Step, 0).message, "it")
+                act()
+                event = commander.events.first(lambda e: e.kind in ANSWERS)
+                self.assertEqual((event.kind, event.model), (Event.REFUSED, "kiva1"))
+                self.assertIn(reason, event.text)
+            commander.close()
+
 
 if __name__ == "__main__":
     rospy.init_node("test_limits", disable_signals=True)

@@ -207,6 +207,8 @@ class Inputs(unittest.TestCase):
                         "/gazebo/spawn_urdf_model", SpawnModel, model_name=f"rover{i}", **fields
                     )
                     self.assertTrue(spawned.success, spawned.status_message)
+                    end = sim_time() + 0.3  # the first is on its wheels when the second comes
+                    wait_until(lambda end=end: sim_time() > end, "time going on")
                 driver = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
                 wait_until(driver.get_num_connections, "the rovers' ear")
                 for turn in range(8):

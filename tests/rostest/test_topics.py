@@ -3,7 +3,6 @@
 """What the world publishes: rates, frames, latching."""
 
 import math
-import time
 import unittest
 
 import rospy
@@ -67,16 +66,11 @@ class Rates(unittest.TestCase):
         gap = self.usual_gap("/clock", Clock, lambda m: m.clock, 100)
         self.assertEqual(gap, 0.01)
 
-    def test_time_passes_no_faster_than_was_asked_for(self):
-        """How much slower is up to the machine; unpaced, it would be a hundred times as fast."""
-        with Collector("/clock", Clock) as clocks:
-            begin = clocks.next(1)[0].clock.to_sec(), time.monotonic()
-            end = clocks.next(200)[-1].clock.to_sec(), time.monotonic()
-        self.assertLess((end[0] - begin[0]) / (end[1] - begin[1]), 2)
-
     def test_the_pace_is_told(self):
+        """As the world measured it: on a busy machine time is late, but never early for long."""
         with Collector("/gazebo/performance_metrics", PerformanceMetrics) as metrics:
-            metrics.first(lambda m: 0 < m.real_time_factor < 2)
+            pace = metrics.first(lambda m: m.real_time_factor > 0).real_time_factor
+        self.assertLess(pace, 1.15)
 
     def test_of_one_robot(self):
         def stamp(message):
@@ -94,12 +88,11 @@ class Rates(unittest.TestCase):
 
     def test_model_states_under_both_names(self):
         for topic in ("/model_states", "/gazebo/model_states"):
-            with Collector(topic, ModelStates) as models, Paused():
-                models.clear()
-                for seconds_passed in (1, 2):
-                    step_until(sim_time() + 1)
-                    models.wait_for(lambda m, n=50 * seconds_passed: len(m) >= n)
-                self.assertLessEqual(len(models.messages), 101)
+            with Paused(), Collector(topic, ModelStates) as models:
+                step_until(sim_time() + 1.0)
+                models.wait_for(lambda messages: len(messages) >= 50)
+                step_until(sim_time() + 0.1)
+                self.assertEqual(len(models.wait_for(lambda messages: len(messages) >= 55)), 55)
 
 
 class OneRobot(unittest.TestCase):

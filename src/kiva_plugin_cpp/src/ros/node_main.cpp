@@ -34,7 +34,7 @@
 #include "ros/services/visualization_topics.h"
 #include "ros/simulation/simulation_thread.h"
 #include "ros/transport/callback_thread.h"
-#include "ros/transport/poll_thread.h"
+#include "ros/transport/listen_backlog.h"
 #include "ros/transport/publish_queue.h"
 #include "ros/transport/subscriber_counts.h"
 #include "ros/transport/unadvertise.h"

@@ -123,22 +123,29 @@ std::string DiffDrive::save() const {
   std::ostringstream out;
   out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].target
       << ' ' << wheels_[kRight].target << ' ' << pose.X() << ' ' << pose.Y() << ' '
-      << pose.Rot().Yaw();
+      << pose.Rot().Yaw() << ' ' << wheels_[kLeft].applied << ' ' << wheels_[kRight].applied;
   return out.str();
 }
 
 void DiffDrive::restore(kiva::World& world, const std::string& state) {
   reset(world);
   std::istringstream words(state);
-  double values[7] = {};
+  double values[9] = {};
   for (double& value : values) {  // streams read no hexadecimal floats
     std::string word;
     words >> word;
     value = std::strtod(word.c_str(), nullptr);
   }
+  // A checkpoint may come from anywhere.
+  for (int i = 0; i < 7; ++i) {
+    values[i] = std::isfinite(values[i]) ? std::clamp(values[i], -kMost, kMost) : 0;
+  }
   command_ = {values[0], values[1]};
   wheels_[kLeft].target = values[2];
   wheels_[kRight].target = values[3];
+  // The motors are as they were: to set them once more would be another future.
+  wheels_[kLeft].applied = values[7];
+  wheels_[kRight].applied = values[8];
   encoder_.pose = kiva::Pose(values[4], values[5], 0, 0, 0, values[6]);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between ROS messages and the world's structs: here and nowhere else.
+// Between the messages that everybody has and the world's structs.
 #pragma once
 
 #include <gazebo_msgs/ModelState.h>
@@ -11,10 +11,6 @@
 #include <geometry_msgs/Vector3.h>
 #include <geometry_msgs/Wrench.h>
 #include <std_msgs/Header.h>
-#include <warehouse_msgs/Lift.h>
-#include <warehouse_msgs/MoveAlong.h>
-#include <warehouse_msgs/MoveTo.h>
-#include <warehouse_msgs/Rotate.h>
 
 #include <string>
 #include <vector>
@@ -43,16 +39,6 @@ kiva::Vector3 fromMessage(const geometry_msgs::Vector3& vector, const char* what
 kiva::Vector3 fromMessage(const geometry_msgs::Point& point, const char* what);
 kiva::Twist fromMessage(const geometry_msgs::Twist& twist);
 kiva::EntityState fromMessage(const gazebo_msgs::ModelState& state);
-kiva::Command fromMessage(const warehouse_msgs::MoveTo& message);
-kiva::Command fromMessage(const warehouse_msgs::MoveAlong& message, kiva::Command::Kind axis);
-kiva::Command fromMessage(const warehouse_msgs::Rotate& message);
-kiva::Command fromMessage(const warehouse_msgs::Lift& message);
-
-warehouse_msgs::MoveTo toMoveTo(const kiva::Command& command);
-warehouse_msgs::MoveAlong toMoveAlong(const kiva::Command& command);
-warehouse_msgs::Rotate toRotate(const kiva::Command& command);
-warehouse_msgs::Lift toLift(const kiva::Command& command);
-
 /// The state's hash as text: the steps since time was 0, a blank, 16 hexadecimal digits.
 std::string hashText(const kiva::World& world);
 

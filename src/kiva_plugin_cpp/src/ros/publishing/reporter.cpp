@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ros/messages/convert.h"
+#include "ros/messages/step_rate.h"
 #include "warehouse_messages.h"
 
 namespace kiva_ros {
@@ -19,11 +20,6 @@ constexpr double kStatusRate = 10;  // [Hz], while somebody subscribes
 constexpr double kHashRate = 1;     // [Hz]
 constexpr auto kObjectsInterval = std::chrono::milliseconds(100);
 constexpr auto kLatchedStatusInterval = std::chrono::milliseconds(400);
-
-std::uint64_t stepsPer(double rate, double step_size) {
-  if (rate <= 0) return 1;
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * step_size))));
-}
 
 kiva::Pose poseOfLink(const kiva::ModelDescription& model, const char* link) {
   const kiva::Link* found = model.findLink(link);

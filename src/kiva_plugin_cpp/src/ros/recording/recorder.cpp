@@ -10,8 +10,11 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
+#include "ros/messages/command_messages.h"
 #include "ros/messages/convert.h"
+#include "ros/messages/step_rate.h"
 
 namespace kiva_ros {
 namespace {
@@ -20,10 +23,6 @@ constexpr double kHashRate = 1;  // [Hz]
 constexpr double kPoseRate = 2;  // [Hz]
 constexpr auto kSaveInterval = std::chrono::seconds(1);
 constexpr std::uint32_t kChunk = 768 * 1024;  // [bytes], librosbag's own
-
-std::uint64_t stepsPer(double rate, double step_size) {
-  return static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * step_size))));
-}
 
 tf2_msgs::TFMessage posesOf(const kiva::World& world) {
   tf2_msgs::TFMessage out;
@@ -60,7 +59,16 @@ Recorder::Recorder(const std::string& path) : path_(path), bag_(std::make_unique
   bag_->setCompression(rosbag::compression::LZ4);
 }
 
+void Recorder::onCommand(const kiva::Command& command) {
+  if (bag_) commands_.push_back(command);
+}
+
+void Recorder::onInput(std::function<void(rosbag::Bag&, const ros::Time&)> write) {
+  if (bag_) inputs_.push_back(std::move(write));
+}
+
 bool Recorder::beforeStep(kiva::World& world) {
+  if (!bag_) return true;
   if (step_ == 0) {
     step_size_ = world.stepSize();
     hash_every_ = stepsPer(kHashRate, step_size_);
@@ -81,6 +89,7 @@ bool Recorder::beforeStep(kiva::World& world) {
 }
 
 void Recorder::afterStep(kiva::World& world) {
+  if (!bag_) return;
   ++step_;
   index_ = 0;
   if (step_ % poses_every_ == 0) write("/tf", posesOf(world));

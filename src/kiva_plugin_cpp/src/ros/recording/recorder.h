@@ -22,12 +22,10 @@ class Recorder : public StepHook {
   /// Throws std::runtime_error if there can't be a bag of that name.
   explicit Recorder(const std::string& path);
 
-  void onCommand(const kiva::Command& command) override { commands_.push_back(command); }
+  void onCommand(const kiva::Command& command) override;
   void onChange() override { changed_ = true; }
   /// Something else takes effect at the step to come: `write` puts it into the bag.
-  void onInput(std::function<void(rosbag::Bag&, const ros::Time&)> write) {
-    inputs_.push_back(std::move(write));
-  }
+  void onInput(std::function<void(rosbag::Bag&, const ros::Time&)> write);
   bool beforeStep(kiva::World& world) override;
   void afterStep(kiva::World& world) override;
   /// The end, after the last step.

@@ -5,9 +5,11 @@
 #include <std_msgs/String.h>
 #include <std_msgs/UInt8MultiArray.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "bag_check.h"
+#include "ros/messages/command_messages.h"
 #include "ros/messages/convert.h"
 
 namespace kiva_ros {
@@ -22,6 +24,16 @@ std::string checkpointIn(const rosbag::MessageInstance& message) {
   const auto keyframe = message.instantiate<std_msgs::UInt8MultiArray>();
   if (!keyframe) throw std::runtime_error("a keyframe of another type");
   return {keyframe->data.begin(), keyframe->data.end()};
+}
+
+std::optional<kiva::Command> commandIn(const rosbag::MessageInstance& message) {
+  std::optional<kiva::Command> out;
+  forEachCommandTopic([&](auto type, const char* topic, auto toCommand) {
+    if (message.getTopic() != topic) return;
+    const auto command = message.instantiate<typename decltype(type)::Message>();
+    if (command) out = toCommand(*command);
+  });
+  return out;
 }
 
 }  // namespace
@@ -66,25 +78,22 @@ bool Replayer::beforeStep(kiva::World& world) {
 }
 
 void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message) {
-  using Kind = kiva::Command::Kind;
   const std::string& topic = message.getTopic();
   if (topic == kKeyframeTopic) {
-    try {
-      restore_(world, checkpointIn(message));
-    } catch (const std::exception& error) {
-      throw std::runtime_error(path_ + ": the keyframe at step " + std::to_string(step_) +
-                               " can't be restored: " + error.what());
-    }
-  } else if (const auto mov = message.instantiate<warehouse_msgs::MoveTo>()) {
-    world.post(fromMessage(*mov));
-  } else if (const auto along = message.instantiate<warehouse_msgs::MoveAlong>()) {
-    world.post(fromMessage(*along, topic == "/movx" ? Kind::kMoveX : Kind::kMoveY));
-  } else if (const auto rot = message.instantiate<warehouse_msgs::Rotate>()) {
-    world.post(fromMessage(*rot));
-  } else if (const auto lift = message.instantiate<warehouse_msgs::Lift>()) {
-    world.post(fromMessage(*lift));
+    restore(world, message);
+  } else if (const auto command = commandIn(message)) {
+    world.post(*command);
   } else if (!isReport(message)) {
     replay_(message);
+  }
+}
+
+void Replayer::restore(kiva::World& world, const rosbag::MessageInstance& keyframe) {
+  try {
+    restore_(world, checkpointIn(keyframe));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path_ + ": the keyframe at step " + std::to_string(step_) +
+                             " can't be restored: " + error.what());
   }
 }
 

@@ -40,6 +40,7 @@ class Replayer : public StepHook {
  private:
   bool isDue() const;  ///< Whether the next message is of this step.
   void apply(kiva::World& world, const rosbag::MessageInstance& message);
+  void restore(kiva::World& world, const rosbag::MessageInstance& keyframe);
   void compare(const kiva::World& world, const std::string& recorded);
 
   std::function<void(kiva::World&, const std::string&)> restore_;

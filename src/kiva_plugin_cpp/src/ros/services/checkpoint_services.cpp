@@ -5,31 +5,19 @@
 #include <cmath>
 #include <cstdio>
 
+#include "ros/messages/step_rate.h"
 #include "service_answer.h"
 
 namespace kiva_ros {
 namespace {
 
-constexpr double kSaveInterval = 1;  // [s], simulated
+constexpr double kAutosaveRate = 1;  // [Hz], simulated
 constexpr double kRounding = 1e-6;   // [s]
 
 std::string seconds(double time) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", time);
   return text;
-}
-
-/// `body` returns the message.
-template <typename Response, typename Body>
-bool reply(Response& response, Body body) {
-  try {
-    response.message = body();
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    response.success = false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -109,8 +97,7 @@ void CheckpointServices::beforeReset(kiva::World& world) {
 void CheckpointServices::afterStep(kiva::World& world) {
   age_ += world.stepSize();
   if (!options_.undo || options_.autosave == 0) return;
-  const auto save_every = std::max(1LL, std::llround(kSaveInterval / world.stepSize()));  // steps
-  if (world.steps() % static_cast<std::uint64_t>(save_every) == 0) remember(world);
+  if (world.steps() % stepsPer(kAutosaveRate, world.stepSize()) == 0) remember(world);
 }
 
 }  // namespace kiva_ros

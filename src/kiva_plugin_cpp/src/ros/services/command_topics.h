@@ -3,7 +3,6 @@
 
 #include <ros/ros.h>
 
-#include <string>
 #include <vector>
 
 #include "ros/simulation/simulation_thread.h"
@@ -16,10 +15,6 @@ class CommandTopics {
   CommandTopics(ros::NodeHandle& root, SimulationThread& simulation);
 
  private:
-  template <typename Message, typename Convert>
-  void subscribe(ros::NodeHandle& root, const std::string& topic, Convert convert);
-
-  SimulationThread& simulation_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

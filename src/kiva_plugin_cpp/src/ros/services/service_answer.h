@@ -32,6 +32,19 @@ bool answer(const std::string& service, Response& response, Body body) {
   return true;
 }
 
+/// The same for responses of our own, whose text is called message.
+template <typename Response, typename Body>
+bool reply(Response& response, Body body) {
+  try {
+    response.message = body();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    response.success = false;
+  }
+  return true;
+}
+
 /// Advertises a service with such responses: `body(request, response)` returns the status text.
 /// `label`: what the service is called in texts.
 template <typename Service, typename Body>

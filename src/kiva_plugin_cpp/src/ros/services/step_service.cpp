@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ros/transport/service_caller.h"
+#include "service_answer.h"
 
 namespace kiva_ros {
 
@@ -13,19 +14,13 @@ StepService::StepService(ros::NodeHandle& node, SimulationThread& simulation)
 bool StepService::step(
     ros::ServiceEvent<warehouse_msgs::Step::Request, warehouse_msgs::Step::Response>& call) {
   const ServiceCaller caller(server_.getService(), call.getConnectionHeader());
-  warehouse_msgs::Step::Response& response = call.getResponse();
-  try {
+  return reply(call.getResponse(), [&] {
     const SimulationThread::Stepped now =
         simulation_.step(call.getRequest().steps, [&caller] { return caller.isGone(); });
-    response.success = true;
-    response.stamp = ros::Time(now.time);
-    response.message =
-        "step " + std::to_string(now.steps) + ", " + std::to_string(now.waiting) + " commands wait";
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-  }
-  return true;
+    call.getResponse().stamp = ros::Time(now.time);
+    return "step " + std::to_string(now.steps) + ", " + std::to_string(now.waiting) +
+           " commands wait";
+  });
 }
 
 }  // namespace kiva_ros

@@ -66,13 +66,9 @@ void SimulationThread::command(const kiva::Command& command) {
 }
 
 void SimulationThread::takeCommand(const kiva::Command& command) {
-  if (waiting_commands_ >= kMostWaitingCommands) {
-    const std::string text = std::to_string(waiting_commands_) + " commands wait for the next step";
-    return reporter_.refused(world_, command, text);
-  }
-  ++waiting_commands_;
-  held_commands_.push_back(command);
-  if (!lockstep_) postCommands();
+  const std::size_t waiting = held_commands_.size();
+  if (waiting < kMostWaitingCommands) return held_commands_.push_back(command);
+  reporter_.refused(world_, command, std::to_string(waiting) + " commands wait for the next step");
 }
 
 void SimulationThread::postCommands() {
@@ -84,6 +80,11 @@ void SimulationThread::postCommands() {
     world_.post(command);
     for (StepHook* hook : hooks_) hook->onCommand(command);
   }
+  held_commands_.clear();
+}
+
+void SimulationThread::refuseCommands(const std::string& why) {
+  for (const kiva::Command& command : held_commands_) reporter_.refused(world_, command, why);
   held_commands_.clear();
 }
 
@@ -118,10 +119,9 @@ double SimulationThread::restore(const std::string& checkpoint) {
 void SimulationThread::restoreHere(kiva::World& world, const std::string& checkpoint) {
   const std::vector<std::string> before = world.modelNames();
   world.restore(checkpoint);
-  held_commands_.clear();
-  waiting_commands_ = 0;
   moved_ = changed_ = true;
   reporter_.restored(world, before);
+  refuseCommands("the world went back to a checkpoint before its next step");
   retime(world.stepSize(), target_factor_);  // it may have another step
 }
 
@@ -129,7 +129,7 @@ void SimulationThread::reset(bool time_too) {
   move([this, time_too](kiva::World& world) {
     for (StepHook* hook : hooks_) hook->beforeReset(world);
     world.reset(time_too);
-    waiting_commands_ = held_commands_.size();
+    refuseCommands("the world was reset before its next step");
   });
 }
 
@@ -158,7 +158,7 @@ void SimulationThread::startClocks() {
 void SimulationThread::loop() {
   startClocks();
   for (Requests requests; waitForWork(&requests);) {
-    serve(requests);
+    handleRequests(requests);
     if (!step_requests_.empty()) {
       runSteps(step_requests_.front());
     } else if (runs()) {
@@ -181,7 +181,7 @@ bool SimulationThread::waitForWork(Requests* requests) {
   return running_;
 }
 
-void SimulationThread::serve(const Requests& requests) {
+void SimulationThread::handleRequests(const Requests& requests) {
   for (const auto& request : requests) request(world_);
   if (world_.modelsRevision() != models_revision_) changed_ = true;
   models_revision_ = world_.modelsRevision();
@@ -206,7 +206,6 @@ void SimulationThread::advance() {
 void SimulationThread::runSteps(StepRequest& request) {
   int steps = 0;
   while (request.left > 0 && (steps == 0 || !attention_)) {
-    if (!held_commands_.empty()) postCommands();
     if (*request.is_cancelled || !stepOnce(true)) {
       request.left = 0;
       break;
@@ -226,13 +225,13 @@ void SimulationThread::runSteps(StepRequest& request) {
 }
 
 bool SimulationThread::stepOnce(bool reliable) {
+  if (!held_commands_.empty()) postCommands();
   for (StepHook* hook : hooks_) {
     if (hook->beforeStep(world_)) continue;
     paused_ = true;
     return false;
   }
   world_.step();
-  waiting_commands_ = held_commands_.size();
   for (StepHook* hook : hooks_) hook->afterStep(world_);
   models_revision_ = world_.modelsRevision();  // what plugins do, they will do again
   reporter_.afterStep(world_, reliable);

@@ -58,9 +58,10 @@ class SimulationThread {
   /// From the step thread: the world is being changed.
   void noteChange() { changed_ = true; }
 
-  /// Posts a command to the world without waiting for it. In lockstep those that came since the
-  /// last step are put in the order of their robots, since what comes over several connections has
-  /// none of its own. Refused, by an event at once, where too many wait for the next step already.
+  /// Gives the world a command at the next step, without waiting for it. In lockstep those that
+  /// came since the last step are put in the order of their robots, since what comes over several
+  /// connections has none of its own. Refused by an event where too many wait already, and where a
+  /// reset or a restore comes before that step.
   void command(const kiva::Command& command);
 
   struct Stepped {
@@ -105,12 +106,13 @@ class SimulationThread {
   void loop();
   void startClocks();
   bool waitForWork(Requests* requests);  ///< False when it is time to stop.
-  void serve(const Requests& requests);
+  void handleRequests(const Requests& requests);
   void advance();
   void runSteps(StepRequest& request);
   bool stepOnce(bool reliable);  ///< False if a hook wants no further step.
   void takeCommand(const kiva::Command& command);
   void postCommands();
+  void refuseCommands(const std::string& why);
   void measure(int steps);
   void refuseRequests();
 
@@ -133,8 +135,7 @@ class SimulationThread {
   std::uint64_t models_revision_ = 0;  ///< Of which the hooks know.
   std::vector<StepHook*> hooks_;
   std::deque<StepRequest> step_requests_;
-  std::vector<kiva::Command> held_commands_;  ///< In lockstep, until the next step.
-  std::size_t waiting_commands_ = 0;          ///< Those, and the world's; answered by a step.
+  std::vector<kiva::Command> held_commands_;  ///< Until the next step.
   std::atomic<double> real_time_factor_{0};
   WallClock::time_point measured_since_;
   int measured_steps_ = 0;

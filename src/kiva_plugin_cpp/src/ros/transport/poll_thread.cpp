@@ -2,31 +2,15 @@
 #include "poll_thread.h"
 
 #include <ros/poll_manager.h>
-#include <sys/socket.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 
 namespace kiva_ros {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(1);  // it may be gone already
 
-constexpr int kListenQueue = 4096;
-
 }  // namespace
-
-void raiseListenBacklog() {
-  for (const auto& file : std::filesystem::directory_iterator("/proc/self/fd")) {
-    const int fd = std::atoi(file.path().filename().c_str());
-    int listens = 0;
-    socklen_t size = sizeof listens;
-    if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) == 0 && listens) {
-      listen(fd, kListenQueue);
-    }
-  }
-}
 
 PollThread::PollThread()
     : connection_(ros::PollManager::instance()->addPollThreadListener([this] {
