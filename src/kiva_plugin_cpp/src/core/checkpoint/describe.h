@@ -312,7 +312,7 @@ void describe(A& a, ContactMemory& c) {
 
 template <class A>
 void describe(A& a, Solid& s) {
-  DESCRIBED(Solid, 104);
+  DESCRIBED(Solid, 136);
   FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
 }
 
