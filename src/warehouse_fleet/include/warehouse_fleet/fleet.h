@@ -74,6 +74,9 @@ struct Plan {
 struct State {
   Cell cell = kNowhere;
   Heading heading = 0;
+  bool operator==(const State& other) const {
+    return cell == other.cell && heading == other.heading;
+  }
 };
 State after(const Floor& floor, State state, Action action);
 

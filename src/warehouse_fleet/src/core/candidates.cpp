@@ -65,6 +65,24 @@ Path Candidates::rest(const Path& path, const Wish& wish) const {
   return rest;
 }
 
+bool Candidates::canDrive(const Path& path, const Wish& wish) const {
+  State state = wish.state;
+  for (int tick = 0; tick < depth_; ++tick) {
+    const Action action = path.actions[tick];
+    if (wish.stopped ? action != Action::kWait
+                     : tick < wish.committed && action != wish.commitment[tick]) {
+      return false;
+    }
+    if (action == Action::kForward) {
+      // What it is committed to it can't be kept from any more.
+      if (tick >= wish.committed && next(wish, state.cell, state.heading) == kNowhere) return false;
+      state.cell = path.cells[tick + 1];
+    }
+    state.heading = turned(state.heading, quarters(action));
+  }
+  return true;
+}
+
 /// The committed part of a path; where it leads.
 State Candidates::commit(const Wish& wish, Path& path) const {
   State state = wish.state;

@@ -38,13 +38,16 @@ class Candidates {
   Path standing(const Wish& wish) const;
   /// What is left of a path after a tick, and standing from then on.
   Path rest(const Path& path, const Wish& wish) const;
+  /// Whether a path from where it stands leads along edges that there are, as it is committed to.
+  bool canDrive(const Path& path, const Wish& wish) const;
 
+  /// The cell in front of one who stands in `cell`, on its deck or its own storage place.
+  Cell next(const Wish& wish, Cell cell, int heading) const;
   /// How far it is to the goal from there, in kTickCost: an estimate while there is no table.
   int distance(const Wish& wish, State state) const;
 
  private:
   State commit(const Wish& wish, Path& path) const;
-  Cell next(const Wish& wish, Cell cell, int heading) const;
   int cost(const Wish& wish, const Path& path, int heading) const;
   void grow(const Wish& wish, std::vector<Path>& paths);
 

@@ -12,7 +12,9 @@
 #include "candidates.h"
 #include "distance_tables.h"
 #include "guidance.h"
+#include "making_way.h"
 #include "reservations.h"
+#include "spacing.h"
 
 namespace fleet {
 namespace {
@@ -27,7 +29,9 @@ double threadSeconds() {
 struct Memory {
   Cell goal = kNowhere;
   int waiting = 0;  ///< ticks since it was given its goal, or reached it
-  State expected;   ///< where its path leads in one tick
+  State planned;    ///< where its path begins
+  State expected;   ///< where it leads in one tick
+  Deck deck = Deck::kUnder;
 };
 
 class Epibt : public Planner {
@@ -47,6 +51,7 @@ class Epibt : public Planner {
   void close(const Fleet& fleet);
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
+  void resume(const std::vector<Path>& rests);
   void prioritise(const Fleet& fleet);
   void improve(const Budget& budget, double deadline);
   void answer(const Fleet& fleet, Plan& plan);
@@ -71,6 +76,9 @@ class Epibt : public Planner {
   std::unique_ptr<DistanceTables> tables_;
   std::unique_ptr<Candidates> candidates_;
   std::unique_ptr<Reservations> reserved_;
+  std::unique_ptr<Spacing> spacing_;
+  std::unique_ptr<MakingWay> way_;
+  Rules rules_;
   const Floor* floor_ = nullptr;
   std::mt19937_64 random_;
   int now_ = 0;
@@ -81,8 +89,8 @@ class Epibt : public Planner {
   std::vector<int> order_, rank_;  ///< who comes first, and who comes when
   std::vector<int> weight_;        ///< of a robot's cost in that of all
   // Of one pass: whom it has come to, how often, and who is being moved right now.
-  std::vector<int> passed_, visits_, settled_;
-  int pass_ = 0;
+  std::vector<int> searched_, visits_, settled_;
+  int pass_ = 0, search_ = 0;
 };
 
 void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
@@ -97,6 +105,9 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   tables_ = std::make_unique<DistanceTables>(floor, *edges_, options_.table_bytes);
   candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth);
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.depth);
+  spacing_ = std::make_unique<Spacing>(options_.depth);
+  way_ = std::make_unique<MakingWay>(floor);
+  rules_ = rules;
 }
 
 void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
@@ -105,6 +116,7 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   observe(fleet);
   close(fleet);
   wish(fleet);
+  way_->direct(fleet, *candidates_, wishes_);
   inherit(fleet);
   prioritise(fleet);
   ++pass_;
@@ -191,52 +203,67 @@ void Epibt::wish(const Fleet& fleet) {
   candidates_->begin(fleet.size());
 }
 
-/// Everybody begins with what is left of the last plan. Where somebody isn't where it was to be,
-/// all stand first, and who is in nobody's way takes up its path again.
+/// Everybody begins with what is left of the last plan, if it still can be driven.
 void Epibt::inherit(const Fleet& fleet) {
-  std::vector<int> going;
   std::vector<Path> rests(fleet.size());
+  bool all_as_planned = true;
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Wish& wish = wishes_[robot];
     const Memory& memory = memory_[robot];
-    const bool is_as_planned = memory.expected.cell == wish.state.cell &&
-                               memory.expected.heading == wish.state.heading &&
-                               wish.committed == 0 && !wish.stopped;
-    rests[robot] = is_as_planned ? candidates_->rest(reserved_->path(robot), wish)
-                                 : candidates_->standing(wish);
-    if (is_as_planned) going.push_back(robot);
+    const bool is_as_planned = memory.expected == wish.state;
+    bool is_known = false;
+    if (is_as_planned || memory.planned == wish.state) {
+      const Path& path = reserved_->path(robot);
+      rests[robot] = is_as_planned ? candidates_->rest(path, wish) : path;
+      is_known = memory.deck == wish.deck && candidates_->canDrive(rests[robot], wish);
+    }
+    if (!is_known) rests[robot] = candidates_->standing(wish);
+    if (!is_known || !is_as_planned) all_as_planned = false;
   }
   reserved_->begin(fleet);
-  if (static_cast<int>(going.size()) == fleet.size()) {
-    for (const int robot : going) reserved_->place(robot, rests[robot]);
-    return;
+  if (!all_as_planned) return resume(rests);
+  for (int robot = 0; robot < fleet.size(); ++robot) reserved_->place(robot, rests[robot]);
+}
+
+/// All stand first but those who are committed, and who is in nobody's way takes up its path again.
+void Epibt::resume(const std::vector<Path>& rests) {
+  const int robots = static_cast<int>(rests.size());
+  for (const bool is_committed : {true, false}) {
+    for (int robot = 0; robot < robots; ++robot) {
+      if ((wishes_[robot].committed > 0) != is_committed) continue;
+      const Path standing = candidates_->standing(wishes_[robot]);
+      const bool can_stand = reserved_->conflict(robot, standing) == Reservations::kNobody;
+      reserved_->place(robot, can_stand ? standing : rests[robot]);
+    }
   }
-  for (int robot = 0; robot < fleet.size(); ++robot) {
-    reserved_->place(robot, candidates_->standing(wishes_[robot]));
-  }
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (int& robot : going) {
-      if (robot < 0) continue;
+  std::vector<int> waiting(robots), still;
+  std::iota(waiting.begin(), waiting.end(), 0);
+  do {
+    still.clear();
+    for (const int robot : waiting) {
       const Path standing = reserved_->path(robot);
       reserved_->remove(robot);
       const bool is_free = reserved_->conflict(robot, rests[robot]) == Reservations::kNobody;
       reserved_->place(robot, is_free ? rests[robot] : standing);
-      if (!is_free) continue;
-      robot = -1;
-      is_changed = true;
+      if (!is_free) still.push_back(robot);
     }
-  }
+    waiting.swap(still);
+  } while (waiting.size() < still.size());
 }
 
 /// Who is nearest to its goal goes first, which serves throughput; what a robot has waited counts
 /// against what it has still to go, so that nobody waits for ever.
 void Epibt::prioritise(const Fleet& fleet) {
   constexpr int kWaitingWorth = 2;  // of kTickCost, a tick
+  constexpr int kFirst = std::numeric_limits<int>::min();
   constexpr int kLast = std::numeric_limits<int>::max();
   std::vector<int> key(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Wish& wish = wishes_[robot];
+    if (way_->isTold(robot)) {
+      key[robot] = kFirst;
+      continue;
+    }
     key[robot] = wish.goal == kNowhere ? kLast
                                        : candidates_->distance(wish, wish.state) -
                                              kWaitingWorth * memory_[robot].waiting;
@@ -253,15 +280,15 @@ void Epibt::prioritise(const Fleet& fleet) {
     rank_[order_[rank]] = rank;
     weight_[order_[rank]] = 1 + static_cast<int>(1000 * share * share);
   }
-  passed_.assign(fleet.size(), 0);
+  searched_.assign(fleet.size(), 0);
   visits_.assign(fleet.size(), 0);
   settled_.assign(fleet.size(), 0);
-  pass_ = 0;
+  pass_ = search_ = 0;
 }
 
 void Epibt::visit(int robot) {
-  if (passed_[robot] != pass_) visits_[robot] = 0;
-  passed_[robot] = pass_;
+  if (searched_[robot] != search_) visits_[robot] = 0;
+  searched_[robot] = search_;
   ++visits_[robot];
 }
 
@@ -295,13 +322,14 @@ bool Epibt::insert(int robot, std::int64_t gain, Search& search) {
 /// Not who is being moved or has been already, nor who comes first.
 bool Epibt::mayMove(int robot, const Search& search) const {
   if (settled_[robot] == pass_ || wishes_[robot].stopped) return false;
-  if (passed_[robot] == pass_ && visits_[robot] >= options_.revisits) return false;
+  if (searched_[robot] == search_ && visits_[robot] >= options_.revisits) return false;
   return search.rank < 0 || rank_[robot] > search.rank;
 }
 
 bool Epibt::replan(int robot, Search search) {
   const Path kept = reserved_->path(robot);
   reserved_->remove(robot);
+  ++search_;
   if (insert(robot, weigh(robot, kept), search)) return true;
   reserved_->place(robot, kept);
   return false;
@@ -330,9 +358,12 @@ void Epibt::answer(const Fleet& fleet, Plan& plan) {
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Path& path = reserved_->path(robot);
     std::copy_n(path.actions.begin(), plan.horizon, plan.actions.begin() + robot * plan.horizon);
-    memory_[robot].expected = {path.cells[1],
-                               turned(wishes_[robot].state.heading, quarters(path.actions[0]))};
+    const Heading heading = wishes_[robot].state.heading;
+    memory_[robot].planned = wishes_[robot].state;
+    memory_[robot].deck = wishes_[robot].deck;
+    memory_[robot].expected = {path.cells[1], turned(heading, quarters(path.actions[0]))};
   }
+  if (!rules_.following) plan.actions = spacing_->space(fleet, *floor_, *reserved_);
 }
 
 }  // namespace

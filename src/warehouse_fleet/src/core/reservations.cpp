@@ -24,9 +24,11 @@ void Reservations::begin(const Fleet& fleet) {
   paths_.resize(fleet.size());
   is_placed_.assign(fleet.size(), 0);
   is_loaded_.assign(fleet.size(), 0);
+  committed_.assign(fleet.size(), 0);
   for (int robot = 0; robot < fleet.size(); ++robot) {
     at(standing_[robot], 0) = robot;
     is_loaded_[robot] = fleet.isLoaded(robot);
+    committed_[robot] = fleet.commitments(robot);
   }
 }
 
@@ -39,7 +41,10 @@ void Reservations::place(int robot, const Path& path) {
 void Reservations::remove(int robot) {
   if (!is_placed_[robot]) return;
   is_placed_[robot] = 0;
-  for (int tick = 1; tick <= depth_; ++tick) at(paths_[robot].cells[tick], tick) = kNobody;
+  for (int tick = 1; tick <= depth_; ++tick) {
+    auto& who = at(paths_[robot].cells[tick], tick);
+    if (who == robot) who = kNobody;
+  }
 }
 
 int Reservations::conflict(int robot, const Path& path) const {
@@ -58,15 +63,13 @@ int Reservations::conflict(int robot, const Path& path) const {
 
 /// Who was there before, and who comes after.
 int Reservations::entering(int robot, Cell from, Cell to, int tick) const {
-  const int leaving = at(to, tick - 1);
-  if (!rules_.following) {
-    // Who stands there now can't have left a tick ago, whatever it does.
-    if (tick == 1) return merged(leaving == kNobody ? kNobody : kSeveral, at(from, tick));
-    return merged(leaving == robot ? kNobody : leaving, at(from, tick));
-  }
-  if (leaving == kNobody || leaving == robot) return kNobody;
-  if (at(from, tick) == leaving) return leaving;  // they swap
-  return !rules_.rings && closesRing(robot, from, to, tick) ? kSeveral : kNobody;
+  const int follower = at(from, tick), leaving = at(to, tick - 1);
+  const int after = isStrict(follower, tick) ? follower : kNobody;
+  if (leaving == kNobody || leaving == robot) return after;
+  if (isStrict(robot, tick)) return merged(leaving, after);
+  if (follower == leaving) return leaving;  // they swap
+  const bool is_ring = (!rules_.rings || !rules_.following) && closesRing(robot, from, to, tick);
+  return is_ring ? kSeveral : after;
 }
 
 /// Whether those who make way for each other are led by the robot itself.

@@ -22,9 +22,12 @@ class Reservations {
 
   void place(int robot, const Path& path);
   void remove(int robot);
+  /// Who is in `cell` at that tick, 0 for now.
+  int who(Cell cell, int tick) const { return at(cell, tick); }
   const Path& path(int robot) const { return paths_[robot]; }
   bool has(int robot) const { return is_placed_[robot]; }
 
+  /// Where following is not allowed, only what is committed must keep to it: all else can wait.
   /// Whom of those that have a path `robot`, which has none, would be in the way of on this one:
   /// nobody, a robot's number, or several (or one that can't give way).
   int conflict(int robot, const Path& path) const;
@@ -36,6 +39,9 @@ class Reservations {
   std::int32_t& at(Cell cell, int tick) { return table_[cell * kStride + tick]; }
   std::int32_t at(Cell cell, int tick) const { return table_[cell * kStride + tick]; }
   int entering(int robot, Cell from, Cell to, int tick) const;
+  bool isStrict(int robot, int tick) const {
+    return !rules_.following && robot >= 0 && tick <= committed_[robot];
+  }
   bool closesRing(int robot, Cell from, Cell to, int tick) const;
   int turning(int robot, Cell cell, int tick) const;
 
@@ -45,6 +51,7 @@ class Reservations {
   std::vector<std::int32_t> table_;
   std::vector<Path> paths_;
   std::vector<std::uint8_t> is_placed_, is_loaded_;
+  std::vector<int> committed_;  ///< ticks
   std::vector<Cell> standing_;  ///< where robots stand in this step
 };
 

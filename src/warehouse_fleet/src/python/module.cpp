@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "warehouse_fleet/epibt.h"
+#include "warehouse_fleet/layout_check.h"
 #include "warehouse_fleet/validator.h"
 
 namespace py = pybind11;
@@ -188,7 +189,10 @@ void bindValidator(py::module_& module) {
       .def_readonly("tick", &Violation::tick)
       .def_readonly("robots", &Violation::robots)
       .def_readonly("cell", &Violation::cell)
-      .def("describe", &describe, py::arg("floor"), py::arg("names") = std::vector<std::string>());
+      .def("describe",
+           py::overload_cast<const Violation&, const Floor&, const std::vector<std::string>&>(
+               &describe),
+           py::arg("floor"), py::arg("names") = std::vector<std::string>());
   module.def(
       "validate",
       [](const Floor& floor, const Fleet& fleet, const Array<std::uint8_t>& actions,
@@ -224,6 +228,17 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   return std::make_unique<Started>(makeEpibt(options), std::move(floor), rules, seed);
 }
 
+void bindLayout(py::module_& module) {
+  module.def(
+      "check_layout",
+      [](const Floor& floor) {
+        std::vector<std::string> texts;
+        for (const LayoutFault& fault : checkLayout(floor)) texts.push_back(describe(fault, floor));
+        return texts;
+      },
+      py::arg("floor"));
+}
+
 void bindPlanners(py::module_& module) {
   py::class_<Started>(module, "Planner")
       .def("plan", &plan, py::arg("fleet"), py::arg("seconds") = 0.0, py::arg("attempts") = -1);
@@ -250,5 +265,6 @@ PYBIND11_MODULE(_core, module) {
   bindRules(module);
   bindFleet(module);
   bindValidator(module);
+  bindLayout(module);
   bindPlanners(module);
 }
