@@ -111,6 +111,7 @@ class Shift {
 
  private:
   static constexpr int kService = 3;  ///< ticks of a lift, or at a station
+  static constexpr int kPlaces = 3;   ///< robots that may be on their way to one station
 
   /// One cycle: to a unit, with it to a station, back with it.
   void giveGoals() {
@@ -121,8 +122,13 @@ class Shift {
         places_.pop_back();
         fleet.goal[robot] = fleet.home[robot];
       } else if (!fleet.loaded[robot]) {
+        // Lifted only with a place at a station: who has none waits beneath its unit.
+        const int station = static_cast<int>(random_() % stations_.size());
+        if (std::count(fleet.goal.begin(), fleet.goal.end(), stations_[station]) >= kPlaces) {
+          continue;
+        }
         fleet.loaded[robot] = 1;
-        fleet.goal[robot] = stations_[random_() % stations_.size()];
+        fleet.goal[robot] = stations_[station];
       } else if (fleet.cell[robot] != fleet.home[robot]) {
         fleet.goal[robot] = fleet.home[robot];
       } else {
@@ -149,7 +155,7 @@ class Shift {
       fleet.cell[robot] = state.cell;
       fleet.heading[robot] = state.heading;
       if (service_[robot] > 0) --service_[robot];
-      if (fleet.stopped[robot]) continue;
+      if (fleet.stopped[robot] || fleet.goal[robot] == kNowhere) continue;
       longest = std::max(longest, ++since_[robot]);
       if (fleet.cell[robot] != fleet.goal[robot]) continue;
       fleet.goal[robot] = kNowhere;

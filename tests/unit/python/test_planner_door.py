@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from warehouse_fleet import Action, Fleet, Floor, FloorError, Rules, epibt, validate
-from warehouse_fleet.door import PlannerError, PlanRefused, make_planner, read_spec
+from warehouse_fleet.door import PlannerError, PlanRefusedError, make_planner, read_spec
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
@@ -35,7 +35,7 @@ class Says:
 def refusal(floor, fleet, answer, names=None, rules=None):
     Says.answer = answer
     door = make_planner(floor, rules or Rules(), 1, {"planner": f"{__name__}:Says"}, names)
-    with pytest.raises(PlanRefused) as error:
+    with pytest.raises(PlanRefusedError) as error:
         door.plan(fleet)
     return str(error.value)
 

@@ -20,8 +20,8 @@ struct EpibtOptions {
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept
-  int table_work = 1500000;  ///< states that distance tables made in one step may have together
-  int renewal_work = 60000;  ///< and how many of them may be of tables made anew
+  int table_work = 1500;     ///< states a robot that distance tables made in one step may have
+  int renewal_work = 60000;  ///< states that tables made anew in one step may have
   int renewal_age = 20;      ///< ticks after which a table is made anew, if there is work left
   double against = 10;       ///< what it costs to meet one robot a tick head on [ticks]
   double crowd = 0;          ///< what it costs where one robot a tick waits [ticks]

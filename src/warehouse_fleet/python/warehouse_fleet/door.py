@@ -25,7 +25,7 @@ import yaml
 from warehouse_fleet import _core
 
 
-class PlanRefused(Exception):
+class PlanRefusedError(Exception):
     """A plan that can't be driven; the text names the robots."""
 
 
@@ -41,11 +41,13 @@ class Door:
         self.ticks = ticks
 
     def plan(self, fleet, seconds=0.0, attempts=-1):
-        """The plan, (robots, ticks) of Action; raises PlanRefused."""
+        """The plan, (robots, ticks) of Action; raises PlanRefusedError."""
         actions = self.planner.plan(fleet, seconds, attempts)
         found = _core.validate(self.floor, fleet, actions, self.rules, self.ticks)
         if found:
-            raise PlanRefused("; ".join(one.describe(self.floor, self.names) for one in found[:5]))
+            raise PlanRefusedError(
+                "; ".join(one.describe(self.floor, self.names) for one in found[:5])
+            )
         return actions
 
 
@@ -59,7 +61,7 @@ class PythonPlanner:
     def plan(self, fleet, seconds=0.0, attempts=-1):
         cells = np.asarray(self.planner.plan(fleet))
         if cells.shape != (len(fleet),) or cells.dtype.kind not in "iu":
-            raise PlanRefused(
+            raise PlanRefusedError(
                 f"the planner answered an array of {cells.dtype} with shape {cells.shape}; "
                 f"integers with shape ({len(fleet)},), a next cell for each robot, were expected"
             )
@@ -67,7 +69,7 @@ class PythonPlanner:
 
 
 def actions_towards(floor, fleet, cells):
-    """What each robot does in the next tick to come to its next cell; raises PlanRefused."""
+    """What each robot does in the next tick to come to its next cell; raises PlanRefusedError."""
     step = cells - fleet.cell
     directions = np.array([1, floor.width, -1, -floor.width])
     facing = step[:, None] == directions
@@ -78,7 +80,7 @@ def actions_towards(floor, fleet, cells):
     wrong = np.flatnonzero(wraps | ~(facing.any(axis=1) | stays))
     if wrong.size:
         robot = wrong[0]
-        raise PlanRefused(
+        raise PlanRefusedError(
             f"robot {robot} stands at {floor.name(fleet.cell[robot])} and is sent to "
             f"{floor.name(int(cells[robot]))}; that cell or a neighbour was expected"
         )

@@ -77,14 +77,19 @@ def read_map(path):
             size[expected] = _integer(words[1] if len(words) == 2 else "", path, number, 1)
     rows = lines[4 : 4 + size["height"]]
     if len(rows) < size["height"]:
-        raise ProblemError(f"{path}:{len(lines)}: {size['height']} rows were expected, {len(rows)} are there")
+        raise ProblemError(
+            f"{path}:{len(lines)}: {size['height']} rows were expected, {len(rows)} are there"
+        )
     for number, row in enumerate(rows, 5):
         if len(row) != size["width"]:
-            raise ProblemError(f"{path}:{number}: {len(row)} cells; width {size['width']} was expected")
+            raise ProblemError(
+                f"{path}:{number}: {len(row)} cells; width {size['width']} was expected"
+            )
         for column, cell in enumerate(row):
             if cell not in PASSABLE + WALLS:
                 raise ProblemError(
-                    f"{path}:{number}: '{cell}' in column {column}; one of {PASSABLE}{WALLS} expected"
+                    f"{path}:{number}: '{cell}' in column {column}; "
+                    f"one of {PASSABLE}{WALLS} was expected"
                 )
     return np.array([[cell in PASSABLE for cell in row] for row in rows])
 
@@ -104,9 +109,7 @@ class _Lines:
                         f"0 to {passable.size - 1} was expected"
                     )
                 if not passable.flat[location]:
-                    raise ProblemError(
-                        f"{self.path}:{number}: location {location} is in a wall"
-                    )
+                    raise ProblemError(f"{self.path}:{number}: location {location} is in a wall")
 
     def check_distinct(self):
         first = {}

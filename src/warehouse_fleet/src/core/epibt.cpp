@@ -180,7 +180,9 @@ void Epibt::close(const Fleet& fleet) {
 
 void Epibt::wish(const Fleet& fleet) {
   const int states = floor_->size() * kHeadings;
-  tables_->begin(now_, version_, std::max(1, options_.table_work / states));
+  constexpr int kLeastWork = 150000;
+  const int work = std::max(kLeastWork, options_.table_work * fleet.size());
+  tables_->begin(now_, version_, std::max(1, work / states));
   wishes_.resize(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
     Wish& wish = wishes_[robot];

@@ -7,7 +7,9 @@ namespace fleet {
 namespace {
 
 constexpr int kStill = 30;     // ticks in one cell after which a robot presses
-constexpr int kPatience = 12;  // ticks in which to reach the next cell
+constexpr int kStalled = 120;  // ticks without having come nearer after which it does
+constexpr int kPatience = 12;  // ticks in which to reach the next cell, and for each in its way
+constexpr int kPatienceEach = 3;
 constexpr int kEffort = 2000;  // cells that are tried for one robot
 constexpr int kPressing = 16;  // robots a step
 
@@ -15,14 +17,15 @@ constexpr int kPressing = 16;  // robots a step
 
 void MakingWay::direct(const Fleet& fleet, const Candidates& candidates,
                        std::vector<Wish>& wishes) {
-  watch(wishes);
+  watch(candidates, wishes);
   std::vector<int> pressing;
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Progress& progress = progress_[robot];
-    if (progress.still > kStill && progress.told == kNowhere) pressing.push_back(robot);
+    const bool presses = progress.still > kStill || progress.stalled > kStalled;
+    if (presses && progress.told == kNowhere) pressing.push_back(robot);
   }
   std::sort(pressing.begin(), pressing.end(), [&](int one, int other) {
-    const int ours = progress_[one].still, theirs = progress_[other].still;
+    const int ours = progress_[one].stalled, theirs = progress_[other].stalled;
     return ours != theirs ? ours > theirs : one < other;
   });
   if (pressing.size() > kPressing) pressing.resize(kPressing);
@@ -38,7 +41,7 @@ void MakingWay::direct(const Fleet& fleet, const Candidates& candidates,
 }
 
 /// Who stands, and whose next cell is still to be reached.
-void MakingWay::watch(const std::vector<Wish>& wishes) {
+void MakingWay::watch(const Candidates& candidates, const std::vector<Wish>& wishes) {
   if (progress_.size() > wishes.size()) progress_.clear();
   progress_.resize(wishes.size());
   to_.resize(wishes.size());
@@ -52,10 +55,23 @@ void MakingWay::watch(const std::vector<Wish>& wishes) {
     const bool is_under_way = can_move && wish.goal != kNowhere && wish.goal != wish.state.cell;
     progress.still = progress.cell == wish.state.cell && is_under_way ? progress.still + 1 : 0;
     progress.cell = wish.state.cell;
+    measure(candidates, wish, progress);
     if (progress.cell == progress.told || --progress.patience < 0 || !can_move) {
       progress.told = kNowhere;
     }
     if (progress.told != kNowhere) entering_[progress.told] = robot;
+  }
+}
+
+void MakingWay::measure(const Candidates& candidates, const Wish& wish, Progress& progress) const {
+  const int distance = wish.goal == kNowhere ? 0 : candidates.distance(wish, wish.state);
+  const bool is_new = progress.goal != wish.goal;
+  if (is_new || distance == 0 || distance < progress.nearest) {
+    progress.goal = wish.goal;
+    progress.nearest = distance;
+    progress.stalled = 0;
+  } else {
+    ++progress.stalled;
   }
 }
 
@@ -67,7 +83,7 @@ void MakingWay::press(int robot, const Candidates& candidates, const std::vector
   if (!move(robot, candidates, wishes, effort)) return;
   for (const int told : chain_) {
     progress_[told].told = to_[told];
-    progress_[told].patience = kPatience;
+    progress_[told].patience = kPatience + kPatienceEach * static_cast<int>(chain_.size());
   }
 }
 

@@ -27,11 +27,15 @@ class MakingWay {
   struct Progress {
     Cell cell = kNowhere;  ///< where it is
     int still = 0;         ///< ticks for which it has been there on its way to a goal
+    Cell goal = kNowhere;
+    int nearest = 0;       ///< the least that it had still to go
+    int stalled = 0;       ///< ticks since then
     Cell told = kNowhere;  ///< where to go next
     int patience = 0;      ///< ticks for which that holds
   };
 
-  void watch(const std::vector<Wish>& wishes);
+  void watch(const Candidates& candidates, const std::vector<Wish>& wishes);
+  void measure(const Candidates& candidates, const Wish& wish, Progress& progress) const;
   void press(int robot, const Candidates& candidates, const std::vector<Wish>& wishes);
   bool move(int robot, const Candidates& candidates, const std::vector<Wish>& wishes, int& effort);
   std::vector<Cell> ways(const Candidates& candidates, const Wish& wish) const;
