@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A planner to learn from: each robot in turn drives along x, then along y, and gives way to all who
-came before it in the list. Safe, but robots that meet head on stay there for ever. Named in a YAML
-file, with this folder in PYTHONPATH:
+"""A planner to learn from: each robot in turn drives along x, then along y, and gives way to all
+who came before it in the list. Safe, but robots that meet head on stay there for ever. Named in a
+YAML file, with this folder in PYTHONPATH:
 
     planner: right_of_way:RightOfWay
 """
