@@ -180,7 +180,7 @@ void Epibt::close(const Fleet& fleet) {
 
 void Epibt::wish(const Fleet& fleet) {
   const int states = floor_->size() * kHeadings;
-  constexpr int kLeastWork = 150000;
+  constexpr int kLeastWork = 60000;
   const int work = std::max(kLeastWork, options_.table_work * fleet.size());
   tables_->begin(now_, version_, std::max(1, work / states));
   wishes_.resize(fleet.size());
