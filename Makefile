@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo test test-api test-sanitizers build deps bench lint format install clean
+.PHONY: help run demo test test-api test-sanitizers test-install build packages deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -27,7 +27,7 @@ demo: build  ## watch robots fetch storage units, meet head on and recover
 	roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch rtf:=5 $(ARGS) >/dev/null & \
 	trap "kill $$!; wait" EXIT; rosrun warehouse_sim demo
 
-test: build lint  ## build and run every test; make test ARGS="-L unit" only those
+test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
 
@@ -37,11 +37,17 @@ test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers
 
-build: deps build/Makefile  ## compile everything but the tests
+test-install: build  ## install into a folder of its own, and use it from there
+	@scripts/test-install
+
+build: build/Makefile  ## compile everything but the tests
 	@$(BUILD)
 
-build/Makefile:
-	@cmake -B build -DBUILD_TESTS_BY_DEFAULT=OFF
+build/Makefile: packages
+	@[ -e $@ ] || scripts/configure
+
+packages:  # without those that only tests and lint need
+	@scripts/deps run
 
 deps:  ## install the Debian packages that are missing
 	@scripts/deps

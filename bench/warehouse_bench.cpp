@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "chunks.h"
+#include "core/state/world_state.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
 #include "random_commands.h"
@@ -111,23 +112,24 @@ class Dispatcher {
 /// How many robots of a hundred do something, and are stepped by Bullet.
 class Shares {
  public:
-  void add(const kiva::Fleet& fleet) {
+  void add(const kiva::World& world) {
+    const kiva::FleetState& fleet = insideOf(world).fleet;
     robots_ += fleet.size();
     for (int i = 0; i < fleet.size(); ++i) {
       busy_ += fleet.status[i] != kiva::Status::kIdle;
-      engaged_ += fleet.engaged[i];
+      in_bullet_ += fleet.activated[i];
     }
   }
 
   std::string text() const {
     char text[80];
     std::snprintf(text, sizeof text, ", \"busy\": %.3f, \"in_bullet\": %.3f", busy_ / robots_,
-                  engaged_ / robots_);
+                  in_bullet_ / robots_);
     return text;
   }
 
  private:
-  double robots_ = 0, busy_ = 0, engaged_ = 0;
+  double robots_ = 0, busy_ = 0, in_bullet_ = 0;
 };
 
 void readScans(const kiva::World& world, std::vector<float>* ranges) {
@@ -147,7 +149,7 @@ void run(const Options& options) {
     for (long s = 0; s < steps; ++s) {
       if (s % kStepsPerLook == 0) {
         dispatcher.dispatch(world);
-        shares.add(world.fleet());
+        shares.add(world);
       }
       world.step();
       if (options.scans) readScans(world, &ranges);

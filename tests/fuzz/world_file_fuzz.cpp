@@ -42,7 +42,7 @@ std::vector<std::string> readSeeds() {
   for (const char* folder : {WORLDS_DIR, TESTS_DIR "/worlds", TESTS_DIR "/fuzz/seeds"}) {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string ending = entry.path().extension();
-      if (ending != ".sdf" && ending != ".urdf") continue;
+      if (ending != ".sdf" && ending != ".world" && ending != ".urdf") continue;
       // What is refused from the start leads nowhere.
       if (entry.path().filename().string().rfind("invalid_", 0) == 0) continue;
       const std::string text = textOf(entry.path());

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
 
 OPTIONS = (
     "--headless",
@@ -20,7 +21,6 @@ OPTIONS = (
     "--disable-component-update",
     "--disable-sync",
     "--hide-scrollbars",
-    "--window-size=1280,720",
 )
 
 
@@ -33,6 +33,17 @@ class Browser:
     def open(self, address):
         self.driver.get(address)
 
+    def be_phone(self, width=390, height=844):
+        """A small window of the kind that fingers tap at; for what is opened from now on."""
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": True}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
+        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True})
+
+    def be_desktop(self):
+        """Takes be_phone() back."""
+        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
     def read(self, expression):
         """The value of a JavaScript expression, in which `page` is the page's object."""
         return self.driver.execute_script(f"const page = window.page; return {expression};")
@@ -41,9 +52,14 @@ class Browser:
         """Waits until an expression holds, and returns its value."""
         end = time.monotonic() + self._patience
         while not (value := self.read(f"page && ({expression})")):
-            assert time.monotonic() < end, f"waited in vain: {expression}; {self.complaints()}"
+            assert time.monotonic() < end, f"waited in vain: {expression}; {self._told()}"
             time.sleep(0.05)
         return value
+
+    def _told(self):
+        """What the page says to a person and to its console."""
+        said = {name: self.text(name) for name in ("tip", "answer", "name", "link")}
+        return f"{said}; {self.complaints()}"
 
     def text(self, element):
         return self.read(f"document.getElementById('{element}').textContent")
@@ -57,16 +73,30 @@ class Browser:
 
     def click(self, x, y, z=0.0):
         """Clicks what is drawn at that point of the world."""
-        px, py = self.pixel(x, y, z)
+        self.click_at(*self.pixel(x, y, z))
+
+    def click_at(self, px, py):
+        """Clicks a point of the window [px]."""
         for kind in ("mousePressed", "mouseReleased"):
             event = {"type": kind, "x": px, "y": py, "button": "left", "clickCount": 1}
             self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", event)
 
-    def press(self, key):
-        """A key, as a person would."""
-        for kind in ("keyDown", "keyUp"):
-            event = {"type": kind, "key": key, "text": key if kind == "keyDown" else ""}
-            self.driver.execute_cdp_cmd("Input.dispatchKeyEvent", event)
+    def tap(self, px, py):
+        """Touches a point of the window [px]."""
+        for kind, points in (("touchStart", [{"x": px, "y": py}]), ("touchEnd", [])):
+            event = {"type": kind, "touchPoints": points}
+            self.driver.execute_cdp_cmd("Input.dispatchTouchEvent", event)
+
+    def click_on(self, element):
+        """Clicks an element, by its id, where a person would."""
+        self.driver.find_element("id", element).click()
+
+    def type(self, keys, element=None):
+        """Presses keys one by one: in an element that is clicked first, or where the focus is."""
+        if element:
+            self.click_on(element)
+        for key in keys:
+            ActionChains(self.driver).send_keys(key).perform()
 
     def complaints(self):
         """What the page's console says is wrong. A refused command is not."""
@@ -75,11 +105,12 @@ class Browser:
 
 
 @contextmanager
-def browser(patience):
-    """A Browser that is closed in the end."""
+def browser(patience, size=(1280, 720)):
+    """A Browser that is closed in the end, its window of that size [px]."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         options = webdriver.ChromeOptions()
-        for option in (*OPTIONS, f"--user-data-dir={profile}"):
+        window = f"--window-size={size[0]},{size[1]}"
+        for option in (*OPTIONS, window, f"--user-data-dir={profile}"):
             options.add_argument(option)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)

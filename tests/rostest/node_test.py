@@ -12,7 +12,7 @@ import rospy
 
 from warehouse_msgs.msg import Event
 from warehouse_msgs.srv import CreateWarehouse
-from warehouse_sim.director import Director, command
+from warehouse_sim.script_executor import ScriptExecutor, command
 
 PATIENCE = 30.0  # [s, wall]
 
@@ -55,9 +55,9 @@ def latched(topic, kind, condition=lambda message: True):
         listener.close()
 
 
-def wait_until(condition, what):
+def wait_until(condition, what, patience=PATIENCE):
     """Until condition() holds, where nothing is published that one could wait for."""
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + patience
     while not condition():
         assert time.monotonic() < end, f"waited in vain: {what}"
         threading.Event().wait(0.05)
@@ -93,13 +93,13 @@ class Robot:
 
     def __init__(self, number):
         self.number = number
-        self._director = Director(rospy, lambda *_: None, PATIENCE)
-        self._director.watch(number)
+        self._executor = ScriptExecutor(rospy, lambda *_: None, PATIENCE)
+        self._executor.watch(number)
 
     def do(self, topic, **fields):
         """The command's last Event; it is DONE."""
         script = self._script(command(topic, self.number, **fields))
-        self._director.play({self.number: script})
+        self._executor.play({self.number: script})
 
     def _script(self, wanted):
         event = yield wanted

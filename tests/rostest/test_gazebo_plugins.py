@@ -167,6 +167,17 @@ class Spawning(unittest.TestCase):
         with Collector("/rover/joint_states", JointState) as joints:
             joints.first()
 
+    def test_without_a_namespace_each_plugin_has_that_of_gazebo_ros(self):
+        spawn_rover(namespace="")
+        topics = {"/rover/odom": Odometry, "/rover/joint_states": JointState}
+        topics |= {"/scan": LaserScan, "/imu": Imu, "/bumper": ContactsState}
+        for topic, kind in topics.items():
+            with Collector(topic, kind) as collector:
+                collector.first()
+        driver = rospy.Publisher("/rover/cmd_vel", Twist, queue_size=1)
+        wait_until(driver.get_num_connections, "the rover's ear")
+        driver.unregister()
+
     def test_faulty_parameters_cost_the_plugin_and_not_the_model(self):
         faults = {
             "<leftJoint>wheel_left_joint": "<leftJoint>nothing",

@@ -100,7 +100,7 @@ class Spawning(unittest.TestCase):
         self.refused(spawn("box1", where=pose(math.nan)), "not finite")
         self.refused(spawn("box1", frame="nothing"), "reference_frame not found")
         self.refused(spawn("box1", BOX.replace("</link>", "")), "model_xml:")
-        self.refused(spawn("box1", BOX.replace("0.2 0.2 0.2", "0 1 1")), "box")
+        self.refused(spawn("box1", BOX.replace("link", "knot")), "expected a <link>")
         self.refused(spawn("box1", model_file("nothing")), "model://nothing")
         self.refused(spawn("", BOX), "name")
 

@@ -8,6 +8,7 @@ import rospkg
 import rospy
 import rostest
 from node_test import call, create, run
+from warehouse_test import delete
 
 from gazebo_msgs.srv import GetWorldProperties
 
@@ -18,6 +19,8 @@ def standing():
 
 class InsertWorld(unittest.TestCase):
     def setUp(self):
+        for name in set(standing()) - {"ground_plane"}:
+            delete(name)
         self.assertTrue(create("empty").success)
 
     def test_all_of_it(self):
@@ -29,12 +32,21 @@ class InsertWorld(unittest.TestCase):
         self.assertEqual(standing().count("ground_plane"), 1)
 
     def test_or_nothing(self):
-        create(robots=1)
+        self.assertEqual(run("insert_world", "obstacles")[0], 0)
         before = standing()
-        code, text = run("insert_world", "paper")
+        code, text = run("insert_world", "obstacles")
         self.assertNotEqual(code, 0)
-        self.assertIn("insert_world: SpawnModel: Failure - entity already exists. (kiva1)", text)
+        self.assertIn("already: person1, wall1, wall2", text)
         self.assertEqual(standing(), before)
+
+    def test_beside_a_warehouse_it_takes_free_numbers(self):
+        create("small")
+        code, text = run("insert_world", "obstacles")
+        self.assertEqual(code, 0, text)
+        self.assertIn("kiva1 as kiva7", text)
+        self.assertIn("storage_unit1 as storage_unit25", text)
+        for name in ("kiva1", "kiva5", "kiva10", "storage_unit25", "person1"):
+            self.assertIn(name, standing())
 
     def test_but_what_is_missing(self):
         folder = rospkg.RosPack().get_path("warehouse_tests")

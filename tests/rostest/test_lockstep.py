@@ -3,7 +3,6 @@
 """Time by the step, back and again; every run the same, and the same as without ROS."""
 
 import re
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import rostest
 from nav_msgs.msg import Odometry
 from node_test import call, latched, wait_until
 from rosgraph_msgs.msg import Clock
+from rospkg import get_ros_home
 from std_msgs.msg import String
 from warehouse_test import Collector, Commander, Paused, delete, place, sim_time, spawn, world
 
@@ -138,20 +138,21 @@ class Lockstep(unittest.TestCase):
         self.assertEqual(self.play(6, begin=2), first)
 
     def test_files_go_to_python_and_back(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = f"{folder}/warehouse.checkpoint"
-            self.play(1)
-            self.assertTrue(save(path).success)
-            expected = self.play(1, begin=1)
-            other = World()
-            other.restore(Path(path).read_bytes())
-            for topic, fields in sorted(COMMANDS[1], key=lambda c: c[1]["kiva_id"]):
-                getattr(other, topic[1:])(**fields)
-            other.step(SECOND)
-            self.assertEqual([f"{other.steps} {other.state_hash():016x}"], expected)
-            Path(path).write_bytes(other.checkpoint())
-            self.assertTrue(restore(path).success)
-            self.assertAlmostEqual(sim_time(), 2.0)
+        name = "lockstep_test.checkpoint"
+        path = Path(get_ros_home()) / "warehouse" / "checkpoints" / name
+        self.play(1)
+        self.assertTrue(save(name).success)
+        self.addCleanup(path.unlink)
+        expected = self.play(1, begin=1)
+        other = World()
+        other.restore(path.read_bytes())
+        for topic, fields in sorted(COMMANDS[1], key=lambda c: c[1]["kiva_id"]):
+            getattr(other, topic[1:])(**fields)
+        other.step(SECOND)
+        self.assertEqual([f"{other.steps} {other.state_hash():016x}"], expected)
+        path.write_bytes(other.checkpoint())
+        self.assertTrue(restore(name).success)
+        self.assertAlmostEqual(sim_time(), 2.0)
 
     def test_models_that_came_and_went_are_undone(self):
         names = world().model_names
@@ -191,9 +192,9 @@ class Lockstep(unittest.TestCase):
         self.refused(restore("nothing"), "no checkpoint 'nothing'", "beginning")
         self.refused(restore(""), "name")
         self.refused(save(""), "name")
-        self.refused(save("/nowhere/at/all"), "/nowhere/at/all")
-        self.refused(restore("/nowhere/at/all"), "/nowhere/at/all")
-        self.refused(restore("/proc/self/status"), "not a checkpoint")
+        self.refused(save("/nowhere/at/all"), "'/nowhere/at/all' is no name")
+        self.refused(restore("/proc/self/status"), "is no name")
+        self.refused(restore("none.checkpoint"), "warehouse/checkpoints/none.checkpoint")
         self.refused(call("/warehouse/undo", Undo, 1e6), "oldest")
         self.refused(call("/warehouse/undo", Undo, -1.0), "0 or more")
         self.refused(call("/warehouse/undo", Undo, float("nan")), "0 or more")

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is recorded runs again, step by step the same; what was changed is found."""
 
+import random
 import re
 import signal
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -11,11 +13,15 @@ from pathlib import Path
 import rosbag
 import rospy
 import rostest
-from node_test import call, wait_until
+from geometry_msgs.msg import Twist, Vector3
+from node_test import PATIENCE, call, wait_until
 from warehouse_test import Commander, delete, model_file, pose, sim_time, spawn
 from world_node import Node
 
+from gazebo_msgs.srv import SpawnModel
 from warehouse_msgs.srv import Checkpoint
+
+ROVER = (Path(__file__).parent.parent / "worlds" / "rover.urdf").read_text()
 
 
 class Recording(unittest.TestCase):
@@ -115,11 +121,110 @@ class Recording(unittest.TestCase):
             self.assertEqual(code, 1, said)
             self.assertIn(f"can't replay {bag}", said)
 
+    def test_what_is_damaged_is_named_with_its_remedy(self):
+        whole = Path(self.bag).read_bytes()
+        damaged = Path(self._folder.name) / "damaged.bag"
+        for seed in range(6):
+            chance = random.Random(seed)
+            changed = bytearray(whole)
+            for _ in range(20):
+                changed[chance.randrange(len(changed))] = chance.randrange(256)
+            damaged.write_bytes(changed)
+            code, said = self.replay(str(damaged))
+            self.assertEqual(code, 1, said)
+            self.assertIn(f"can't replay {damaged}", said)
+            self.assertIn(f"rosbag reindex {damaged}", said)
+
+    def test_a_full_disk_ends_the_recording_and_not_the_world(self):
+        bag = str(Path(self._folder.name) / "full.bag")
+        with Node(world="paper", rtf=0, record=bag, most_bytes=20_000) as node:
+            node.says(f"the recording to {bag} ended at step")
+            wait_until(lambda: sim_time() > 100, "time going on")
+            node.send(signal.SIGINT)
+            code, said = node.end()
+        self.assertEqual(code, 0, said)
+        self.assertEqual(said.count("ended at step"), 1, said)
+
     def test_where_nothing_can_be_written_is_refused(self):
         with Node(record="/nowhere/run.bag") as node:
             code, said = node.end()
         self.assertEqual(code, 1, said)
         self.assertIn("can't record to /nowhere/run.bag", said)
+
+
+class Crash(unittest.TestCase):
+    def test_all_but_the_last_second_is_saved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bag = f"{folder}/run.bag"
+            with Node(world="paper", record=bag) as node:
+                commander = Commander()
+                commander.ask("/movx", kiva_id=1, distance=3)
+                wait_until(lambda: sim_time() > 4, "time going on")
+                commander.close()
+                killed = sim_time()
+                node.send(signal.SIGKILL)
+                node.end()
+            with Node(replay=bag) as node:
+                code, said = node.end()
+            self.assertEqual(code, 1, said)
+            self.assertIn(f"rosbag reindex {bag}", said)
+            subprocess.run(["rosbag", "reindex", "-q", bag], check=True, stdout=subprocess.DEVNULL)
+            with Node(rtf=0, replay=bag) as node:
+                node.says("replayed ", "FATAL")
+                node.send(signal.SIGINT)
+                code, said = node.end()
+            self.assertEqual(code, 0, said)
+            steps, hashes = re.search(r"replayed (\d+) steps, and all (\d+) hashes", said).groups()
+            # The hash that closes a chunk comes with the next step after a second.
+            self.assertGreater(int(steps) / 1000, killed - 1.1)
+            self.assertGreater(int(hashes), 2)
+
+    def test_steps_that_somebody_waits_for_do_not_cost_the_recording(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bag = f"{folder}/run.bag"
+            with Node(world="paper", lockstep=True, record=bag) as node:
+                rospy.wait_for_service("/gazebo/step", PATIENCE)
+                client = subprocess.Popen(["rosservice", "call", "/gazebo/step", "100000000"])
+                self.addCleanup(lambda: (client.kill(), client.wait()))
+                wait_until(lambda: sim_time() > 1, "steps")
+                node.send(signal.SIGINT)
+                self.assertEqual(node.end()[0], 0)
+            with rosbag.Bag(bag) as whole:
+                self.assertGreater(whole.get_message_count("/warehouse/state_hash"), 0)
+
+
+class Inputs(unittest.TestCase):
+    """What plugins hear is recorded too."""
+
+    def test_velocities_take_effect_at_the_same_steps_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bag = f"{folder}/run.bag"
+            with Node(world="empty", rtf=2, record=bag) as node:
+                fields = {"model_xml": ROVER, "robot_namespace": "/", "initial_pose": pose()}
+                for i in range(2):  # both hear the same topic
+                    fields["initial_pose"] = pose(0, 3.0 * i)
+                    spawned = call(
+                        "/gazebo/spawn_urdf_model", SpawnModel, model_name=f"rover{i}", **fields
+                    )
+                    self.assertTrue(spawned.success, spawned.status_message)
+                    end = sim_time() + 0.3  # the first is on its wheels when the second comes
+                    wait_until(lambda end=end: sim_time() > end, "time going on")
+                driver = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
+                wait_until(driver.get_num_connections, "the rovers' ear")
+                for turn in range(8):
+                    driver.publish(Twist(Vector3(0.3, 0, 0), Vector3(0, 0, 0.2 * turn)))
+                    end = sim_time() + 0.31
+                    wait_until(lambda end=end: sim_time() > end, "time going on")
+                driver.unregister()
+                node.send(signal.SIGINT)
+                self.assertEqual(node.end()[0], 0)
+            with rosbag.Bag(bag) as recorded:
+                self.assertEqual(recorded.get_message_count("/cmd_vel"), 8)
+            with Node(rtf=0, replay=bag) as node:
+                node.says("replayed ", "FATAL")
+                node.send(signal.SIGINT)
+                code, said = node.end()
+        self.assertEqual(code, 0, said)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 
 import os
 import signal
+import threading
 import unittest
 from xmlrpc.client import ServerProxy
 
@@ -13,7 +14,7 @@ import rostest
 from geometry_msgs.msg import PoseStamped
 from node_test import Robot, call, create, latched, wait_until
 
-from gazebo_msgs.srv import GetModelState
+from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties
 from warehouse_msgs.msg import TrackedObjects, WarehouseState
 
 SERVICE = "/warehouse/create_warehouse_models"
@@ -35,9 +36,32 @@ def kill(node):
     wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
 
 
+def models():
+    return call("/gazebo/get_world_properties", GetWorldProperties).model_names
+
+
 def place(name):
     at = call("/gazebo/get_model_state", GetModelState, name, "").pose.position
     return at.x, at.y, at.z
+
+
+class BuilderKilledWhileBuilding(unittest.TestCase):
+    def test_its_half_warehouse_is_taken_away_and_time_goes_on(self):
+        rospy.wait_for_service(SERVICE, 30)
+        building = threading.Thread(target=self.build_in_vain)
+        building.start()
+        wait_until(lambda: rospy.has_param("/warehouse/building"), "the builder at work")
+        wait_until(lambda: "storage_unit100" in models(), "half a warehouse")
+        kill("/create_warehouse_service_node")
+        building.join()
+        wait_until(lambda: not rospy.has_param("/warehouse/building"), "who undoes it")
+        wait_until(lambda: create("no preset").message, "the service")
+        self.assertEqual(sum(name.startswith("storage_unit") for name in models()), 24)
+        self.assertFalse(call("/gazebo/get_physics_properties", GetPhysicsProperties).pause)
+
+    def build_in_vain(self):
+        with self.assertRaises(rospy.ServiceException):
+            create("large")
 
 
 class Respawn(unittest.TestCase):
@@ -87,4 +111,4 @@ class Respawn(unittest.TestCase):
 
 if __name__ == "__main__":
     rospy.init_node("test_respawn")
-    rostest.rosrun("warehouse_tests", "respawn", Respawn)
+    rostest.rosrun("warehouse_tests", "respawn", __name__)

@@ -28,7 +28,8 @@ class Refusing(unittest.TestCase):
             self.assertIn(text, said)
 
     def test_parameters(self):
-        self.refused("/gazebo/rtf is -2", rtf=-2)
+        self.refused("/gazebo/rtf is -1", "above 0, or 0", rtf=-1)
+        self.refused("/gazebo/rtf is -0.5", rtf=-0.5)
         self.refused("/gazebo/rtf is nan", rtf=float("nan"))
         self.refused("/gazebo/rtf is fast", rtf="fast")
         self.refused("/gazebo/seed is -1", seed=-1)
@@ -36,6 +37,7 @@ class Refusing(unittest.TestCase):
         self.refused("/gazebo/lockstep is yes", "true or false", lockstep="yes")
         self.refused("/gazebo/autosave is -1", "whole number", autosave=-1)
         self.refused("/gazebo/autosave is 1.5", "whole number", autosave=1.5)
+        self.refused("/gazebo/checkpoint_limit is -1", "megabytes", checkpoint_limit=-1)
         self.refused("/gazebo/pub_clock_frequency", pub_clock_frequency=-1.0)
         self.refused("/gazebo/model_states_frequency", model_states_frequency="often")
 

@@ -3,6 +3,8 @@
 """The HTTP API tells and does what ROS does, with the same refusals."""
 
 import asyncio
+import csv
+import io
 import json
 import unittest
 import urllib.error
@@ -17,24 +19,30 @@ from warehouse_test import place
 POSES = 1e-3  # [m]
 
 
-def ask(path, body=None, **headers):
-    """(status, body) of a request to /api/v1; POST where there is a body."""
-    url = rospy.get_param("/viewer/address") + "api/v1" + path
-    data = None if body is None else json.dumps(body).encode()
+def fetch(path, data=None, method=None, **headers):
+    """(status, body) of a request; POST where there are data."""
+    url = rospy.get_param("/viewer/address") + path
     headers = {"content-type": "application/json"} | headers
-    request = urllib.request.Request(url, data, headers)
+    request = urllib.request.Request(url, data, headers, method=method)
     try:
         with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-            return answer.status, json.load(answer)
+            return answer.status, answer.read()
     except urllib.error.HTTPError as error:
-        return error.code, json.load(error)
+        return error.code, error.read()
+
+
+def ask(path, body=None, method=None, **headers):
+    """(status, body) of a request to /api/v1, as JSON; POST where there is a body."""
+    data = None if body is None else json.dumps(body).encode()
+    status, told = fetch("api/v1" + path, data, method, **headers)
+    return status, json.loads(told)
 
 
 def command(robot, name, wait="end", **fields):
     return ask(f"/robots/{robot}/commands?wait={wait}", {"command": name, **fields})
 
 
-class ViewerApi(unittest.TestCase):
+class ViewerTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
@@ -48,6 +56,77 @@ class ViewerApi(unittest.TestCase):
         self.assertEqual(answer[0], status, answer)
         self.assertIn(text, str(answer[1]["detail"]))
 
+
+class ChangingWhatStands(ViewerTest):
+    def setUp(self):
+        self.assertEqual(ask("/warehouse", {"name": "small"})[0], 200)
+
+    tearDownClass = classmethod(lambda cls: ask("/warehouse", {"name": "small"}))
+
+    def test_once_a_warehouse_stands_all_reads_show_it(self):
+        for _ in range(3):
+            self.assertEqual(command(1, "movy", distance=-1)[1]["outcome"], "done")
+            self.shows({"name": "own", "robots": 2, "items": 9, "shelves": 3, "id": 7}, 2, 3, 9)
+            self.shows({"name": "small"}, 4, 24, 96)
+
+    def test_also_where_time_stands_still(self):
+        ask("/simulation/pause", {})
+        command(1, "rot", "answer&timeout=0.01", direction=1)
+        for _ in range(3):
+            self.shows({"name": "own", "robots": 3}, 3, 0, 0)
+            self.shows({"name": "small"}, 4, 24, 96)
+        self.shows({"name": "empty"}, 0, 0, 0)
+
+    def shows(self, wanted, robots, units, items):
+        self.assertEqual(ask("/warehouse", wanted)[0], 200)
+        told = ask("/robots")[1]["robots"]
+        lists = (len(told), ask("/storage_units")[1]["total"], ask("/items")[1]["total"])
+        self.assertEqual(lists, (robots, units, items))
+        warehouse = ask("/warehouse")[1]
+        counts = [warehouse[kind] for kind in ("robots", "storage_units", "items")]
+        self.assertEqual((warehouse["name"], *counts), (wanted["name"], robots, units, items))
+        for robot in told:
+            at = place(robot["name"])
+            self.assertEqual((robot["x"], robot["y"]), at[:2])
+
+    def test_robots_come_and_go(self):
+        home = ask("/robots/1")[1]
+        status, robot = ask("/robots", {"x": -1, "y": -4, "heading": 1.5708})
+        self.assertEqual((status, robot["name"]), (201, "kiva5"))
+        self.assertEqual(place("kiva5")[:2], (-1, -4))
+        self.assertAlmostEqual(robot["yaw"], 1.5708, places=3)
+        self.assertEqual(ask("/robots")[1]["total"], 5)
+        self.assertEqual(command(5, "movx", distance=1)[1]["outcome"], "done")
+        self.assertEqual(ask("/robots/1", method="DELETE")[0], 200)
+        self.refused(404, "kiva1", ask("/robots/1"))
+        self.refused(404, "kiva1", ask("/robots/1", method="DELETE"))
+        _, robot = ask("/robots", {"x": home["x"], "y": home["y"]})
+        self.assertEqual((robot["name"], robot["x"], robot["y"]), ("kiva1", home["x"], home["y"]))
+
+    def test_no_robot_stands_where_none_can(self):
+        robot, belt = ask("/robots/2")[1], place("conveyor_belt1")
+        for x, y, reason in (
+            (robot["x"], robot["y"], "is taken by kiva2"),
+            (round(belt[0] + 0.1), belt[1], "that no robot can pass"),
+            (0.5, 0, "off the grid"),
+            (1e6, 0, "outside the floor"),
+        ):
+            self.refused(409, reason, ask("/robots", {"x": x, "y": y}))
+        self.refused(409, "quarter turns", ask("/robots", {"x": -1, "y": -4, "heading": 1}))
+        self.assertEqual(ask("/robots", {"x": 0})[0], 422)
+        self.assertEqual(ask("/robots")[1]["total"], 4)
+
+    def test_who_carries_stays(self):
+        unit = ask("/storage_units/1")[1]
+        at = {"x": round(unit["pose"]["x"]), "y": round(unit["pose"]["y"])}
+        _, robot = ask("/robots", at)
+        self.assertEqual(command(5, "lift", status=1, shelf_id=1)[1]["outcome"], "done")
+        self.refused(409, "kiva5 carries", ask("/robots/5", method="DELETE"))
+        self.assertEqual(command(5, "lift", status=0)[1]["outcome"], "done")
+        self.assertEqual(ask("/robots/5", method="DELETE")[0], 200)
+
+
+class ViewerApi(ViewerTest):
     def test_tells_what_stands_there(self):
         status, warehouse = ask("/warehouse")
         counts = [warehouse[kind] for kind in ("robots", "storage_units", "items", "belts")]
@@ -78,6 +157,8 @@ class ViewerApi(unittest.TestCase):
         status, answer = command(1, "rot", direction=1)
         self.assertEqual((status, answer["outcome"]), (200, "done"))
         self.assertEqual([e["kind"] for e in answer["events"]], ["ACCEPTED", "DONE"])
+        self.assertEqual(len({e["command"] for e in answer["events"]} - {0}), 1)
+        wait_until(lambda: ask("/robots/1")[1]["last_end"] == "DONE", "how it ended")
         _, told = ask(f"/events?model=kiva1&since={answer['events'][0]['id'] - 1}")
         self.assertEqual(told["events"][: len(answer["events"])], answer["events"])
 
@@ -133,8 +214,36 @@ class ViewerApi(unittest.TestCase):
         self.refused(413, "larger", ask("/warehouse", large))
 
     def test_describes_itself(self):
-        _, description = ask("/openapi.json")
-        self.assertIn("/api/v1/robots/{number}/commands", description["paths"])
+        for path in ("openapi.json", "api/v1/openapi.json"):
+            status, description = fetch(path)
+            self.assertEqual(status, 200)
+            self.assertIn("/api/v1/robots/{number}/commands", json.loads(description)["paths"])
+
+    def test_waits_for_the_end_as_long_as_it_takes(self):
+        self.assertEqual(ask("/simulation/speed", {"factor": 0.2})[0], 200)
+        status, answer = command(4, "rot", "end&timeout=0.1", direction=1)
+        self.assertEqual((status, answer["outcome"]), (202, "accepted"))
+        last = "/events?model=kiva4&limit=1"
+        wait_until(lambda: ask(last)[1]["events"][0]["kind"] == "DONE", "the end of the turn")
+        self.assertEqual(ask("/simulation/speed", {"factor": 0.15})[0], 200)
+        status, answer = command(4, "movy", distance=1)  # in some thirteen seconds
+        self.assertEqual(ask("/simulation/speed", {"factor": 5})[0], 200)
+        self.assertEqual((status, answer["outcome"]), (200, "done"))
+
+    def test_a_body_that_says_nothing_may_be_left_out(self):
+        self.assertEqual(fetch("api/v1/simulation/reset", b"")[0], 200)
+        self.assertEqual(fetch("api/v1/simulation/reset", b'{"time_to": 1}')[0], 422)
+        ask("/simulation/pause", {})
+        self.assertEqual(fetch("api/v1/simulation/step", b"")[0], 200)
+
+    def test_exports_events(self):
+        command(2, "rot", direction=-1)
+        _, text = fetch("api/v1/events.csv")
+        rows = list(csv.DictReader(io.StringIO(text.decode())))
+        last = [row for row in rows if row["model"] == "kiva2"][-1]
+        self.assertEqual(last["kind"], "DONE")
+        told = ask("/events?model=kiva2&limit=1")[1]["events"][-1]
+        self.assertEqual({name: str(value) for name, value in told.items()}, last)
 
     def test_streams_states_and_events_as_json(self):
         asyncio.run(self.stream())

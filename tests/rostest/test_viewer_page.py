@@ -2,7 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page in the browser shows the warehouse and commands it."""
 
+import csv
 import io
+import json
+import math
+import os
+import tempfile
 import unittest
 
 import rospy
@@ -10,9 +15,40 @@ import rostest
 from browser import browser
 from node_test import PATIENCE, Robot, wait_until
 from PIL import Image
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
 from warehouse_test import delete, model_file, place, pose, spawn
 
 ROBOTS, UNITS, ITEMS = 4, 24, 96
+FLOOR = (-5.5, 6.5, -4.5, 5.5)
+
+STANDS = """(({{ robots, units, items }}) => robots.length === {robots} && units.length === {units}
+  && items.length === {items})(page.world.scene)"""
+
+# A free cell [x, y] over which a storage unit is drawn and no robot stands behind it, or null.
+HIDDEN_CELL = """(() => {
+  const [x0, x1, y0, y1] = page.stage.bounds;
+  for (let x = Math.ceil(x0); x < x1; ++x) for (let y = Math.ceil(y0); y < y1; ++y) {
+    const at = page.stage.pixelOf(x, y, 0);
+    const hit = page.picker.pick(...at);
+    if (page.picker.pick(...at, ['robot', 'scenery'])) continue;
+    if (hit?.kind === 'unit' && page.world.unitAt([x, y]) < 0) return [x, y];
+  }
+  return null;
+})()"""
+
+CENTRE = (
+    "(r => [r.x + r.width / 2, r.y + r.height / 2])"
+    "(document.getElementById('{}').getBoundingClientRect())"
+)
+
+# What can be tapped but is smaller than a finger's 44 px, or has nothing to read.
+SMALL = """[...document.querySelectorAll('button, a, select, input, .row, .events li')]
+  .filter((e) => e.checkVisibility() && e.type !== 'checkbox' && !e.closest('dialog'))
+  .filter((e) => {
+    const { width, height } = e.getBoundingClientRect();
+    return width < 44 || height < 44 || !(e.textContent.trim() || e.title || e.ariaLabel);
+  }).map((e) => `${e.id || e.className || e.textContent} ${e.offsetWidth} x ${e.offsetHeight}`)"""
 
 
 def address():
@@ -73,7 +109,7 @@ class ViewerPage(unittest.TestCase):
     def test_a_key_turns_the_selected_robot(self):
         self.page.read("page.select('kiva3')")
         before = self.page.read("page.world.pose[8]")
-        self.page.press("q")
+        self.page.type("q")
         self.page.until(f"Math.abs(Math.sin(page.world.pose[8] - {before}) - 1) < 0.001")
 
     def test_a_blocked_robot_shows_as_blocked(self):
@@ -90,20 +126,113 @@ class ViewerPage(unittest.TestCase):
         Robot(4).do("/movx", distance=1.0)
         self.page.until("page.world.status[3] !== 2")
 
+    # --- keys, one by one
+    def test_a_person_types_into_the_search(self):
+        self.page.type("unit 12" + Keys.ENTER, "search")
+        self.assertEqual(self.page.read("document.getElementById('search').value"), "unit 12")
+        self.page.until("page.selected === 'storage_unit12'")
+        self.page.type(Keys.BACKSPACE * 7 + "kiva2" + Keys.ENTER)
+        self.page.until("page.selected === 'kiva2'")
+        self.page.type(Keys.BACKSPACE * 5 + Keys.ESCAPE)
+        self.page.until(f"page.list.rows.length === {ROBOTS}")
+
+    def test_space_pauses_whatever_was_clicked_before(self):
+        self.page.click_on("trails")
+        self.page.until("page.overlays.trails.object.visible")
+        self.page.type(Keys.SPACE)
+        self.until_link("paused")
+        self.assertTrue(self.page.read("page.overlays.trails.object.visible"))
+        self.page.click_on("trouble")
+        self.page.type(Keys.SPACE)
+        self.until_link("live")
+        self.page.click_on("trails")
+
+    def test_space_presses_what_the_tab_key_reached(self):
+        self.page.click_on("search")
+        self.page.type(Keys.TAB * 2)
+        self.assertEqual(self.page.read("document.activeElement.dataset.filter"), "2")
+        self.page.type(Keys.SPACE)
+        self.page.until("page.list.filter === '2'")
+        self.page.read("page.list.setFilter('')")
+        self.page.read("document.activeElement.blur()")
+
+    # --- clicks
+    def test_an_aisle_behind_units_can_be_clicked(self):
+        # Straight behind a row of units, as seen from the default view.
+        hidden = self.page.read(HIDDEN_CELL)
+        self.assertTrue(hidden, "no cell is hidden behind a unit; the test tests nothing")
+        self.page.read("page.select('kiva1')")
+        self.page.click(*hidden)
+        self.page.until("!document.getElementById('answer').hidden")
+        self.assertEqual(self.page.read("page.selected"), "kiva1")
+        x, y = hidden
+        wait_until(lambda: math.dist(place("kiva1")[:2], hidden) < 1e-3, f"kiva1 at {x}, {y}")
+        self.page.until("document.getElementById('answer').dataset.kind === 'done'")
+
+    def test_a_click_beside_the_floor_keeps_the_selection(self):
+        self.page.read("page.select('kiva2')")
+        self.page.click(*self.page.read("[page.stage.bounds[0] - 1, page.stage.bounds[3] + 2]"))
+        self.assertEqual(self.page.read("page.selected"), "kiva2")
+
+    def test_the_selected_is_named_and_the_near_have_numbers(self):
+        self.page.read("page.select('kiva2')")
+        labels = (
+            "[...document.querySelectorAll('#labels span:not([hidden])')].map(s => s.textContent)"
+        )
+        self.page.until(f"{labels}.includes('kiva2')")
+        self.assertEqual(sorted(self.page.read(labels)), ["1", "3", "4", "kiva2"])
+
+    # --- the simulation
+    def until_link(self, state):
+        self.page.until(f"document.getElementById('link').dataset.state === '{state}'")
+
     def test_pauses(self):
-        self.page.read("document.getElementById('pause').click()")
-        self.page.until("document.getElementById('link').dataset.state === 'paused'")
-        self.page.read("document.getElementById('pause').click()")
-        self.page.until("document.getElementById('link').dataset.state === 'live'")
+        self.page.click_on("pause")
+        self.until_link("paused")
+        self.page.click_on("pause")
+        self.until_link("live")
+
+    def test_what_is_sent_while_time_stands_still_says_so(self):
+        self.page.click_on("pause")
+        self.until_link("paused")
+        self.page.read("page.select('kiva3')")
+        self.page.type("q")
+        self.page.until(
+            "document.getElementById('answer').textContent.includes('time stands still')"
+        )
+        self.page.click_on("pause")
+        self.page.until("document.getElementById('answer').dataset.kind === 'done'")
+
+    def test_reset_asks_and_can_be_undone(self):
+        x, y, _ = place("kiva2")
+        Robot(2).do("/movx", distance=-1.0)
+        self.page.click_on("reset")
+        self.page.until("document.getElementById('question').open")
+        self.page.type(Keys.ESCAPE)
+        self.page.until("!document.getElementById('question').open")
+        self.assertAlmostEqual(place("kiva2")[0], x - 1, places=3)
+        self.page.click_on("reset")
+        self.page.until("document.getElementById('question').open")
+        self.page.click_on("question-yes")
+        wait_until(lambda: math.dist(place("kiva2")[:2], (x, y)) < 1e-3, "a reset")
+        self.page.until("!document.getElementById('notice').hidden")
+        self.page.driver.find_element("css selector", "#notice button").click()
+        wait_until(lambda: math.dist(place("kiva2")[:2], (x - 1, y)) < 1e-3, "the reset undone")
+        Robot(2).do("/movx", distance=1.0)
+
+    def test_undo_is_offered_only_where_it_works(self):
+        # The world keeps no checkpoints of its own here.
+        self.page.until("document.getElementById('undo').disabled")
+        self.assertIn("autosave", self.page.read("document.getElementById('undo').title"))
 
     def test_steps(self):
-        self.page.read("document.getElementById('pause').click()")
-        self.page.until("document.getElementById('link').dataset.state === 'paused'")
+        self.page.click_on("pause")
+        self.until_link("paused")
         before = self.page.read("page.world.stamp")
-        self.page.read("document.getElementById('step').click()")
+        self.page.click_on("step")
         self.page.until(f"page.world.stamp > {before} + 0.05")
-        self.page.read("document.getElementById('pause').click()")
-        self.page.until("document.getElementById('link').dataset.state === 'live'")
+        self.page.click_on("pause")
+        self.until_link("live")
 
     def test_goes_back_to_a_checkpoint(self):
         robot, status = Robot(3), "document.getElementById('tip').dataset.kind"
@@ -117,10 +246,101 @@ class ViewerPage(unittest.TestCase):
 
     def test_shows_scan_and_path_of_the_selected(self):
         self.page.read("page.select('kiva2')")
-        self.page.read("document.getElementById('scan').click()")
+        self.page.click_on("scan")
         self.page.until("page.overlays.fan.visible")
-        self.page.read("document.getElementById('scan').click()")
+        # From where the laser is mounted.
+        mount = self.page.read("page.scans.get(2).mount")
+        for told, real in zip(mount, (0.38, 0.0, 0.2, 0.0)):
+            self.assertAlmostEqual(told, real, places=5)
+        self.page.click_on("scan")
         self.assertFalse(self.page.read("page.overlays.fan.visible"))
+
+    # --- what stands there
+    def test_a_robot_comes_where_it_is_clicked_and_goes(self):
+        self.page.click_on("add")
+        self.page.click(2, -4)
+        self.page.until(f"page.world.scene.robots.length === {ROBOTS + 1}")
+        self.assertEqual(place(f"kiva{ROBOTS + 1}")[:2], (2, -4))
+        self.page.read(f"page.select('kiva{ROBOTS + 1}')")
+        self.page.click_on("remove")
+        self.page.until("document.getElementById('question').open")
+        self.page.click_on("question-yes")
+        self.page.until(f"page.world.scene.robots.length === {ROBOTS}")
+
+    def test_builds_a_warehouse(self):
+        self.build("my own", robots=3, shelves=10, items=20)
+        self.page.until(STANDS.format(robots=3, units=10, items=20))
+        self.page.until("document.getElementById('warehouse').textContent === 'mine'")
+        self.build("small")
+        self.page.until(STANDS.format(robots=ROBOTS, units=UNITS, items=ITEMS))
+
+    def build(self, size, **counts):
+        self.page.click_on("build")
+        Select(self.page.driver.find_element("id", "size")).select_by_visible_text(size)
+        for name, count in counts.items():
+            self.page.type(Keys.BACKSPACE * 4 + str(count), f"own-{name}")
+        self.page.driver.find_element("css selector", "#plan .strong").click()
+
+    # --- the log as a file
+    def test_saves_the_events(self):
+        Robot(3).do("/rot", direction=1)
+        with tempfile.TemporaryDirectory() as folder:
+            where = {"behavior": "allow", "downloadPath": folder}
+            self.page.driver.execute_cdp_cmd("Page.setDownloadBehavior", where)
+            for link in self.page.driver.find_elements("css selector", "a[download]"):
+                link.click()
+            files = [os.path.join(folder, f"events.{kind}") for kind in ("csv", "json")]
+            wait_until(lambda: all(map(os.path.exists, files)), "both files")
+            with open(files[0], newline="") as table:
+                rows = list(csv.DictReader(table))
+            with open(files[1]) as text:
+                events = json.load(text)["events"]
+        self.assertEqual([int(row["id"]) for row in rows], [event["id"] for event in events])
+        self.assertIn(("kiva3", "DONE"), [(row["model"], row["kind"]) for row in rows])
+
+
+class Phone(unittest.TestCase):
+    """The same in a small window that is tapped at."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls._browser = browser(PATIENCE)
+        cls.page = cls._browser.__enter__()
+        cls.page.be_phone()
+        cls.page.open(address())
+        cls.page.until(f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._browser.__exit__(None, None, None)
+
+    def test_a_tap_on_a_robot_opens_what_is_known_of_it(self):
+        self.page.tap(*self.page.pixel(*place("kiva3")[:2], 0.3))
+        self.page.until("page.selected === 'kiva3'")
+        self.page.until("document.getElementById('details-panel').classList.contains('open')")
+        self.page.tap(*self.page.read(CENTRE.format("close")))
+        self.page.until("page.selected === null")
+
+    def test_everything_is_as_large_as_a_finger_and_has_a_name(self):
+        self.page.read("page.select('kiva1')")
+        for sheet in ("details-panel", "list-panel", "log-panel", "view-panel"):
+            self.page.read(f"page.sheets.show('{sheet}')")
+            small = self.page.read(SMALL)
+            self.assertEqual(small, [], sheet)
+        self.page.read("page.select(null)")
+
+    def test_reset_lies_apart_from_undo(self):
+        undo, reset = (
+            self.page.read(f"document.getElementById('{i}').getBoundingClientRect().toJSON()")
+            for i in ("undo", "reset")
+        )
+        self.assertGreaterEqual(reset["left"] - undo["right"], 8)
+
+    def test_the_floor_fills_the_width(self):
+        corners = [(x, y) for x in FLOOR[:2] for y in FLOOR[2:]]
+        across = [self.page.pixel(*corner)[0] for corner in corners]
+        self.assertGreater(max(across) - min(across), 0.85 * 390)
+        self.assertTrue(all(0 <= x <= 390 for x in across))
 
 
 if __name__ == "__main__":

@@ -9,19 +9,24 @@ from node_test import PATIENCE, wait_until
 from roslib.packages import find_node
 
 PARAMETERS = ("world", "rtf", "seed", "drive", "pub_clock_frequency", "model_states_frequency")
-PARAMETERS += ("lockstep", "autosave", "record", "replay")
+PARAMETERS += ("lockstep", "autosave", "record", "replay", "checkpoint_folder", "checkpoint_limit")
 
 
 class Node:
-    """Started with these private parameters and no others."""
+    """Started with these private parameters and no others.
 
-    def __init__(self, **parameters):
+    `most_bytes`: no file that it writes may grow beyond that, as on a full disk.
+    """
+
+    def __init__(self, most_bytes=None, **parameters):
         for name in PARAMETERS:
             if rospy.has_param(f"/gazebo/{name}"):
                 rospy.delete_param(f"/gazebo/{name}")
         for name, value in parameters.items():
             rospy.set_param(f"/gazebo/{name}", value)
         program = find_node("kiva_plugin_cpp", "kiva_world_node")
+        if most_bytes is not None:
+            program = ["prlimit", f"--fsize={most_bytes}", *program]
         self._process = subprocess.Popen(
             program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )

@@ -3,7 +3,7 @@
 // Robots that nothing can touch are stepped in arrays: the same motion as Bullet gives.
 #include <random>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -43,7 +43,7 @@ class Lanes {
   }
 
   int cruising() const {
-    const auto& mask = w.world.fleet().cruising;
+    const auto& mask = insideOf(w.world).fleet.cruising;
     return static_cast<int>(mask.size() - std::count(mask.begin(), mask.end(), 0));
   }
 
@@ -112,11 +112,11 @@ TEST(Arrays, LetGoOfARobotBeforeABoxHitsIt) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.movx(1, 6);
   w.run(2);
-  ASSERT_NE(w.world.fleet().cruising[0], 0);
+  ASSERT_NE(insideOf(w.world).fleet.cruising[0], 0);
   const double ahead = w.x(1) + 0.38 + 0.1;  // nearer than it can stop
   w.spawnText(parcel(0.2), "box", ahead + 0.1, 0, 0, 0.1);
   w.run(0.5);
-  EXPECT_EQ(w.world.fleet().cruising[0], 0);
+  EXPECT_EQ(insideOf(w.world).fleet.cruising[0], 0);
   EXPECT_EQ(w.count(Event::Kind::kCollision), 1);
   const auto box = w.world.state("box");
   ASSERT_TRUE(box);
@@ -129,7 +129,7 @@ TEST(Arrays, StopForAWallThatIsSpawnedAhead) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.movx(1, 10);
   w.run(3);
-  ASSERT_NE(w.world.fleet().cruising[0], 0);
+  ASSERT_NE(insideOf(w.world).fleet.cruising[0], 0);
   w.spawn("wall", "wall1", std::ceil(w.x(1)) + 3, 0, kQuarter);
   w.runUntilIdle(1);
   EXPECT_EQ(w.count(Event::Kind::kBlocked, "kiva1"), 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Any model of SDF primitives and joints moves as mechanics says: falls, bounces, slides, swings.
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -138,7 +138,7 @@ TEST_F(Bodies, StackedBoxesStand) {
 
 // --- bouncing
 
-TEST_F(Bodies, ABallBouncesByTheProductOfBothRestitutions) {
+TEST_F(Bodies, ABallBouncesByTheSmallerRestitution) {
   w.spawnText(model(link("plate", collision(box(2, 2, .2), {1, 1.0}, "0 0 0.1 0 0 0")), true),
               "plate", 0, 0);
   for (double restitution : {0.0, 0.5, 0.8}) {
@@ -154,14 +154,89 @@ TEST_F(Bodies, ABallBouncesByTheProductOfBothRestitutions) {
   }
 }
 
+TEST_F(Bodies, ABallThatLosesNothingBouncesToItsHeightAgainAndAgain) {
+  w.spawnText(model(link("plate", collision(box(2, 2, .2), {1, 1.0}, "0 0 0.1 0 0 0")), true),
+              "plate", 0, 0);
+  const std::string body = inertial(1, .004, .004, .004) + collision(ball(.1), {1, 1.0});
+  w.spawnText(model(link("ball", body)), "ball", 0, 0, 0, 0.3 + 1);
+  w.run(18);
+  double highest = 0;
+  w.run(2, [&] { highest = std::max(highest, position("ball").Z() - 0.3); });
+  EXPECT_NEAR(highest, 1, 0.005);
+}
+
+// --- rolling
+
+struct Rolling {
+  std::string name, geometry, floor;
+};
+
+class RollingBody : public ::testing::TestWithParam<Rolling> {
+ protected:
+  static constexpr double kRadius = 0.2, kHeight = 0.5;
+  /// On the floor plane, or on a large box of that height, lying along y.
+  RollingBody() {
+    const bool on_box = GetParam().floor == "box";
+    if (on_box)
+      w.spawnText(model(link("plate", collision(box(100, 4, kHeight))), true), "plate", 0, 0);
+    const double z = kRadius + (on_box ? kHeight / 2 : 0);
+    const std::string shape = collision(GetParam().geometry, {}, "0 0 0 1.5707963267948966 0 0");
+    w.spawnText(model(link("body", inertial(2, .05, .04, .05) + shape)), "body", -20, 0, 0, z);
+  }
+  EntityState state() { return *w.world.state("body"); }
+  void push(const Vector3& linear, const Vector3& angular) {
+    w.world.setState("body", {state().pose, {linear, angular}});
+  }
+  Warehouse w;
+};
+
+TEST_P(RollingBody, RollsOnAtItsSpeed) {
+  push({1, 0, 0}, {0, 1 / kRadius, 0});
+  w.run(40);
+  EXPECT_NEAR(state().twist.linear.X(), 1, 0.001);
+  EXPECT_NEAR(state().twist.angular.Y(), 1 / kRadius, 0.005);
+  EXPECT_NEAR(state().pose.X(), 20, 0.02);
+  EXPECT_NEAR(state().pose.Y(), 0, 0.01);
+}
+
+TEST_P(RollingBody, SpinsDownAsCoulombsFrictionAlongALineSays) {
+  // An even load m g / l resists by mu m g l / 4.
+  const double turn = 1.0 * 2 * kGravity * 0.4 / 4 / .05;
+  push({0, 0, 0}, {0, 0, 30});
+  w.run(0.5);
+  EXPECT_NEAR(state().twist.angular.Z(), 30 - 0.5 * turn, 0.03 * turn);
+  w.run(2);
+  EXPECT_NEAR(state().twist.angular.Z(), 0, 1e-3);
+}
+const char* const kCylinder = "<cylinder><radius>.2</radius><length>.4</length></cylinder>";
+const char* const kCapsule = "<capsule><radius>.2</radius><length>.4</length></capsule>";
+INSTANTIATE_TEST_SUITE_P(Shapes, RollingBody,
+                         ::testing::Values(Rolling{"CylinderOnThePlane", kCylinder, "plane"},
+                                           Rolling{"CylinderOnABox", kCylinder, "box"},
+                                           Rolling{"CapsuleOnThePlane", kCapsule, "plane"},
+                                           Rolling{"CapsuleOnABox", kCapsule, "box"}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_F(Bodies, ACylinderFallsOffTheEdgeOfABox) {
+  w.spawnText(model(link("plate", collision(box(2, 4, 1))), true), "plate", 0, 0);
+  const std::string shape = collision(kCylinder, {}, "0 0 0 1.5707963267948966 0 0");
+  w.spawnText(model(link("body", inertial(2, .05, .04, .05) + shape)), "body", 0, 0, 0, 0.7);
+  w.world.setState("body", {Pose(0, 0, 0.7, 0, 0, 0), {{1, 0, 0}, {0, 5, 0}}});
+  w.run(0.99);
+  EXPECT_NEAR(position("body").Z(), 0.7, kMillimetre);
+  w.run(2);
+  EXPECT_NEAR(position("body").Z(), 0.2, 0.002);
+  EXPECT_GT(position("body").X(), 1.5);
+}
+
 // --- friction
 
 class Slope : public Bodies {
  protected:
   /// Puts a cube on a plate that is inclined by `angle` [rad] about y, and returns how far it has
   /// slid down after `seconds`.
-  double slide(double angle, double friction, double seconds) {
-    const std::string plate = model(link("plate", collision(box(20, 4, .2))), true);
+  double slide(double angle, double friction, double seconds, double of_plate = 1) {
+    const std::string plate = model(link("plate", collision(box(20, 4, .2), {of_plate, 0})), true);
     w.world.spawn(instance(plate, "plate", Pose(0, 0, 10, 0, angle, 0)));
     const Pose on_plate = Pose(0, 0, 10, 0, angle, 0) * Pose(0, 0, 0.1 + 0.25, 0, 0, 0);
     w.world.spawn(instance(cube({friction, 0}), "box", on_plate));
@@ -176,6 +251,13 @@ class Slope : public Bodies {
 TEST_F(Slope, ABoxHoldsWhereTheTangentIsLessThanItsFriction) {
   EXPECT_LT(slide(std::atan(0.45), 0.5, 3), 2 * kMillimetre);
   EXPECT_LT(slide(std::atan(0.25), 0.3, 3), 2 * kMillimetre);
+}
+
+TEST_F(Slope, TheSmallerFrictionCounts) {
+  EXPECT_LT(slide(std::atan(0.45), 0.5, 3, 0.5), 2 * kMillimetre);
+  const double angle = std::atan(0.7);
+  const double expected = 0.5 * kGravity * (std::sin(angle) - 0.2 * std::cos(angle));
+  EXPECT_NEAR(slide(angle, 100, 1, 0.2), expected, 0.03 * expected);
 }
 
 TEST_F(Slope, ABoxSlidesWithWhatFrictionLeavesOfGravity) {
@@ -204,7 +286,7 @@ TEST_F(Bodies, ABodyFallsAsleepWhereItStandsAndNotWhileItCreeps) {
   w.world.setState("box", {Pose(0, 0, 0.25, 0, 0, 0), {{0.05, 0, 0}, {}}});
   w.run(6);
   EXPECT_NEAR(position("box").X(), 0.05 * 6, 0.005);
-  EXPECT_FALSE(w.world.parts().find("resting_box")->bodies.links[0].body->isActive());
+  EXPECT_FALSE(insideOf(w.world).find("resting_box")->bodies.links[0].body->isActive());
 }
 
 TEST_F(Bodies, ASleepingBodyWakesWhenPushed) {

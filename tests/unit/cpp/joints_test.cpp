@@ -249,7 +249,7 @@ TEST_F(Joints, AnEffortActsForItsTimeToTheStep) {
   EXPECT_EQ(state("axle").rate, 0);
   w.run(0.3);
   EXPECT_NEAR(state("axle").rate, 0.1, 1e-4);
-  EXPECT_TRUE(w.world.interventions().efforts.empty());
+  EXPECT_TRUE(w.world.externalInputs().efforts.empty());
 }
 
 TEST_F(Joints, AnEffortEndsWhenItIsClearedOrItsModelGoes) {

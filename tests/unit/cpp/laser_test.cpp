@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -128,7 +128,7 @@ class Scene {
 };
 
 /// Whether a point is within anything that stands there: a ray that starts inside passes out.
-bool isInside(const Parts& parts, const Vector3& point) {
+bool isInside(const WorldState& parts, const Vector3& point) {
   Footprint here;
   here.kind = Footprint::Kind::kCircle;
   here.x = point.X();
@@ -172,7 +172,7 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
       const Ray ray{
           {scene.uniform(-13, 13), scene.uniform(-13, 13), scene.uniform(kLowest, kHighest)},
           scene.uniform(-M_PI, M_PI)};
-      if (isInside(world.parts(), ray.from)) continue;
+      if (isInside(insideOf(world), ray.from)) continue;
       const double seen = ray.cast(world), truth = ray.cast(triangles);
       ++rays;
       hits += std::isfinite(truth);
@@ -186,6 +186,116 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
   EXPECT_GT(rays, 100000);
   EXPECT_GT(hits, 30000);
   EXPECT_LT(edges, rays / 5000);
+}
+
+// --- round and tilted shapes, against what their own equations say
+
+struct Solid {
+  std::string name, geometry;
+  /// Whether a point in the shape's frame is in it.
+  bool (*holds)(const Vector3&);
+};
+
+double beyond(double value, double half) { return std::max(0.0, std::abs(value) - half); }
+
+const Solid kSolids[] = {
+    {"Ellipsoid", "<ellipsoid><radii>0.6 0.3 0.2</radii></ellipsoid>",
+     [](const Vector3& p) {
+       return std::pow(p.X() / 0.6, 2) + std::pow(p.Y() / 0.3, 2) + std::pow(p.Z() / 0.2, 2) <= 1;
+     }},
+    {"Capsule", "<capsule><radius>0.25</radius><length>0.7</length></capsule>",
+     [](const Vector3& p) { return std::hypot(p.X(), p.Y(), beyond(p.Z(), 0.35)) <= 0.25; }},
+    {"Cylinder", "<cylinder><radius>0.3</radius><length>0.5</length></cylinder>",
+     [](const Vector3& p) { return std::hypot(p.X(), p.Y()) <= 0.3 && std::abs(p.Z()) <= 0.25; }},
+    {"Box", "<box><size>0.4 0.6 0.8</size></box>", [](const Vector3& p) {
+       return std::abs(p.X()) <= 0.2 && std::abs(p.Y()) <= 0.3 && std::abs(p.Z()) <= 0.4;
+     }}};
+
+class SolidUnderLaser : public ::testing::TestWithParam<Solid> {};
+
+TEST_P(SolidUnderLaser, IsSeenWhereItIsFromOutsideAndInside) {
+  std::mt19937 random(7);
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  constexpr double kStep = 0.002, kRange = 3;  // [m]
+  int hits = 0, inner = 0, grazing = 0, rays = 0;
+  for (int round = 0; round < 40; ++round) {
+    Warehouse w;
+    const Pose pose(0.1, -0.2, uniform(-0.2, 0.6), uniform(-3, 3), uniform(-1.5, 1.5),
+                    uniform(-3, 3));
+    const bool moves = round % 2;  // both ways to be an obstacle: of a body, and of none
+    w.world.spawn(instance("<sdf version='1.9'><model name='m'><static>" +
+                               std::string(moves ? "false" : "true") +
+                               "</static><link name='l'><gravity>false</gravity><collision "
+                               "name='c'><geometry>" +
+                               GetParam().geometry + "</geometry></collision></link></model></sdf>",
+                           "m", pose));
+    for (int k = 0; k < 100; ++k) {
+      const Vector3 from(uniform(-1, 1), uniform(-1, 1), uniform(0, 0.4));
+      const double yaw = uniform(-M_PI, M_PI);
+      const Vector3 way(std::cos(yaw), std::sin(yaw), 0);
+      const auto in = [&](double t) {
+        return GetParam().holds(pose.Rot().RotateVectorReverse(from + way * t - pose.Pos()));
+      };
+      const bool starts_in = in(0);
+      double crossed = std::numeric_limits<double>::infinity();
+      for (double t = 0; t < kRange && std::isinf(crossed); t += kStep) {
+        if (in(t + kStep) == starts_in) continue;
+        double near = t, far = t + kStep;
+        for (int halving = 0; halving < 40; ++halving) {
+          const double middle = (near + far) / 2;
+          (in(middle) == starts_in ? near : far) = middle;
+        }
+        crossed = far;
+      }
+      const double seen = w.world.rayCast(from, yaw, kRange);
+      ++rays;
+      hits += std::isfinite(crossed);
+      inner += starts_in;
+      if (std::isinf(crossed) && std::isfinite(seen)) {  // shorter than a step
+        ++grazing;
+        EXPECT_TRUE(in(seen + 1e-9) || in(seen + 1e-6));
+      } else if (std::isfinite(crossed)) {
+        if (crossed > seen + kStep) {
+          ++grazing;
+          continue;
+        }
+        EXPECT_NEAR(seen, crossed, 1e-8);
+      } else {
+        EXPECT_TRUE(std::isinf(seen));
+      }
+    }
+  }
+  EXPECT_GT(hits, rays / 8);
+  EXPECT_GT(inner, 20);
+  EXPECT_LT(grazing, 20);
+}
+INSTANTIATE_TEST_SUITE_P(Shapes, SolidUnderLaser, ::testing::ValuesIn(kSolids),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(Laser, SeesTheInsideOfWhatItIsIn) {
+  Warehouse w;
+  const auto add = [&](const std::string& name, const std::string& geometry) {
+    w.world.spawn(
+        instance("<sdf version='1.9'><model name='m'><static>true</static><link "
+                 "name='l'><collision name='c'><geometry>" +
+                     geometry + "</geometry></collision></link></model></sdf>",
+                 name, Pose(0, 0, 0.2, 0, 0, 0)));
+  };
+  const Vector3 from(0.1, 0, 0.2);
+  const std::pair<const char*, double> shapes[] = {
+      {"<box><size>1 1 1</size></box>", 0.4},
+      {"<sphere><radius>0.5</radius></sphere>", 0.4},
+      {"<cylinder><radius>0.5</radius><length>1</length></cylinder>", 0.4},
+      {"<capsule><radius>0.5</radius><length>1</length></capsule>", 0.4},
+      {"<ellipsoid><radii>0.5 0.4 0.3</radii></ellipsoid>", 0.4}};
+  for (const auto& [geometry, distance] : shapes) {
+    add("m", geometry);
+    EXPECT_NEAR(w.world.rayCast(from, 0, 5), distance, 1e-9) << geometry;
+    EXPECT_NEAR(w.world.rayCast(from, M_PI, 5), distance + 0.2, 1e-9) << geometry;
+    w.world.remove("m");
+  }
 }
 
 std::vector<float> scan(const Warehouse& w, int id) {
@@ -223,7 +333,7 @@ TEST(Laser, SeesBetweenTheLegsOfAUnit) {
   const std::vector<float> ranges = scan(w, 1);
   EXPECT_NEAR(ranges[ranges.size() / 2], 4 - 0.38, 1e-4);
   EXPECT_EQ(std::count_if(ranges.begin(), ranges.end(), [](float r) { return r < 2.2; }) > 0, true)
-      << "no leg was seen";
+      << "no segment was seen";
 }
 
 TEST(Laser, SeesNeitherItselfNorItsLoad) {

@@ -228,9 +228,21 @@ TEST_F(Lift, RefusesAnUnknownUnit) {
   for (int shelf : {0, -1, 7}) {
     w.carry(1, shelf);
     EXPECT_PRED2(contains, w.refusal(), "there is no storage_unit" + std::to_string(shelf));
+    if (shelf == 0) continue;  // whatever it carries
     w.drop(1, shelf);
     EXPECT_PRED2(contains, w.refusal(), "there is no storage_unit" + std::to_string(shelf));
   }
+}
+
+TEST_F(Lift, DropsWhateverItCarriesWhereNoUnitIsNamed) {
+  w.drop(1, 0);
+  EXPECT_PRED2(contains, w.refusal(), "it carries nothing");
+  w.carry(1, 1);
+  w.runUntilIdle(1);
+  w.drop(1, 0);
+  w.runUntilIdle(1);
+  EXPECT_EQ(w.loadOf(1), 0);
+  EXPECT_EQ(w.last(Event::Kind::kDropped).other, "storage_unit1");
 }
 
 TEST_F(Lift, RefusesWhatIsTooHeavyItemsIncluded) {
@@ -514,6 +526,47 @@ TEST_F(Lift, AnItemWhereNoUnitIsFallsToTheFloor) {
   w.run(2);
   EXPECT_NEAR(w.itemPose("item1").Z(), 0, kMillimetre);
   EXPECT_NEAR(w.itemPose("item1").X(), 3, kMillimetre);
+}
+
+// --- force
+
+/// A slab of 2 x 2 m whose underside is that high, on four legs that keep clear of robots.
+std::string ceiling(double height) {
+  return "<sdf version='1.9'><model name='m'><static>true</static><link name='l'><pose>0 0 " +
+         number(height + 0.1) +
+         " 0 0 0</pose><collision name='c'><geometry><box><size>2 2 0.2</size></box></geometry>"
+         "</collision></link></model></sdf>";
+}
+
+TEST_F(Lift, StallsBeneathACeilingPutsDownAndTellsWhy) {
+  constexpr double kTop = 1.80, kRoom = 0.06;  // of the unit, and above it [m]
+  w.spawnText(ceiling(kTop + kRoom), "ceiling", 0, 0);
+  w.carry(1, 1);
+  double highest = 0;
+  w.runUntilIdle(1, 20, [&] { highest = std::max(highest, w.unitPose(1).Z()); });
+  EXPECT_NEAR(highest, kRoom, 1e-6);
+  EXPECT_EQ(w.count(Event::Kind::kLifted), 0);
+  EXPECT_EQ(w.count(Event::Kind::kDropped), 1);
+  const Event blocked = w.last(Event::Kind::kBlocked);
+  EXPECT_EQ(blocked.other, "ceiling");
+  EXPECT_PRED2(contains, blocked.text, "its lift stalls at 5500 N beneath ceiling");
+  EXPECT_EQ(w.loadOf(1), 0);
+  EXPECT_EQ(w.tower(1), 0);
+  EXPECT_NEAR(w.unitPose(1).Z(), 0, 1e-9);
+  w.world.remove("ceiling");  // and it can lift where there is room
+  w.carry(1, 1);
+  w.runUntilIdle(1);
+  EXPECT_EQ(w.loadOf(1), 1);
+}
+
+TEST_F(Lift, StallsUnderALoadThatItsForceDoesNotLift) {
+  w.world.remove("kiva1");
+  w.spawnText(kivaText({{"max_force", "500"}}), "kiva1", 0, 0);  // 60 kg weigh 589 N
+  w.carry(1, 1);
+  w.runUntilIdle(1, 20);
+  EXPECT_NEAR(w.unitPose(1).Z(), 0, 0.002);
+  EXPECT_PRED2(contains, w.last(Event::Kind::kBlocked).text,
+               "its lift stalls at 500 N: the load is too heavy");
 }
 
 }  // namespace

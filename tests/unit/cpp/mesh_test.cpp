@@ -3,6 +3,7 @@
 // Meshes and polylines: read at their size, touched where they are, seen by lasers.
 #include <filesystem>
 
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -179,7 +180,7 @@ TEST(StaticMeshes, CostNothingWhereNobodyIs) {
   w.spawnText(model(mesh(fileUri("room.obj")), true), "room", 4, 0);
   w.spawn("kiva", "kiva1", 4, 0);
   w.run(0.1);
-  EXPECT_FALSE(w.world.fleet().engaged[0]);
+  EXPECT_FALSE(insideOf(w.world).fleet.activated[0]);
 }
 
 TEST(DynamicMeshes, FallAndLieAsTheirHulls) {

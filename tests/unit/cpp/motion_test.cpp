@@ -9,7 +9,8 @@
 namespace kiva::test {
 namespace {
 
-constexpr double kSlack = 0.03;  // [s]: a leg's start and its coming to rest, beyond its profile
+constexpr double kSlack =
+    0.03;  // [s]: a segment's start and its coming to rest, beyond its profile
 
 /// From rest to rest over `distance` [s].
 double trapezoidTime(double distance, double speed, double acceleration) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -19,15 +19,15 @@ std::string names(const std::string& kind, int id) { return kind + std::to_strin
 /// Everything that a half model could leave behind.
 struct Inventory {
   std::vector<std::string> models;
-  std::size_t slots, bodies, engaged, with_plugins, units, items, robots, ids;
+  std::size_t slots, bodies, activated, with_plugins, units, items, robots, ids;
   int footprints = 0;
   double below;  // height of the first thing beneath (3, 0, 5), as Bullet sees it [m]
 
   explicit Inventory(const Warehouse& w) : models(w.world.modelNames()) {
-    const World::Parts& parts = w.world.parts();
+    const WorldState& parts = insideOf(w.world);
     slots = parts.slot_of_name.size();
     bodies = parts.bodies.size();
-    engaged = parts.engaged.size();
+    activated = parts.activated.size();
     with_plugins = parts.models_with_plugins.size();
     units = parts.units.size();
     items = parts.items.size();
@@ -37,7 +37,7 @@ struct Inventory {
     below = parts.physics.cast({3, 0, 5}, {0, 0, -1}, 10);
   }
   auto all() const {
-    return std::tie(models, slots, bodies, engaged, with_plugins, units, items, robots, ids,
+    return std::tie(models, slots, bodies, activated, with_plugins, units, items, robots, ids,
                     footprints, below);
   }
   bool operator==(const Inventory& other) const { return all() == other.all(); }
@@ -460,7 +460,7 @@ TEST_F(Spawn, AnItemMovedOnItsUnitStaysThere) {
 TEST_F(Spawn, AMovedWallBlocksWhereItIsNow) {
   w.world.setState("wall1", {Pose(4, 0, 0, 0, 0, kQuarter), {}});
   EXPECT_NEAR(w.world.rayCast({0.5, 0, 0.2}, 0, 10), 3.4, 1e-6);
-  EXPECT_NEAR(w.world.parts().physics.cast({0.5, 0, 0.2}, {1, 0, 0}, 10), 3.4, 1e-2);
+  EXPECT_NEAR(insideOf(w.world).physics.cast({0.5, 0, 0.2}, {1, 0, 0}, 10), 3.4, 1e-2);
   EXPECT_TRUE(std::isinf(w.world.rayCast({0, 1, 0.6}, kQuarter, 10)) ||
               w.world.rayCast({0, 3, 0.6}, kQuarter, 10) > 5);
 }

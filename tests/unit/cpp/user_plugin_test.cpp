@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/parts.h"
+#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -118,6 +118,34 @@ TEST_F(UserPlugin, AMissingLibraryIsOneWarningThatNamesItAndWhatWasSearched) {
   w.movx(1, 1);
   w.runUntilIdle(1);
   w.expectAt(1, 1, 0);
+}
+
+TEST_F(UserPlugin, ALibraryOfASourcedWorkspaceIsFound) {
+  setPath("");
+  const char* prefixes = std::getenv("CMAKE_PREFIX_PATH");
+  const std::string before = prefixes ? prefixes : "";
+  setenv("CMAKE_PREFIX_PATH", ("/nowhere:" + libraryFolder() + "/..").c_str(), true);
+  w.spawnText(withElement(kivaText(), patrol("<x>3</x>")), "kiva1", 0, 0);
+  setenv("CMAKE_PREFIX_PATH", before.c_str(), true);
+  EXPECT_TRUE(w.world.takeWarnings().empty());
+  w.runUntil([&] { return std::abs(w.x(1) - 3) < kMillimetre; }, 20);
+}
+
+TEST_F(UserPlugin, ADocumentDoesNotChooseTheFolderOfALibrary) {
+  const std::string path = libraryFolder() + "/libhello_plugin.so";
+  for (const std::string& name : {path, std::string("../lib/libhello_plugin.so")}) {
+    w.spawnText(withElement(kivaText(), "<plugin name='patrol' filename='" + name + "'/>"), "kiva1",
+                0, 0);
+    const auto warnings = w.world.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_PRED2(contains, warnings[0], "'" + name + "' is a path");
+    w.world.remove("kiva1");
+  }
+  // Nor does the dynamic linker, which knows the system's libraries.
+  w.spawnText(withElement(kivaText(), "<plugin name='c' filename='libc.so.6'/>"), "kiva1", 0, 0);
+  const auto warnings = w.world.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_PRED2(contains, warnings[0], "there is no library 'libc.so.6'");
 }
 
 TEST_F(UserPlugin, AFileThatIsNoLibraryIsNamed) {
@@ -253,7 +281,7 @@ class PluginCalls : public UserPlugin {
   /// A plugin of a model that stands, or of the world.
   Scripted& script(const std::string& model = "") {
     auto plugin = std::make_shared<Scripted>();
-    World::Parts& parts = w.world.parts();
+    WorldState& parts = insideOf(w.world);
     if (model.empty()) {
       parts.world_plugins.push_back(plugin);
     } else {
@@ -278,7 +306,7 @@ struct Counting : Plugin {
 TEST_F(PluginCalls, ThatFailToRestoreLeaveTheWorldAsItWas) {
   w.spawn("wall", "wall1", 0, 0);
   const auto first = std::make_shared<Counting>(), second = std::make_shared<Counting>();
-  w.world.parts().world_plugins = {first, second};
+  insideOf(w.world).world_plugins = {first, second};
   first->count = 1;
   second->count = 13;
   const std::string saved = w.world.checkpoint();

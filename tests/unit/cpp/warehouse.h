@@ -182,6 +182,8 @@ class Warehouse {
  public:
   explicit Warehouse(const Floorplan& plan = {})
       : world(parseWorld(worldText(plan), modelPaths(), "test"), plan.options) {}
+  explicit Warehouse(const WorldDescription& description, const WorldOptions& options = {})
+      : world(description, options) {}
   /// The world of a file in worlds/.
   explicit Warehouse(const std::string& file)
       : world(loadWorld(std::string(WORLDS_DIR) + "/" + file, modelPaths())) {}

@@ -195,10 +195,10 @@ TEST(StorageUnit, LetsARobotPassAndTurnBetweenItsLegs) {
   const Link shelf = model("storage_unit").links.at(0);
   EXPECT_EQ(shelf.mass, 60);
   EXPECT_EQ(shelf.collisions.size(), 5u);
-  for (const Collision& leg : shelf.collisions) {
-    if (leg.name.find("leg_") != 0) continue;
-    const Vector3 at = leg.pose_in_link.Pos();
-    const Vector3 half = leg.shape.size / 2;
+  for (const Collision& segment : shelf.collisions) {
+    if (segment.name.find("leg_") != 0) continue;
+    const Vector3 at = segment.pose_in_link.Pos();
+    const Vector3 half = segment.shape.size / 2;
     EXPECT_NEAR(at.Z() - half.Z(), 0, 1e-12);
     const double inner = std::hypot(std::abs(at.X()) - half.X(), std::abs(at.Y()) - half.Y());
     EXPECT_GT(inner, std::hypot(0.38, 0.32));  // The robot's corners.

@@ -13,7 +13,8 @@ class Publisher:
         self.topic, self.kind, self.listener = topic, kind, subscriber_listener
         self.sent, self.listeners, self.open = [], 0, True
 
-    def publish(self, message):
+    def publish(self, message=None, **fields):
+        message = self.kind(**fields) if message is None else message
         assert isinstance(message, self.kind)
         self.sent.append(message)
 
@@ -36,7 +37,10 @@ class FakeRos:
 
     def __init__(self, **parameters):
         self.parameters = {f"~{name}": value for name, value in parameters.items()}
-        self.publishers, self.callbacks = {}, {}
+        self.publishers, self.callbacks, self.warnings = {}, {}, []
+
+    def logwarn_once(self, text):
+        self.warnings.append(text)
 
     def get_param(self, name, default):
         return self.parameters.get(name, default)
@@ -48,3 +52,4 @@ class FakeRos:
     def Subscriber(self, topic, kind, callback, callback_args=None, **_):  # noqa: N802
         args = () if callback_args is None else (callback_args,)
         self.callbacks[topic] = lambda message: callback(message, *args)
+        return SimpleNamespace(unregister=lambda: self.callbacks.pop(topic))

@@ -13,7 +13,7 @@ ROS_INCLUDE = re.compile(
 def test_core_includes_no_ros():
     files = [
         file
-        for folder in ("include", "src/core", "src/plugins")
+        for folder in ("include", "src/description", "src/world_file", "src/core", "src/plugins")
         for file in (PACKAGE / folder).rglob("*.*")
     ]
     assert files

@@ -37,7 +37,7 @@ def shows(picture, colour):
 def test_robots_have_the_colour_of_their_status():
     idle, busy, blocked = markers.STATUS_COLOURS
     assert shows(pixels(moment()), idle) > shows(pixels(moment()), blocked)
-    stuck = pixels(moment(blocked={"kiva1", "kiva2"}))
+    stuck = pixels(moment(fleet=fleet(ended=(Event.BLOCKED, Event.BLOCKED))))
     assert shows(stuck, blocked) > shows(pixels(moment()), blocked) + 100
 
 
@@ -70,8 +70,6 @@ def record(path, seconds=2.0):
         bag.write("/warehouse/scenery", moment().scenery, rospy.Time(1))
         for stamp in np.arange(1.0, 1.0 + seconds, 0.1):
             bag.write("/warehouse/fleet", fleet(x=(stamp, 6.0), stamp=stamp), rospy.Time(stamp))
-        event = Event(kind=Event.BLOCKED, model="kiva1")
-        bag.write("/warehouse/events", event, rospy.Time(1.5))
     return str(path)
 
 
@@ -79,8 +77,6 @@ def test_a_recording_is_read_at_even_steps(tmp_path):
     bag = record(tmp_path / "a.bag")
     stamps = [m.fleet.stamp.to_sec() for m in recording.moments(bag, 0.5)]
     assert stamps == pytest.approx([1.0, 1.5, 2.0, 2.5])
-    *_, last = recording.moments(bag, 0.5)
-    assert last.blocked == {"kiva1"}
 
 
 def test_a_recording_becomes_a_gif(tmp_path):

@@ -113,3 +113,11 @@ def test_a_grid_of_another_spacing_is_refused():
     grid.info.resolution = 1.5
     with pytest.raises(RequestError, match=r"1\.5 m apart"):
         Cells.of_map(grid)
+
+
+def test_a_seed_decides_who_stands_where_and_no_more():
+    floor, small = crowded(0, 0.1), resolve("small")
+    regular, other = fit(small, floor), fit(small, floor, seed=2)
+    assert occupied(regular) != occupied(other)
+    assert sorted(occupied(regular)) == sorted(occupied(other))
+    assert occupied(other) == occupied(fit(small, floor, seed=2))

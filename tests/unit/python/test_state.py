@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse at a glance, once a second and whenever something comes or goes."""
 
+import io
+
 import pytest
 import rospy
 from fake_ros import FakeRos
 
 from warehouse_msgs.msg import FleetState, KivaStatus, UnitStates, WarehouseObjects
 from warehouse_sim import poses
-from warehouse_sim.state import Board
+from warehouse_sim.state import StatePublisher
 
 
 class World(FakeRos):
@@ -16,7 +18,7 @@ class World(FakeRos):
     def __init__(self):
         super().__init__()
         self.seconds = 10
-        self.board = Board(self)
+        self.publisher = StatePublisher(self)
         self.topic = self.publishers["/warehouse/state"]
         self.topic.connect()
 
@@ -59,7 +61,7 @@ class World(FakeRos):
     def turn(self):
         """How many messages one turn publishes."""
         before = len(self.topic.sent)
-        self.board.turn(patience=0)
+        self.publisher.turn(patience=0)
         return len(self.topic.sent) - before
 
 
@@ -127,3 +129,13 @@ def test_a_newcomer_gets_the_newest_at_once(world):
     world.drive(seconds=10.3)
     world.topic.connect()
     assert world.topic.sent[-1].kivas[0].pose.x == 1
+
+
+@pytest.mark.parametrize("wrong", ["seven", 1.5, 2**40, True, [7]])
+def test_an_id_of_another_type_is_told_and_ends_nothing(world, wrong):
+    world.parameters["/warehouse/id"] = wrong
+    world.tell()
+    assert world.turn() == 1
+    world.topic.sent[-1].serialize(io.BytesIO())
+    assert world.topic.sent[-1].warehouse_id == 0
+    assert "/warehouse/id is" in world.warnings[0]

@@ -10,7 +10,7 @@ from geometry_msgs.msg import PoseStamped
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
 from warehouse_sim import poses, tracker, tracking
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 
 @pytest.fixture
@@ -119,7 +119,9 @@ def test_the_list_is_up_to_date_however_seldom_it_is_read(ros):
 
 def test_nothing_is_made_that_nobody_reads(ros):
     asked = []
-    listing = OnDemand(ros, "/units", TrackedObjects, lambda: asked.append(1) or TrackedObjects())
+    listing = LazyPublisher(
+        ros, "/units", TrackedObjects, lambda: asked.append(1) or TrackedObjects()
+    )
     listing.publish()
     assert not asked
     publisher = ros.publishers["/units"]
@@ -130,13 +132,13 @@ def test_nothing_is_made_that_nobody_reads(ros):
 
 
 def test_nothing_is_sent_before_there_is_anything_to_tell(ros):
-    OnDemand(ros, "/units", TrackedObjects, lambda: None)
+    LazyPublisher(ros, "/units", TrackedObjects, lambda: None)
     ros.publishers["/units"].connect()
     assert ros.publishers["/units"].sent == []
 
 
 def test_messages_that_do_not_fit_each_other_are_waited_out(ros):
-    newest = Newest(ros, objects=("/o", WarehouseObjects), states=("/s", UnitStates))
+    newest = LatestMessages(ros, objects=("/o", WarehouseObjects), states=("/s", UnitStates))
     assert newest.units_and_objects is None
     ros.callbacks["/o"](WarehouseObjects(revision=2))
     ros.callbacks["/s"](UnitStates(revision=1))
@@ -146,7 +148,7 @@ def test_messages_that_do_not_fit_each_other_are_waited_out(ros):
 
 
 def test_waiting_ends_with_a_message_or_the_time(ros):
-    newest = Newest(ros, states=("/s", UnitStates))
+    newest = LatestMessages(ros, states=("/s", UnitStates))
     assert not newest.wait(0)
     ros.callbacks["/s"](UnitStates())
     assert newest.wait(0)

@@ -150,15 +150,16 @@ def test_paths_are_those_of_the_wanted_robots():
 
 
 def command(events, until_end, timeout=1.0):
-    """The Outcome of a command to kiva1 that is followed by these (kind, model)."""
+    """The Outcome of a command to kiva1 that is followed by these (kind, model[, command])."""
 
     async def scenario():
         commander = Commander(FakeRos())
         fields = {"direction": 1}
         waiting = asyncio.create_task(commander.send("/rot", 1, fields, until_end, timeout))
         await settle()
-        for kind, model in events:
-            commander.note({"kind": kind, "model": model, "text": "why"})
+        for kind, model, *number in events:
+            known = {"command": number[0] if number else 7}
+            commander.note({"kind": kind, "model": model, "text": "why"} | known)
         return await waiting
 
     return asyncio.run(scenario())
@@ -178,4 +179,8 @@ def test_a_command_learns_its_end():
 
 
 def test_a_command_without_an_answer_is_pending():
+    others = [("ACCEPTED", "kiva1"), ("REFUSED", "kiva1", 8), ("DONE", "kiva1", 6)]
+    outcome = command([*others, ("BLOCKED", "kiva1")], True)
+    assert (outcome.kind, len(outcome.events)) == ("blocked", 2)
+    assert command(others, True, timeout=0.05).kind == "accepted"
     assert command([("ACCEPTED", "kiva2")], False, timeout=0.05).kind == "pending"

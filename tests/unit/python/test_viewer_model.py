@@ -23,7 +23,7 @@ from warehouse_sim.viewer.table import Table
 HEAD = 40  # bytes before the rows of an update
 
 
-def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0):
+def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, ended=()):
     n = len(x)
     return FleetState(
         rospy.Time(stamp),
@@ -37,6 +37,7 @@ def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0):
         bytes(n),
         bytes(n),
         list(shelf),
+        bytes(ended) or bytes(n),
     )
 
 
@@ -161,11 +162,9 @@ def test_a_dropped_unit_is_where_it_stands():
 
 def test_blocked_shows_until_the_next_command():
     world = World()
-    world.model.note(Event(kind=Event.BLOCKED, model="kiva2"))
-    world.turn()
+    world.turn(fleet=fleet(ended=(0, Event.BLOCKED)))
     assert world.model.robots.rows["status"].tolist() == [0, KivaStatus.STATUS_BLOCKED]
-    world.model.note(Event(kind=Event.ACCEPTED, model="kiva2"))
-    world.turn(fleet=fleet())
+    world.turn(fleet=fleet(ended=(0, 0)))
     assert world.model.robots.rows["status"].tolist() == [0, 0]
 
 

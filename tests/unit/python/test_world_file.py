@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a world file adds to the world that runs."""
 
+import xml.etree.ElementTree as ElementTree
+
 import pytest
 
 from warehouse_sim.world_file import WorldFileError, find, insertable
@@ -22,16 +24,55 @@ def file(tmp_path):
 
 
 def test_all_models_are_added(file):
-    xml, names = insertable(file, standing=["kiva7"])
-    assert names == ["ground_plane", "kiva1", "person", "crate"]
-    assert 'name="ground_plane"' in xml
+    wanted = insertable(file, standing=["kiva7"])
+    assert wanted.names == ["ground_plane", "kiva1", "person", "crate"]
+    assert 'name="ground_plane"' in wanted.xml
+    assert (wanted.renamed, wanted.left_out) == ({}, [])
 
 
 def test_the_floor_stays_at_home_where_there_is_one(file):
-    xml, names = insertable(file, standing=["ground_plane"])
-    assert names == ["kiva1", "person", "crate"]
-    assert "ground_plane" not in xml
-    assert "model://kiva" in xml
+    wanted = insertable(file, standing=["ground_plane"])
+    assert wanted.names == ["kiva1", "person", "crate"]
+    assert wanted.left_out == ["ground_plane"]
+    assert "ground_plane" not in wanted.xml
+    assert "model://kiva" in wanted.xml
+
+
+@pytest.mark.parametrize(
+    "second",
+    [
+        '<model name="ground_plane"/>',
+        "<include><uri>model://ground_plane</uri></include>",
+        "<include><uri>model://ground_plane</uri><name>floor</name></include>",
+        "<include><uri>https://fuel.example/models/ground_plane/</uri></include>",
+    ],
+)
+def test_of_several_floors_one_is_enough(tmp_path, second):
+    path = tmp_path / "w.sdf"
+    path.write_text(WORLD.replace("</world>", f"{second}</world>"))
+    assert insertable(path, []).names == ["ground_plane", "kiva1", "person", "crate"]
+    assert insertable(path, ["ground_plane"]).names == ["kiva1", "person", "crate"]
+
+
+def test_what_is_numbered_takes_free_numbers(tmp_path):
+    path = tmp_path / "w.sdf"
+    path.write_text("""<sdf version="1.9"><world name="w">
+      <include><uri>model://kiva</uri><name>kiva1</name></include>
+      <include><uri>model://kiva</uri><name>kiva3</name></include>
+      <model name="storage_unit1"><pose relative_to="kiva1">1 0 0 0 0 0</pose></model>
+    </world></sdf>""")
+    wanted = insertable(path, ["kiva1", "kiva2", "storage_unit1", "storage_unit2"])
+    assert wanted.names == ["kiva4", "kiva3", "storage_unit3"]
+    assert wanted.renamed == {"kiva1": "kiva4", "storage_unit1": "storage_unit3"}
+    world = ElementTree.fromstring(wanted.xml).find("world")
+    assert [i.findtext("name") for i in world.iter("include")] == ["kiva4", "kiva3"]
+    assert world.find("model").get("name") == "storage_unit3"
+    assert world.find("model/pose").get("relative_to") == "kiva4"
+
+
+def test_what_exists_already_is_named(file):
+    with pytest.raises(WorldFileError, match="w.sdf: nothing was added.* already: crate, person$"):
+        insertable(file, ["person", "kiva1", "crate", "ground_plane"])
 
 
 @pytest.mark.parametrize("world", ["w", "w.sdf"])

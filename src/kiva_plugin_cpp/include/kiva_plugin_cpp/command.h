@@ -17,7 +17,7 @@ struct Command {
   double y = 0;               ///< MoveTo: goal in world [m]. MoveY: signed distance [m].
   int direction = 0;          ///< Rotate: +1 counterclockwise, -1 clockwise.
   int lift = 0;               ///< Lift: 1 carry, 0 drop.
-  std::int32_t shelf_id = 0;  ///< Lift: the storage unit's number.
+  std::int32_t shelf_id = 0;  ///< Lift: the storage unit's number; drop, 0: whichever it carries.
 };
 
 /// How two bodies met.
@@ -45,8 +45,9 @@ struct Event {
   Kind kind = Kind::kAccepted;
   std::string model;
   std::string other;
-  std::string text;  ///< For a person.
-  Impact impact{};   ///< Of a collision.
+  std::string text;           ///< For a person.
+  std::uint32_t command = 0;  ///< The command that it belongs to, counted from 1; 0 = none.
+  Impact impact{};            ///< Of a collision.
 };
 
 }  // namespace kiva

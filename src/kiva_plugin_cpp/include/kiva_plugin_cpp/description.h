@@ -47,8 +47,8 @@ struct Collision {
   std::string name;
   Pose pose_in_link;
   Shape shape;
-  double friction = 1.0;     ///< Coulomb coefficient; that of a contact is the product of both.
-  double restitution = 0.0;  ///< 0 = no bounce, 1 = all of it.
+  double friction = 1.0;     ///< Coulomb coefficient; in a contact the smaller one of both counts.
+  double restitution = 0.0;  ///< 0 = no bounce, 1 = all of it; the smaller one of both counts too.
 };
 
 /// A shape that is only seen.

@@ -5,13 +5,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <string>
 #include <vector>
 
 #include "kiva_plugin_cpp/description.h"
-#include "kiva_plugin_cpp/profile.h"
-#include "kiva_plugin_cpp/shared_memory.h"
+#include "kiva_plugin_cpp/viewable_memory.h"
 
 namespace kiva {
 
@@ -42,7 +40,8 @@ struct DriveParameters {
   double wheel_separation = 0.52;       ///< Between the wheels' centres [m].
   double wheel_inertia = 0.03;          ///< Of one wheel with its motor, about its axle [kg m²].
   double motor_torque = 90.0;           ///< Limit of one motor at its wheel [Nm].
-  double friction = 0.8;                ///< Coulomb coefficient between wheel and floor.
+  double friction = 0.8;                ///< Coulomb coefficient between wheel and floor; where the
+                                        ///< tyre's own or the floor's is smaller, that one counts.
   double drive_wheel_load = 0.8;  ///< Share of the weight on the driven wheels; casters: the rest.
   double quarter_turn_time = 0.625;  ///< For 90° from rest to rest [s]; 0 = at once.
 };
@@ -52,6 +51,7 @@ struct LiftParameters {
   double height = 0.10;     ///< Stroke of the tower [m].
   double time = 2.2;        ///< For the whole stroke [s]; 0 = at once.
   double max_load = 450.0;  ///< [kg]
+  double max_force = 5500;  ///< At which it stalls: weight of the load and what holds that [N].
   double proximity = 0.1;   ///< Largest distance between the centres of robot and unit [m].
 };
 
@@ -67,51 +67,30 @@ struct LaserParameters {
   double z = 0.2;                          ///< Above the floor [m].
 };
 
-/// One thing a robot does at a time; a command is a row of them.
-struct Leg {
-  enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
-  Kind kind = Kind::kTurn;
-  double x = 0;                    ///< Drive: where it ends, in world [m].
-  double y = 0;                    ///< Drive [m].
-  double yaw = 0;                  ///< Turn, drive: heading in world, unwrapped [rad].
-  bool reverse = false;            ///< Drive: backwards, against the heading.
-  bool on_grid = true;             ///< Drive: along a grid line.
-  int unit = -1;                   ///< Raise, lower: index of the storage unit.
-  State state = State::kRotating;  ///< What the robot reports meanwhile.
-};
-
 /// What is asked once and read seldom.
 struct Robot {
   std::string name;
   int id = 0;
-  int model = -1;               ///< Index in the world's models.
-  double mass = 145;            ///< Without load [kg].
-  double inertia = 12;          ///< About z through the centre, without load [kg m²].
-  double half_length = 0.38;    ///< Of the chassis, along its x axis [m].
-  double half_width = 0.32;     ///< [m]
-  double height = 0.40;         ///< Of its highest point above the floor, tower down [m].
-  double load_mass = 0;         ///< [kg]
-  double load_inertia = 0;      ///< About z through the robot's centre [kg m²].
-  double load_half_length = 0;  ///< Of what it carries, along the chassis' x axis [m].
-  double load_half_width = 0;   ///< [m]
+  int model = -1;             ///< Index in the world's models.
+  double mass = 145;          ///< Without load [kg].
+  double inertia = 12;        ///< About z through the robot's origin, without load [kg m²].
+  double centre[2] = {0, 0};  ///< Of mass, without load, in the chassis frame [m].
+  /// Coulomb coefficients of the tyres: left, right.
+  double tyre_friction[2] = {1e16, 1e16};
+  double half_length = 0.38;       ///< Of the chassis, along its x axis [m].
+  double half_width = 0.32;        ///< [m]
+  double height = 0.40;            ///< Of its highest point above the floor, tower down [m].
+  double load_mass = 0;            ///< [kg]
+  double load_inertia = 0;         ///< About z through the robot's origin [kg m²].
+  double load_centre[2] = {0, 0};  ///< Its centre of mass, in the chassis frame [m].
+  double load_half_length = 0;     ///< Of what it carries, along the chassis' x axis [m].
+  double load_half_width = 0;      ///< [m]
   DriveParameters drive;
   LiftParameters lift;
   LaserParameters laser;
   bool has_motion = false;
   bool has_rotation = false;
-  std::deque<Leg> legs;     ///< Those of the current command, the first under way.
-  int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
-  bool leg_started = false;
-  double overdue = 0;          ///< Since the profile ended without the robot being there [s].
-  bool look_now = false;       ///< A leg begins: look ahead before it drives off.
-  double seen_distance = 0;    ///< What the laser saw last on this leg [m], 0 = nothing yet,
-  double seen_from = 0;        ///< from where on the leg [m],
-  int seen_model = -1;         ///< and what it was.
-  int ray_fan = -1;            ///< Index of its laser's directions among the world's.
-  bool stopping = false;       ///< The command is ending in BLOCKED, as soon as the robot stands.
-  bool halting = false;        ///< The same, with locked wheels.
-  std::string blocked_by;      ///< A model's name, or empty.
-  std::string blocked_reason;  ///< Why, for a person.
+  int ray_fan = -1;  ///< Index of its laser's directions among the world's.
 };
 
 /// How the chassis of a jointed robot stands on its wheels and casters. All zero: upright, wheels
@@ -127,42 +106,23 @@ struct Stance {
 
 /// One value a robot. Others may hold its memory and read it without a copy.
 template <typename T>
-using Column = std::vector<T, SharedAllocator<T>>;
+using Column = std::vector<T, ViewableAllocator<T>>;
 
 /// Positions in world [m, rad], velocities in world [m/s, rad/s] unless said otherwise.
 struct Fleet {
   Column<double> x, y, yaw;  ///< Yaw is unwrapped: it counts full turns.
   Column<double> vx, vy, yaw_rate;
-  Column<double> wheel_speed[2];   ///< Left, right [rad/s].
-  Column<double> wheel_angle[2];   ///< Left, right, unwrapped [rad].
-  Column<double> wheel_target[2];  ///< What the motors are asked for [rad/s].
-  Column<Stance> stance;           ///< Of jointed robots; others stand upright.
-  Column<double> tower;            ///< Height of the tower above its rest [m].
-  Column<std::int32_t> unit;       ///< Index of the carried storage unit, -1 = none.
+  Column<double> wheel_speed[2];  ///< Left, right [rad/s].
+  Column<double> wheel_angle[2];  ///< Left, right, unwrapped [rad].
+  Column<Stance> stance;          ///< Of jointed robots; others stand upright.
+  Column<double> tower;           ///< Height of the tower above its rest [m].
+  Column<std::int32_t> unit;      ///< Index of the carried storage unit, -1 = none.
   Column<Status> status;
   Column<State> state;
-  Column<std::uint8_t> awake;        ///< 0 = at rest without a command: costs nothing.
-  Column<std::uint8_t> engaged;      ///< 1 = stepped by Bullet, since something is near.
-  Column<std::uint64_t> look_again;  ///< Step at which something could have come near.
-
-  // The reference of the current leg: [m] along the heading, [rad], or [m] of tower.
-  Column<double> reference, reference_speed;
-  Column<double> goal;          ///< Where it is to end.
-  Column<double> deceleration;  ///< With which it is to end.
-
-  // Of robots that follow their references exactly, see src/core/cruise.h.
-  Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
-  Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis.
-  Column<double> per_wheel[2];             ///< And its wheels.
-  Column<double> top_speed, acceleration;  ///< Of the reference.
-  Column<double> cruise_until;             ///< Step to which nothing can come near.
+  /// How its last command ended, until the next is accepted: 0 = none yet, else the value of
+  /// Event::Kind, kDone or kBlocked.
+  Column<std::uint8_t> last_end;
   std::vector<Robot> robots;
-
-  Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
-  void setProfile(int i, const Profile& profile) {
-    reference[i] = profile.position;
-    reference_speed[i] = profile.speed;
-  }
 
   int size() const { return static_cast<int>(robots.size()); }
   /// Index of the robot with that id, -1 if there is none.

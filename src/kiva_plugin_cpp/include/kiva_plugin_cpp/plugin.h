@@ -7,8 +7,9 @@
 //   class Mine : public kiva::Plugin { … };
 //   IGNITION_ADD_PLUGIN(Mine, kiva::Plugin)
 //
-// Libraries are searched in the folders of KIVA_PLUGIN_PATH, then where the dynamic linker looks.
-// One that is in neither is left out with a warning.
+// Libraries are searched by name in the folders of KIVA_PLUGIN_PATH, then in those of the
+// workspaces that were sourced (lib/ in CMAKE_PREFIX_PATH). One that is in neither is left out with
+// a warning.
 #pragma once
 
 #include <string>

@@ -19,12 +19,13 @@
 
 #include "kiva_plugin_cpp/command.h"
 #include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/external_inputs.h"
 #include "kiva_plugin_cpp/fleet.h"
-#include "kiva_plugin_cpp/interventions.h"
 
 namespace kiva {
 
 class Plugin;
+struct WorldState;
 
 /// What a model is to the warehouse; told by its name (`kiva1`, `storage_unit1`, `item1`,
 /// `conveyor_belt1`) and, for robots, by the motion plugin.
@@ -49,6 +50,7 @@ struct StorageUnit {
   int carrier = -1;      ///< Index of the robot that carries it, -1 = none.
   int claimed_by = -1;   ///< Index of the robot that is about to, -1 = none.
   Pose pose_on_carrier;  ///< In the carrier's tower frame, while it is carried.
+  double raised = 0;     ///< How much higher than asked for it was put, to stand on the floor [m].
 };
 
 /// An item: fixed to its storage unit, or a body of its own where no unit was when it came.
@@ -62,17 +64,25 @@ struct Item {
   double mass = 0;          ///< [kg]
 };
 
+/// A place on the floor, in world [m].
+struct PathPoint {
+  double x = 0, y = 0;
+};
+
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+  double z = 0;  ///< Its height.
 };
 
 /// Which cells of the grid are in the way of robots: those where a model that belongs to no
-/// warehouse reaches in, or would be hit by a loaded robot that turns there.
+/// warehouse reaches in, or would be hit by a loaded robot that turns there, and those that are not
+/// on the floor as a whole. Where there is no floor, all around what stands there are taken.
 struct Occupancy {
   double x = 0, y = 0;        ///< The first cell's grid point, of the lowest x and y [m].
+  double z = 0;               ///< Of the floor [m].
   double spacing = 1;         ///< Edge of a cell [m].
-  int columns = 0, rows = 0;  ///< Cells along x and y that lie on the floor as a whole.
+  int columns = 0, rows = 0;  ///< Cells along x and y.
   std::vector<char> taken;    ///< Row by row, x first.
 };
 
@@ -202,7 +212,7 @@ class World {
   void setJointPositions(const std::string& model, const std::map<std::string, double>& positions);
 
   // --- what clients apply
-  const Interventions& interventions() const;
+  const ExternalInputs& externalInputs() const;
   /// For the next step only. Returns false if there is no such link or it does not move.
   bool applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                    const Vector3& torque);
@@ -221,7 +231,9 @@ class World {
   const std::vector<Item>& items() const;
   Pose storageUnitPose(int unit) const;  ///< In world.
   Pose itemPose(int item) const;         ///< In world.
-  Pose basePose(int robot) const;        ///< Of the chassis on the floor, in world.
+  /// Where the robot is still to turn or to stop on its present way.
+  std::vector<PathPoint> pathAhead(int robot) const;
+  Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;
   const Floor& floor() const;
@@ -244,7 +256,7 @@ class World {
   /// The whole state as bytes: time, models and what is in motion, commands under way and pending,
   /// events not yet taken, what plugins save. This world and any that restores the bytes go on the
   /// same from here, bit by bit, as long as they are given the same commands.
-  std::string checkpoint();
+  std::string checkpoint() const;
   /// Makes this world the one that was saved, whatever it was before. Throws CheckpointError, with
   /// nothing changed, if the bytes are damaged or of another version, and DescriptionError if a
   /// plugin of a model can't be loaded.
@@ -259,13 +271,12 @@ class World {
   /// What was left out, a plugin that nobody knows say; each once.
   std::vector<std::string> takeWarnings();
 
-  /// The parts, for the plugins that come with the world; see src/core/parts.h.
-  struct Parts;
-  Parts& parts() { return *parts_; }
-  const Parts& parts() const { return *parts_; }
+  /// What clients don't see; for tests and the parts of the world itself, see src/core/state.
+  friend WorldState& insideOf(World& world);
+  friend const WorldState& insideOf(const World& world);
 
  private:
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<WorldState> state_;
 };
 
 }  // namespace kiva

@@ -14,9 +14,15 @@ namespace kiva {
 /// Where `model://name` is looked up: folders that hold `name/model.config`, first match wins.
 using ModelPaths = std::vector<std::string>;
 
+/// The folders of models that packages of ROS export to Gazebo, `<gazebo_ros gazebo_model_path=…/>`
+/// in their package.xml: of all packages below the folders of `a:b`, as ROS_PACKAGE_PATH has them.
+ModelPaths exportedModelPaths(const std::string& ros_package_path);
+
 /// A world read from the file at `path`.
-/// Throws DescriptionError that names file, line where libsdformat knows it, entity and cause.
-/// `warnings`, if given, receives what was left out or looks wrong without being an error.
+/// What is faulty in it is left out, as small a part as the rest can do without, and `warnings`, if
+/// given, is told so: file, line where libsdformat knows it, entity and cause.
+/// Throws DescriptionError, in the same words, where no world would be left: what is no XML, no
+/// SDF, has more than 20 MB or nests deeper than 100 elements.
 WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
                            std::vector<std::string>* warnings = nullptr);
 

@@ -11,8 +11,19 @@
 SI units, radians, x forward, y left, z up. One thread at a time uses a world.
 """
 
+import sys
 from enum import IntEnum
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
+
+_built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
+if _built and not set(_built) & set(EXTENSION_SUFFIXES):
+    # ".cpython-311-x86_64-linux-gnu.so"
+    _digits = _built[0].partition("cpython-")[2].partition("-")[0]
+    raise ImportError(
+        f"kiva_plugin_cpp is built for Python {_digits[:1]}.{_digits[1:]},"
+        f" this is {sys.version_info.major}.{sys.version_info.minor}"
+    )
 
 import numpy
 
@@ -122,13 +133,14 @@ class World(_core.World):
 
     @classmethod
     def create(cls, name="", *, robots=0, items=0, shelves=0, **options):
-        """A warehouse of so many robots, items and storage units.
+        """A warehouse of so many robots, items and storage units; `seed` decides who stands where.
 
         ValueError if items find no room or a number is negative or beyond the limits.
         """
         from warehouse_sim import layout, models, request
 
-        plan = layout.plan(request.resolve(name, robots=robots, items=items, shelves=shelves))
+        wanted = request.resolve(name, robots=robots, items=items, shelves=shelves)
+        plan = layout.plan(wanted, options.get("seed", layout.SEED))
         world = cls(**options)
         world.delete(models.FLOOR)
         world.spawn(models.document(models.of_layout(plan)))
@@ -148,6 +160,6 @@ class World(_core.World):
         """Carry that storage unit. Arguments and errors as of mov()."""
         self.lift(kiva_id, 1, shelf_id)
 
-    def drop(self, kiva_id, shelf_id):
-        """Drop it. Arguments and errors as of mov()."""
+    def drop(self, kiva_id, shelf_id=0):
+        """Drop it, or whichever unit it carries. Arguments and errors as of mov()."""
         self.lift(kiva_id, 0, shelf_id)

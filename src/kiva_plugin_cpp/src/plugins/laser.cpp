@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "laser.h"
+#include "plugins/laser.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../core/commands.h"
-#include "../core/cruise.h"
-#include "../core/sensing.h"
+#include "core/motion/drives.h"
+#include "core/sensing/look_ahead.h"
+#include "core/sensing/scans.h"
+#include "core/state/footprints.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -15,117 +17,104 @@ constexpr double kClearance = 0.05;   // [m] kept to an obstacle on a way off th
 constexpr double kTopApproach = 3.0;  // [m/s]; what comes faster is another thing come into view
 constexpr double kSoon = 1e-3;        // [m]
 
-double alongLeg(const Fleet& f, int i) {
-  const Leg& leg = f.robots[i].legs.front();
-  return std::cos(leg.yaw) * (f.x[i] - leg.x) + std::sin(leg.yaw) * (f.y[i] - leg.y);
-}
-
 /// Speed [m/s] at which what is ahead comes nearer by itself, from two looks; 0 if unknown. Of what
 /// comes into view from the side, one look may meet a corner far back, and the next its face.
-double approachSpeed(const Robot& r, const Ahead& ahead, double along, double between) {
-  if (!ahead.faces || r.seen_model != ahead.model || r.seen_distance <= 0) return 0;
-  const double speed = (r.seen_distance - ahead.distance - (along - r.seen_from)) / between;
+double approachSpeed(const Sighting& before, const Sighting& now, double between) {
+  if (!now.faces || !before.faces || before.model != now.model) return 0;
+  const double speed = (before.distance - now.distance - (now.along - before.along)) / between;
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
 
-/// From the robot's centre to the front of it and its load [m].
-double reach(const Robot& r) { return std::max(r.half_length, r.load_half_length); }
-
-/// How far along the leg the robot may go: a grid point before the cell of what is ahead, or, off
-/// the grid, a little before it.
-double farthestStop(const Parts& parts, const Robot& r, double obstacle) {
-  if (!r.legs.front().on_grid) {
-    return obstacle - reach(r) - kClearance;
+/// How far along the segment the robot may go: a grid point before the cell of what is ahead, or,
+/// off the grid, a little before it.
+double farthestStop(const WorldState& world, int robot, double obstacle) {
+  if (!world.fleet.tasks[robot].segments.front().on_grid) {
+    return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
   }
-  const double cell = parts.grid_spacing;
+  const double cell = world.grid_spacing;
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(Fleet& f, int i, double stop, double dt) {
-  const DriveParameters& drive = f.robots[i].drive;
+void planStop(WorldState& world, int i, double stop) {
+  FleetState& f = world.fleet;
   const double speed = std::abs(f.reference_speed[i]), here = f.reference[i];
   const double way = stop - here;
-  const double usual = drive.acceleration, hardest = drive.emergency_deceleration;
+  const double usual = plannedAcceleration(world, i), hardest = plannedBraking(world, i);
   if (usual == 0) {
     f.goal[i] = std::max(stop, here);
     return;
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
   f.deceleration[i] = std::clamp(needed, usual, hardest);
-  const double shortest = speed * speed / (2 * hardest) + speed * dt;
+  const double shortest = speed * speed / (2 * hardest) + speed * world.dt;
   f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
-/// What one look tells: places along the leg [m], speeds [m/s].
+/// What one look tells: places along the segment [m], speeds [m/s].
 struct View {
   double reference;  // where this robot is to be now
   double goal;       // where it is to stop so far
   double obstacle;   // where it is now
   double approach;   // how fast it comes by itself
   double speed;      // of this robot
+  double usual;      // its braking, and
+  double hardest;    // that for an obstacle [m/s²]
   double scan_time;  // until the next look [s]
-  int model;
 };
 
-View look(const Parts& parts, Robot& r, int i) {
-  const double along = alongLeg(parts.fleet, i);
-  const Ahead ahead = lookAhead(parts, i);
+View viewOf(WorldState& world, int i) {
+  const FleetState& f = world.fleet;
+  const Sighting& now = f.tasks[i].sighting;
   View view;
-  view.reference = parts.fleet.reference[i];
-  view.goal = parts.fleet.goal[i];
-  view.scan_time = static_cast<double>(scanPeriod(parts, r)) * parts.dt;
-  view.obstacle = along + ahead.distance;
-  view.approach = approachSpeed(r, ahead, along, view.scan_time);
-  view.speed = std::abs(parts.fleet.reference_speed[i]);
-  view.model = ahead.model;
-  r.seen_distance = ahead.faces ? ahead.distance : 0;
-  r.seen_from = along;
-  r.seen_model = ahead.model;
+  view.reference = f.reference[i];
+  view.goal = f.goal[i];
+  view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.dt;
+  view.obstacle = now.along + now.distance;
+  view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
+  view.speed = std::abs(f.reference_speed[i]);
+  const double usual = plannedAcceleration(world, i);
+  view.usual = usual > 0 ? usual : 1e9;
+  view.hardest = plannedBraking(world, i);
   return view;
 }
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(const Parts& parts, const Robot& r, const View& view) {
-  const double usual = r.drive.acceleration > 0 ? r.drive.acceleration : 1e9;
+double firstStop(const WorldState& world, int robot, const View& view) {
   // The other one comes on until it has seen this robot too, then brakes as this one does.
   const double comes =
-      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * usual);
+      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * view.usual);
   const double expected = view.obstacle - comes;
-  const double stop = farthestStop(parts, r, expected);
+  const double stop = farthestStop(world, robot, expected);
   if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
-  const double next = farthestStop(parts, r, expected - view.approach * view.scan_time);
-  const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
+  const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
+  const double braking = view.speed * view.speed / (2 * view.usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
-double revisedStop(const Parts& parts, const Robot& r, const View& view) {
-  const double hardest = r.drive.emergency_deceleration;
-  const double gap = view.obstacle - view.reference - reach(r);
-  const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
-                        (view.speed + view.approach) * view.scan_time + kClearance;
+double revisedStop(const WorldState& world, int robot, const View& view) {
+  const Robot& r = world.fleet.robots[robot];
+  const double gap = view.obstacle - view.reference - halfLength(r);
+  const double needed =
+      (view.speed * view.speed + view.approach * view.approach) / (2 * view.hardest) +
+      (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
-  if (view.goal + reach(r) + kClearance <= view.obstacle) return view.goal;
-  return std::min(view.goal, farthestStop(parts, r, view.obstacle));
+  if (view.goal + halfLength(r) + kClearance <= view.obstacle) return view.goal;
+  return std::min(view.goal, farthestStop(world, robot, view.obstacle));
 }
 
-void guard(Parts& parts, int i) {
-  Robot& r = parts.fleet.robots[i];
-  const View view = look(parts, r, i);
-  if (view.model < 0) return;
-  const double stop = r.stopping ? revisedStop(parts, r, view) : firstStop(parts, r, view);
+void brake(WorldState& world, int i) {
+  const Task& task = world.fleet.tasks[i];
+  if (!task.drives() || !task.sighting.taken || task.sighting.model < 0) return;
+  const View view = viewOf(world, i);
+  const bool brakes = task.phase == Phase::kBraking;
+  const double stop = brakes ? revisedStop(world, i, view) : firstStop(world, i, view);
   if (stop == view.goal) return;
-  const std::string& name = parts.models[view.model]->name;
-  markBlocked(parts, i, name, name + " is in the way");
-  stopCruise(parts.fleet, i);
-  planStop(parts.fleet, i, stop, parts.dt);
-}
-
-bool isOnGuard(const Robot& r) {
-  return r.laser.fitted && !r.legs.empty() && r.leg_started && !r.halting &&
-         r.legs.front().kind == Leg::Kind::kDrive && !r.legs.front().reverse;
+  const std::string& name = world.models[task.sighting.model]->name;
+  stopTask(world, i, Phase::kBraking, name, name + " is in the way");
+  planStop(world, i, stop);
 }
 
 }  // namespace
@@ -143,19 +132,9 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   laser.z = p.number("z", laser.z, 0, 10);
 }
 
-void LaserPlugin::afterStep(Parts& parts) {
-  Fleet& f = parts.fleet;
-  const auto watch = [&](int i) {
-    if (!isOnGuard(f.robots[i])) return;
-    f.robots[i].look_now = false;
-    guard(parts, i);
-  };
-  for (int i : parts.scans_due) {
-    if (f.awake[i]) watch(i);
-  }
-  for (int i : parts.active) {
-    if (f.robots[i].look_now) watch(i);
-  }
+void LaserPlugin::react(WorldState& world) const {
+  for (int i : world.sighted) brake(world, i);
+  world.sighted.clear();
 }
 
 }  // namespace kiva

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fleet_plugin.h"
+#include "core/state/fleet_plugin.h"
 
 namespace kiva {
 
-/// Looks ahead while the robot drives, and stops it before what is in its way.
+/// Brakes a robot before what its laser sees in its way.
 class LaserPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_laser.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void afterStep(Parts& parts) override;
+  void react(WorldState& world) const override;
 };
 
 }  // namespace kiva

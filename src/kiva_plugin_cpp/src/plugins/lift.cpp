@@ -1,90 +1,169 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lift.h"
+#include "plugins/lift.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
-#include "../core/commands.h"
-#include "../core/engagement.h"
-#include "../core/load.h"
+#include "core/contact/activation.h"
+#include "core/models/load.h"
+#include "core/state/poses.h"
+#include "core/state/tasks.h"
+#include "core/state/unit_geometry.h"
 
 namespace kiva {
 namespace {
 
-/// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
-/// lift.time: half of it at 4·height/time², half at minus that.
-void moveTower(Parts& parts, int i, double height) {
-  Robot& r = parts.fleet.robots[i];
-  const double time = r.lift.time;
-  const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
-  const double top = time == 0 ? r.lift.height / parts.dt : 2 * r.lift.height / time;
-  Profile profile = parts.fleet.profile(i);
-  profile.advance(height, top, acceleration, acceleration, parts.dt);
-  parts.fleet.setProfile(i, profile);
-  parts.fleet.tower[i] = profile.position;
+constexpr double kStalled = 0.5;      // [s] at its largest force, then the lift gives up
+constexpr double kSpareForce = 1.25;  // times the weight of the largest load, unless it is told
+constexpr double kOnTop = 0.001;      // [m]: what reaches less far down is above, and not beside
+
+/// What a load that rises will meet next.
+struct Above {
+  double clearance = 1e9;  // [m]
+  int model = -1;
+};
+
+Above findAbove(const WorldState& world, int i) {
+  Above above;
+  for (const Footprint& own : world.obstacles.footprints(i)) {
+    world.obstacles.near(own.x, own.y, radiusOf(own), [&](const Footprint& other) {
+      const double clearance = other.z_min - own.z_max;
+      if (other.group == i || clearance < -kOnTop || clearance >= above.clearance) return;
+      if (gap(own, other) < 0) above = {std::max(0.0, clearance), other.model};
+    });
+  }
+  return above;
 }
 
-void start(Parts& parts, int i) {
-  parts.fleet.robots[i].leg_started = true;
-  parts.fleet.setProfile(i, {parts.fleet.tower[i], 0});
+/// With what it resists being lifted [N]: by its weight, unless it is fixed or a robot, whose
+/// wheels stay on the floor.
+double resistance(const WorldState& world, const Model& model) {
+  if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
+  double mass = 0;
+  for (const Link& link : model.description->links) mass += link.mass;
+  return mass * world.gravityDown();
+}
+
+/// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
+/// lift.time: half of it at 4·height/time², half at minus that.
+void moveTower(WorldState& world, int i, double height) {
+  Robot& r = world.fleet.robots[i];
+  const double time = r.lift.time;
+  const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
+  const double top = time == 0 ? r.lift.height / world.dt : 2 * r.lift.height / time;
+  Profile profile = world.fleet.profile(i);
+  profile.advance(height, top, acceleration, acceleration, world.dt);
+  world.fleet.setProfile(i, profile);
+  world.fleet.tower[i] = profile.position;
+}
+
+void begin(WorldState& world, int i) {
+  world.fleet.tasks[i].phase = Phase::kLifting;
+  world.fleet.setProfile(i, {world.fleet.tower[i], 0});
+}
+
+void giveUp(WorldState& world, int i, const std::string& by, const std::string& reason) {
+  stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
-void checkUnit(Parts& parts, int i, const Leg& leg) {
-  if (leg.unit < 0) return markBlocked(parts, i, "", "the storage unit was deleted");
-  if (parts.fleet.unit[i] == leg.unit) return;
-  const StorageUnit& unit = parts.units[leg.unit];
-  const bool above = unitDistance(parts, i, leg.unit) <= parts.fleet.robots[i].lift.proximity &&
-                     standsUpright(parts, leg.unit);
-  if (leg.kind == Leg::Kind::kRaise && unit.carrier >= 0) {
-    markBlocked(parts, i, unit.name, unit.name + " is carried by another robot");
-  } else if (leg.kind == Leg::Kind::kRaise && !above) {
-    markBlocked(parts, i, unit.name, unit.name + " is no longer above it");
-  } else if (leg.kind == Leg::Kind::kLower && parts.fleet.tower[i] > towerGap(parts, i, leg.unit)) {
-    markBlocked(parts, i, unit.name, unit.name + " was taken off it");
+void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
+  if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
+  if (world.fleet.unit[i] == segment.unit) return;
+  const StorageUnit& unit = world.units[segment.unit];
+  const bool above = unitDistance(world, i, segment.unit) <= world.fleet.robots[i].lift.proximity &&
+                     standsUpright(world, segment.unit);
+  if (segment.kind == MotionSegment::Kind::kRaise && unit.carrier >= 0) {
+    giveUp(world, i, unit.name, unit.name + " is carried by another robot");
+  } else if (segment.kind == MotionSegment::Kind::kRaise && !above) {
+    giveUp(world, i, unit.name, unit.name + " is no longer above it");
+  } else if (segment.kind == MotionSegment::Kind::kLower &&
+             world.fleet.tower[i] > towerGap(world, i, segment.unit)) {
+    giveUp(world, i, unit.name, unit.name + " was taken off it");
   }
 }
 
-/// The tower comes down without a unit, then the command ends in BLOCKED.
-void abandon(Parts& parts, int i) {
-  moveTower(parts, i, 0);
-  if (parts.fleet.tower[i] == 0) endBlocked(parts, i);
+void putDownOnFloor(WorldState& world, int i, int unit) {
+  if (unit < 0 || world.fleet.unit[i] != unit) return;
+  if (unitPose(world, unit).Z() > world.floor.z) return;
+  putDown(world, i);
+  world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
+                      "dropped " + world.units[unit].name);
 }
 
-void raiseLeg(Parts& parts, int i, int unit) {
-  Robot& r = parts.fleet.robots[i];
-  moveTower(parts, i, r.lift.height);
-  if (parts.fleet.unit[i] < 0 && parts.fleet.tower[i] >= towerGap(parts, i, unit)) {
-    takeUp(parts, i, unit);
+/// The tower comes down, a unit that it has stands on the floor again, then the command ends in
+/// BLOCKED.
+void abandon(WorldState& world, int i, int unit) {
+  moveTower(world, i, 0);
+  putDownOnFloor(world, i, unit);
+  if (world.fleet.tower[i] == 0) endStop(world, i);
+}
+
+/// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
+/// a load that is too heavy. It gives up after a while.
+void stall(WorldState& world, int i, double before) {
+  FleetState& f = world.fleet;
+  const Robot& r = f.robots[i];
+  double& overdue = f.tasks[i].overdue;
+  if (f.unit[i] < 0) return;
+  double force = r.load_mass * world.gravityDown();
+  const Above above = findAbove(world, i);
+  const bool meets = f.tower[i] - before > above.clearance;
+  if (meets) force += resistance(world, *world.models[above.model]);
+  if (force <= r.lift.max_force) {
+    overdue = 0;
+    return;
   }
-  if (parts.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(parts, i);  // its load is higher than when it was taken up
-  parts.report(Event::Kind::kLifted, r.name, parts.units[unit].name, "");
-  finishLeg(parts, i);
+  const double height = meets ? before + above.clearance : before;
+  f.setProfile(i, {height, 0});
+  f.tower[i] = height;
+  overdue += world.dt;
+  if (overdue < kStalled) return;
+  const std::string other = meets ? world.models[above.model]->name : "";
+  char text[160];
+  std::snprintf(text, sizeof text, "its lift stalls at %g N%s%s", r.lift.max_force,
+                meets ? " beneath " : ": the load is too heavy", other.c_str());
+  giveUp(world, i, other, text);
 }
 
-void lowerLeg(Parts& parts, int i, int unit) {
-  moveTower(parts, i, 0);
-  if (parts.fleet.unit[i] == unit && unitPose(parts, unit).Z() <= 0) {
-    putDown(parts, i);
-    parts.report(Event::Kind::kDropped, parts.fleet.robots[i].name, parts.units[unit].name, "");
+void raiseSegment(WorldState& world, int i, int unit) {
+  Robot& r = world.fleet.robots[i];
+  const double before = world.fleet.tower[i];
+  moveTower(world, i, r.lift.height);
+  stall(world, i, before);
+  if (world.fleet.unit[i] < 0 && world.fleet.tower[i] >= towerGap(world, i, unit)) {
+    takeUp(world, i, unit);
   }
-  if (parts.fleet.tower[i] == 0) finishLeg(parts, i);
+  if (world.fleet.reference[i] != r.lift.height) return;
+  rebuildBody(world, world.modelOf(i));  // its load is higher than when it was taken up
+  world.reportCommand(Event::Kind::kLifted, i, world.units[unit].name,
+                      "lifted " + world.units[unit].name);
+  finishSegment(world, i);
 }
 
-void liftLeg(Parts& parts, int i) {
-  const Leg leg = parts.fleet.robots[i].legs.front();
-  if (!parts.fleet.robots[i].leg_started) start(parts, i);
-  checkUnit(parts, i, leg);
-  if (parts.fleet.robots[i].stopping) return abandon(parts, i);
-  if (leg.kind == Leg::Kind::kRaise) raiseLeg(parts, i, leg.unit);
-  if (leg.kind == Leg::Kind::kLower) lowerLeg(parts, i, leg.unit);
+void lowerSegment(WorldState& world, int i, int unit) {
+  moveTower(world, i, 0);
+  putDownOnFloor(world, i, unit);
+  if (world.fleet.tower[i] == 0) finishSegment(world, i);
+}
+
+void liftSegment(WorldState& world, int i) {
+  const Task& task = world.fleet.tasks[i];
+  const MotionSegment segment = task.segments.front();
+  if (task.phase == Phase::kStarting) begin(world, i);
+  checkUnit(world, i, segment);
+  if (task.phase == Phase::kAbandoning) return abandon(world, i, segment.unit);
+  if (segment.kind == MotionSegment::Kind::kRaise) raiseSegment(world, i, segment.unit);
+  if (segment.kind == MotionSegment::Kind::kLower) lowerSegment(world, i, segment.unit);
 }
 
 /// A tower whose unit was deleted comes down by itself.
-void lowerEmptyTower(Parts& parts, int i) {
-  Fleet& f = parts.fleet;
+void lowerEmptyTower(WorldState& world, int i) {
+  FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
-  moveTower(parts, i, 0);
+  moveTower(world, i, 0);
 }
 
 }  // namespace
@@ -95,17 +174,18 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   lift.height = p.number("height", lift.height, 0.001, 10);
   lift.time = p.number("time", lift.time, 0, 1000);
   lift.max_load = p.number("max_load", lift.max_load, 0, 1e6);
+  lift.max_force = p.number("max_force", kSpareForce * 9.81 * lift.max_load, 0, 1e9);
   lift.proximity = p.number("proximity", lift.proximity, 0, 10);
 }
 
-void LiftPlugin::beforeStep(Parts& parts) {
-  const Fleet& f = parts.fleet;
-  for (int i : parts.active) {
-    if (!f.robots[i].legs.empty()) {
-      const Leg::Kind kind = f.robots[i].legs.front().kind;
-      if (kind == Leg::Kind::kRaise || kind == Leg::Kind::kLower) liftLeg(parts, i);
-    } else if (f.tower[i] > 0 && f.unit[i] < 0) {
-      lowerEmptyTower(parts, i);
+void LiftPlugin::control(WorldState& world) const {
+  const FleetState& f = world.fleet;
+  for (int i : world.stepped_singly) {
+    const MotionSegment* at = f.tasks[i].segment();
+    if (!at && f.tower[i] > 0 && f.unit[i] < 0) lowerEmptyTower(world, i);
+    if (!at) continue;
+    if (at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower) {
+      liftSegment(world, i);
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fleet_plugin.h"
+#include "core/state/fleet_plugin.h"
 
 namespace kiva {
 
@@ -10,7 +10,7 @@ class LiftPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_lift.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void beforeStep(Parts& parts) override;
+  void control(WorldState& world) const override;
 };
 
 }  // namespace kiva

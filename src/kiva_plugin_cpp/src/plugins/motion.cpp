@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "motion.h"
+#include "plugins/motion.h"
 
 #include <cmath>
 #include <string>
 
-#include "../core/commands.h"
-#include "../core/cruise.h"
+#include "core/motion/cruise.h"
+#include "core/motion/drives.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -20,74 +21,71 @@ constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
 constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
 
 struct OnLine {
-  double along;   // of the leg's end, negative before it [m]
+  double along;   // of the segment's end, negative before it [m]
   double across;  // left of the line [m]
   double speed;   // along the line [m/s]
 };
 
-OnLine onLine(const Fleet& f, int i, const Leg& leg) {
-  const double c = std::cos(leg.yaw), s = std::sin(leg.yaw);
-  const double dx = f.x[i] - leg.x, dy = f.y[i] - leg.y;
+OnLine onLine(const Fleet& f, int i, const MotionSegment& segment) {
+  const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
+  const double dx = f.x[i] - segment.x, dy = f.y[i] - segment.y;
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
 }
 
-void start(Fleet& f, int i, const OnLine& at) {
-  Robot& robot = f.robots[i];
+void begin(WorldState& world, int i, const OnLine& at) {
+  FleetState& f = world.fleet;
+  f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
   f.goal[i] = 0;
-  f.deceleration[i] = robot.drive.acceleration;
-  robot.leg_started = true;
-  robot.overdue = 0;
-  robot.look_now = true;
-  robot.seen_model = -1;
-  robot.seen_distance = 0;
+  f.acceleration[i] = f.deceleration[i] = plannedAcceleration(world, i);
 }
 
-Motion alongLine(const Leg& leg, double top_speed, double acceleration) {
-  return {std::cos(leg.yaw), std::sin(leg.yaw), 0, top_speed, acceleration};
+ReferenceMotion alongLine(const MotionSegment& segment, double top_speed, double acceleration) {
+  return {std::cos(segment.yaw), std::sin(segment.yaw), 0, top_speed, acceleration};
 }
 
-bool arrived(const Fleet& f, int i, const OnLine& at) {
+bool arrived(const FleetState& f, int i, const OnLine& at) {
   return f.reference[i] == f.goal[i] && std::abs(at.along - f.goal[i]) < kThereDistance &&
          stands(f, i);
 }
 
-/// Ends a leg that the wheels can't drive, as against a wall that no laser saw.
-bool giveUp(Parts& parts, int i, const OnLine& at) {
-  const Fleet& f = parts.fleet;
-  Robot& r = parts.fleet.robots[i];
-  if (f.reference[i] == f.goal[i]) r.overdue += parts.dt;
+/// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
+bool giveUp(WorldState& world, int i, const OnLine& at) {
+  FleetState& f = world.fleet;
+  double& overdue = f.tasks[i].overdue;
+  if (f.reference[i] == f.goal[i]) overdue += world.dt;
   const double lag = std::abs(f.reference[i] - at.along);
-  if (lag < kStuck && r.overdue < kOverdue) return false;
-  haltRobot(parts, i, "", "is stuck: its wheels turn or stall without getting it on");
+  if (lag < kStuck && overdue < kOverdue) return false;
+  haltRobot(world, i, "", "is stuck: its wheels turn or stall without getting it on");
   return true;
 }
 
-void driveLeg(Parts& parts, int i) {
-  Fleet& f = parts.fleet;
-  Robot& r = f.robots[i];
-  if (halting(parts, i)) return;
-  const Leg leg = r.legs.front();
-  const OnLine at = onLine(f, i, leg);
-  if (!r.leg_started) {
-    start(f, i, at);
+void driveSegment(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  const Robot& r = f.robots[i];
+  if (halting(world, i)) return;
+  const MotionSegment segment = f.tasks[i].segments.front();
+  const OnLine at = onLine(f, i, segment);
+  if (f.tasks[i].phase == Phase::kStarting) {
+    begin(world, i, at);
     setWheels(f, i, 0, 0);
     return;  // the laser looks first
   }
   if (arrived(f, i, at)) {
     setWheels(f, i, 0, 0);
-    return finishLeg(parts, i);
+    return finishSegment(world, i);
   }
-  if (giveUp(parts, i, at)) return;
+  if (giveUp(world, i, at)) return;
   const double lag = f.reference[i] - at.along;
-  const double top = leg.on_grid ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
-  const double heading = f.yaw[i] - leg.yaw;
+  const double top = segment.on_grid ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
+  const double heading = f.yaw[i] - segment.yaw;
   const bool exact = isExact(lag) && isExact(heading) && isExact(at.across);
-  if (exact && !leg.reverse && tryCruise(parts, i, alongLine(leg, top, r.drive.acceleration))) {
+  if (exact && !segment.reverse &&
+      tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }
   Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, r.drive.acceleration, f.deceleration[i], parts.dt);
+  profile.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
   f.setProfile(i, profile);
   setWheels(f, i, profile.speed + kAlongGain * lag,
             -kHeadingGain * heading - kLineGain * at.speed * at.across);
@@ -116,15 +114,14 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_motion = true;
 }
 
-void MotionPlugin::beforeStep(Parts& parts) {
-  const Fleet& f = parts.fleet;
-  for (int i : parts.active) {
-    if (f.robots[i].legs.empty()) continue;
-    if (f.robots[i].legs.front().kind == Leg::Kind::kDrive) driveLeg(parts, i);
+void MotionPlugin::control(WorldState& world) const {
+  for (int i : world.stepped_singly) {
+    const MotionSegment* at = world.fleet.tasks[i].segment();
+    if (at && at->kind == MotionSegment::Kind::kDrive) driveSegment(world, i);
   }
 }
 
-void setWheels(Fleet& f, int i, double speed, double yaw_rate) {
+void setWheels(FleetState& f, int i, double speed, double yaw_rate) {
   const DriveParameters& d = f.robots[i].drive;
   const double turn = yaw_rate * d.wheel_separation / 2;
   f.wheel_target[0][i] = (speed - turn) / d.wheel_radius;
@@ -135,11 +132,11 @@ bool stands(const Fleet& f, int i) {
   return std::hypot(f.vx[i], f.vy[i]) < kStill && std::abs(f.yaw_rate[i]) < kStill;
 }
 
-bool halting(Parts& parts, int i) {
-  Fleet& f = parts.fleet;
-  if (!f.robots[i].halting) return false;
+bool halting(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  if (f.tasks[i].phase != Phase::kHalting) return false;
   setWheels(f, i, 0, 0);
-  if (stands(f, i)) endBlocked(parts, i);
+  if (stands(f, i)) endStop(world, i);
   return true;
 }
 

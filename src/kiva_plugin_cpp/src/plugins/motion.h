@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fleet_plugin.h"
+#include "core/state/fleet_plugin.h"
 
 namespace kiva {
 
-/// Drives straight legs: a trapezoid of speed along the line, the wheels steering back onto it.
+/// Drives straight segments: a trapezoid of speed along the line, the wheels steering back onto it.
 class MotionPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_motion.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void beforeStep(Parts& parts) override;
+  void control(WorldState& world) const override;
 };
 
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
-void setWheels(Fleet& fleet, int i, double speed, double yaw_rate);
+void setWheels(FleetState& fleet, int i, double speed, double yaw_rate);
 
 /// How near is there.
 constexpr double kThereDistance = 1e-5;  // [m]
@@ -23,6 +23,6 @@ bool stands(const Fleet& fleet, int i);
 
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
 /// it is.
-bool halting(Parts& parts, int i);
+bool halting(WorldState& world, int i);
 
 }  // namespace kiva

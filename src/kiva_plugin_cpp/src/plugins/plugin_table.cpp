@@ -1,32 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fleet_plugin.h"
-#include "laser.h"
-#include "lift.h"
-#include "motion.h"
-#include "rotation.h"
+#include "plugins/plugin_table.h"
+
+#include "plugins/laser.h"
+#include "plugins/lift.h"
+#include "plugins/motion.h"
+#include "plugins/rotation.h"
 
 namespace kiva {
 
-std::vector<std::unique_ptr<FleetPlugin>> makeFleetPlugins() {
-  std::vector<std::unique_ptr<FleetPlugin>> table;
-  table.push_back(std::make_unique<MotionPlugin>());
-  table.push_back(std::make_unique<RotationPlugin>());
-  table.push_back(std::make_unique<LiftPlugin>());
-  table.push_back(std::make_unique<LaserPlugin>());
+std::vector<std::shared_ptr<const FleetPlugin>> makeFleetPlugins() {
+  std::vector<std::shared_ptr<const FleetPlugin>> table;
+  table.push_back(std::make_shared<MotionPlugin>());
+  table.push_back(std::make_shared<RotationPlugin>());
+  table.push_back(std::make_shared<LiftPlugin>());
+  table.push_back(std::make_shared<LaserPlugin>());
   return table;
-}
-
-const FleetPlugin* findFleetPlugin(const Parts& parts, const std::string& filename) {
-  for (const auto& plugin : parts.fleet_plugins) {
-    if (filename == plugin->filename()) return plugin.get();
-  }
-  return nullptr;
-}
-
-bool isGridPlugin(const std::string& filename) { return filename == "libkiva_grid.so"; }
-
-void configureGrid(Parts& parts, const Parameters& parameters) {
-  parts.grid_spacing = parameters.number("spacing", 1.0, 0.1, 100.0);
 }
 
 }  // namespace kiva

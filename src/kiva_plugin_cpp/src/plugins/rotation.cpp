@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rotation.h"
+#include "plugins/rotation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "../core/commands.h"
-#include "../core/cruise.h"
-#include "../core/traction.h"
-#include "motion.h"
+#include "core/motion/cruise.h"
+#include "core/motion/drives.h"
+#include "core/state/tasks.h"
+#include "plugins/motion.h"
 
 namespace kiva {
 namespace {
@@ -15,14 +15,16 @@ namespace {
 constexpr double kGain = 20;      // [1/s] yaw rate for angle lagged
 constexpr double kStuck = 0.3;    // [rad] behind the profile
 constexpr double kOverdue = 2.0;  // [s]
-constexpr double kReserve = 0.9;  // of the possible acceleration, so that errors can be mended
+constexpr double kReserve = 0.9;  // of the motors' torque, so that errors can be mended
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
 /// motors and floor can. 0 = at once, where they are without limit.
-double turnAcceleration(const Robot& robot, double gravity) {
-  const double time = robot.drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
-  const double acceleration =
-      std::min(2 * M_PI / (time * time), kReserve * turningLimit(robot, gravity));
+double turnAcceleration(WorldState& world, int i, double angle) {
+  const double time =
+      world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
+  Vehicle vehicle = plannedVehicle(world, i);
+  vehicle.torque *= kReserve;
+  const double acceleration = std::min(2 * M_PI / (time * time), turningLimit(vehicle, angle));
   return std::isinf(acceleration) ? 0 : acceleration;
 }
 
@@ -31,31 +33,31 @@ double turnSpeed(const Robot& robot, double dt) {
   return time == 0 ? 2 * M_PI / dt : M_PI / time;
 }
 
-void turnLeg(Parts& parts, int i) {
-  Fleet& f = parts.fleet;
-  Robot& r = f.robots[i];
-  if (halting(parts, i)) return;
-  if (!r.leg_started) {
-    r.leg_started = true;
+void turnSegment(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[i];
+  const Robot& r = f.robots[i];
+  if (halting(world, i)) return;
+  if (task.phase == Phase::kStarting) {
+    task.phase = Phase::kTurning;
     f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
-    f.goal[i] = r.legs.front().yaw;
-    f.deceleration[i] = turnAcceleration(r, parts.gravityDown());
-    r.overdue = 0;
+    f.goal[i] = task.segments.front().yaw;
+    f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - f.yaw[i]));
   }
   const double lag = f.reference[i] - f.yaw[i];
   const bool ended = f.reference[i] == f.goal[i];
   if (ended && std::abs(lag) < kThereAngle && stands(f, i)) {
     setWheels(f, i, 0, 0);
-    return finishLeg(parts, i);
+    return finishSegment(world, i);
   }
-  if (ended) r.overdue += parts.dt;
-  if (std::abs(lag) > kStuck || r.overdue > kOverdue) {
-    return haltRobot(parts, i, "", "is stuck: it can't turn");
+  if (ended) task.overdue += world.dt;
+  if (std::abs(lag) > kStuck || task.overdue > kOverdue) {
+    return haltRobot(world, i, "", "is stuck: it can't turn");
   }
-  const double top = turnSpeed(r, parts.dt), acceleration = f.deceleration[i];
-  if (isExact(lag) && tryCruise(parts, i, {0, 0, 1, top, acceleration})) return;
+  const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
+  if (isExact(lag) && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
   Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, acceleration, acceleration, parts.dt);
+  profile.advance(f.goal[i], top, acceleration, acceleration, world.dt);
   f.setProfile(i, profile);
   setWheels(f, i, 0, profile.speed + kGain * lag);
 }
@@ -67,11 +69,10 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_rotation = true;
 }
 
-void RotationPlugin::beforeStep(Parts& parts) {
-  const Fleet& f = parts.fleet;
-  for (int i : parts.active) {
-    if (f.robots[i].legs.empty()) continue;
-    if (f.robots[i].legs.front().kind == Leg::Kind::kTurn) turnLeg(parts, i);
+void RotationPlugin::control(WorldState& world) const {
+  for (int i : world.stepped_singly) {
+    const MotionSegment* at = world.fleet.tasks[i].segment();
+    if (at && at->kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
   }
 }
 

@@ -23,8 +23,8 @@ py::array view(const Column<T>& column, std::vector<py::ssize_t> shape = {}) {
   if (shape.empty()) shape = {static_cast<py::ssize_t>(column.size())};
   py::object owner = py::none();
   if (column.data()) {
-    SharedMemory::hold(column.data());
-    owner = py::capsule(column.data(), [](void* memory) { SharedMemory::release(memory); });
+    ViewableMemory::hold(column.data());
+    owner = py::capsule(column.data(), [](void* memory) { ViewableMemory::release(memory); });
   }
   py::array_t<Out> array(shape, reinterpret_cast<const Out*>(column.data()), owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;

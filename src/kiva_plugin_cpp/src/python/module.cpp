@@ -384,6 +384,7 @@ py::dtype eventType() {
   fields.append(py::make_tuple("time", "f8"));
   fields.append(py::make_tuple("kind", "u1"));
   for (const char* text : {"model", "other", "text"}) fields.append(py::make_tuple(text, "O"));
+  fields.append(py::make_tuple("command", "u4"));
   return py::dtype::from_args(fields);
 }
 
@@ -391,7 +392,8 @@ py::object events(Host& host) {
   const auto lock = host.use();
   py::list rows;
   for (const Event& e : host.world.takeEvents()) {
-    rows.append(py::make_tuple(e.time, static_cast<int>(e.kind), e.model, e.other, e.text));
+    rows.append(
+        py::make_tuple(e.time, static_cast<int>(e.kind), e.model, e.other, e.text, e.command));
   }
   host.world.takeStatusChanges();
   return py::module_::import("numpy").attr("array")(rows, eventType());
@@ -459,6 +461,10 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
   add(
       "state", [](const Fleet& f) -> auto& { return f.state; }, std::uint8_t(),
       "(n,) uint8, values of State. A view.");
+  add(
+      "last_end", [](const Fleet& f) -> auto& { return f.last_end; }, std::uint8_t(),
+      "(n,) uint8: how a robot's last command ended, until the next is accepted: 0 none yet, else "
+      "EventKind.DONE or BLOCKED. A view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
@@ -528,7 +534,8 @@ don't match, an unknown robot, NaN or infinity. What a robot can't do is refused
       "rot", &rot, py::arg("kiva_id"), py::arg("direction"),
       "Turn by 90 degrees: 1 counterclockwise, -1 clockwise. Arguments and errors as of mov().");
   world.def("lift", &lift, py::arg("kiva_id"), py::arg("status"), py::arg("shelf_id"),
-            "Carry (1) or drop (0) storage unit shelf_id. Arguments and errors as of mov().");
+            "Carry (1) or drop (0) storage unit shelf_id; drop, 0: whichever it carries. Arguments "
+            "and errors as of mov().");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
       R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].
@@ -555,7 +562,8 @@ A single one can be given a name and a place, (x, y, z, yaw) in world [m, rad]. 
 KeyError if there is none of that name, DescriptionError if the place is no finite one.)");
   world.def("events", &events, R"(What happened since the last call: (n,) of dtype EVENT, in order.
 
-Fields: time [s], kind (values of EventKind), model, other and text.)");
+Fields: time [s], kind (values of EventKind), model, other, text, and the number of the command that
+it belongs to (0 = none).)");
   world.def("checkpoint", &checkpoint, R"(The whole state as bytes.
 
 This world, and any that restores them, go on the same from here, bit by bit, if they are given

@@ -9,33 +9,36 @@
 #include <string>
 #include <vector>
 
-#include "audience.h"
-#include "broadcaster.h"
-#include "checkpoints.h"
-#include "commands.h"
-#include "engine.h"
-#include "farewell.h"
-#include "gazebo_plugins/table.h"
-#include "joint_services.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
-#include "light_services.h"
-#include "link_services.h"
-#include "mail.h"
-#include "map_service.h"
-#include "outbox.h"
-#include "performance.h"
-#include "physics_services.h"
-#include "recorder.h"
-#include "replayer.h"
-#include "reporter.h"
+#include "ros/gazebo_plugins/plugin_inputs.h"
+#include "ros/gazebo_plugins/plugin_table.h"
+#include "ros/publishing/broadcaster.h"
+#include "ros/publishing/reporter.h"
+#include "ros/publishing/snapshot_queue.h"
+#include "ros/recording/bag_check.h"
+#include "ros/recording/recorder.h"
+#include "ros/recording/replayer.h"
+#include "ros/services/checkpoint_services.h"
+#include "ros/services/command_topics.h"
+#include "ros/services/joint_services.h"
+#include "ros/services/light_services.h"
+#include "ros/services/link_services.h"
+#include "ros/services/map_service.h"
+#include "ros/services/performance_topic.h"
+#include "ros/services/physics_services.h"
+#include "ros/services/simulation_services.h"
+#include "ros/services/spawn_services.h"
+#include "ros/services/state_services.h"
+#include "ros/services/step_service.h"
+#include "ros/services/visualization_topics.h"
+#include "ros/simulation/simulation_thread.h"
+#include "ros/transport/callback_thread.h"
+#include "ros/transport/listen_backlog.h"
+#include "ros/transport/publish_queue.h"
+#include "ros/transport/subscriber_counts.h"
+#include "ros/transport/unadvertise.h"
 #include "settings.h"
-#include "showcase.h"
-#include "simulation_services.h"
-#include "sockets.h"
-#include "spawn_services.h"
-#include "state_services.h"
-#include "step_service.h"
 
 namespace {
 
@@ -58,7 +61,7 @@ void serveUntilStopped() {
 
 kiva::WorldDescription load(const Settings& settings) {
   std::vector<std::string> warnings;
-  const auto out = kiva::loadWorld(settings.world_file, settings.model_paths, &warnings);
+  const auto out = kiva::loadWorld(settings.world_file, settings.world_model_paths, &warnings);
   for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
   return out;
 }
@@ -71,68 +74,84 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
 }
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {
-  widenListenQueues();
+  raiseListenBacklog();
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
-  Mail mail;  // outlives the plugins
-  settings.world.plugins = pluginTable(root, mail);
+  PublishQueue publish_queue;  // outlives the plugins, as do their inputs
+  PluginInputs inputs(settings.replay.empty());
+  settings.world.plugins = pluginTable(root, publish_queue, inputs);
   kiva::World world(description, settings.world);
   std::optional<Replayer> replayer;
   if (!settings.replay.empty()) replayer.emplace(settings.replay).begin(world);
-  const double rtf = settings.rtf < 0 ? description.real_time_factor : settings.rtf;
+  const double rtf = settings.rtf.value_or(description.real_time_factor);
 
-  Audience audience;
-  Outbox outbox;
-  Reporter reporter(world, settings.rates, rtf, audience, mail, outbox);
-  Engine engine(world, reporter, rtf, settings.lockstep);
-  audience.onArrival([&engine] { engine.post([](kiva::World&) {}); });
-  Broadcaster broadcaster(root, node, audience, outbox);
-  std::optional<Commands> commands;
-  if (!replayer) commands.emplace(root, engine);  // a replay has its own
-  StepService step_service(node, engine);
-  SimulationServices simulation_services(node, engine);
-  StateServices state_services(root, node, engine);
-  LinkServices link_services(node, engine);
-  JointServices joint_services(node, engine);
-  LightServices light_services(node, engine);
-  PhysicsServices physics_services(node, world, engine);
-  Performance performance(node, engine);
-  Showcase showcase(root, engine);
-  SpawnServices spawn_services(node, engine, settings.model_paths);
-  MapService map_service(root, engine);
+  SubscriberCounts subscribers;
+  SnapshotQueue snapshots;
+  Reporter reporter(world, settings.rates, rtf, subscribers, publish_queue, snapshots);
+  SimulationThread simulation(world, reporter, rtf, settings.lockstep);
+  subscribers.onSubscribe([&simulation] { simulation.post([](kiva::World&) {}); });
+  Broadcaster broadcaster(root, node, subscribers, snapshots);
+  std::optional<CommandTopics> commands;
+  if (!replayer) commands.emplace(root, simulation);  // a replay has its own
+  CallbackThread stepping(node), spawning(node), saving(root);
+  StepService step_service(stepping.node(), simulation);
+  SimulationServices simulation_services(node, simulation);
+  StateServices state_services(root, node, simulation);
+  LinkServices link_services(node, simulation);
+  JointServices joint_services(node, simulation);
+  LightServices light_services(node, simulation);
+  PhysicsServices physics_services(node, world, simulation);
+  PerformanceTopic performance_topic(node, simulation);
+  VisualizationTopics visualization_topics(root, simulation);
+  SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths);
+  MapService map_service(root, simulation);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.
-  Checkpoints checkpoints(root, engine, replayer ? 0 : settings.autosave);
-  engine.add(checkpoints);
+  CheckpointServices checkpoints(
+      saving.node(), simulation,
+      {!replayer, settings.autosave, settings.checkpoint_folder, settings.checkpoint_limit});
+  simulation.add(checkpoints);
   if (replayer) {
-    replayer->onKeyframe([&engine](kiva::World& w, const std::string& checkpoint) {
-      engine.restoreHere(w, checkpoint);
+    replayer->onKeyframe([&simulation](kiva::World& w, const std::string& checkpoint) {
+      simulation.restoreHere(w, checkpoint);
     });
-    engine.add(*replayer);
+    replayer->onInput([&inputs](const rosbag::MessageInstance& m) { inputs.replay(m); });
+    simulation.add(*replayer);
   }
+  simulation.add(inputs);
   std::optional<Recorder> recorder;
-  if (!settings.record.empty()) engine.add(recorder.emplace(settings.record));
+  if (!settings.record.empty()) {
+    simulation.add(recorder.emplace(settings.record));
+    inputs.onMessage([&recorder](const std::shared_ptr<const InputTopic>& topic) {
+      recorder->onInput([topic](rosbag::Bag& bag, const ros::Time& t) { topic->write(bag, t); });
+    });
+  }
 
   announce(world, settings, rtf);
-  engine.start();
+  simulation.start();
   ros::AsyncSpinner spinner(kCallbackThreads);
   spinner.start();
+  for (CallbackThread* thread : {&stepping, &spawning, &saving}) thread->start();
   serveUntilStopped();
+  simulation.stop();  // first: no callback waits for it any more
   spinner.stop();
-  engine.stop();
   if (recorder) recorder->finish(world);
   broadcaster.stop();
-  if (ros::ok()) withdrawTopics();
+  if (ros::ok()) unadvertiseTopics();
+  // Last, since a large document may keep them.
+  for (CallbackThread* thread : {&stepping, &spawning, &saving}) thread->stop();
   ros::shutdown();
-  return engine.failed() ? 1 : 0;
+  return simulation.failed() ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // that a log file has each line at once
+  if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
   ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, onSignal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a write that fails
   ros::NodeHandle root, node("~");
   try {
     return run(root, node);

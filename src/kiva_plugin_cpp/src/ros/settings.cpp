@@ -1,18 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settings.h"
 
+#include <ros/package.h>
+
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
-
-#include "packages.h"
 
 namespace kiva_ros {
 namespace {
 
 namespace fs = std::filesystem;
 using Paths = std::vector<std::string>;
+
+/// The value of an environment variable; empty if it is not set.
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// Where ROS keeps what it writes.
+std::string rosHome() {
+  const std::string set = environment("ROS_HOME");
+  return set.empty() ? environment("HOME") + "/.ros" : set;
+}
+
+/// A list of paths, with colons between them, in its parts.
+Paths split(const std::string& list) {
+  Paths out;
+  std::istringstream folders(list);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (!folder.empty()) out.push_back(folder);
+  }
+  return out;
+}
 
 [[noreturn]] void refuse(const ros::NodeHandle& node, const std::string& name,
                          const XmlRpc::XmlRpcValue& value, const std::string& expected) {
@@ -22,23 +45,28 @@ using Paths = std::vector<std::string>;
   throw std::runtime_error(message.str() + ": " + expected + " was expected");
 }
 
-double number(const ros::NodeHandle& node, const std::string& name, double fallback, double least,
-              const std::string& expected) {
+/// Nothing if it is not set.
+std::optional<double> optionalNumber(const ros::NodeHandle& node, const std::string& name,
+                                     double least, const std::string& expected) {
   XmlRpc::XmlRpcValue value;
-  if (!node.getParam(name, value)) return fallback;
+  if (!node.getParam(name, value)) return std::nullopt;
   double out = NAN;
   if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) out = static_cast<int>(value);
   if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) out = static_cast<double>(value);
-  const bool is_default = out == fallback;
-  if (!is_default && !(std::isfinite(out) && out >= least)) refuse(node, name, value, expected);
+  if (!(std::isfinite(out) && out >= least)) refuse(node, name, value, expected);
   return out;
 }
 
-std::uint64_t seed(const ros::NodeHandle& node, const std::string& name) {
-  const std::string expected = "a whole number, 0 or more,";
-  const double out = number(node, name, 1, 0, expected);
-  if (out != std::floor(out) || out > 9e15) refuse(node, name, XmlRpc::XmlRpcValue(out), expected);
-  return static_cast<std::uint64_t>(out);
+double number(const ros::NodeHandle& node, const std::string& name, double fallback, double least,
+              const std::string& expected) {
+  return optionalNumber(node, name, least, expected).value_or(fallback);
+}
+
+double wholeNumber(const ros::NodeHandle& node, const std::string& name, double fallback,
+                   double most, const std::string& expected) {
+  const double out = number(node, name, fallback, 0, expected);
+  if (out == std::floor(out) && out <= most) return out;
+  refuse(node, name, XmlRpc::XmlRpcValue(out), expected);
 }
 
 bool flag(const ros::NodeHandle& node, const std::string& name) {
@@ -48,13 +76,6 @@ bool flag(const ros::NodeHandle& node, const std::string& name) {
     refuse(node, name, value, "true or false");
   }
   return value;
-}
-
-int count(const ros::NodeHandle& node, const std::string& name) {
-  const std::string expected = "a whole number from 0 to 100000";
-  const double out = number(node, name, 0, 0, expected);
-  if (out != std::floor(out) || out > 1e5) refuse(node, name, XmlRpc::XmlRpcValue(out), expected);
-  return static_cast<int>(out);
 }
 
 std::string text(const ros::NodeHandle& node, const std::string& name,
@@ -75,7 +96,7 @@ std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string&
 
 /// Where the worlds of package warehouse_sim are: in the source tree, or where it was installed.
 std::string packagedWorlds() {
-  const std::string package = findPackage("warehouse_sim");
+  const std::string package = ros::package::getPath("warehouse_sim");
   return package.empty() ? "" : package + "/worlds";
 }
 
@@ -97,6 +118,11 @@ std::string findWorld(const std::string& world, const Paths& folders) {
                            (list.empty() ? "nothing: no folder of worlds is known" : list));
 }
 
+Paths joined(Paths first, const Paths& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 /// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.
 std::string pathOf(const ros::NodeHandle& node, const std::string& name) {
   const std::string path = text(node, name, "");
@@ -111,14 +137,23 @@ Settings readSettings(const ros::NodeHandle& node) {
   const std::string world = text(node, "world", "");
   out.world_file = findWorld(world, split(text(node, "world_paths", worlds)));
   const std::string models = worlds.empty() ? "" : worlds + "/models";
-  out.model_paths =
-      split(text(node, "model_paths", models) + ":" + environment("GAZEBO_MODEL_PATH"));
-  out.rtf = number(node, "rtf", -1, 0,
-                   "a factor above 0, 0 (as fast as it goes) or -1 (the world file's)");
-  out.world.seed = seed(node, "seed");
+  const Paths ours = split(text(node, "model_paths", models));
+  Paths theirs = split(environment("GAZEBO_MODEL_PATH"));
+  for (const auto& path : kiva::exportedModelPaths(environment("ROS_PACKAGE_PATH"))) {
+    theirs.push_back(path);
+  }
+  out.model_paths = joined(ours, theirs);
+  out.world_model_paths = joined(theirs, ours);
+  out.rtf = optionalNumber(node, "rtf", 0, "a factor above 0, or 0 (as fast as it goes),");
+  const std::string whole = "a whole number, 0 or more,";
+  out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));
   out.world.drive = drive(node, "drive");
   out.lockstep = flag(node, "lockstep");
-  out.autosave = count(node, "autosave");
+  out.autosave =
+      static_cast<int>(wholeNumber(node, "autosave", 0, 1e5, "a whole number from 0 to 100000"));
+  out.checkpoint_folder = text(node, "checkpoint_folder", rosHome() + "/warehouse/checkpoints");
+  out.checkpoint_limit = static_cast<std::uintmax_t>(
+      1e6 * number(node, "checkpoint_limit", 1000, 0, "a number of megabytes, 0 or more,"));
   out.record = pathOf(node, "record");
   out.replay = pathOf(node, "replay");
   const std::string rate = "a rate above 0 in Hz, or 0 (every step)";

@@ -3,11 +3,13 @@
 
 #include <ros/ros.h>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
-#include "reporter.h"
+#include "ros/publishing/reporter.h"
 
 namespace kiva_ros {
 
@@ -17,26 +19,34 @@ namespace kiva_ros {
 ///                            .sdf; empty: an empty floor
 ///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
 ///   ~model_paths             folders of models, a:b; default: the same package's. Those that
-///                            GAZEBO_MODEL_PATH lists are searched after them
-///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; -1 (default):
-///                            what the world file says
+///                            GAZEBO_MODEL_PATH lists, and those that packages export to Gazebo,
+///                            are searched before them for a world, after them for requests
+///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; not set: what
+///                            the world file says
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say
 ///   ~lockstep                true: time advances by ~step alone; default false
 ///   ~autosave                how many checkpoints to keep for /warehouse/undo, one a simulated
-///                            second; default 0
+///                            second; default 0: only that before the last reset
+///   ~checkpoint_folder       of checkpoints that are files; default: warehouse/checkpoints in
+///                            ROS_HOME, or in ~/.ros
+///   ~checkpoint_limit        [MB] of checkpoints in memory, of those in that folder, and of those
+///                            for undo, each; default 1000
 ///   ~record                  bag file to write a recording to; empty (default): none
 ///   ~replay                  recording to run again, in place of ~world; empty (default): none
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
 struct Settings {
   std::string world_file;
-  kiva::ModelPaths model_paths;
-  double rtf = -1;
+  kiva::ModelPaths model_paths;        ///< For spawn requests: a preset is made of our models.
+  kiva::ModelPaths world_model_paths;  ///< For the world file: its author's come first.
+  std::optional<double> rtf;
   kiva::WorldOptions world;
   bool lockstep = false;
   int autosave = 0;
-  std::string record, replay;  ///< Paths, or empty.
+  std::string checkpoint_folder;
+  std::uintmax_t checkpoint_limit = 0;  ///< [bytes]
+  std::string record, replay;           ///< Paths, or empty.
   Reporter::Rates rates;
 };
 

@@ -8,12 +8,12 @@ import math
 
 from warehouse_msgs.msg import Event, Lift, TrackedObjects
 from warehouse_sim import poses, survey
-from warehouse_sim.director import command
 from warehouse_sim.engine import Engine
+from warehouse_sim.latest import LatestMessages
 from warehouse_sim.layout import Floor
 from warehouse_sim.missions import Map, meeting, two_missions
-from warehouse_sim.newest import Newest
 from warehouse_sim.routes import goals, route
+from warehouse_sim.script_executor import command
 
 TOLERANCE = 0.05  # between where something shall be and where it is [m]
 PATIENCE = 60.0  # with a warehouse being built [s, wall]
@@ -25,12 +25,12 @@ class DemoError(RuntimeError):
 
 
 class Demo:
-    """`ros` is rospy, `director` a director.Director; `tell(text)` reaches who watches."""
+    """`ros` is rospy, `executor` a ScriptExecutor; `tell(text)` reaches who watches."""
 
-    def __init__(self, ros, director, tell):
-        self._ros, self._director, self._tell = ros, director, tell
+    def __init__(self, ros, executor, tell):
+        self._ros, self._executor, self._tell = ros, executor, tell
         self._found, self.cast, self.failed = None, (), []
-        self._newest = Newest(
+        self._newest = LatestMessages(
             ros,
             units=("/storage_units", TrackedObjects),
             items=("/items", TrackedObjects),
@@ -42,7 +42,7 @@ class Demo:
         missions = two_missions(self._map())
         self.cast = [mission.kiva for mission in missions]
         for kiva in self.cast:
-            self._director.watch(kiva)
+            self._executor.watch(kiva)
         self._fetch(missions)
         self._meet(self._line_up())
         for kind, name in ((Event.REFUSED, "refused"), (Event.COLLISION, "a collision")):
@@ -52,7 +52,7 @@ class Demo:
 
     def _fetch(self, missions):
         self._tell("\nEach robot brings a storage unit to a conveyor belt, both at once.\n")
-        self._director.play({m.kiva: self._fetching(m) for m in missions})
+        self._executor.play({m.kiva: self._fetching(m) for m in missions})
         for mission in missions:
             self._check_delivered(mission)
 
@@ -71,20 +71,20 @@ class Demo:
         chart, (a, b) = self._map(), self.cast
         aisles = chart.grid(self.cast, also=chart.units.values())
         end_a, end_b = meeting(aisles, chart.robots[a], chart.robots[b])
-        self._director.play({a: _drive(a, route(chart.grid([a]), chart.robots[a], end_a))})
+        self._executor.play({a: _drive(a, route(chart.grid([a]), chart.robots[a], end_a))})
         after = chart.grid(self.cast, also=[end_a])
-        self._director.play({b: _drive(b, route(after, chart.robots[b], end_b))})
+        self._executor.play({b: _drive(b, route(after, chart.robots[b], end_b))})
         return {a: end_b, b: end_a}
 
     def _meet(self, wanted):
         self._tell("\nEach sets off for the other's place. Who is blocked finds another way.\n")
-        self._director.play({kiva: _try(kiva, goal) for kiva, goal in wanted.items()})
+        self._executor.play({kiva: _try(kiva, goal) for kiva, goal in wanted.items()})
         blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
         self._expect("meeting head on, one of them was blocked at least", blocked)
         for kiva, goal in wanted.items():
             chart = self._map()
             way = route(chart.grid([kiva]), chart.robots[kiva], goal)
-            self._director.play({kiva: _drive(kiva, way)})
+            self._executor.play({kiva: _drive(kiva, way)})
             arrived = math.dist(self._robot(kiva)[:2], goal) < TOLERANCE
             self._expect(f"kiva{kiva} reached ({goal[0]}, {goal[1]}) all the same", arrived)
 
@@ -98,7 +98,7 @@ class Demo:
             raise DemoError("no warehouse is running") from error
         with Engine(self._ros) as engine:
             self._found = survey.of_engine(engine)
-        if not self._director.until(self._told, PATIENCE):
+        if not self._executor.until(self._told, PATIENCE):
             raise DemoError("the tracking nodes don't tell where storage units and items are")
 
     def _told(self):
@@ -118,12 +118,12 @@ class Demo:
         return Map(self._found, Floor(*bounds) if bounds else None)
 
     def _robot(self, kiva):
-        pose = self._director.status(kiva).pose
+        pose = self._executor.status(kiva).pose
         return pose.x, pose.y, pose.theta
 
     def _models(self, kind):
         """Who had such an event."""
-        return {event.model for event in self._director.events if event.kind == kind}
+        return {event.model for event in self._executor.events if event.kind == kind}
 
     # --- what shall have come true
 
@@ -131,14 +131,14 @@ class Demo:
         name, belt = f"storage_unit{mission.unit}", f"conveyor_belt{mission.belt}"
         for kind, word in ((Event.LIFTED, "lifted"), (Event.DROPPED, "dropped")):
             self._expect(f"kiva{mission.kiva} {word} {name}", self._happened(kind, mission, name))
-        stands = self._director.until(lambda: self._stands(name, mission.to_drop[-1]))
+        stands = self._executor.until(lambda: self._stands(name, mission.to_drop[-1]))
         self._expect(f"{name} stands before {belt}, on the floor, with its items", stands)
         left = math.dist(self._robot(mission.kiva)[:2], mission.out) < TOLERANCE
         self._expect(f"kiva{mission.kiva} left it there", left)
 
     def _happened(self, kind, mission, name):
         wanted = (kind, f"kiva{mission.kiva}", name)
-        return any((e.kind, e.model, e.other) == wanted for e in self._director.events)
+        return any((e.kind, e.model, e.other) == wanted for e in self._executor.events)
 
     def _stands(self, name, at):
         unit = next((o for o in self._newest["units"].objects if o.name == name), None)

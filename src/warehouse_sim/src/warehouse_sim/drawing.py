@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse from above, drawn by matplotlib without a screen."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -10,11 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from warehouse_msgs.msg import KivaStatus
-from warehouse_sim import markers, poses, tracking
+from warehouse_sim import looks, markers, poses, tracking
+from warehouse_sim.words import shown_status
 
-# Footprints [m], as in worlds/models.
-ROBOT, UNIT, ITEM = (0.76, 0.64), (0.8, 0.8), (0.20, 0.15)
-HEADING = np.array([(0.30, 0.0), (0.06, 0.18), (0.06, -0.18)])
+UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour of what nobody described
 STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
 STATUS |= {"blocked": KivaStatus.STATUS_BLOCKED}
 LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]
@@ -30,7 +29,6 @@ class Moment:
     states: object = None  # UnitStates of the same revision
     fleet: object = None  # FleetState
     scenery: object = None  # Scenery
-    blocked: set = field(default_factory=set)  # names of robots whose last command ended so
 
     @property
     def complete(self):
@@ -84,7 +82,7 @@ class Drawing:
         self._axes.add_collection(LineCollection(lines, colors=[markers.GRID], linewidths=0.5))
 
     def _heading(self, moment):
-        counts = np.bincount(_status(moment), minlength=3)
+        counts = np.bincount(shown_status(moment.fleet), minlength=3)
         colours = {name: markers.STATUS_COLOURS[number] for name, number in STATUS.items()}
         keys = [
             Patch(color=c, label=f"{name} {counts[STATUS[name]]}") for name, c in colours.items()
@@ -97,30 +95,32 @@ class Drawing:
 
 def bounds(moment):
     """min_x, max_x, min_y, max_y [m] of the floor; if unknown, around what stands there."""
-    if moment.scenery and moment.scenery.floor[0] < moment.scenery.floor[1]:
-        return tuple(moment.scenery.floor)
-    fleet = moment.fleet
-    at = [*zip(fleet.x, fleet.y), *poses.rows(moment.states.pose)[:, :2]] or [(0, 0)]
-    low, high = np.min(at, 0) - 2.5, np.max(at, 0) + 2.5
-    return low[0], high[0], low[1], high[1]
+    return looks.floor(moment.scenery, moment.fleet, moment.states)
 
 
-def _status(moment):
-    # rospy reads uint8[] as bytes.
-    status = np.frombuffer(bytes(moment.fleet.status), np.uint8).copy()
-    status[[f"kiva{n}" in moment.blocked for n in moment.fleet.kiva_id]] = STATUS["blocked"]
-    return status
+def _look(moment, kind):
+    """(length, width) [m] and colour of the robots, storage units or items of a Moment."""
+    look = looks.named(moment.scenery, kind)
+    if look is None:
+        return UNKNOWN
+    low, high = looks.extent(look)
+    return 2 * np.maximum(-low, high)[:2], looks.parts(look)[0].colour[:3]
 
 
 def _robots(axes, moment):
     fleet = moment.fleet
     at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
-    colours = markers.STATUS_COLOURS[_status(moment)]
-    body = _placed(_rectangle(ROBOT), at, yaw)
+    colours = markers.STATUS_COLOURS[shown_status(moment.fleet)]
+    size, _ = _look(moment, "kiva")
+    body = _placed(_rectangle(size), at, yaw)
     axes.add_collection(
         PolyCollection(body, facecolors=colours, edgecolors="black", linewidths=0.6)
     )
-    axes.add_collection(PolyCollection(_placed(HEADING, at, yaw), facecolors="white", zorder=4))
+    axes.add_collection(
+        PolyCollection(
+            _placed(markers.ARROW * np.asarray(size) / 2, at, yaw), facecolors="white", zorder=4
+        )
+    )
     if len(at) <= MOST_NAMES:
         for (x, y), number in zip(at, fleet.kiva_id):
             axes.text(x, y + 0.44, str(number), ha="center", va="bottom", fontsize=7, zorder=6)
@@ -130,29 +130,25 @@ def _loads(axes, moment):
     """Units, above their carriers yet letting them show; and items on them."""
     units = tracking.storage_units(moment.objects, moment.states)
     items = tracking.items(moment.objects, moment.states)
-    for tracked, size, face, layer in (
-        (units, UNIT, (*markers.BOARD[:3], 0.55), 3),
-        (items, ITEM, markers.ITEM, 5),
-    ):
+    for tracked, kind, opacity, layer in ((units, "storage_unit", 0.55, 3), (items, "item", 1, 5)):
+        size, colour = _look(moment, kind)
         outlines = _placed(_rectangle(size), tracked.pose[:, :2], poses.yaw(tracked.pose))
-        edges = np.where(tracked.carrier[:, None] > 0, (0, 0, 0, 1), markers.POST)
+        edges = np.where(tracked.carrier[:, None] > 0, (0, 0, 0, 1), markers.EDGE)
         look = {"edgecolors": edges, "linewidths": 0.8} if tracked is units else {}
-        _add(axes, outlines, facecolors=[face], zorder=layer, **look)
+        _add(axes, outlines, facecolors=[(*colour, opacity)], zorder=layer, **look)
 
 
 def _scenery(axes, scenery):
     """The footprint of every shape of what else stands there, the lower ones first."""
+    described = [looks.parts(look, 0) for look in scenery.looks]
     for look, pose in zip(scenery.model_look, poses.rows(scenery.pose)):
-        shapes = scenery.looks[look]
-        links = poses.rows(shapes.link_pose)[list(shapes.shape_link)]
-        model = np.broadcast_to(pose, links.shape)
-        at = poses.compose(model, poses.compose(links, poses.rows(shapes.shape_pose)))
-        size = np.reshape(shapes.shape_size, (-1, 3))
-        colours = np.reshape(shapes.shape_colour, (-1, 4))
+        own = np.reshape([part.pose for part in described[look]], (-1, 7))
+        at = poses.compose(np.broadcast_to(pose, own.shape), own)
         for i in np.argsort(at[:, 2]):
-            extent = np.abs(size[i] @ _axes_of(at[i]))[:2]
+            part = described[look][i]
+            extent = np.abs(part.size @ _axes_of(at[i]))[:2]
             outline = _placed(_rectangle(extent), at[i : i + 1, :2], poses.yaw(pose[None]))
-            _add(axes, outline, facecolors=[colours[i]], zorder=2)
+            _add(axes, outline, facecolors=[part.colour], zorder=2)
 
 
 def _axes_of(pose):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The running world as its services offer it: models come and go, physics pauses."""
 
-from contextlib import contextmanager
-
 from geometry_msgs.msg import Pose
 from nav_msgs.srv import GetMap
 from std_srvs.srv import Empty
@@ -83,13 +81,12 @@ class Engine:
         if not answer.success:
             raise EngineError(f"{name}: {answer.status_message}")
 
-    @contextmanager
-    def paused(self):
-        """Physics stands still within, and goes on afterwards if it did before."""
-        ran = not self._call("get_physics_properties", GetPhysicsProperties).pause
+    def is_paused(self):
+        """Whether physics stands still."""
+        return self._call("get_physics_properties", GetPhysicsProperties).pause
+
+    def pause(self):
         self._call("pause_physics", Empty)
-        try:
-            yield
-        finally:
-            if ran:
-                self._call("unpause_physics", Empty)
+
+    def resume(self):
+        self._call("unpause_physics", Empty)

@@ -9,19 +9,22 @@ what still hangs together of the streets is used, and of the cells beside them.
 import numpy as np
 
 from warehouse_sim import items as shelves
-from warehouse_sim.layout import BELT, BLOCK_DEPTH, BLOCK_LENGTH, DROP, Layout
+from warehouse_sim.layout import BELT, BLOCK_DEPTH, BLOCK_LENGTH, DROP, SEED, Layout, chance
 from warehouse_sim.request import RequestError
 from warehouse_sim.routes import STEPS
 
 ROW, COLUMN = BLOCK_DEPTH + 1, BLOCK_LENGTH + 1  # from street to street
 
 
-def fit(request, cells):
-    """The Layout of a resolved Request on free Cells. Raises RequestError if there are too few."""
+def fit(request, cells, seed=SEED):
+    """The Layout of a resolved Request on free Cells, as layout.plan() makes it.
+
+    Raises RequestError if there are too few.
+    """
     most = 0
     for shift in np.ndindex(COLUMN, ROW):
         pattern = _Pattern(cells, shift)
-        layout = pattern.layout(request)
+        layout = pattern.layout(request, chance(seed))
         if layout:
             return layout
         most = max(most, len(pattern.places))
@@ -48,14 +51,16 @@ class _Pattern:
         places = np.argwhere(self._rooms & beside)
         self.places = places[np.argsort(((places - middle) ** 2).sum(1), kind="stable")]
 
-    def layout(self, request):
+    def layout(self, request, rng):
         """None if it does not fit."""
         count = request.shelves + request.robots
         drops = self._drops(request.belts, self.places[:count])
         if len(self.places) < count or drops is None:
             return None
         units, robots = np.split(self.places[:count], [request.shelves])
-        item_unit, item_place = shelves.spread(request.items, request.shelves)
+        if rng is not None:
+            units, robots = rng.permutation(units), rng.permutation(robots)
+        item_unit, item_place = shelves.spread(request.items, request.shelves, rng)
         drops = self._world(drops)
         return Layout(
             floor=self._cells.floor,

@@ -3,8 +3,8 @@
 
 Seen from above, x to the right:
 
-    ─────────────────────────────────   streets one cell wide and one-way, neighbours opposed;
-    │ pp │ uuuu │ uuuu │ uuuu │ │       the outermost four go round counterclockwise
+    ─────────────────────────────────   streets one cell wide; there is room to make them one-way,
+    │ pp │ uuuu │ uuuu │ uuuu │ │       neighbours opposed and the outermost four going round
     │ pp │ uuuu │ uuuu │ uuuu │ │
     ──────────────────────────────d==   pp  parked robots, each facing its street
     │ pp │ uuuu │ uuuu │ uuuu │ │       uu  blocks of storage units, two deep: each has a street
@@ -21,7 +21,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from warehouse_sim import items as shelves
-from warehouse_sim.streets import Street, directions
 
 BLOCK_DEPTH = 2
 BLOCK_LENGTH = 8  # at most
@@ -67,16 +66,27 @@ class Layout:
     item_place: np.ndarray = _none(3)  # x y z in the unit's frame
     belts: np.ndarray = _none(3)  # x y yaw
     drops: np.ndarray = _none(2)  # x y, before the belt of the same index
-    streets: tuple = ()
     has_own_floor: bool = True  # False: it stands on the floor of the world
 
 
-def plan(request):
-    """The Layout of a resolved Request."""
+SEED = 1  # of the regular layout, in which numbers and items follow the rows
+
+
+def chance(seed):
+    """What decides by chance where in a layout each stands; None for the regular one."""
+    return None if seed == SEED else np.random.default_rng(seed)
+
+
+def plan(request, seed=SEED):
+    """The Layout of a resolved Request.
+
+    The seed decides which robot parks where, where each unit stands and which items it holds;
+    streets, blocks and belts are the same for all.
+    """
     if not (request.robots or request.shelves):
         return Layout(_floor(EMPTY_FLOOR, EMPTY_FLOOR))
     shape = min(_shapes(request), key=_Shape.cost)
-    return _build(request, shape)
+    return _build(request, shape, chance(seed))
 
 
 @dataclass(frozen=True)
@@ -124,22 +134,21 @@ def _split(cells):
     return tuple(cells // blocks + (i < cells % blocks) for i in range(blocks))
 
 
-def _build(request, shape):
+def _build(request, shape, rng):
     floor = _floor(*shape.cells)
     # From cells counted from the corner to metres in world.
     origin = np.array([floor.min_x + 0.5, floor.min_y + 0.5])
-    robots, robot_yaw = _robots(request.robots, shape)
-    item_unit, item_place = shelves.spread(request.items, request.shelves)
+    robots, robot_yaw = _robots(request.robots, shape, rng)
+    item_unit, item_place = shelves.spread(request.items, request.shelves, rng)
     drops = _drops(request.belts, shape)
     return Layout(
         floor=floor,
         robots=np.column_stack([robots + origin, robot_yaw]),
-        units=_units(request.shelves, shape) + origin,
+        units=_units(request.shelves, shape, rng) + origin,
         item_unit=item_unit,
         item_place=item_place,
         belts=np.pad(drops + (BELT - DROP, 0) + origin, ((0, 0), (0, 1))),
         drops=drops + origin,
-        streets=_streets(shape, origin),
     )
 
 
@@ -157,17 +166,23 @@ def _block_cells(shape, first, lengths):
     return np.array([(x, y) for x in xs for y in ys], float).reshape(-1, 2)
 
 
-def _robots(count, shape):
+def _robots(count, shape, rng):
     """Cells and yaws of parked robots; the places nearest to the storage fill up first."""
-    cells = _block_cells(shape, 0, shape.parking)[::-1][:count]
-    cells = cells[np.lexsort((cells[:, 0], cells[:, 1]))]
+    cells = _some(_block_cells(shape, 0, shape.parking), count, rng)
     upper = (cells[:, 1] - 1) % (BLOCK_DEPTH + 1) == BLOCK_DEPTH - 1
     return cells, np.where(upper, math.pi / 2, -math.pi / 2)
 
 
-def _units(count, shape):
+def _units(count, shape, rng):
     """Cells of storage units, numbered row by row; places left over are those near the parking."""
-    cells = _block_cells(shape, len(shape.parking), shape.storage)[::-1][:count]
+    return _some(_block_cells(shape, len(shape.parking), shape.storage), count, rng)
+
+
+def _some(cells, count, rng):
+    """So many of the cells: the last, row by row, or any in any order."""
+    if rng is not None:
+        return rng.permutation(cells)[:count]
+    cells = cells[::-1][:count]
     return cells[np.lexsort((cells[:, 0], cells[:, 1]))]
 
 
@@ -177,16 +192,3 @@ def _drops(count, shape):
     rows = ((np.arange(count) + 0.5) * streets / count - 0.5).astype(int)
     x = np.full(count, shape.street_x[-1] + DROP)
     return np.column_stack([x, shape.street_y[rows]]).astype(float)
-
-
-def _streets(shape, origin):
-    """Counterclockwise round the outside; the ends of the streets are where they cross."""
-    (x0, x1), (y0, y1) = shape.street_x[[0, -1]], shape.street_y[[0, -1]]
-    along_x = zip(shape.street_y, directions(shape.rows + 1, first=1))
-    along_y = zip(shape.street_x, directions(len(shape.street_x), first=-1))
-    ends = [((x0, y), (x1, y), way) for y, way in along_x]
-    ends += [((x, y0), (x, y1), way) for x, way in along_y]
-    return tuple(
-        Street(tuple(origin + (a if way > 0 else b)), tuple(origin + (b if way > 0 else a)))
-        for a, b, way in ends
-    )

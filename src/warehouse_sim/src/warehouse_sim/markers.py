@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The warehouse as RViz shows it. Sizes as in worlds/models [m]."""
+"""The warehouse as RViz shows it: markers of the shapes that the world's Looks tell."""
 
 import numpy as np
 
-from warehouse_msgs.msg import KivaStatus
-from warehouse_sim import items, shapes
+from warehouse_msgs.msg import KivaStatus, Look
+from warehouse_sim import looks, poses, shapes
 
 # Idle, busy, blocked: from the palette of Okabe and Ito (2008), told apart by everyone.
 STATUS_COLOURS = np.zeros((3, 4))
@@ -14,114 +14,163 @@ STATUS_COLOURS[KivaStatus.STATUS_BLOCKED] = (0.84, 0.37, 0.00, 1)
 
 FLOOR = (0.82, 0.83, 0.84, 1)
 GRID = (0.70, 0.71, 0.73, 1)
-POST = (0.36, 0.42, 0.50, 1)
-BOARD = (0.87, 0.76, 0.52, 1)
-ITEM = (0.62, 0.44, 0.26, 1)
-DARK = (0.18, 0.18, 0.20, 1)
-METAL = (0.60, 0.61, 0.63, 1)
+EDGE = (0.36, 0.42, 0.50, 1)  # of storage units seen from above
 WHITE = (0.97, 0.97, 0.97, 1)
-BELT = (0.13, 0.13, 0.14, 1)
-FRAME = (0.20, 0.35, 0.55, 1)
-OTHER = (0.80, 0.47, 0.65, 1)
+INK = (0.10, 0.10, 0.12, 1)
+PATH = (0.00, 0.62, 0.45, 1)
+CHOSEN = (0.80, 0.47, 0.65, 1)
 
-TOWER_LIFT = 0.10
-BOARD_SIZE, BOARD_DEPTH = (0.79, 0.79, 0.03), 0.015
-POST_SIZE, CORNERS = (0.04, 0.04, 1.80), (-0.38, 0.38)
-ITEM_SIZE, ACROSS_SIZE = (0.20, 0.15, 0.12), (0.15, 0.20, 0.12)
-ARROW = np.array([(0.33, 0, 0.366), (0.10, 0.20, 0.366), (0.10, -0.20, 0.366)])
+MOST_POINTS = 100_000  # of all robots: where they would need more, each is a box
+MOST_NAMES = 200  # robots with their names above them
+NAME_HEIGHT, NAME_ABOVE = 0.28, 0.30  # of letters; over a robot [m]
+LIFTED = "tower"  # a robot's link that goes up with its load
+LINE = 0.04  # width [m]
+ABOVE_FLOOR = 0.02  # of lines [m]
+FRAME = (0.40, 0.49)  # inner and outer half edges of the frame around a robot [m]
+ARROW = np.array([(0.90, 0), (0.30, 0.6), (0.30, -0.6)])  # of half a robot's length and width
 
 
-def floor(bounds):
+def floor(bounds, spacing=1.0):
     """A slab and the borders of the cells; bounds are min_x, max_x, min_y, max_y."""
     x0, x1, y0, y1 = bounds
-    slab = ((0, 0, -0.03), (x1 - x0, y1 - y0, 0.05), FLOOR)
     centre = np.array([[(x0 + x1) / 2, (y0 + y1) / 2, 0, 0]])
-    xs, ys = np.arange(x0, x1 + 0.5), np.arange(y0, y1 + 0.5)
+    slab = shapes.boxes(centre, (0, 0, -0.03), (x1 - x0, y1 - y0, 0.05))
+    xs, ys = _borders(x0, x1, spacing), _borders(y0, y1, spacing)
     along_y = [(x, y, 0.0) for x in xs for y in (y0, y1)]
     along_x = [(x, y, 0.0) for y in ys for x in (x0, x1)]
-    return [_solid("floor", centre, [slab]), shapes.lines("grid", along_y + along_x, 0.02, GRID)]
+    return [_joined("floor", [(slab, FLOOR)]), shapes.lines("grid", along_y + along_x, 0.02, GRID)]
 
 
-def _solid(name, poses, boxes):
-    """One marker of things at `poses` (n, 4), all made of the same boxes (centre, size, colour)."""
-    return _joined(name, [(shapes.boxes(poses, at, size), colour) for at, size, colour in boxes])
+def _borders(low, high, spacing):
+    """Midway between grid points, of which one is at 0."""
+    return np.arange(np.ceil(low / spacing - 0.5) + 0.5, high / spacing + 1e-6) * spacing
 
 
 def _joined(name, parts):
     """One marker from parts: triangles (n, m, 3), and a colour for all or for each of the n."""
-    points = [p.reshape(-1, 3) for p, _ in parts]
+    points = [p.reshape(-1, 3) for p, _ in parts] or [np.zeros((0, 3))]
     colours = [np.repeat(np.broadcast_to(c, (len(p), 4)), p.shape[1], axis=0) for p, c in parts]
-    return shapes.triangles(name, np.concatenate(points), np.concatenate(colours))
+    return shapes.triangles(
+        name, np.concatenate(points), np.concatenate(colours or [np.zeros((0, 4))])
+    )
 
 
-def robots(poses, status, loaded):
-    """(n, 3) x y yaw, KivaStatus.status and whether it carries, of each robot."""
-    at = np.insert(poses, 2, 0.0, axis=1)
-    tower = at + np.outer(loaded, (0, 0, TOWER_LIFT, 0))
-    parts = [
-        (shapes.boxes(at, (0, 0, 0.11), (0.76, 0.64, 0.16)), DARK),
-        (shapes.boxes(at, (0, 0, 0.27), (0.76, 0.64, 0.18)), STATUS_COLOURS[status]),
-        (shapes.boxes(tower, (-0.08, 0, 0.37), (0.36, 0.36, 0.06)), METAL),
-        (shapes.placed(at, ARROW), WHITE),
+def robots(look, at, status, lift):
+    """(n, 3) x y yaw, KivaStatus.status, and how far the tower is up [m], of each robot."""
+    at = np.insert(at, 2, 0.0, axis=1)
+    if look is None:
+        return [_joined("robots", [])]
+    seen = looks.parts(look)
+    body = seen[0]
+    if len(at) * sum(len(part.triangles()) for part in seen) > MOST_POINTS:
+        seen = [body := looks.hull(look)]
+    lifted = at + np.outer(lift, (0, 0, 1, 0))
+    solids = [
+        (
+            shapes.placed(lifted if part.link == LIFTED else at, part.triangles()),
+            STATUS_COLOURS[status] if part is body else part.colour,
+        )
+        for part in seen
     ]
-    return [_joined("robots", parts)]
+    marks = [(shapes.placed(at, _arrow(look)), WHITE)]
+    marks.append((shapes.placed(at, _frame()), STATUS_COLOURS[status]))
+    return [_joined("robots", [*solids, *marks])]
 
 
-def straight_units(poses):
-    """(n, 4) x y z yaw, of units in line with the axes: their footprint is a square."""
-    at = poses[:, None, :3]
-    boards = at + [(0, 0, z - BOARD_DEPTH) for z in items.BOARDS]
-    posts = at + [(x, y, 0.9) for x in CORNERS for y in CORNERS]
-    return [
-        shapes.cubes("boards", boards.reshape(-1, 3), BOARD_SIZE, BOARD),
-        shapes.cubes("posts", posts.reshape(-1, 3), POST_SIZE, POST),
-    ]
+def _arrow(look):
+    """Triangle on top of a robot's front, where it heads."""
+    low, high = looks.extent(look)
+    return np.column_stack([ARROW * high[:2], np.full(3, high[2] + 0.001)])
 
 
-def turned_units(poses):
-    """(n, 4) x y z yaw, of units at any angle."""
-    boards = [((0, 0, z - BOARD_DEPTH), BOARD_SIZE, BOARD) for z in items.BOARDS]
-    posts = [((x, y, 0.9), POST_SIZE, POST) for x in CORNERS for y in CORNERS]
-    return [_solid("turned units", poses, boards + posts)]
+def _frame():
+    """Triangles of a square frame on the floor, in the colour of a robot's status."""
+    square = np.array([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0)])
+    inner, outer = (half * square + (0, 0, ABOVE_FLOOR) for half in FRAME)
+    sides = [(outer[i - 1], outer[i], inner[i], inner[i - 1]) for i in range(4)]
+    return np.array([(a, b, c, a, c, d) for a, b, c, d in sides]).reshape(-1, 3)
 
 
-def straight_items(poses):
-    """(n, 4) x y z yaw, of items in line with the axes."""
-    centres = poses[:, :3] + (0, 0, ITEM_SIZE[2] / 2)
-    across = np.abs(np.sin(poses[:, 3])) > 0.7
-    return [
-        shapes.cubes("items", centres[~across], ITEM_SIZE, ITEM),
-        shapes.cubes("items across", centres[across], ACROSS_SIZE, ITEM),
-    ]
-
-
-def turned_items(poses):
-    """(n, 4) x y z yaw, of items at any angle."""
-    return [_solid("turned items", poses, [((0, 0, ITEM_SIZE[2] / 2), ITEM_SIZE, ITEM)])]
-
-
-def belts(poses):
-    """(n, 3) x y yaw."""
-    boxes = [
-        ((0, 0, 0.25), (1.5, 0.5, 0.5), FRAME),
-        ((0, 0, 0.55), (1.8, 0.7, 0.06), BELT),
-        ((0, 0.38, 0.53), (1.8, 0.04, 0.14), METAL),
-        ((0, -0.38, 0.53), (1.8, 0.04, 0.14), METAL),
-    ]
-    return [_solid("belts", np.insert(poses, 2, 0.0, axis=1), boxes)]
-
-
-def others(models):
-    """Walls and persons, and a small cube for whatever else there is: {name: (x, y, yaw)}."""
-    boxes = {"wall": (1.0, 0.2, 1.5), "person": (0.4, 0.4, 1.75), "other": (0.4, 0.4, 0.4)}
+def things(name, look, at):
+    """(n, 4) x y z yaw, of things of one look: boxes where they are in line with the axes."""
+    if look is None or not len(at):
+        return []
+    turned = np.abs(np.sin(2 * at[:, 3])) > 0.01
+    across = ~turned & (np.abs(np.sin(at[:, 3])) > 0.7)
+    along = ~turned & ~across
+    seen = looks.parts(look)
+    boxes = [part for part in seen if part.kind == Look.BOX and _is_straight(part)]
+    others = [part for part in seen if not any(part is box for box in boxes)]
     out = []
-    for kind, (length, width, height) in boxes.items():
-        at = [(x, y, 0, yaw) for name, (x, y, yaw) in models.items() if _kind(name) == kind]
-        box = ((0, 0, height / 2), (length, width, height), OTHER)
-        out.append(_solid(kind, np.reshape(at, (-1, 4)), [box]))
-    return out
+    for i, alike in enumerate(_alike(boxes)):
+        colour, size = alike[0].colour.tolist(), alike[0].size
+        for suffix, which, edges in (("", along, (0, 1, 2)), (" across", across, (1, 0, 2))):
+            middles = shapes.placed(at[which], np.array([part.pose[:3] for part in alike]))
+            label = f"{name} {i + 1}{suffix}"
+            out.append(shapes.cubes(label, middles.reshape(-1, 3), size[list(edges)], colour))
+    round_ones = [(shapes.placed(at[~turned], p.triangles()), p.colour) for p in others]
+    slanted = [(shapes.placed(at[turned], p.triangles()), p.colour) for p in seen]
+    return [*out, _joined(f"{name} round", round_ones), _joined(f"{name} turned", slanted)]
 
 
-def _kind(name):
-    kind = name.rstrip("0123456789")
-    return kind if kind in ("wall", "person") else "other"
+def _is_straight(part):
+    return np.allclose(np.abs(part.pose[6]), 1)
+
+
+def _alike(parts):
+    """Parts in groups of one size and colour."""
+    groups = {}
+    for part in parts:
+        groups.setdefault((tuple(part.size), tuple(part.colour)), []).append(part)
+    return list(groups.values())
+
+
+def scenery(message):
+    """What else stands there, in a Scenery: a marker a look."""
+    at, index = poses.rows(message.pose), np.array(message.model_look, int)
+    return [
+        _joined(
+            f"scenery {i + 1}",
+            [_at_poses(part, at[index == i]) for part in looks.parts(look, 0.01)],
+        )
+        for i, look in enumerate(message.looks)
+        if (index == i).any()
+    ]
+
+
+def _at_poses(part, at):
+    """(triangles, colour) of a Part on each of the models at poses (n, 7)."""
+    own = part.triangles()
+    turn = np.repeat(at[:, 3:], len(own), axis=0)
+    points = poses.rotate(turn, np.tile(own, (len(at), 1))).reshape(len(at), -1, 3)
+    return points + at[:, None, :3], part.colour
+
+
+def names(look, numbers, at, wanted):
+    """Names over the robots `numbers` at (n, 3); of many only over those of the set `wanted`."""
+    height = looks.extent(look)[1][2] + NAME_ABOVE if look else NAME_HEIGHT
+    shown = numbers if len(numbers) <= MOST_NAMES else [n for n in numbers if n in wanted]
+    where = dict(zip(numbers, at))
+    return [
+        shapes.Text("names", n, (*where[n][:2], height), f"kiva{n}", NAME_HEIGHT, INK)
+        for n in shown
+    ]
+
+
+def paths(ways):
+    """Lines along ways, each (n, 2) points [m]."""
+    ends = [p for way in ways for pair in zip(way, way[1:]) for p in pair]
+    points = [(x, y, ABOVE_FLOOR) for x, y in ends]
+    return [shapes.lines("paths", np.reshape(points, (-1, 3)), LINE, PATH)]
+
+
+def chosen(at):
+    """A square around the cell at (x, y); None: no mark."""
+    if at is None:
+        return [shapes.lines("chosen", np.zeros((0, 3)), LINE, CHOSEN)]
+    corners = [(at[0] + dx, at[1] + dy, ABOVE_FLOOR) for dx, dy in _SQUARE]
+    ends = [p for pair in zip(corners, corners[1:] + corners[:1]) for p in pair]
+    return [shapes.lines("chosen", ends, LINE, CHOSEN)]
+
+
+_SQUARE = ((0.48, 0.48), (-0.48, 0.48), (-0.48, -0.48), (0.48, -0.48))

@@ -61,10 +61,12 @@ def _numbered(kind, places, yaws=None):
     """Parts of one kind at places (n, 2) or (n, 3), numbered from 1."""
     yaws = np.zeros(len(places)) if yaws is None else yaws
     rows = np.column_stack([places, np.zeros((len(places), 3 - places.shape[1])), yaws])
-    return [_include(f"{kind}{i}", kind, *row) for i, row in enumerate(rows.tolist(), start=1)]
+    return [include(kind, i, *row) for i, row in enumerate(rows.tolist(), start=1)]
 
 
-def _include(name, kind, x, y, z, yaw):
+def include(kind, number, x, y, z=0.0, yaw=0.0):
+    """The Part of one model of worlds/models, at a place in world [m, rad]."""
+    name = f"{kind}{number}"
     return Part(name, _INCLUDE.format(kind, name, f"{x!r} {y!r} {z!r} 0 0 {yaw!r}"))
 
 

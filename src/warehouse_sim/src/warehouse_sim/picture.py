@@ -1,39 +1,52 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a picture of few markers, sent again only where something moved."""
 
-import time
-
 import numpy as np
 from visualization_msgs.msg import MarkerArray
 
-from warehouse_msgs.msg import Event, FleetState, KivaStatus, UnitStates, WarehouseObjects
-from warehouse_sim import markers, poses, survey, tracking
-from warehouse_sim.engine import Engine, EngineError
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_msgs.msg import (
+    FleetPaths,
+    FleetState,
+    KivaStatus,
+    Scenery,
+    UnitStates,
+    WarehouseObjects,
+)
+from warehouse_sim import looks, markers, poses, tracking
+from warehouse_sim.chosen import Chosen
+from warehouse_sim.latest import LatestMessages, LazyPublisher
+from warehouse_sim.paths import PathTopics, ways
 from warehouse_sim.shapes import ShapeArray
-
-LOOK_EVERY = 1.0  # at what is neither robot, unit nor item [s, wall]
-MARGIN = 2.0  # of a floor of unknown size, around what stands on it [m]
+from warehouse_sim.words import shown_status
 
 
-def fleet_shapes(fleet, blocked):
-    """Markers of a FleetState; `blocked` names the robots whose last command ended so."""
+def fleet_shapes(scenery, fleet, heights, chosen):
+    """Markers of a FleetState.
+
+    `heights` are those of the units that are carried, by robot's number, and `chosen` is one
+    robot's, 0 = none.
+    """
     at = np.column_stack([fleet.x, fleet.y, fleet.yaw]).reshape(-1, 3)
-    # rospy reads uint8[] as bytes.
-    status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
-    status[[f"kiva{number}" in blocked for number in fleet.kiva_id]] = KivaStatus.STATUS_BLOCKED
-    return markers.robots(at, status, np.array(fleet.shelf_id, int) > 0)
-
-
-def load_shapes(objects, states):
-    """Markers of units and items."""
-    units = _upright(tracking.storage_units(objects, states).pose)
-    items = _upright(tracking.items(objects, states).pose)
+    numbers = list(map(int, fleet.kiva_id))
+    status = shown_status(fleet)
+    look = looks.named(scenery, "kiva")
+    trouble = {n for n, s in zip(numbers, status) if s == KivaStatus.STATUS_BLOCKED}
+    lift = np.array([heights.get(n, 0.0) for n in numbers])
+    where = at[numbers.index(chosen), :2] if chosen in numbers else None
     return [
-        *markers.straight_units(units[~_turned(units)]),
-        *markers.turned_units(units[_turned(units)]),
-        *markers.straight_items(items[~_turned(items)]),
-        *markers.turned_items(items[_turned(items)]),
+        *markers.robots(look, at, status, lift),
+        *markers.names(look, numbers, at, trouble | {chosen}),
+        *markers.chosen(where),
+    ]
+
+
+def load_shapes(scenery, objects, states):
+    """Markers of units and items."""
+    units = tracking.storage_units(objects, states).pose
+    items = tracking.items(objects, states).pose
+    return [
+        *markers.things("units", looks.named(scenery, "storage_unit"), _upright(units)),
+        *markers.things("items", looks.named(scenery, "item"), _upright(items)),
     ]
 
 
@@ -42,48 +55,22 @@ def _upright(rows):
     return np.column_stack([rows[:, :3], poses.yaw(rows)])
 
 
-def _turned(things):
-    """Which of (n, 4) x y z yaw are not in line with the axes."""
-    return np.abs(np.sin(2 * things[:, 3])) > 0.01
-
-
-def fixed_shapes(found, bounds):
-    """Markers of what never moves by itself, in a survey.Survey on a floor of these bounds."""
-    belts = np.reshape(list(found.conveyor_belt.values()), (-1, 3))
-    bounds = bounds or _around(found)
-    return [*markers.floor(bounds), *markers.belts(belts), *markers.others(found.others)]
-
-
-def _around(found):
-    groups = (found.kiva, found.storage_unit, found.conveyor_belt, found.others)
-    at = [pose[:2] for group in groups for pose in group.values()] or [(0, 0)]
-    low, high = np.floor(np.min(at, 0)), np.ceil(np.max(at, 0))
-    x0, y0, x1, y1 = *(low - MARGIN - 0.5), *(high + MARGIN + 0.5)
-    return x0, x1, y0, y1
-
-
 class Picture:
-    """Publishes /warehouse/markers. `ros` is rospy."""
+    """Publishes /warehouse/markers, and what RViz wants of robots. `ros` is rospy."""
 
     def __init__(self, ros):
-        self._ros, self._shapes, self._news = ros, {}, []
-        self._seen, self._next_look = None, 0.0
-        self._blocked = set()
-        ros.Subscriber("/warehouse/events", Event, self._note, queue_size=1000)
-        self._newest = Newest(
+        self._shapes, self._news = {}, []
+        self._scenery, self._fixed = None, []
+        self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
             objects=("/warehouse/objects", WarehouseObjects),
             states=("/warehouse/unit_states", UnitStates),
+            scenery=("/warehouse/scenery", Scenery),
+            paths=("/warehouse/paths", FleetPaths),
         )
-        self._topic = OnDemand(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
-
-    def _note(self, event):
-        """The status BLOCKED itself lasts but a moment; it shows until the next command."""
-        if event.kind == Event.BLOCKED:
-            self._blocked.add(event.model)
-        elif event.kind == Event.ACCEPTED:
-            self._blocked.discard(event.model)
+        self._topic = LazyPublisher(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
+        self._chosen, self._paths = Chosen(ros), PathTopics(ros)
 
     def _all(self):
         return ShapeArray(list(self._shapes.values()))
@@ -94,30 +81,40 @@ class Picture:
     def turn(self, patience=0.5):
         """Waits for news, at most `patience` wall seconds, and shows them."""
         self._newest.wait(patience)
-        fleet, fit = self._newest["fleet"], self._newest.units_and_objects
-        shapes = fleet_shapes(fleet, self._blocked) if fleet else []
-        if fit:
-            shapes += load_shapes(*fit) + self._look(fit[0].revision)
-        self._news = [s for s in shapes if not s.same_as(self._shapes.get(s.name))]
-        self._shapes.update((s.name, s) for s in self._news)
+        fleet, scenery = self._newest["fleet"], self._newest["scenery"]
+        fit = self._newest.units_and_objects
+        if not (fleet and scenery and fit):
+            return
+        self._chosen.take(fleet, scenery.grid_spacing or 1.0)
+        self._paths.turn(fleet, self._newest["paths"])
+        self._show(self._make(scenery, fleet, *fit))
+
+    def _make(self, scenery, fleet, objects, states):
+        carried = zip(map(int, states.carrier), poses.rows(states.pose)[:, 2])
+        heights = {robot: max(0.0, z) for robot, z in carried if robot}
+        floor = looks.floor(scenery, fleet, states)
+        return [
+            *markers.floor(floor, scenery.grid_spacing or 1.0),
+            *fleet_shapes(scenery, fleet, heights, self._chosen.number),
+            *markers.paths([points for _, points in ways(fleet, self._newest["paths"])]),
+            *load_shapes(scenery, objects, states),
+            *self._of_scenery(scenery),
+        ]
+
+    def _of_scenery(self, scenery):
+        """Made once, as long as it is the same message."""
+        if scenery is not self._scenery:
+            self._scenery, self._fixed = scenery, markers.scenery(scenery)
+        return self._fixed
+
+    def _show(self, made):
+        """Sends what differs from what was shown, and takes back what is gone."""
+        shown = {shape.name: shape for shape in made}
+        gone = [shape.gone() for name, shape in self._shapes.items() if name not in shown]
+        changed = [s for s in made if not s.same_as(self._shapes.get(s.name))]
+        self._shapes, self._news = shown, [*gone, *changed]
         if self._news:
             self._topic.publish()
-
-    def _look(self, revision):
-        """Markers of what stands there besides, if that may have changed."""
-        if revision == self._seen or time.monotonic() < self._next_look:
-            return []
-        self._next_look = time.monotonic() + LOOK_EVERY
-        bounds = self._ros.get_param("/warehouse/floor", None)
-        # Where the floor is known, nothing depends on what moves.
-        without = ("kiva", "storage_unit", "item") if bounds else ("item",)
-        try:
-            with Engine(self._ros) as engine:
-                found = survey.of_engine(engine, without)
-        except EngineError:
-            return []
-        self._seen = revision
-        return fixed_shapes(found, bounds)
 
 
 def follow(ros):

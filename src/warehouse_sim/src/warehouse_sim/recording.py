@@ -7,7 +7,6 @@ import rosbag
 from matplotlib import animation
 from PIL import Image
 
-from warehouse_msgs.msg import Event
 from warehouse_sim.drawing import Drawing, Moment
 
 PARTS = {
@@ -16,7 +15,6 @@ PARTS = {
     "/warehouse/fleet": "fleet",
     "/warehouse/scenery": "scenery",
 }
-TOPICS = [*PARTS, "/warehouse/events"]
 
 
 class RecordingError(ValueError):
@@ -28,8 +26,8 @@ def moments(path, period):
     moment, due = Moment(), None
     try:
         with rosbag.Bag(path) as bag:
-            for topic, message, _ in bag.read_messages(topics=TOPICS):
-                _take(moment, topic, message)
+            for topic, message, _ in bag.read_messages(topics=list(PARTS)):
+                setattr(moment, PARTS[topic], message)
                 now = moment.fleet.stamp.to_sec() if moment.complete else None
                 if now is None or (due is not None and due - 10 * period < now < due):
                     continue
@@ -40,15 +38,6 @@ def moments(path, period):
     if due is None:
         needed = ", ".join(list(PARTS)[:3])
         raise RecordingError(f"{path}: no picture in it; record at least {needed}")
-
-
-def _take(moment, topic, message):
-    if topic in PARTS:
-        setattr(moment, PARTS[topic], message)
-    elif message.kind == Event.BLOCKED:
-        moment.blocked.add(message.model)
-    elif message.kind == Event.ACCEPTED:
-        moment.blocked.discard(message.model)
 
 
 def film(bag, path, speed, rate, **look):

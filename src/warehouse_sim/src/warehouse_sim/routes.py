@@ -3,7 +3,6 @@
 
 import heapq
 import math
-from collections import deque
 
 STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
@@ -50,18 +49,6 @@ def covered(x, y, yaw, length, width):
 
 def _between(centre, reach):
     return range(math.ceil(centre - reach), math.floor(centre + reach) + 1)
-
-
-def reachable(grid, starts, neighbours=None):
-    """All grid points reached from `starts` (which themselves need not be free)."""
-    neighbours = neighbours or grid.neighbours
-    seen = {point(p) for p in starts}
-    queue = deque(seen)
-    while queue:
-        new = [q for q in neighbours(queue.popleft()) if q not in seen]
-        seen.update(new)
-        queue.extend(new)
-    return seen
 
 
 def route(grid, start, goal, heading=None):

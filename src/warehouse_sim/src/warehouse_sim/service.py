@@ -7,16 +7,15 @@ from dataclasses import astuple
 from std_msgs.msg import Header
 
 from warehouse_msgs.srv import CreateWarehouseResponse
-from warehouse_sim import hints, models, survey
+from warehouse_sim import hints, identity, models, survey
+from warehouse_sim.build_transaction import BuildTransaction
 from warehouse_sim.cells import Cells
-from warehouse_sim.creation import Creation
 from warehouse_sim.engine import Engine, EngineError
 from warehouse_sim.fit import fit
-from warehouse_sim.layout import plan
+from warehouse_sim.layout import SEED, plan
 from warehouse_sim.request import RequestError, resolve
+from warehouse_sim.warehouse_builder import UndoneError, WarehouseBuilder
 
-# While this stands, what stands in the world is half a warehouse.
-BUILDING = "/warehouse/building"
 GREETED = "~greeted"
 
 
@@ -24,12 +23,12 @@ class WarehouseService:
     """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
 
     In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
-    that is there, if there is one.
+    that is there, if there is one. `seed` decides what in a layout is left to chance.
     """
 
-    def __init__(self, ros, tell, keeps_floor=False):
+    def __init__(self, ros, tell, keeps_floor=False, seed=SEED):
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
-        self._keeps_floor = keeps_floor
+        self._keeps_floor, self._seed = keeps_floor, seed
 
     def handle(self, request):
         """CreateWarehouse: a refused request changes nothing."""
@@ -50,31 +49,33 @@ class WarehouseService:
         wanted = resolve(name, *counts)
         with self._lock, Engine(self._ros) as engine:
             layout = self._layout(wanted, engine)
-            self._ros.set_param(BUILDING, name)
+            transaction = BuildTransaction(self._ros, engine)
+            transaction.begin(name)
             try:
-                Creation(engine, self._tell).replace(layout)
-                self._remember(name, number, layout.floor)
-            except EngineError:
-                self._remember("", 0, layout.floor)
+                WarehouseBuilder(engine, self._tell).replace(layout)
+            except UndoneError:
+                self._finish(transaction, "", 0, layout.floor)
                 raise
+            self._finish(transaction, name, number, layout.floor)
         width, length = layout.floor.size
         title = f"{name}: " if name else ""
         return f"{title}{wanted} on a {width:g} x {length:g} m floor"
 
     def _layout(self, wanted, engine):
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
-        return fit(wanted, cells) if cells and cells.taken.size else plan(wanted)
+        if cells and cells.taken.size:
+            return fit(wanted, cells, self._seed)
+        return plan(wanted, self._seed)
 
-    def _remember(self, name, number, floor):
-        self._ros.set_param("/warehouse/name", name)
-        self._ros.set_param("/warehouse/id", number)
+    def _finish(self, transaction, name, number, floor):
+        identity.write(self._ros, name, number)
         self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
-        self._ros.delete_param(BUILDING)
+        transaction.commit()
 
     def start(self, size):
         """Finds the warehouse as it stands; builds the preset `size`, if any, where none does.
 
-        What a node that died has left half-built is built anew.
+        What a node that died has left half-built is taken away first, and its pause with it.
         """
         try:
             self._find_or_build("" if size == "none" else size)
@@ -83,16 +84,28 @@ class WarehouseService:
 
     def _find_or_build(self, size):
         with Engine(self._ros) as engine:
+            undone = self._undo(engine)
             standing = {models.kind_and_number(name)[0] for name in engine.names()} - {None}
-        if self._ros.has_param(BUILDING) or (size and not standing):
+        if undone or (size and not standing):
             self._greet(self.create(size or "empty"))
         elif not self._ros.has_param(GREETED):
             self._greet()
+
+    def _undo(self, engine):
+        """Takes away what a builder left half-built. True if one did."""
+        transaction = BuildTransaction(self._ros, engine)
+        if not transaction.is_unfinished:
+            return False
+        self._tell("a warehouse was left half-built; taking it away")
+        WarehouseBuilder(engine, self._tell).clear(floor=False)
+        identity.write(self._ros, "", 0)
+        transaction.commit()
+        return True
 
     def _greet(self, title=""):
         """Tells what stands there and what to try."""
         with Engine(self._ros) as engine:
             found = survey.of_engine(engine)
-        title = title or f"{self._ros.get_param('/warehouse/name', 'world')}: {found}"
+        title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
         self._tell(hints.greeting(title, hints.commands(found)))
         self._ros.set_param(GREETED, True)

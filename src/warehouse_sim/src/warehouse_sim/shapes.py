@@ -7,15 +7,17 @@ Lists of points pass as bytes: making a Python object of each would cost a hundr
 from io import BytesIO
 
 import numpy as np
-from geometry_msgs.msg import Pose, Quaternion, Vector3
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 # Corners of a unit cube by their bits (x y z), and its faces as two triangles each, seen
 # counterclockwise from outside.
-_CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]) - 0.5
+CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)]) - 0.5
 _QUADS = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 _FACES = np.array([(a, b, c, a, c, d) for a, b, c, d in _QUADS]).ravel()
+
+ROUND = 8  # sides of what is round
 
 # What follows points and colours in a serialised marker without texts: their counts, those of
 # text and mesh, and a flag.
@@ -48,6 +50,10 @@ class Shape:
             and self._marker.scale == other._marker.scale
         )
 
+    def gone(self):
+        """What takes it out of the picture."""
+        return Shape(self._marker.type, self.name, np.zeros((0, 3)), (0, 0, 0, 0))
+
     def serialize(self, buffer):
         """As genpy would serialise a marker with these points and colours."""
         frame = BytesIO()
@@ -60,8 +66,33 @@ class Shape:
         buffer.write(tail)
 
 
+class Text:
+    """A marker of words; those of one namespace `ns` differ in their numbers."""
+
+    def __init__(self, ns, number, at, words, height, colour):
+        self.name = f"{ns} {number}"
+        self._marker = Marker(header=Header(frame_id="world"), ns=ns, id=number)
+        self._marker.type = Marker.TEXT_VIEW_FACING
+        self._marker.action = Marker.ADD if words else Marker.DELETE
+        self._marker.text = words
+        self._marker.pose = Pose(Point(*at), Quaternion(w=1))
+        self._marker.scale.z = height
+        self._marker.color = ColorRGBA(*colour)
+
+    def same_as(self, other):
+        """As of a Shape."""
+        return other is not None and self._marker == other._marker
+
+    def gone(self):
+        """As of a Shape."""
+        return Text(self._marker.ns, self._marker.id, (0, 0, 0), "", 1, (0, 0, 0, 0))
+
+    def serialize(self, buffer):
+        self._marker.serialize(buffer)
+
+
 class ShapeArray(MarkerArray):
-    """A MarkerArray of Shapes."""
+    """A MarkerArray of Shapes and Texts."""
 
     __slots__ = MarkerArray.__slots__
 
@@ -86,12 +117,39 @@ def lines(name, points, width, colour):
     return Shape(Marker.LINE_LIST, name, points, colour, (width, 0, 0))
 
 
+def box():
+    """(36, 3) corners of a cube's triangles, its edges one metre long."""
+    return CORNERS[_FACES]
+
+
+def cylinder():
+    """The same of a prism in place of a cylinder along z."""
+    return _turned([(0, -0.5), (0.5, -0.5), (0.5, 0.5), (0, 0.5)])
+
+
+def ball():
+    """The same in place of a sphere."""
+    angles = np.linspace(-np.pi / 2, np.pi / 2, 5)
+    return _turned(np.column_stack([np.cos(angles), np.sin(angles)]) / 2)
+
+
+def _turned(profile):
+    """Triangles of an outline (n, 2) of distance from and height along z, turned about it."""
+    angles = np.linspace(0, 2 * np.pi, ROUND + 1)
+    ring = np.array([[(r * np.cos(a), r * np.sin(a), z) for a in angles] for r, z in profile])
+    low, high = ring[:-1], ring[1:]
+    a, b, c, d = low[:, :-1], low[:, 1:], high[:, 1:], high[:, :-1]
+    out = np.stack([a, b, c, a, c, d], axis=2).reshape(-1, 3, 3)
+    flat = np.linalg.norm(np.cross(out[:, 1] - out[:, 0], out[:, 2] - out[:, 0]), axis=1) < 1e-12
+    return out[~flat].reshape(-1, 3)
+
+
 def boxes(poses, centre, size):
     """Triangles of boxes fixed to things that turn about z: (n, 36, 3).
 
     `poses` is (n, 4): x y z yaw of the things; `centre` and `size` [m] of the box in their frame.
     """
-    return placed(poses, (_CORNERS * size + centre)[_FACES])
+    return placed(poses, (CORNERS * size + centre)[_FACES])
 
 
 def placed(poses, points):

@@ -15,8 +15,8 @@ from warehouse_msgs.msg import (
     WarehouseObjects,
     WarehouseState,
 )
-from warehouse_sim import tracking
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_sim import identity, tracking
+from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
 PERIOD = 1.0  # [s, simulated]
@@ -45,30 +45,26 @@ def glance(fleet, objects, states):
     )
 
 
-class Board:
+class StatePublisher:
     """Publishes /warehouse/state. `ros` is rospy."""
 
     def __init__(self, ros):
         self._ros, self._shown, self._next = ros, None, None
-        self._newest = Newest(
+        self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
             objects=("/warehouse/objects", WarehouseObjects),
             states=("/warehouse/unit_states", UnitStates),
         )
-        self._topic = OnDemand(ros, "/warehouse/state", WarehouseState, self.message)
+        self._topic = LazyPublisher(ros, "/warehouse/state", WarehouseState, self.message)
 
     def message(self):
         """The newest WarehouseState, or None if nothing is known yet."""
         if not self._newest.units_and_objects:
             return None
         out = glance(self._newest["fleet"], *self._newest.units_and_objects)
-        out.warehouse_name, out.warehouse_id = self._name()
+        out.warehouse_name, out.warehouse_id = identity.read(self._ros)
         return out
-
-    def _name(self):
-        number = self._ros.get_param("/warehouse/id", 0)
-        return str(self._ros.get_param("/warehouse/name", "")), number
 
     def turn(self, patience=1.0):
         """Waits for news, at most `patience` wall seconds, and publishes them where it is time."""
@@ -77,11 +73,11 @@ class Board:
         if not fit:
             return
         # The name is asked for when little happens; it comes last when a warehouse is built.
-        shown = (fit[0].revision, None if news else self._name())
+        shown = (fit[0].revision, None if news else identity.read(self._ros))
         due = self._next is None or not self._next - PERIOD <= now < self._next
         if due or self._differs(shown):
             self._topic.publish()
-            self._shown, self._next = (shown[0], self._name()), now + PERIOD
+            self._shown, self._next = (shown[0], identity.read(self._ros)), now + PERIOD
 
     def _differs(self, shown):
         revision, name = shown
@@ -92,6 +88,6 @@ def follow(ros):
     """Until shutdown; the body of create_warehouse_topics."""
     for topic, kind in COMMANDS.items():
         ros.Publisher(topic, kind, queue_size=10)
-    board = Board(ros)
+    publisher = StatePublisher(ros)
     while not ros.is_shutdown():
-        board.turn()
+        publisher.turn()

@@ -10,7 +10,7 @@ from std_msgs.msg import Header
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
 from warehouse_sim import poses, tracking
-from warehouse_sim.newest import Newest, OnDemand
+from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
 BATCH = 200
@@ -119,8 +119,8 @@ def follow(ros, kind, prefix):
 
     limit = topics_allowed(ros.get_param("~max_topics", 30000))
     tracker = Tracker(kind, PoseTopics(prefix, advertise, limit))
-    listing = OnDemand(ros, prefix, TrackedObjects, tracker.message)
-    newest = Newest(
+    listing = LazyPublisher(ros, prefix, TrackedObjects, tracker.message)
+    newest = LatestMessages(
         ros,
         objects=("/warehouse/objects", WarehouseObjects),
         states=("/warehouse/unit_states", UnitStates),

@@ -8,19 +8,17 @@ from warehouse_sim import models
 from warehouse_sim.engine import Engine
 
 PITCH = 3  # of the robots [m]; each needs the metre before it
-_INCLUDE = "<include><uri>model://kiva</uri><name>{}</name><pose>{} {} 0 0 0 0</pose></include>"
 
 
 def build(ros, robots):
     """Adds them to an empty floor, on a square lattice around the origin. Raises EngineError."""
     side = int((robots - 1) ** 0.5) + 1
-    names = [f"kiva{i + 1}" for i in range(robots)]
     cells = [
         ((i % side - side // 2) * PITCH, (i // side - side // 2) * PITCH) for i in range(robots)
     ]
-    parts = [models.Part(n, _INCLUDE.format(n, *cell)) for n, cell in zip(names, cells)]
+    parts = [models.include("kiva", i, *cell) for i, cell in enumerate(cells, start=1)]
     with Engine(ros) as engine:
-        engine.spawn(models.document(parts), names[0])
+        engine.spawn(models.document(parts), parts[0].name)
 
 
 class Traffic:

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The HTTP API; see /docs.
 
-/** The answer's body. Throws an Error with the reason; `refused` if it was the warehouse's. */
-export async function post(path, body = undefined) {
+/** Each returns the answer's body, and throws an Error with the reason; `refused` if it was the
+ *  warehouse's. */
+export function post(path, body = undefined) {
+  return request('POST', path, body);
+}
+
+export function remove(path) {
+  return request('DELETE', path);
+}
+
+async function request(method, path, body) {
   let answer;
   try {
-    answer = await fetch(`/api/v1${path}`, {
-      method: 'POST',
-      headers: body ? { 'content-type': 'application/json' } : {},
-      body: body && JSON.stringify(body),
-    });
+    const sent = body && { headers: { 'content-type': 'application/json' }, body: JSON.stringify(body) };
+    answer = await fetch(`/api/v1${path}`, { method, ...sent });
   } catch {
     throw new Error('the server does not answer');
   }
@@ -19,7 +25,8 @@ export async function post(path, body = undefined) {
     { refused: answer.status === 409 });
 }
 
-function reasonOf(detail) {
+/** The reason in a refusal's body: a text, or a list of what is wrong with which field. */
+export function reasonOf(detail) {
   return Array.isArray(detail) ? detail.map((d) => `${d.loc.at(-1)}: ${d.msg}`).join('; ') : detail;
 }
 

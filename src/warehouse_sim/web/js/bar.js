@@ -2,31 +2,29 @@
 // The bar at the top: which warehouse, its time, and what can be done to the simulation.
 
 import { post } from './api.js';
-import { $, setIcon } from './dom.js';
+import { $, enable, on, setIcon } from './dom.js';
+import { confirmed } from './question.js';
 
 const STEP = 0.1, UNDO = 5; // [s], simulated
-const CHECKPOINT = 'viewer'; // the name of the page's own
+const SAVED_EVERY = 1; // [s], simulated: what undo goes back to
+const CHECKPOINT = 'viewer', BEFORE_RESET = 'before-reset'; // names of the page's own
 // The action each control needs; what the engine lacks is disabled, with the reason.
 const NEEDS = { pause: 'pause', step: 'step', speed: 'speed', checkpoint: 'checkpoint',
   restore: 'restore', undo: 'undo', reset: 'reset' };
 
 export class Bar {
-  /** `say(text, kind)` tells the person at the page. */
-  constructor(say) {
-    this.say = say;
-    this.titles = Object.fromEntries(Object.keys(NEEDS).map((id) => [id, $(id).title]));
-    this.paused = false;
-    this.live = false;
+  /** `say(text, kind)` tells the person at the page; `offer(text, label, act)` adds a button. */
+  constructor(say, offer) {
+    Object.assign(this, { say, offer, paused: false, live: false, lacks: {} });
     this.stepSize = 0.001; // [s]
-    this.lacks = {};
-    const act = (path, body, done) => () => this.act(path, body, done);
-    $('pause').onclick = () => this.act(this.paused ? 'resume' : 'pause');
-    $('step').onclick = () => this.step();
-    $('undo').onclick = act('undo', { seconds: UNDO }, `${UNDO} s undone`);
-    $('reset').onclick = act('reset', { time_too: true }, 'everything is back at its start');
-    $('checkpoint').onclick = act('checkpoint', { name: CHECKPOINT }, 'checkpoint kept');
-    $('restore').onclick = act('restore', { name: CHECKPOINT }, 'back at the checkpoint');
-    $('speed').onchange = () => this.act('speed', { factor: Number($('speed').value) });
+    this.latest = 0; // simulated time that was reached [s]
+    on($('pause'), 'click', () => this.act(this.paused ? 'resume' : 'pause'));
+    on($('step'), 'click', () => this.step());
+    on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, `${UNDO} s undone`));
+    on($('reset'), 'click', () => this.reset());
+    on($('checkpoint'), 'click', () => this.keep());
+    on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, 'back at the checkpoint'));
+    on($('speed'), 'change', () => this.act('speed', { factor: Number($('speed').value) }));
   }
 
   /** Time that runs is paused first. */
@@ -35,19 +33,45 @@ export class Bar {
     return this.act('step', { steps: Math.max(1, Math.round(STEP / this.stepSize)) });
   }
 
+  async keep() {
+    if (!await this.act('checkpoint', { name: CHECKPOINT }, 'checkpoint kept')) return;
+    sessionStorage.setItem('checkpoint', 'kept');
+    this.enable();
+  }
+
+  /** Asks first, and can be undone where checkpoints can be taken. */
+  async reset() {
+    const lack = this.lacks.checkpoint;
+    const undone = lack ? `This can't be undone: ${lack}.` : 'It can be undone.';
+    const text = 'Robots, storage units and items go back to where they came, and the time to 0:00. '
+      + `What robots are doing ends; what was sent while time stands still is carried out after it. ${undone}`;
+    if (!await confirmed('Reset the warehouse?', text, 'Reset')) return;
+    const kept = !lack && await this.act('checkpoint', { name: BEFORE_RESET });
+    if (!lack && !kept) return;
+    if (!await this.act('reset', { time_too: true })) return;
+    const done = 'everything is back at its start';
+    if (!kept) this.say(done, 'done');
+    else this.offer(done, 'Undo', () => this.act('restore', { name: BEFORE_RESET }, 'the reset is undone'));
+  }
+
+  /** True if it was done. */
   async act(path, body, done) {
     try {
       await post(`/simulation/${path}`, body);
       if (path === 'pause' || path === 'resume') this.showPaused(path === 'pause');
       if (done) this.say(done, 'done');
+      return true;
     } catch (error) {
       this.say(error.message, 'refused');
+      return false;
     }
   }
 
   showTime(stamp) {
-    const [minutes, seconds] = [Math.floor(stamp / 60), stamp % 60];
-    $('time').textContent = `${minutes}:${seconds.toFixed(1).padStart(4, '0')}`;
+    const reached = this.latest >= UNDO + SAVED_EVERY;
+    this.latest = Math.max(this.latest, stamp);
+    if (!reached && this.latest >= UNDO + SAVED_EVERY) this.enable();
+    $('time').textContent = clock(stamp);
   }
 
   showLink(live) {
@@ -80,6 +104,7 @@ export class Bar {
   showPaused(paused) {
     this.paused = paused;
     setIcon($('pause'), paused ? 'play' : 'pause');
+    $('pause').querySelector('span').textContent = paused ? 'Go on' : 'Pause';
   }
 
   showSpeed(factor) {
@@ -93,11 +118,19 @@ export class Bar {
   }
 
   enable() {
+    const early = {
+      restore: !sessionStorage.getItem('checkpoint') && 'none was kept on this page',
+      undo: this.latest < UNDO + SAVED_EVERY && `less than ${UNDO} s have passed`,
+    };
     for (const [id, action] of Object.entries(NEEDS)) {
-      const lack = this.live ? this.lacks[action] : 'no connection';
-      $(id).disabled = Boolean(lack);
-      const title = lack ? `${this.titles[id]} – not now: ${lack}` : this.titles[id];
-      (id === 'speed' ? $(id).parentElement : $(id)).title = title;
+      const lack = this.live ? this.lacks[action] || early[id] : 'no connection';
+      enable($(id), lack, id === 'speed' ? $(id).parentElement : $(id));
     }
   }
+}
+
+/** Simulated time [s] in minutes and seconds. */
+export function clock(stamp) {
+  const tenths = Math.round(10 * stamp);
+  return `${Math.floor(tenths / 600)}:${((tenths % 600) / 10).toFixed(1).padStart(4, '0')}`;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The WebSocket, which comes back by itself.
 
+import { on } from './dom.js';
 import { decode } from './protocol.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
@@ -10,7 +11,7 @@ export class Connection {
   constructor(handlers) {
     this.handlers = handlers;
     this.failures = 0;
-    this.bytes = 0; // received since the start
+    this.bytes = this.updates = 0; // received since the start
     this.wishes = null;
     this.open();
   }
@@ -19,9 +20,9 @@ export class Connection {
     const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
     this.socket = new WebSocket(`${scheme}://${location.host}/live`);
     this.socket.binaryType = 'arraybuffer';
-    this.socket.onopen = () => this.greet();
-    this.socket.onmessage = (message) => this.take(message.data);
-    this.socket.onclose = () => this.again();
+    on(this.socket, 'open', () => this.greet());
+    on(this.socket, 'message', (message) => this.take(message.data));
+    on(this.socket, 'close', () => this.again());
   }
 
   greet() {
@@ -45,7 +46,9 @@ export class Connection {
     const message = decode(data);
     this.handlers[message.kind](message);
     // The next ones come only to who has seen these.
-    if (message.kind === 'update') this.send({ ack: 1 });
+    if (message.kind !== 'update') return;
+    this.updates += 1;
+    this.send({ ack: 1 });
   }
 
   /** Asks for scans and paths of robots, by id. */

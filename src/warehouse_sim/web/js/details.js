@@ -2,21 +2,24 @@
 // What is selected: its facts, and what it can be told to do.
 
 import { command } from './api.js';
-import { $, make } from './dom.js';
+import { $, enable, make, on } from './dom.js';
 import { STATE, STATUS } from './world.js';
 
 const LIFT = { drop: 0, carry: 1 };
+const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
+const WAITS = 'sent; time stands still: it is taken when time goes on, after a reset too';
 
 export class Details {
-  /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command. */
-  constructor(world, select, say) {
-    Object.assign(this, { world, select, say, name: null, robot: null });
-    $('left').onclick = () => this.turn(1);
-    $('right').onclick = () => this.turn(-1);
-    $('carry').onclick = () => this.lift('carry');
-    $('drop').onclick = () => this.lift('drop');
-    $('fetch').onclick = () => this.sendRobotHere();
-    $('close').onclick = () => select(null);
+  /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
+   *  `isPaused()` tells whether time stands still. */
+  constructor(world, select, say, isPaused) {
+    Object.assign(this, { world, select, say, isPaused, name: null, robot: null });
+    on($('left'), 'click', () => this.turn(1));
+    on($('right'), 'click', () => this.turn(-1));
+    on($('carry'), 'click', () => this.lift('carry'));
+    on($('drop'), 'click', () => this.lift('drop'));
+    on($('fetch'), 'click', () => this.sendRobotHere());
+    on($('close'), 'click', () => select(null));
   }
 
   get thing() {
@@ -43,7 +46,7 @@ export class Details {
     $('name').textContent = this.name;
     const isRobot = thing?.kind === 'robot';
     $('orders').hidden = !isRobot;
-    for (const id of ['scan', 'path']) $(id).hidden = !isRobot;
+    for (const id of ['scan', 'path', 'remove']) $(id).hidden = !isRobot;
     $('badge').hidden = !isRobot;
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
@@ -56,8 +59,9 @@ export class Details {
     $('badge').className = `badge ${status}`;
     $('badge').textContent = status;
     const load = this.world.shelf[i], over = this.world.unitOver(i);
-    able('carry', load ? 'it carries one' : over < 0 ? 'no storage unit stands over it' : '');
-    able('drop', load ? '' : 'it carries none');
+    enable($('carry'), load ? 'it carries one' : over < 0 ? 'no storage unit stands over it' : '');
+    enable($('drop'), load ? '' : 'it carries none');
+    enable($('remove'), load ? 'it carries a storage unit' : '');
   }
 
   factsOf(thing) {
@@ -91,7 +95,7 @@ export class Details {
     this.shownFacts = text;
     $('facts').replaceChildren(...facts.flatMap(([what, value]) => [
       make('dt', { textContent: what }), make('dd', {}, typeof value === 'object' ? make('button',
-        { textContent: value.link, onclick: () => this.select(value.link) }) : value)]));
+        { textContent: value.link, click: () => this.select(value.link) }) : value)]));
   }
 
   // --- commands; `at` is where in the window the answer belongs
@@ -123,10 +127,11 @@ export class Details {
       Object.assign($('answer'), { hidden: false, textContent: `${name}: ${text}` });
       $('answer').dataset.kind = kind;
     };
-    answer('sent', 'sent');
+    answer(this.isPaused() ? WAITS : 'sent', 'sent');
     try {
       const { outcome, events } = await command(numberOf(robot), name, fields);
-      answer([outcome, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
+      const told = LATE.includes(outcome) ? 'not yet done' : outcome;
+      answer([told, events.at(-1)?.text].filter(Boolean).join(': '), outcome);
     } catch (error) {
       answer(error.refused ? `refused: ${error.message}` : error.message, 'refused');
     }
@@ -136,9 +141,3 @@ export class Details {
 const metres = (length) => (Math.round(100 * length) / 100 + 0).toFixed(2); // + 0: never -0.00
 const link = (name) => ({ link: name });
 const numberOf = (name) => Number(name.match(/\d+$/)[0]);
-
-function able(id, lack) {
-  $(id).dataset.title ??= $(id).title;
-  $(id).disabled = Boolean(lack);
-  $(id).title = lack ? `${$(id).dataset.title} – not now: ${lack}` : $(id).dataset.title;
-}

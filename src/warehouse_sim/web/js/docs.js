@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The API's description as a page on which each request can be tried.
 
-import { $, make } from './dom.js';
+import { $, make, on } from './dom.js';
 
 const OPENAPI = '/api/v1/openapi.json';
 
@@ -35,11 +35,11 @@ function form(api, path, method, { parameters = [], requestBody, responses }) {
   const answer = make('pre', { hidden: true });
   out.append(make('p', { className: 'dim', textContent: `answers: ${Object.keys(responses).join(', ')}` }),
     make('button', { textContent: 'Try it' }), answer);
-  out.onsubmit = async (event) => {
+  on(out, 'submit', async (event) => {
     event.preventDefault();
     answer.hidden = false;
     answer.textContent = await attempt(out, path, method, parameters);
-  };
+  });
   return out;
 }
 
@@ -51,21 +51,21 @@ function field({ name, in: place, required, description = '', schema }) {
     make('small', { className: 'dim', textContent: about }));
 }
 
-async function attempt(form, path, method, parameters) {
+async function attempt(filled, path, method, parameters) {
   let url = path;
   const query = new URLSearchParams();
   for (const { name, in: place } of parameters) {
-    const { value } = form.elements[`${place}:${name}`];
+    const { value } = filled.elements[`${place}:${name}`];
     if (place === 'path') url = url.replace(`{${name}}`, encodeURIComponent(value));
     else if (value) query.set(name, value);
   }
-  const body = form.elements.body?.value;
+  const body = filled.elements.body?.value;
   const headers = body ? { 'content-type': 'application/json' } : {};
   const text = String(query) ? `${url}?${query}` : url;
   try {
     const answer = await fetch(text, { method: method.toUpperCase(), headers, body });
-    const told = JSON.stringify(await answer.json(), null, 2);
-    return `${method.toUpperCase()} ${text}\n${answer.status} ${answer.statusText}\n${told}`;
+    const came = JSON.stringify(await answer.json(), null, 2);
+    return `${method.toUpperCase()} ${text}\n${answer.status} ${answer.statusText}\n${came}`;
   } catch (error) {
     return error.message;
   }

@@ -2,10 +2,17 @@
 
 export const $ = (id) => document.getElementById(id);
 
-/** An element with properties and children. */
-export function make(tag, properties = {}, ...children) {
+/** Calls the handler at each such event. What it returns means nothing; to an `onkeydown` a false
+ *  would mean that the key types nothing. */
+export function on(target, type, handler) {
+  target.addEventListener(type, handler);
+}
+
+/** An element with properties and children; `click` is called when it is clicked. */
+export function make(tag, { click, ...properties } = {}, ...children) {
   const out = Object.assign(document.createElement(tag), properties);
   out.append(...children);
+  if (click) on(out, 'click', click);
   return out;
 }
 
@@ -13,8 +20,15 @@ export function setIcon(button, name) {
   button.querySelector('use').setAttribute('href', `/web/icons.svg#${name}`);
 }
 
-export function press(button, on) {
-  button.setAttribute('aria-pressed', String(on));
+export function press(button, down) {
+  button.setAttribute('aria-pressed', String(down));
 }
 
 export const isPressed = (button) => button.getAttribute('aria-pressed') === 'true';
+
+/** Enables a button, or says in its title what it lacks. */
+export function enable(button, lack, titled = button) {
+  titled.dataset.title ??= titled.title;
+  button.disabled = Boolean(lack);
+  titled.title = lack ? `${titled.dataset.title} – not now: ${lack}` : titled.dataset.title;
+}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keyboard shortcuts: each presses a button, so that both always do the same.
 
-import { $, make } from './dom.js';
+import { $, make, on } from './dom.js';
 
 const KEYS = {
   ' ': ['pause', 'pause or go on', 'space'], '.': ['step', 'one step'], z: ['undo', 'undo 5 s'],
@@ -9,37 +9,57 @@ const KEYS = {
   l: ['scan', 'its laser'], p: ['path', 'its path'], r: ['trails', 'trails of all'],
   x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
   c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
-  '?': ['help', 'this help'],
+  n: ['add', 'add a robot'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
 };
 const MORE = { '/': 'search', '[ ]': 'the next robot', Esc: 'select nothing' };
+const TYPED = 'input[type="search"], input:not([type]), input[type="number"], select';
 
 export class Keys {
   /** `next(step)` selects another robot, `leave()` none. */
   constructor(next, leave) {
     Object.assign(this, { next, leave });
-    addEventListener('keydown', (event) => this.take(event));
+    on(window, 'keydown', (event) => this.take(event));
+    // What was clicked keeps no keys to itself: the next one is meant for the page. Whoever
+    // comes by the tab key presses a button with space, as ever.
+    on(window, 'pointerdown', () => { this.isPointing = true; });
+    on(window, 'keydown', () => { this.isPointing = false; });
+    for (const type of ['click', 'change']) on(document, type, (event) => this.release(event));
     const all = [...Object.entries(KEYS).map(([key, [, meaning, name]]) => [name ?? key, meaning]),
       ...Object.entries(MORE)];
     $('keys').append(...all.flatMap(([key, meaning]) => [
       make('dt', {}, make('kbd', { textContent: key })), make('dd', { textContent: meaning })]));
-    $('help').onclick = () => $('helper').showModal();
-    $('helper-close').onclick = () => $('helper').close();
+    on($('help'), 'click', () => $('helper').showModal());
+    on($('helper-close'), 'click', () => $('helper').close());
+  }
+
+  release({ target, type }) {
+    const control = target.closest('button, select, input[type="checkbox"]');
+    const isOpening = control?.matches('select') && type === 'click';
+    if (control && this.isPointing && !isOpening && !control.closest('dialog')) control.blur();
   }
 
   take(event) {
     const { key, target } = event;
-    if (event.ctrlKey || event.metaKey || event.altKey || $('helper').open) return;
-    if (target.matches('input[type="search"], select')) {
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
+    if (target.matches(TYPED)) {
       if (key === 'Escape') target.blur();
       return;
     }
-    if (key === ' ' && target.matches('button, input')) return; // it presses that one
-    const button = KEYS[key] && $(KEYS[key][0]);
-    if (key === 'Escape') this.leave();
-    else if (key === '/') $('search').focus();
-    else if (key === '[' || key === ']') this.next(key === ']' ? 1 : -1);
-    else if (button && !button.disabled && button.offsetParent) button.click();
-    else return;
-    event.preventDefault();
+    const isPressing = key === ' ' && target.matches('button, input'); // it presses that one
+    if (!isPressing && this.obey(key, event.repeat)) event.preventDefault();
   }
+
+  /** True if the key means something here; one that is held down presses a button but once. */
+  obey(key, isHeld) {
+    const act = { Escape: this.leave, '/': () => $('search').focus(),
+      '[': () => this.next(-1), ']': () => this.next(1) }[key] ?? presser(key, isHeld);
+    act?.();
+    return Boolean(act);
+  }
+}
+
+function presser(key, isHeld) {
+  const button = KEYS[key] && $(KEYS[key][0]);
+  const canPress = button && !button.disabled && button.offsetParent;
+  return canPress ? () => isHeld || button.click() : null;
 }

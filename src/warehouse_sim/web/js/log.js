@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The running log of events, and those of one model.
 
-import { $, make } from './dom.js';
+import { $, make, on } from './dom.js';
 
 const KEPT = 1000, SHOWN = 150, OWN = 20;
 const TROUBLE = ['REFUSED', 'BLOCKED', 'COLLISION'];
@@ -12,7 +12,7 @@ export class EventLog {
     this.select = select;
     this.events = [];
     this.lastId = 0;
-    $('trouble').onchange = () => this.drawAll();
+    on($('trouble'), 'change', () => this.drawAll());
   }
 
   /** Takes new ones in; a server that began anew counts from 1 again. */
@@ -25,27 +25,21 @@ export class EventLog {
     while (box.children.length > SHOWN) box.lastChild.remove();
   }
 
-  clear() {
-    this.events = [];
-    this.lastId = 0;
-    this.drawAll();
-  }
-
   drawAll() {
-    const shown = this.events.filter(wanted).slice(-SHOWN).reverse();
-    $('events').replaceChildren(...shown.map((event) => this.line(event)));
+    const shown = this.events.filter(wanted).slice(-SHOWN);
+    $('events').replaceChildren(...shown.map((event) => this.line(event)).reverse());
   }
 
   /** The last events of a model into the panel of the selection. */
   drawOwn(name) {
     const own = this.events.filter((e) => e.model === name || e.other === name).slice(-OWN);
-    const lines = own.reverse().map((event) => this.line(event));
+    const lines = own.map((event) => this.line(event)).reverse();
     if (!lines.length) lines.push(make('li', { className: 'dim', textContent: 'none' }));
     $('own-events').replaceChildren(...lines);
   }
 
   line({ time, kind, model, other, text }) {
-    const out = make('li', { onclick: () => this.select(model), title: text },
+    const out = make('li', { click: () => this.select(model), title: text },
       make('span', { textContent: time.toFixed(1) }), make('span', { textContent: kind }),
       make('span', { textContent: model }),
       make('span', { textContent: text.includes(other) ? text : [other, text].filter(Boolean).join(': ') }));

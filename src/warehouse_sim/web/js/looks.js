@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// From looks, as the world tells them, to geometries and instanced meshes.
+// From looks, as the world tells them, to geometries, sizes and instanced meshes.
 
 import * as THREE from '/three/build/three.module.js';
 
 const ROUND = 12; // segments of a circle
+const PAD_HEIGHT = 0.012; // above the floor [m]
+const SPHERE = 1, CYLINDER = 2, CAPSULE = 3, ELLIPSOID = 4, PLANE = 5; // as warehouse_msgs/Look
 
 function primitive(kind, [x, y, z]) {
-  let out;
-  if (kind === 1 || kind === 4) {
-    out = new THREE.SphereBufferGeometry(0.5, ROUND, 6).scale(x, y, z);
-  } else if (kind === 2) {
-    out = new THREE.CylinderBufferGeometry(x / 2, x / 2, z, ROUND).rotateX(Math.PI / 2);
-  } else if (kind === 3) {
-    return capsule(x / 2, z - x);
-  } else if (kind === 5) {
-    out = new THREE.PlaneBufferGeometry(x, y);
-  } else {
-    out = new THREE.BoxBufferGeometry(x, y, z);
+  if (kind === SPHERE || kind === ELLIPSOID) {
+    return [new THREE.SphereBufferGeometry(0.5, ROUND, 6).scale(x, y, z)];
   }
-  return [out];
+  if (kind === CYLINDER) return [rod(x / 2, z)];
+  if (kind === CAPSULE) return capsule(x / 2, z - x);
+  if (kind === PLANE) return [new THREE.PlaneBufferGeometry(x, y)];
+  return [new THREE.BoxBufferGeometry(x, y, z)];
+}
+
+function rod(radius, length) {
+  return new THREE.CylinderBufferGeometry(radius, radius, length, ROUND).rotateX(Math.PI / 2);
 }
 
 function capsule(radius, length) {
   const ball = (z) => new THREE.SphereBufferGeometry(radius, ROUND, 6).translate(0, 0, z);
-  const rod = new THREE.CylinderBufferGeometry(radius, radius, length, ROUND).rotateX(Math.PI / 2);
-  return [rod, ball(length / 2), ball(-length / 2)];
+  return [rod(radius, length), ball(length / 2), ball(-length / 2)];
 }
 
 export function matrixOf([x, y, z, qx, qy, qz, qw]) {
@@ -34,18 +33,63 @@ export function matrixOf([x, y, z, qx, qy, qz, qw]) {
 
 const volume = ({ size: [x, y, z] }) => x * y * z;
 
+/** All shapes of some links, each with its matrix in the model. */
+function shapesOf(links) {
+  return links.flatMap((link) => link.shapes.map((shape) => (
+    { ...shape, matrix: matrixOf(link.pose).multiply(matrixOf(shape.pose)) })));
+}
+
+/** The shape of the largest volume, with its matrix in the model; undefined if there is none. */
+export function largestOf(links) {
+  const shapes = shapesOf(links);
+  const most = Math.max(...shapes.map(volume));
+  return shapes.find((shape) => volume(shape) === most);
+}
+
 /** All shapes of some links as one geometry, coloured by vertex. Where `painted`, the largest
  *  shape takes each instance's own tint instead. */
 export function merge(links, painted = false) {
-  const shapes = links.flatMap((link) => link.shapes.map((shape) => (
-    { ...shape, matrix: matrixOf(link.pose).multiply(matrixOf(shape.pose)) })));
-  const largest = Math.max(...shapes.map(volume));
-  const parts = shapes.flatMap((shape) => primitive(shape.kind, shape.size).map((geometry) => ({
+  const largest = largestOf(links);
+  return joined(shapesOf(links).flatMap((shape) => primitive(shape.kind, shape.size).map((geometry) => ({
     geometry: geometry.toNonIndexed().applyMatrix(shape.matrix),
     colour: shape.colour,
-    paint: painted && volume(shape) === largest ? 1 : 0,
-  })));
-  return joined(parts);
+    paint: painted && volume(shape) === volume(largest) ? 1 : 0,
+  }))));
+}
+
+/** One box around all shapes, in the colour of the largest or, where `painted`, in each
+ *  instance's own tint: what is left of a thing that is far away. It has no bottom, but a square of
+ *  half edge `pad` on the floor if one is given. */
+export function hull(links, painted = false, pad = 0) {
+  const { min, max } = boundsOf(links);
+  const faces = [2, 0, 1].flatMap((axis) => [0, 1].map((side) => face(axis, side, min, max))).slice(1);
+  if (pad) faces.push(face(2, 1, [-pad, -pad, PAD_HEIGHT], [pad, pad, PAD_HEIGHT]));
+  const out = new THREE.BufferGeometry();
+  const set = (name, size, rows) => out.setAttribute(name, new THREE.Float32BufferAttribute(rows.flat(), size));
+  const corners = faces.flatMap((f) => f.corners);
+  set('position', 3, corners);
+  set('normal', 3, faces.flatMap(({ normal }) => Array(4).fill(normal)));
+  set('color', 3, corners.map(() => largestOf(links).colour.slice(0, 3)));
+  set('paint', 1, corners.map(() => (painted ? 1 : 0)));
+  // Few corners, each shared by two triangles: where they are drawn in software this is half of it.
+  out.setIndex(faces.flatMap((_, i) => [0, 1, 2, 0, 2, 3].map((corner) => 4 * i + corner)));
+  return out;
+}
+
+/** {corners, normal} of the lower (0) or upper (1) side of a box along an axis, seen
+ *  counterclockwise from outside. */
+function face(axis, side, min, max) {
+  const [u, v] = side ? [(axis + 1) % 3, (axis + 2) % 3] : [(axis + 2) % 3, (axis + 1) % 3];
+  const normal = [0, 0, 0];
+  normal[axis] = side ? 1 : -1;
+  const corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(([a, b]) => {
+    const at = [0, 0, 0];
+    at[axis] = side ? max[axis] : min[axis];
+    at[u] = a ? max[u] : min[u];
+    at[v] = b ? max[v] : min[v];
+    return at;
+  });
+  return { corners, normal };
 }
 
 function joined(parts) {
@@ -71,10 +115,24 @@ function joined(parts) {
 
 /** Boxes around the shapes, for picking: {inverse, half} in the model's frame. */
 export function boxesOf(links) {
-  return links.flatMap((link) => link.shapes.map((shape) => ({
-    inverse: new THREE.Matrix4().getInverse(matrixOf(link.pose).multiply(matrixOf(shape.pose))),
-    half: shape.size.map((edge) => edge / 2),
-  })));
+  return shapesOf(links).map(({ matrix, size }) => ({
+    inverse: new THREE.Matrix4().getInverse(matrix),
+    half: size.map((edge) => edge / 2),
+  }));
+}
+
+/** What all shapes reach over, in the model's frame [m]: {min, max, centre, radius}, the last two
+ *  of a sphere around them. Without shapes a point at the origin. */
+export function boundsOf(links) {
+  const box = new THREE.Box3();
+  for (const { matrix, size } of shapesOf(links)) {
+    const half = new THREE.Vector3(...size).multiplyScalar(0.5);
+    box.union(new THREE.Box3(half.clone().negate(), half).applyMatrix4(matrix));
+  }
+  if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
+  const centre = box.getCenter(new THREE.Vector3());
+  return { min: box.min.toArray(), max: box.max.toArray(), centre: centre.toArray(),
+    radius: centre.distanceTo(box.max) };
 }
 
 /** A material for instances; those of a tinted mesh have an attribute `tint`. */
@@ -88,16 +146,4 @@ function takeTint(shader) {
   shader.vertexShader = shader.vertexShader
     .replace('#include <common>', '#include <common>\nattribute vec3 tint;\nattribute float paint;')
     .replace('#include <color_vertex>', '#include <color_vertex>\nvColor = mix(vColor, tint, paint);');
-}
-
-/** `count` instances of a geometry, all at the origin until placed. */
-export function instances(geometry, material, count) {
-  const out = new THREE.InstancedMesh(geometry, material, count);
-  out.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
-  out.frustumCulled = false;
-  if (material.onBeforeCompile === takeTint) {
-    const tint = new THREE.InstancedBufferAttribute(new Float32Array(3 * count), 3);
-    geometry.setAttribute('tint', tint.setUsage(THREE.DynamicDrawUsage));
-  }
-  return out;
 }

@@ -3,12 +3,15 @@
 
 import { Actors } from './actors.js';
 import { Bar } from './bar.js';
+import { Builder } from './builder.js';
 import { Connection } from './connection.js';
 import { Details } from './details.js';
-import { $, isPressed, press } from './dom.js';
+import { $, isPressed, on, press } from './dom.js';
 import { Keys } from './keys.js';
+import { Labels } from './labels.js';
 import { RobotList } from './list.js';
 import { EventLog } from './log.js';
+import { marginsOf, Sheets } from './sheets.js';
 import { Navigator } from './navigator.js';
 import { Overlays } from './overlays.js';
 import { Picker } from './picker.js';
@@ -26,17 +29,19 @@ class Page {
     this.tip = new Tip();
     const select = (name) => this.select(name);
     const say = (text, kind, at) => this.tip.say(text, kind, at);
-    this.bar = new Bar(say);
+    this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
     this.list = new RobotList(this.world, select);
     this.log = new EventLog(select);
-    this.details = new Details(this.world, select, say);
+    this.details = new Details(this.world, select, say, () => this.bar.paused);
+    this.builder = new Builder(say);
+    this.sheets = new Sheets(() => this.fitPanels());
     this.selected = null;
     this.floor = '';
     this.paths = {};
     this.scans = new Map();
     this.openStage();
     this.addButtons();
-    this.keys = new Keys((step) => this.next(step), () => this.select(null));
+    this.keys = new Keys((step) => this.next(step), () => this.leave());
     setInterval(() => this.refreshPanels(), PANELS_EVERY);
     this.connection = new Connection({
       state: (live) => this.bar.showLink(live),
@@ -58,10 +63,19 @@ class Page {
       return;
     }
     this.actors = new Actors(this.stage, this.world);
+    this.labels = new Labels(this.stage, this.world, $('labels'));
     this.overlays = new Overlays(this.stage, this.world);
     this.picker = new Picker(this.stage, this.actors);
     this.navigator = new Navigator(this.stage);
     this.pointer = new Pointer(this, this.picker, this.overlays);
+    on(window, 'resize', () => this.fitPanels());
+    this.fitPanels();
+  }
+
+  /** Keeps what is looked at in the middle of what the panels leave free. */
+  fitPanels() {
+    this.stage?.setMargins(marginsOf());
+    this.list.draw();
   }
 
   // --- from the server
@@ -89,7 +103,7 @@ class Page {
     const changed = this.world.apply(update, performance.now());
     this.bar.showTime(update.stamp);
     if (!this.stage) return;
-    this.actors.paint(changed.robots);
+    this.actors.robots.paint(changed.robots);
     this.actors.placeUnits(changed.units);
     this.actors.placeLoose(changed.loose);
     this.actors.placeScenery(changed.scenery);
@@ -120,11 +134,20 @@ class Page {
     this.actors.placeRobots(moved);
     this.navigator.advance();
     if (moved.length) {
-      this.actors.runBelts(Math.min(0.1, (now - (this.drawn ?? now)) / 1000));
+      this.actors.belts.run(Math.min(0.1, (now - (this.drawn ?? now)) / 1000));
       this.showExtras();
     }
     this.drawn = now;
+    this.actors.fill(this.stage.camera, innerHeight);
+    this.labels.draw(this.actors.view, this.named());
     return moved.length > 0;
+  }
+
+  /** Indices of the robots that are named in the picture: the selected, and that under the pointer. */
+  named() {
+    const { hovered } = this.pointer;
+    const over = hovered?.kind === 'robot' ? hovered.index : -1;
+    return new Set([this.details.selectedRobot, over].filter((i) => i >= 0));
   }
 
   /** What belongs to the selected: its mark, path and scan. */
@@ -132,7 +155,7 @@ class Page {
     if (!this.stage) return;
     const thing = this.details.thing;
     const place = thing ? this.world.placeOf(thing) : null;
-    this.overlays.select(place, { item: 0.3, scenery: 1.4 }[thing?.kind] ?? 1);
+    this.overlays.select(place, thing && halfOf(this.actors.boundsOf(thing)));
     const robot = this.details.selectedRobot;
     const id = this.world.scene.robots[robot];
     const path = robot >= 0 && isPressed($('path')) && this.paths[id];
@@ -150,7 +173,33 @@ class Page {
     this.watch();
     this.follow(isPressed($('follow')));
     this.showExtras();
+    this.sheets.show(name ? 'details-panel' : null);
     this.stage?.invalidate();
+  }
+
+  /** Of what a click on the floor does: whether it needs a cell, what it says, and does. */
+  get wantsCell() {
+    return this.builder.wantsCell || this.details.selectedRobot >= 0;
+  }
+
+  told(cell) {
+    return `${this.builder.wantsCell ? 'a robot at' : 'go to'} ${cell.join(', ')}`;
+  }
+
+  take(cell, at) {
+    if (this.builder.wantsCell) this.builder.add(cell, at);
+    else this.details.go(...cell, at);
+  }
+
+  /** Selects what was clicked; no cell is wanted any more. */
+  choose(name) {
+    this.builder.want(false);
+    this.select(name);
+  }
+
+  leave() {
+    if (this.builder.wantsCell) this.builder.want(false);
+    else this.select(null);
   }
 
   /** Asks the server for what the selected needs. */
@@ -168,34 +217,26 @@ class Page {
     this.select(this.list.nameOf(rows[(at + step + rows.length) % rows.length]));
   }
 
-  follow(on) {
-    press($('follow'), on && Boolean(this.details.thing));
-    const thing = this.details.thing;
-    this.navigator?.follow(on && thing ? () => this.world.placeOf(thing) : null);
+  follow(wanted) {
+    const { thing } = this.details;
+    press($('follow'), wanted && Boolean(thing));
+    this.navigator?.follow(wanted && thing ? () => this.world.placeOf(thing) : null);
   }
 
   addButtons() {
-    const toggle = (id, then) => {
-      $(id).onclick = () => {
-        press($(id), !isPressed($(id)));
-        then(isPressed($(id)));
-      };
-    };
-    toggle('follow', (on) => this.follow(on));
+    toggle('follow', (wanted) => this.follow(wanted));
     for (const id of ['scan', 'path']) {
       toggle(id, () => {
         this.watch();
         this.showExtras();
       });
     }
-    toggle('trails', (on) => this.showTrails(on));
-    toggle('xray', (on) => this.actors?.setSeeThrough(on));
-    $('home').onclick = () => this.see(false);
-    $('top').onclick = () => this.see(true);
-    $('theme').onclick = () => this.changeTheme();
-    for (const button of document.querySelectorAll('[data-sheet]')) {
-      button.onclick = () => this.openSheet(button.dataset.sheet);
-    }
+    toggle('trails', (wanted) => this.showTrails(wanted));
+    toggle('xray', (wanted) => this.actors?.setSeeThrough(wanted));
+    on($('home'), 'click', () => this.see(false));
+    on($('top'), 'click', () => this.see(true));
+    on($('theme'), 'click', () => this.changeTheme());
+    on($('remove'), 'click', () => this.builder.remove(this.selected));
   }
 
   see(above) {
@@ -203,10 +244,10 @@ class Page {
     this.navigator?.see(above);
   }
 
-  showTrails(on) {
+  showTrails(wanted) {
     if (!this.stage) return;
     this.overlays.trails.clear();
-    this.overlays.trails.object.visible = on;
+    this.overlays.trails.object.visible = wanted;
     this.stage.invalidate();
   }
 
@@ -218,19 +259,24 @@ class Page {
     this.overlays?.setTheme(theme);
   }
 
-  /** On a narrow window one panel at a time is open. */
-  openSheet(id) {
-    for (const sheet of document.querySelectorAll('.sheet')) {
-      sheet.classList.toggle('open', sheet.id === id && !sheet.classList.contains('open'));
-    }
-    this.list.draw();
-  }
-
   refreshPanels() {
     if (document.hidden) return;
     this.list.refresh();
     this.details.refresh();
   }
+}
+
+/** A button that stays down until it is pressed again. */
+function toggle(id, then) {
+  on($(id), 'click', () => {
+    press($(id), !isPressed($(id)));
+    then(isPressed($(id)));
+  });
+}
+
+/** How far a thing reaches along the floor, of its bounds [m]. */
+function halfOf({ min, max }) {
+  return Math.max(...[...min.slice(0, 2), ...max.slice(0, 2)].map(Math.abs));
 }
 
 window.page = new Page(); // for a look from the console

@@ -2,8 +2,12 @@
 // Where the camera is: see all, from above, along with somebody.
 
 import * as THREE from '/three/build/three.module.js';
+import { seeAll } from './fit.js';
 
 const NEAR = 7; // of one thing that is looked at [m]
+const TILT = 0.75, ABOVE = 1e-4; // from the vertical [rad]
+const HEIGHT = 0.6; // of what stands at the floor's edges [m]
+const EDGE = 0.97; // of the free part of the picture
 
 export class Navigator {
   constructor(stage) {
@@ -11,31 +15,17 @@ export class Navigator {
     this.followed = null; // a function that returns [x, y, z]
   }
 
-  /** Everything in sight; `above`: straight from above, north up. */
+  /** Everything in sight, as large as it goes; `above`: straight from above. */
   see(above = false) {
-    const { camera, bounds: [x0, x1, y0, y1] } = this.stage;
-    const centre = new THREE.Vector3((x0 + x1) / 2, (y0 + y1) / 2, 0);
-    const [width, height] = this.room();
-    const tilt = above ? 1e-4 : 0.85; // from the vertical [rad]
-    const half = Math.tan(camera.fov * Math.PI / 360);
-    const across = (x1 - x0) / (2 * half * camera.aspect * width);
-    const along = (y1 - y0) * (above ? 1 : Math.cos(tilt)) / (2 * half * height);
-    // Seen at a slant, the near edge is wider than the middle.
-    const distance = (above ? 1.05 : 1.18) * Math.max(across, along) + 1;
-    this.look(centre, distance, tilt);
-  }
-
-  /** The share of the window's width and height that no panel covers. */
-  room() {
-    return innerWidth > 760 ? [1 - 2 * 280 / innerWidth, 1 - 240 / innerHeight] : [0.95, 0.8];
-  }
-
-  look(target, distance, tilt) {
-    const { camera, controls } = this.stage;
-    controls.target.copy(target);
-    const offset = new THREE.Vector3(0, -Math.sin(tilt), Math.cos(tilt));
-    camera.position.copy(target).addScaledVector(offset, distance);
-    camera.far = Math.max(500, 6 * distance);
+    const { camera, controls, bounds, margins: { left, right, top, bottom } } = this.stage;
+    const half = Math.tan(camera.fov * Math.PI / 360) / innerHeight * EDGE;
+    const free = [innerWidth - left - right, innerHeight - top - bottom].map((px) => Math.max(px, 100));
+    const { position, target, way } = seeAll(bounds, HEIGHT, above ? ABOVE : TILT,
+      free.map((px) => half * px));
+    camera.position.set(...position);
+    controls.target.set(...target);
+    camera.near = Math.max(0.1, way / 500);
+    camera.far = Math.max(500, 6 * way);
     camera.updateProjectionMatrix();
     controls.update();
     this.stage.invalidate();
@@ -49,6 +39,8 @@ export class Navigator {
     if (offset.length() > 3 * NEAR) offset.setLength(NEAR);
     controls.target.copy(target);
     camera.position.copy(target).add(offset);
+    camera.near = 0.1;
+    camera.updateProjectionMatrix();
     controls.update();
     this.stage.invalidate();
   }

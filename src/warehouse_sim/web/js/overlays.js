@@ -2,18 +2,19 @@
 // Lines and marks over the warehouse: the selection, the cell to go to, paths, scans, trails.
 
 import * as THREE from '/three/build/three.module.js';
-import { STATUS_COLOURS } from './actors.js';
+import { Trails } from './trails.js';
+import { within } from './world.js';
 
 const ACCENT = { dark: 0x56b4e9, light: 0x0072b2 };
-const LASER = { ahead: 0.38, height: 0.2 }; // on the chassis [m], as in worlds/models/kiva
-const MOST_SEGMENTS = 20000, SEGMENT = 0.25; // of trails; [m]
+const FAR = 5; // a ray without a return is drawn so long [m]
+const RING = 0.1; // between a thing and its mark [m]
 
 export class Overlays {
   constructor(stage, world) {
     Object.assign(this, { stage, world });
-    this.ring = lines(squareCorners(0.55, 0.03));
-    this.cell = mesh(new THREE.PlaneBufferGeometry(0.94, 0.94), 0.35);
-    this.path = lines([]);
+    this.ring = lines(squareCorners(1, 0.05));
+    this.cell = throughAll(mesh(new THREE.PlaneBufferGeometry(0.94, 0.94), 0.35));
+    this.path = throughAll(lines([]));
     this.goal = mesh(new THREE.RingBufferGeometry(0.22, 0.32, 24), 0.9);
     this.fan = mesh(new THREE.BufferGeometry(), 0.2);
     this.trails = new Trails(world);
@@ -34,12 +35,12 @@ export class Overlays {
     this.stage.invalidate();
   }
 
-  /** Marks what is at [x, y, z, yaw]; null: nothing. */
-  select(place, radius = 1) {
+  /** Marks what is at [x, y, z, yaw] and reaches `half` metres around; null: nothing. */
+  select(place, half = 0.5) {
     this.ring.visible = Boolean(place);
     if (place) {
       this.ring.position.set(place[0], place[1], place[2] + 0.02);
-      this.ring.scale.setScalar(radius);
+      this.ring.scale.setScalar(half + RING);
     }
     this.stage.invalidate();
   }
@@ -63,7 +64,7 @@ export class Overlays {
     this.stage.invalidate();
   }
 
-  /** A scan {angleMin, angleStep, ranges} from a robot at [x, y, z, yaw]; null: none. */
+  /** A scan {mount, angleMin, angleStep, ranges} from a robot at [x, y, z, yaw]; null: none. */
   showScan(scan, place) {
     this.fan.visible = Boolean(scan);
     if (scan) setPoints(this.fan, fanOf(scan, place));
@@ -71,14 +72,16 @@ export class Overlays {
   }
 }
 
-function fanOf({ angleMin, angleStep, ranges }, [x, y, , yaw]) {
-  const from = [x + LASER.ahead * Math.cos(yaw), y + LASER.ahead * Math.sin(yaw), LASER.height];
-  const ends = [...ranges].map((range, i) => {
+/** Corners of triangles, in world, that a scan's rays span; `mount` is [x, y, z, yaw] of the laser on
+ *  the robot. */
+export function fanOf({ mount, angleMin, angleStep, ranges }, place) {
+  const [x, y, z, yaw] = within(place, mount);
+  const ends = Array.from(ranges, (range, i) => {
     const angle = yaw + angleMin + i * angleStep;
-    const far = Number.isFinite(range) ? range : range > 0 ? 5 : 0;
-    return [from[0] + far * Math.cos(angle), from[1] + far * Math.sin(angle), LASER.height];
+    const far = Number.isFinite(range) ? range : range > 0 ? FAR : 0;
+    return [x + far * Math.cos(angle), y + far * Math.sin(angle), z];
   });
-  return ends.slice(1).flatMap((end, i) => [from, ends[i], end]);
+  return ends.slice(1).flatMap((end, i) => [[x, y, z], ends[i], end]);
 }
 
 function lines(points) {
@@ -90,6 +93,14 @@ function lines(points) {
 function mesh(geometry, opacity) {
   return new THREE.Mesh(geometry, new THREE.MeshBasicMaterial(
     { transparent: true, opacity, depthWrite: false, side: THREE.DoubleSide }));
+}
+
+/** Shown even where something stands in front. */
+function throughAll(object) {
+  object.material.depthTest = false;
+  object.material.transparent = true;
+  object.renderOrder = 2;
+  return object;
 }
 
 function setPoints(object, points) {
@@ -107,51 +118,4 @@ function squareCorners(half, gap) {
     }
   }
   return out;
-}
-
-/** Where robots have been: one ring of segments for all, the oldest overwritten. */
-class Trails {
-  constructor(world) {
-    this.world = world;
-    this.positions = new THREE.BufferAttribute(new Float32Array(6 * MOST_SEGMENTS), 3);
-    this.colours = new THREE.BufferAttribute(new Float32Array(6 * MOST_SEGMENTS), 3);
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', this.positions);
-    geometry.setAttribute('color', this.colours);
-    const material = new THREE.LineBasicMaterial(
-      { vertexColors: THREE.VertexColors, transparent: true, opacity: 0.8 });
-    this.object = new THREE.LineSegments(geometry, material);
-    this.object.frustumCulled = false;
-    this.object.visible = false;
-    this.clear();
-  }
-
-  clear() {
-    this.next = 0;
-    this.ends = new Map(); // of each robot's trail
-    this.positions.array.fill(0);
-    this.positions.needsUpdate = true;
-  }
-
-  /** Takes in where these robots are. */
-  note(robots) {
-    if (!this.object.visible) return;
-    for (const i of robots) {
-      const [x, y] = this.world.pose.subarray(3 * i);
-      const end = this.ends.get(i);
-      const way = end ? Math.hypot(x - end[0], y - end[1]) : Infinity;
-      if (way < SEGMENT) continue;
-      this.ends.set(i, [x, y]);
-      if (way < 3) this.draw(end, [x, y], STATUS_COLOURS[this.world.status[i]]);
-    }
-    this.positions.needsUpdate = this.colours.needsUpdate = true;
-  }
-
-  draw(from, to, colour) {
-    const at = 6 * this.next;
-    this.positions.array.set([...from, 0.02, ...to, 0.02], at);
-    colour.toArray(this.colours.array, at);
-    colour.toArray(this.colours.array, at + 3);
-    this.next = (this.next + 1) % MOST_SEGMENTS;
-  }
 }

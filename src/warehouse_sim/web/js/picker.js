@@ -3,8 +3,7 @@
 
 import * as THREE from '/three/build/three.module.js';
 
-const REACH = { robot: 0.7, unit: 1.5, item: 0.25, scenery: 40 }; // of a sphere around each [m]
-const HEIGHT = { robot: 0.2, unit: 0.9, item: 0.06, scenery: 0 }; // of its centre [m]
+const KINDS = ['robot', 'unit', 'item', 'scenery'];
 
 export class Picker {
   constructor(stage, actors) {
@@ -21,32 +20,43 @@ export class Picker {
   }
 
   /** {kind, index} of what is hit first, or null. */
-  pick(x, y) {
+  pick(x, y, kinds = KINDS) {
     const ray = this.aim(x, y);
     let best = null, nearest = Infinity;
-    for (const kind of Object.keys(REACH)) {
-      const distance = (index, d) => {
-        if (d < nearest) [best, nearest] = [{ kind, index }, d];
-      };
-      this.each(kind, ray, distance);
+    for (const kind of kinds) {
+      this.each(kind, ray, (index, distance) => {
+        if (distance < nearest) [best, nearest] = [{ kind, index }, distance];
+      });
     }
     return best;
   }
 
   each(kind, ray, hit) {
-    const base = this.actors.base?.[kind] ?? [];
-    const centre = new THREE.Vector3(), inverse = new THREE.Matrix4();
-    for (let i = 0; 16 * i < base.length; ++i) {
-      centre.set(base[16 * i + 12], base[16 * i + 13], base[16 * i + 14] + HEIGHT[kind]);
-      if (ray.distanceSqToPoint(centre) > REACH[kind] ** 2) continue;
-      inverse.getInverse(new THREE.Matrix4().fromArray(base, 16 * i));
-      const own = ray.clone().applyMatrix4(inverse);
+    const base = this.actors.baseOf(kind);
+    const middle = new THREE.Vector3(), inverse = new THREE.Matrix4();
+    for (let index = 0; 16 * index < base.length; ++index) {
+      const { centre, radius } = this.actors.boundsOf({ kind, index });
+      const place = inverse.fromArray(base, 16 * index);
+      if (ray.distanceSqToPoint(middle.set(...centre).applyMatrix4(place)) > radius ** 2) continue;
+      const own = ray.clone().applyMatrix4(new THREE.Matrix4().getInverse(place));
       const boxes = this.actors.boxes[kind];
-      for (const box of kind === 'scenery' ? boxes[i] : boxes) {
+      for (const box of kind === 'scenery' ? boxes[index] : boxes) {
         const distance = enters(own.clone().applyMatrix4(box.inverse), box.half);
-        if (distance < Infinity) hit(i, distance);
+        if (distance < Infinity) hit(index, distance);
       }
     }
+  }
+
+  /** The robot that is drawn within so many pixels, nearest of all, as {kind, index}, or null. */
+  robotNear(x, y, reach) {
+    const { shown, status } = this.actors.world;
+    let best = null, nearest = reach;
+    for (let index = 0; index < status.length; ++index) {
+      const [px, py] = this.stage.pixelOf(shown[3 * index], shown[3 * index + 1], 0.2);
+      const distance = Math.hypot(px - x, py - y);
+      if (distance < nearest) [best, nearest] = [{ kind: 'robot', index }, distance];
+    }
+    return best;
   }
 
   /** [x, y] of the floor there, or null beyond its edge. */
@@ -58,18 +68,19 @@ export class Picker {
   }
 }
 
-/** Distance to a box of these half edges around the origin (Kay and Kajiya 1986), or Infinity. */
-function enters({ origin, direction }, half) {
+/** Distance of a ray to a box of these half edges around the origin (Kay and Kajiya 1986), or
+ *  Infinity. */
+export function enters({ origin, direction }, half) {
   let near = 0, far = Infinity;
   ['x', 'y', 'z'].forEach((axis, i) => {
     const [from, along] = [origin[axis], direction[axis]];
-    const ends = [(-half[i] - from) / along, (half[i] - from) / along];
     if (along === 0) {
       if (Math.abs(from) > half[i]) near = Infinity;
       return;
     }
+    const ends = [(-half[i] - from) / along, (half[i] - from) / along];
     near = Math.max(near, Math.min(...ends));
     far = Math.min(far, Math.max(...ends));
   });
-  return near <= far ? near : Infinity;
+  return near <= far && near < Infinity ? near : Infinity;
 }

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mouse and fingers on the picture: select what is clicked, send the chosen robot to a cell.
 
-const STILL = 6; // [px]; further, it was a drag
+import { on } from './dom.js';
+
+const STILL = { mouse: 6, touch: 14 }; // [px]; further, it was a drag
+const FINGER = 22; // how far beside a robot a finger may be [px]
 
 export class Pointer {
-  /** `page` has select(name), details and world. */
+  /** `page` has choose(name), details, world and take(cell), which may want the next cell. */
   constructor(page, picker, overlays) {
-    Object.assign(this, { page, picker, overlays });
+    Object.assign(this, { page, picker, overlays, hovered: null });
     const { canvas } = picker.stage;
-    canvas.addEventListener('pointerdown', (event) => this.down(event));
-    canvas.addEventListener('pointerup', (event) => this.up(event));
-    canvas.addEventListener('pointermove', (event) => this.move(event));
-    canvas.addEventListener('pointerleave', () => this.leave());
+    on(canvas, 'pointerdown', (event) => this.down(event));
+    on(canvas, 'pointerup', (event) => this.up(event));
+    on(canvas, 'pointermove', (event) => this.move(event));
+    on(canvas, 'pointerleave', () => this.leave());
   }
 
   down(event) {
@@ -19,39 +22,54 @@ export class Pointer {
   }
 
   up(event) {
-    const [x, y] = [event.clientX, event.clientY];
-    const still = this.from && Math.hypot(x - this.from[0], y - this.from[1]) < STILL;
+    const at = [event.clientX, event.clientY];
+    const isTouch = event.pointerType === 'touch';
+    const still = this.from && Math.hypot(at[0] - this.from[0], at[1] - this.from[1])
+      < STILL[isTouch ? 'touch' : 'mouse'];
     this.from = null;
-    if (still) this.click(x, y);
+    if (still) this.click(at, isTouch);
   }
 
-  click(x, y) {
-    const hit = this.picker.pick(x, y);
-    const cell = hit ? null : this.cellAt(x, y);
-    if (hit) this.page.select(this.page.world.nameOf(hit));
-    else if (cell && this.page.details.selectedRobot >= 0) this.page.details.go(...cell, [x, y]);
-    else this.page.select(null);
+  click(at, isTouch) {
+    const meant = this.at(at);
+    const { cell } = meant;
+    const hit = meant.hit ?? (isTouch && !cell && this.picker.robotNear(...at, FINGER));
+    if (hit) this.page.choose(this.page.world.nameOf(hit));
+    else if (cell) this.page.take(cell, at);
+  }
+
+  /** What a click there means: {hit: {kind, index}} of a thing, {cell: [x, y]}, or neither.
+   *
+   *  While a cell is wanted, storage units do not hide the free cells behind them. */
+  at(at) {
+    const { world } = this.page;
+    const solid = this.page.wantsCell && this.picker.pick(...at, ['robot', 'scenery']);
+    if (solid) return { hit: solid };
+    const cell = this.page.wantsCell ? this.cellAt(...at) : null;
+    if (cell && world.unitAt(cell) < 0) return { cell };
+    const hit = this.picker.pick(...at);
+    return hit ? { hit } : { cell };
   }
 
   /** The grid point of the cell there, or null. */
   cellAt(x, y) {
     const point = this.picker.pointOnFloor(x, y);
     const { grid } = this.page.world.scene;
-    return point && point.map((at) => Math.round(at / grid) * grid + 0);
+    return point && point.map((along) => Math.round(along / grid) * grid + 0);
   }
 
   move(event) {
     if (event.pointerType !== 'mouse' || event.buttons) return;
-    const [x, y] = [event.clientX, event.clientY];
-    const hit = this.picker.pick(x, y);
-    const chosen = this.page.details.selectedRobot >= 0;
-    const cell = hit || !chosen ? null : this.cellAt(x, y);
-    this.overlays.point(cell);
+    const at = [event.clientX, event.clientY];
+    const { hit, cell } = this.at(at);
+    this.overlays.point(hit ? null : cell);
     this.picker.stage.canvas.style.cursor = hit || cell ? 'pointer' : '';
-    this.page.tip.hover(hit ? this.page.world.nameOf(hit) : cell && `go to ${cell.join(', ')}`, [x, y]);
+    this.hovered = hit ?? null;
+    this.page.tip.hover(hit ? this.page.world.nameOf(hit) : cell && this.page.told(cell), at);
   }
 
   leave() {
+    this.hovered = null;
     this.overlays.point(null);
     this.page.tip.hover(null);
   }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads what viewer/protocol.py writes; the layout is described there.
 
-export const VERSION = 1;
-const UPDATE = 1, HEAD = 40, SCAN_HEAD = 16;
+export const VERSION = 2;
+const UPDATE = 1, HEAD = 40, SCAN_HEAD = 32;
 export const ROBOT_WORDS = 6, BODY_WORDS = 9; // of four bytes, a row
 
 /** {kind: 'update', tick, stamp, revision, robots, units, loose, scenery}, each a table; or
- *  {kind: 'scan', id, angleMin, angleStep, ranges}. */
+ *  {kind: 'scan', id, angleMin, angleStep, mount, ranges}, `mount` the laser's place on its robot. */
 export function decode(buffer) {
   const view = new DataView(buffer);
   return view.getUint32(0, true) === UPDATE ? update(buffer, view) : scan(buffer, view);
@@ -47,6 +47,7 @@ function scan(buffer, view) {
     id: view.getUint32(4, true),
     angleMin: view.getFloat32(8, true),
     angleStep: view.getFloat32(12, true),
+    mount: [...new Float32Array(buffer, 16, 4)],
     ranges: new Float32Array(buffer, SCAN_HEAD),
   };
 }

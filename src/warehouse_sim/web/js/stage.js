@@ -3,13 +3,15 @@
 
 import * as THREE from '/three/build/three.module.js';
 import { OrbitControls } from '/three/examples/jsm/controls/OrbitControls.js';
+import { on } from './dom.js';
 
 const COLOURS = {
   dark: { page: 0x14171c, floor: 0x2a2f37, grid: 0x414955, sky: 0xffffff, ground: 0x565b66 },
   light: { page: 0xeef1f4, floor: 0xd5dae0, grid: 0xb4bcc6, sky: 0xffffff, ground: 0x9a9a9a },
 };
-const PANELS_BELOW = 110; // how much more they cover there than above [px]
 const MOST_LINES = 600; // of the grid, along each axis
+
+const point = new THREE.Vector3();
 
 THREE.Object3D.DefaultUp.set(0, 0, 1);
 
@@ -18,7 +20,7 @@ export class Stage {
   constructor(canvas, beforeDraw) {
     this.canvas = canvas;
     this.beforeDraw = beforeDraw;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !isSoftware() });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.1, 5000);
@@ -33,18 +35,31 @@ export class Stage {
     this.sun.position.set(-3, -5, 9);
     this.scene.add(this.sky, this.sun);
     this.frames = 0; // drawn since the start
+    this.margins = { left: 0, right: 0, top: 0, bottom: 0 };
     this.setFloor([-5, 5, -5, 5], 1);
-    addEventListener('resize', () => this.resize());
+    on(window, 'resize', () => this.resize());
     this.resize();
   }
 
   resize() {
-    const [width, height] = [innerWidth, innerHeight];
-    this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    // What is looked at belongs in the middle of what the panels leave free.
-    this.camera.setViewOffset(width, height, 0, PANELS_BELOW / 2, width, height);
+    this.renderer.setSize(innerWidth, innerHeight, false);
+    this.camera.aspect = innerWidth / innerHeight;
+    this.setMargins(this.margins);
+  }
+
+  /** What panels cover at the edges of the window [px]: what is looked at belongs in the middle of
+   *  the rest. */
+  setMargins(margins) {
+    const { left, right, top, bottom } = this.margins = margins;
+    this.camera.setViewOffset(innerWidth, innerHeight,
+      (right - left) / 2, (bottom - top) / 2, innerWidth, innerHeight);
     this.invalidate();
+  }
+
+  /** Where a point of the world is drawn [px]. */
+  pixelOf(x, y, z) {
+    const at = point.set(x, y, z).project(this.camera);
+    return [(at.x + 1) / 2 * innerWidth, (1 - at.y) / 2 * innerHeight];
   }
 
   /** Something looks other than it did: draw, soon and once. */
@@ -85,16 +100,25 @@ export class Stage {
   }
 }
 
-/** The borders of the cells, which lie midway between grid points. */
+/** Whether the processor draws: then smooth edges cost more than they are worth. */
+function isSoftware() {
+  const gl = document.createElement('canvas').getContext('webgl');
+  const told = gl?.getExtension('WEBGL_debug_renderer_info');
+  return /swiftshader|llvmpipe|software/i.test(told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : '');
+}
+
+/** The borders of the cells, which lie midway between grid points; at most MOST_LINES of them. */
+export function bordersOf(from, to, spacing) {
+  const step = spacing * Math.max(1, Math.ceil((to - from) / spacing / MOST_LINES));
+  const first = Math.ceil((from - spacing / 2) / spacing) * spacing + spacing / 2;
+  const count = Math.floor((to - first) / step + 1e-6) + 1;
+  return Array.from({ length: Math.max(0, count) }, (_, i) => first + i * step);
+}
+
 function gridOf([x0, x1, y0, y1], spacing) {
   const points = [];
-  const each = (from, to, add) => {
-    const step = spacing * Math.max(1, Math.ceil((to - from) / spacing / MOST_LINES));
-    const first = Math.ceil((from - spacing / 2) / spacing) * spacing + spacing / 2;
-    for (let at = first; at <= to + 1e-6; at += step) add(Math.min(at, to));
-  };
-  each(x0, x1, (x) => points.push(x, y0, 0, x, y1, 0));
-  each(y0, y1, (y) => points.push(x0, y, 0, x1, y, 0));
+  for (const x of bordersOf(x0, x1, spacing)) points.push(x, y0, 0, x, y1, 0);
+  for (const y of bordersOf(y0, y1, spacing)) points.push(x0, y, 0, x1, y, 0);
   const out = new THREE.BufferGeometry();
   out.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
   return out;

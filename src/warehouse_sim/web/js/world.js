@@ -2,6 +2,7 @@
 // What stands where: the newest the server told, and where robots are drawn between two updates.
 
 const SNAP = 3; // [m]; further, it was put there, it did not drive
+const REACH = 0.3; // from a robot's centre to that of a unit which it may lift [m]
 
 export const STATUS = ['idle', 'busy', 'blocked'];
 export const STATE = ['stands', 'drives along x', 'drives along y', 'turns', 'lifts', 'blocked'];
@@ -26,6 +27,7 @@ export class World {
       ...scene.scenery.map((name, i) => [name, { kind: 'scenery', index: i }]),
       ...scene.robots.map((id, i) => [`kiva${id}`, { kind: 'robot', index: i }]),
     ]);
+    this.unitOf = new Map(scene.units.map((name, i) => [Number(name.match(/\d+$/)?.[0]), i]));
     this.itemsOf = scene.units.map(() => []);
     scene.item_unit.forEach((unit, item) => unit >= 0 && this.itemsOf[unit].push(item));
     // x y yaw of each robot: as told, where its drawing began, and as drawn now.
@@ -103,7 +105,7 @@ export class World {
 
   /** Index of the unit that a robot carries, -1 = none. */
   loadOf(robot) {
-    return this.shelf[robot] ? this.indexOf.get(`storage_unit${this.shelf[robot]}`)?.index ?? -1 : -1;
+    return this.shelf[robot] ? this.unitOf.get(this.shelf[robot]) ?? -1 : -1;
   }
 
   /** [x, y, z, yaw] of anything, in world, as drawn. */
@@ -131,11 +133,14 @@ export class World {
       : { unit: units, item: items, scenery }[kind][index];
   }
 
-  /** Index of the unit that stands within reach over a robot, -1 = none. */
-  unitOver(robot) {
-    const [x, y] = this.pose.subarray(3 * robot);
+  /** Index of the unit that stands within a robot's reach over [x, y], -1 = none. */
+  unitAt([x, y]) {
     return this.scene.units.findIndex((_, unit) => !this.carrier[unit]
-      && Math.hypot(this.unitPose[7 * unit] - x, this.unitPose[7 * unit + 1] - y) < 0.3);
+      && Math.hypot(this.unitPose[7 * unit] - x, this.unitPose[7 * unit + 1] - y) < REACH);
+  }
+
+  unitOver(robot) {
+    return this.unitAt(this.pose.subarray(3 * robot, 3 * robot + 2));
   }
 }
 
@@ -159,7 +164,8 @@ function planar(poses, i) {
   return [x, y, z, Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))];
 }
 
-function within([fx, fy, fz, fyaw], [x, y, z, yaw]) {
+/** A place [x, y, z, yaw] given in a frame, in that frame's own. */
+export function within([fx, fy, fz, fyaw], [x, y, z, yaw]) {
   const [c, s] = [Math.cos(fyaw), Math.sin(fyaw)];
   return [fx + c * x - s * y, fy + s * x + c * y, fz + z, wrapped(fyaw + yaw)];
 }

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {
@@ -52,7 +52,7 @@ class States {
 }  // namespace
 
 void Bumper::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
-  enter(world, model, p, "");
+  enter(world, model, p, "", "");
   const kiva::SensorDescription& from = sensor(p, "contact");
   const std::string prefix = model + "::" + from.link + "::";
   const kiva::Link& link = *description().findLink(from.link);

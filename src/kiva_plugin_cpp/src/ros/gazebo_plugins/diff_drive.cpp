@@ -11,7 +11,7 @@
 #include <limits>
 #include <sstream>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {
@@ -29,7 +29,7 @@ void setCovariance(nav_msgs::Odometry* odometry) {
 }  // namespace
 
 void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
-  enter(world, model, p, "");
+  enter(world, model, p, model, model);
   readWheels(world, p);
   separation_ = p.number("wheelSeparation", 0.34, 1e-6, kMost);
   radius_ = p.number("wheelDiameter", 0.15, 1e-6, kMost) / 2;
@@ -38,19 +38,19 @@ void DiffDrive::load(kiva::World& world, const std::string& model, const kiva::P
   schedule_ = Schedule(p.number("updateRate", 100, 0, kMost));
   const std::string source = p.text("odometrySource", "world");
   by_encoder_ = source == "encoder" || source == "0";
-  tells_odometry_ = p.flag("publishTf", true);
-  tells_odometry_tf_ = p.flag("publishOdomTF", true);
-  tells_wheel_tf_ = p.flag("publishWheelTF", false);
-  tells_wheel_joints_ = p.flag("publishWheelJointState", false);
+  publish_odometry_ = p.flag("publishTf", true);
+  publish_odometry_tf_ = p.flag("publishOdomTF", true);
+  publish_wheel_tf_ = p.flag("publishWheelTF", false);
+  publish_wheel_joints_ = p.flag("publishWheelJointState", false);
   odometry_frame_ = frame(p.text("odometryFrame", "odom"));
   base_frame_ = frame(p.text("robotBaseFrame", "base_footprint"));
   skip(p, {"alwaysOn", "rosDebugLevel", "broadcastTF"});
   const std::string topic = p.text("odometryTopic", "odom");
   odometry_ = node().advertise<nav_msgs::Odometry>(topic, 10);
   transforms_ = node().advertise<tf2_msgs::TFMessage>("/tf", 100);
-  if (tells_wheel_joints_) joints_ = node().advertise<sensor_msgs::JointState>("joint_states", 10);
-  commands_ = node().subscribe(p.text("commandTopic", "cmd_vel"), 1, &DiffDrive::hear, this,
-                               ros::TransportHints().tcpNoDelay());
+  if (publish_wheel_joints_)
+    joints_ = node().advertise<sensor_msgs::JointState>("joint_states", 10);
+  commands_ = subscribe<geometry_msgs::Twist>(p.text("commandTopic", "cmd_vel"));
 }
 
 /// Which wheel is the left one is seen from where it sits. Where <legacyMode> says so the sides are
@@ -74,9 +74,8 @@ void DiffDrive::readWheels(const kiva::World& world, const kiva::Parameters& p) 
   turn_sign_ = is_swapped ? -1 : 1;
 }
 
-void DiffDrive::hear(const geometry_msgs::Twist& command) {
+void DiffDrive::onCommand(const geometry_msgs::Twist& command) {
   if (!std::isfinite(command.linear.x) || !std::isfinite(command.angular.z)) return;
-  const std::lock_guard<std::mutex> lock(mutex_);
   command_ = {std::clamp(command.linear.x, -kMost, kMost),
               std::clamp(command.angular.z, -kMost, kMost)};
 }
@@ -87,16 +86,12 @@ double DiffDrive::wanted(Side side, const Command& command) const {
 }
 
 void DiffDrive::beforeStep(kiva::World& world, double dt) {
-  Command command;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    command = command_;
-  }
+  if (const geometry_msgs::Twist* command = commands_.take()) onCommand(*command);
   const double most = acceleration_ > 0 ? acceleration_ * dt : std::numeric_limits<double>::max();
   for (Side side : {kLeft, kRight}) {
     Wheel& wheel = wheels_[side];
-    wheel.asked += std::clamp(wanted(side, command) - wheel.asked, -most, most);
-    const double speed = wheel.asked / radius_;
+    wheel.target += std::clamp(wanted(side, command_) - wheel.target, -most, most);
+    const double speed = wheel.target / radius_;
     if (speed == wheel.applied) continue;
     const auto joint = world.joint(model(), wheel.joint);
     if (!joint) continue;
@@ -110,43 +105,47 @@ void DiffDrive::beforeStep(kiva::World& world, double dt) {
 void DiffDrive::afterStep(const kiva::World& world, double dt) {
   if (by_encoder_) integrate(world, dt);
   if (!schedule_.isDue(world.time())) return;
-  if (tells_odometry_) publishOdometry(world);
-  if (tells_wheel_tf_ || tells_wheel_joints_) publishWheels(world);
+  if (publish_odometry_) publishOdometry(world);
+  if (publish_wheel_tf_ || publish_wheel_joints_) publishWheels(world);
 }
 
 void DiffDrive::reset(kiva::World&) {
-  const std::lock_guard<std::mutex> lock(mutex_);
   command_ = {};
   encoder_ = {};
   for (Wheel& wheel : wheels_) {
-    wheel.asked = 0;
+    wheel.target = 0;
     wheel.applied = kNaN;
   }
 }
 
 std::string DiffDrive::save() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
   const kiva::Pose& pose = encoder_.pose;
   std::ostringstream out;
-  out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].asked
-      << ' ' << wheels_[kRight].asked << ' ' << pose.X() << ' ' << pose.Y() << ' '
-      << pose.Rot().Yaw();
+  out << std::hexfloat << command_.speed << ' ' << command_.turn << ' ' << wheels_[kLeft].target
+      << ' ' << wheels_[kRight].target << ' ' << pose.X() << ' ' << pose.Y() << ' '
+      << pose.Rot().Yaw() << ' ' << wheels_[kLeft].applied << ' ' << wheels_[kRight].applied;
   return out.str();
 }
 
 void DiffDrive::restore(kiva::World& world, const std::string& state) {
   reset(world);
   std::istringstream words(state);
-  double values[7] = {};
+  double values[9] = {};
   for (double& value : values) {  // streams read no hexadecimal floats
     std::string word;
     words >> word;
     value = std::strtod(word.c_str(), nullptr);
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
+  // A checkpoint may come from anywhere.
+  for (int i = 0; i < 7; ++i) {
+    values[i] = std::isfinite(values[i]) ? std::clamp(values[i], -kMost, kMost) : 0;
+  }
   command_ = {values[0], values[1]};
-  wheels_[kLeft].asked = values[2];
-  wheels_[kRight].asked = values[3];
+  wheels_[kLeft].target = values[2];
+  wheels_[kRight].target = values[3];
+  // The motors are as they were: to set them once more would be another future.
+  wheels_[kLeft].applied = values[7];
+  wheels_[kRight].applied = values[8];
   encoder_.pose = kiva::Pose(values[4], values[5], 0, 0, 0, values[6]);
 }
 
@@ -184,7 +183,7 @@ void DiffDrive::publishOdometry(const kiva::World& world) {
   out.twist.twist = toMessage(state.twist);
   setCovariance(&out);
   publish(odometry_, out);
-  if (!tells_odometry_tf_) return;
+  if (!publish_odometry_tf_) return;
   tf2_msgs::TFMessage tf;
   tf.transforms.push_back(transform(world.time(), odometry_frame_, base_frame_, state.pose));
   publish(transforms_, tf);
@@ -207,8 +206,8 @@ void DiffDrive::publishWheels(const kiva::World& world) {
     tf.transforms.push_back(transform(world.time(), frame(joint.parent), frame(joint.child),
                                       base.Inverse() * child->pose));
   }
-  if (tells_wheel_joints_) publish(joints_, joints);
-  if (tells_wheel_tf_) publish(transforms_, tf);
+  if (publish_wheel_joints_) publish(joints_, joints);
+  if (publish_wheel_tf_) publish(transforms_, tf);
 }
 
 }  // namespace kiva_ros

@@ -4,7 +4,6 @@
 #include <geometry_msgs/Twist.h>
 
 #include <array>
-#include <mutex>
 #include <string>
 
 #include "gazebo_plugin.h"
@@ -27,7 +26,7 @@ class DiffDrive : public GazeboPlugin {
   enum Side { kLeft, kRight };
   struct Wheel {
     std::string joint;
-    double asked = 0;    ///< Speed of its rim now asked of the motor [m/s].
+    double target = 0;   ///< Speed of its rim now asked of the motor [m/s].
     double applied = 0;  ///< What the motor knows [rad/s], NaN = nothing.
   };
   struct Command {
@@ -36,7 +35,7 @@ class DiffDrive : public GazeboPlugin {
   };
 
   void readWheels(const kiva::World& world, const kiva::Parameters& parameters);
-  void hear(const geometry_msgs::Twist& command);
+  void onCommand(const geometry_msgs::Twist& command);
   double wanted(Side side, const Command& command) const;
   void integrate(const kiva::World& world, double dt);
   kiva::EntityState odometry(const kiva::World& world) const;
@@ -49,16 +48,15 @@ class DiffDrive : public GazeboPlugin {
   double torque_ = 5;                          ///< [Nm]
   double turn_sign_ = 1;                       ///< -1: the wheel called left is on the right.
   bool by_encoder_ = false;
-  bool tells_odometry_ = true, tells_odometry_tf_ = true;
-  bool tells_wheel_tf_ = false, tells_wheel_joints_ = false;
+  bool publish_odometry_ = true, publish_odometry_tf_ = true;
+  bool publish_wheel_tf_ = false, publish_wheel_joints_ = false;
   std::string odometry_frame_, base_frame_;
   Schedule schedule_;
   kiva::EntityState encoder_;  ///< Odometry from the wheels' turns; the twist as the base sees it.
 
-  mutable std::mutex mutex_;
-  Command command_;  ///< Guarded by mutex_.
+  Command command_;
+  PluginInput<geometry_msgs::Twist> commands_;
   ros::Publisher odometry_, transforms_, joints_;
-  ros::Subscriber commands_;  ///< The last: no message comes to what is half destroyed.
 };
 
 }  // namespace kiva_ros

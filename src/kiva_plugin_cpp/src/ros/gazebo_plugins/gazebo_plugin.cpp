@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "ros/frames.h"
+#include "ros/messages/reference_frames.h"
 
 namespace kiva_ros {
 namespace {
@@ -45,14 +45,15 @@ double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index) {
 }
 
 void GazeboPlugin::enter(const kiva::World& world, const std::string& model,
-                         const kiva::Parameters& parameters, const std::string& fallback) {
+                         const kiva::Parameters& parameters, const std::string& if_missing,
+                         const std::string& if_empty) {
   model_ = model;
   description_ = world.description(model);
   if (!description_) {
     throw kiva::DescriptionError("it is a plugin of a model, not of a world");
   }
-  namespace_ = parameters.text("robotNamespace", "");
-  if (namespace_.empty()) namespace_ = fallback;
+  namespace_ = parameters.text("robotNamespace", if_missing);
+  if (namespace_.empty() && parameters.has("robotNamespace")) namespace_ = if_empty;
   node_ = std::make_unique<ros::NodeHandle>(root_, withoutSlashes(namespace_));
   const std::string name = model + (sensor_ ? sensor_->link + sensor_->name : "");
   seed_ = world.seed() ^ std::hash<std::string>()(name);

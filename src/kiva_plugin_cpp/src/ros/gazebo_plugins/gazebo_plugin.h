@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the stand-ins for gazebo_ros' plugins share. They run on the step thread; what they publish
-// goes by mail.
+// What the stand-ins for gazebo_ros' plugins share. They run on the step thread; the broadcaster
+// publishes what they queue.
 #pragma once
 
 #include <ros/ros.h>
@@ -13,13 +13,15 @@
 
 #include "kiva_plugin_cpp/plugin.h"
 #include "kiva_plugin_cpp/world.h"
-#include "ros/mail.h"
+#include "plugin_inputs.h"
+#include "ros/transport/publish_queue.h"
 
 namespace kiva_ros {
 
 struct PluginContext {
   ros::NodeHandle& root;
-  Mail& mail;
+  PublishQueue& publish_queue;
+  PluginInputs& inputs;
   const kiva::SensorDescription* sensor;  ///< Null for a plugin of a model.
 };
 
@@ -42,13 +44,17 @@ double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index);
 class GazeboPlugin : public kiva::Plugin {
  public:
   explicit GazeboPlugin(const PluginContext& context)
-      : root_(context.root), mail_(context.mail), sensor_(context.sensor) {}
+      : root_(context.root),
+        publish_queue_(context.publish_queue),
+        inputs_(context.inputs),
+        sensor_(context.sensor) {}
   bool isStrict() const override { return false; }
 
  protected:
-  /// Reads `robotNamespace`; topics are in it from now on. `fallback`: where there is none.
+  /// Reads `robotNamespace`; topics are in it from now on. Each plugin of gazebo_ros has namespaces
+  /// of its own where that is missing or empty.
   void enter(const kiva::World& world, const std::string& model, const kiva::Parameters& parameters,
-             const std::string& fallback);
+             const std::string& if_missing, const std::string& if_empty);
   /// Reads what plugins of Gazebo take and ours have no use for.
   static void skip(const kiva::Parameters& parameters, std::initializer_list<const char*> keys);
   /// A frame's name behind the prefix that holds for this namespace; `prefix_by_namespace`: the
@@ -66,13 +72,18 @@ class GazeboPlugin : public kiva::Plugin {
   std::uint64_t seed() const { return seed_; }
 
   template <typename Message>
+  PluginInput<Message> subscribe(const std::string& topic) {
+    return inputs_.subscribe<Message>(node(), topic);
+  }
+  template <typename Message>
   void publish(const ros::Publisher& publisher, Message message) {
-    mail_.post([publisher, message = std::move(message)] { publisher.publish(message); });
+    publish_queue_.post([publisher, message = std::move(message)] { publisher.publish(message); });
   }
 
  private:
   ros::NodeHandle& root_;
-  Mail& mail_;
+  PublishQueue& publish_queue_;
+  PluginInputs& inputs_;
   const kiva::SensorDescription* sensor_;
   std::unique_ptr<ros::NodeHandle> node_;
   std::string namespace_, model_;

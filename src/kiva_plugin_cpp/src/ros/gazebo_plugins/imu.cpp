@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {
@@ -13,7 +13,7 @@ bool calibrate(std_srvs::Empty::Request&, std_srvs::Empty::Response&) { return t
 }  // namespace
 
 void Imu::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
-  enter(world, model, p, "");
+  enter(world, model, p, "", "");
   link_ = link(p, "bodyName");
   const auto rpy = p.numbers("rpyOffset", {0, 0, 0});
   offset_ = kiva::Quaternion(rpy[0], rpy[1], rpy[2]);

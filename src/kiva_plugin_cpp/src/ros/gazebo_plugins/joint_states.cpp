@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {
@@ -23,7 +23,7 @@ std::vector<std::string> listOf(std::string text) {
 }  // namespace
 
 void JointStates::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
-  enter(world, model, p, model);
+  enter(world, model, p, model, model);
   joints_ = listOf(p.text("jointName", ""));
   for (const std::string& joint : joints_) {
     if (description().findJoint(joint)) continue;

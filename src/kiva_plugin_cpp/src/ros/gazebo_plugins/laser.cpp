@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ros/convert.h"
+#include "ros/messages/convert.h"
 
 namespace kiva_ros {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kMostRange = 1e5;  // [m]
 }  // namespace
 
 void Laser::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
-  enter(world, model, p, model);
+  enter(world, model, p, "", model);
   const kiva::SensorDescription& from = sensor(p, "ray gpu_ray lidar gpu_lidar");
   link_ = from.link;
   pose_in_link_ = from.pose_in_link;

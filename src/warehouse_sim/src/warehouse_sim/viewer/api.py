@@ -2,16 +2,23 @@
 """The HTTP API: what ROS offers, for those who speak no ROS. Described at /api/v1/openapi.json."""
 
 import asyncio
+import csv
+import io
 from typing import Literal
 
-from fastapi import APIRouter, Body, HTTPException, Path, Query
+from fastapi import APIRouter, Body, Depends, HTTPException, Path, Query, Request, Response
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
+from pydantic.error_wrappers import ErrorWrapper
+from pydantic.errors import StrError
 from starlette.routing import Match
 
 from warehouse_sim.viewer import catalogue, schemas
+from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 
-PATIENCE = 3.0  # for the first messages, when nobody looked for long [s, wall]
+PATIENCE = 3.0  # for messages that are on their way [s, wall]
+ANSWER, END = 10.0, 300.0  # for the answer to a command, and for its end [s, wall]
 
 
 def _problems(*codes):
@@ -22,6 +29,8 @@ def _problems(*codes):
 SENT = (400, 409, 413)  # wherever something is sent
 
 
+CSV = {200: {"content": {"text/csv": {"schema": {"type": "string"}}}}}
+
 Limit = Query(100, ge=1, le=schemas.MOST_ROWS, description="rows in the answer")
 Offset = Query(0, ge=0, le=schemas.INT32, description="rows to leave out before them")
 Command = Body(discriminator="command")
@@ -29,7 +38,7 @@ Number = Path(ge=1, le=schemas.INT32, description="the number in the model's nam
 Text = Query("", max_length=100, description="a part of the name")
 
 
-class Desk:
+class ApiBackend:
     """What the API's answers are made from."""
 
     def __init__(self, feed, model, journal, simulation, commander):
@@ -39,15 +48,27 @@ class Desk:
     async def look(self):
         """Waits until the world has told enough. Raises HTTPException."""
         self.feed.look()
-        for _ in range(int(PATIENCE / 0.05)):
-            if self.feed.tells_all:
-                return
-            await asyncio.sleep(0.05)
-        raise HTTPException(503, "the world tells nothing; does it run?")
+        if not await _until(lambda: self.feed.tells_all):
+            raise HTTPException(503, "the world tells nothing; does it run?")
+
+    async def change(self, action, *args):
+        """Calls a method of Simulation by which models come or go.
+
+        Returns once every read shows what stands then. Raises HTTPException.
+        """
+        await self.look()  # who hears already takes nothing old for new
+        objects, fleet = self.feed["objects"], self.feed["fleet"]
+        answer = await self.do(action, *args)
+        standing = await self.do("standing")
+        if standing.is_paused:
+            # Robots come and go unseen where nothing moves; newcomers alone are told of all.
+            self.feed.hear_anew("fleet")
+        await _until(lambda: self.feed.shows(standing, objects, fleet))
+        return answer
 
     async def robots(self):
         await self.look()
-        return catalogue.robots(self.feed["fleet"], self.model.is_blocked)
+        return catalogue.robots(self.feed["fleet"])
 
     async def robot(self, number):
         """Raises HTTPException."""
@@ -73,6 +94,15 @@ class Desk:
             raise HTTPException(503, str(error)) from error
 
 
+async def _until(condition):
+    """Whether it comes true soon."""
+    for _ in range(int(PATIENCE / 0.05)):
+        if condition():
+            return True
+        await asyncio.sleep(0.05)
+    return False
+
+
 async def not_allowed(request, error):
     """405 with all methods of the path: its routes are one for each."""
     routes = [
@@ -83,31 +113,35 @@ async def not_allowed(request, error):
     return JSONResponse({"detail": error.detail}, error.status_code, headers=headers)
 
 
-async def no_command(_request, _error):
-    """422 where "command" is no text: looking for its kind, pydantic 1 fails an assertion then."""
-    problem = {"loc": ["body", "command"], "msg": "str type expected", "type": "type_error.str"}
-    return JSONResponse({"detail": [problem]}, 422)
+async def _names_a_command(request: Request):
+    """Or 422: looking for the kind of one, pydantic 1 fails an assertion where it is no text."""
+    try:
+        body = await request.json()
+    except (ValueError, RecursionError):
+        return  # FastAPI tells what is wrong with it
+    if isinstance(body, dict) and not isinstance(body.get("command", ""), str):
+        raise RequestValidationError([ErrorWrapper(StrError(), ("body", "command"))])
 
 
-def router(desk):
+def router(backend):
     """All routes below /api/v1."""
     out = APIRouter(prefix="/api/v1")
-    _add_warehouse(out, desk)
-    _add_robots(out, desk)
-    _add_things(out, desk, "storage_units", "storage_unit")
-    _add_things(out, desk, "items", "item")
-    _add_simulation(out, desk)
+    _add_warehouse(out, backend)
+    _add_robots(out, backend)
+    _add_things(out, backend, "storage_units", "storage_unit")
+    _add_things(out, backend, "items", "item")
+    _add_simulation(out, backend)
     return out
 
 
-def _add_warehouse(out, desk):
+def _add_warehouse(out, backend):
     @out.get("/warehouse", response_model=schemas.Warehouse, responses=_problems())
     async def get_warehouse():
         """What stands there, and how time passes."""
-        await desk.look()
-        objects, performance = desk.feed["objects"], desk.feed["performance"]
-        name, number = await desk.do("warehouse")
-        lacks = await desk.do("offers")
+        await backend.look()
+        objects, performance = backend.feed["objects"], backend.feed["performance"]
+        name, number = await backend.do("warehouse")
+        lacks = await backend.do("offers")
         return {
             "name": name,
             "id": number,
@@ -115,29 +149,39 @@ def _add_warehouse(out, desk):
             "storage_units": len(objects.storage_units),
             "items": len(objects.items),
             "belts": len(objects.belts),
-            "time": desk.feed["fleet"].stamp.to_sec(),
+            "time": backend.feed["fleet"].stamp.to_sec(),
             "real_time_factor": performance.real_time_factor if performance else 0.0,
             "lacks": {action: lack for action, lack in lacks.items() if lack},
-            **await desk.do("state"),
+            **await backend.do("state"),
         }
 
     @out.post("/warehouse", response_model=schemas.Done, responses=_problems(*SENT))
     async def create_warehouse(wanted: schemas.NewWarehouse):
         """Builds a warehouse in place of the one that stands."""
         counts = (wanted.robots, wanted.items, wanted.shelves)
-        return {"message": await desk.do("create", wanted.name, wanted.id, *counts)}
+        return {"message": await backend.change("create", wanted.name, wanted.id, *counts)}
 
     @out.get("/events", response_model=schemas.Events, responses=_problems())
     async def get_events(
         since: int = Query(0, ge=0, le=2**53, description="the last id you know"),
         model: str = Query("", max_length=100, description="of this model alone"),
-        limit: int = Limit,
+        limit: int = Query(100, ge=1, le=KEPT, description="rows in the answer"),
     ):
         """The newest events, oldest first."""
-        return {"events": desk.journal.since(since, model or None, limit)}
+        return {"events": backend.journal.since(since, model or None, limit)}
+
+    @out.get("/events.csv", response_class=Response, responses=_problems() | CSV)
+    async def export_events():
+        """All events that are kept, oldest first, for a spreadsheet."""
+        text = io.StringIO()
+        table = csv.DictWriter(text, schemas.Event.__fields__)
+        table.writeheader()
+        table.writerows(backend.journal.since(0))
+        headers = {"content-disposition": 'attachment; filename="events.csv"'}
+        return Response(text.getvalue(), media_type="text/csv", headers=headers)
 
 
-def _add_robots(out, desk):
+def _add_robots(out, backend):
     @out.get("/robots", response_model=schemas.Robots, responses=_problems())
     async def get_robots(
         status: Literal["IDLE", "BUSY", "BLOCKED"] | None = None,
@@ -146,16 +190,30 @@ def _add_robots(out, desk):
         offset: int = Offset,
     ):
         """Robots with their poses and status."""
-        found = [r for r in await desk.robots() if name in r.name and status in (None, r.status)]
+        found = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
         return {"total": len(found), "robots": found[offset : offset + limit]}
 
     @out.get("/robots/{number}", response_model=schemas.Robot, responses=_problems(404))
     async def get_robot(number: int = Number):
         """One robot."""
-        return await desk.robot(number)
+        return await backend.robot(number)
+
+    @out.post("/robots", status_code=201, response_model=schemas.Robot, responses=_problems(*SENT))
+    async def add_robot(wanted: schemas.NewRobot):
+        """Puts a robot on a free grid point; it gets the lowest free number."""
+        number = await backend.change("add_robot", wanted.x, wanted.y, wanted.heading)
+        return await backend.robot(number)
+
+    @out.delete("/robots/{number}", response_model=schemas.Done, responses=_problems(404, 409))
+    async def remove_robot(number: int = Number):
+        """Takes away a robot that carries nothing."""
+        if (await backend.robot(number)).storage_unit:
+            raise HTTPException(409, f"kiva{number} carries a storage unit; let it drop that first")
+        return {"message": await backend.change("remove_robot", number)}
 
     @out.post(
         "/robots/{number}/commands",
+        dependencies=[Depends(_names_a_command)],
         response_model=schemas.Outcome,
         responses=_problems(404, *SENT) | {202: {"model": schemas.Outcome}},
     )
@@ -163,22 +221,33 @@ def _add_robots(out, desk):
         command: schemas.Command = Command,
         number: int = Number,
         wait: Literal["answer", "end"] = Query("answer", description="for what to wait"),
-        timeout: float = Query(10, ge=0.01, le=300, description="[s, wall]; then: pending"),
+        timeout: float | None = Query(
+            None,
+            ge=0.01,
+            le=END,
+            description=f"[s, wall]; {ANSWER:g} for the answer, {END:g} for the end if not given",
+        ),
     ):
-        """Sends a command. A refused one answers 409 with the reason."""
-        await desk.robot(number)
+        """Sends a command. A refused one answers 409 with the reason.
+
+        202 tells that what was waited for has not come in time.
+        """
+        await backend.robot(number)
         fields = command.dict(exclude={"command"})
         topic = f"/{command.command}"
-        if not await desk.commander.ready(topic):
+        if not await backend.commander.ready(topic):
             raise HTTPException(503, f"nobody hears {topic}; does the world run?")
-        outcome = await desk.commander.send(topic, number, fields, wait == "end", timeout)
+        to_end = wait == "end"
+        timeout = timeout or (END if to_end else ANSWER)
+        outcome = await backend.commander.send(topic, number, fields, to_end, timeout)
         if outcome.kind == "refused":
             raise HTTPException(409, outcome.events[-1]["text"])
         answer = {"outcome": outcome.kind, "events": outcome.events}
-        return JSONResponse(answer, 202) if outcome.kind == "pending" else answer
+        late = outcome.kind in ("pending", "accepted" if to_end else "")
+        return JSONResponse(answer, 202) if late else answer
 
 
-def _add_things(out, desk, kind, noun):
+def _add_things(out, backend, kind, noun):
     @out.get(f"/{kind}", name=f"get_{kind}", response_model=schemas.Things, responses=_problems())
     async def get_all(
         name: str = Text,
@@ -187,7 +256,7 @@ def _add_things(out, desk, kind, noun):
         offset: int = Offset,
     ):
         """Those with a fitting name, and where each is."""
-        tracked = await desk.things(kind)
+        tracked = await backend.things(kind)
         found = catalogue.find(tracked, name, storage_unit)
         rows = [catalogue.thing(tracked, i) for i in found[offset : offset + limit]]
         return {"total": len(found), "things": rows}
@@ -200,31 +269,32 @@ def _add_things(out, desk, kind, noun):
     )
     async def get_one(number: int = Number):
         """One, and where it is."""
-        tracked = await desk.things(kind)
+        tracked = await backend.things(kind)
         try:
             return catalogue.thing(tracked, tracked.names.index(f"{noun}{number}"))
         except ValueError:
             raise HTTPException(404, f"no {noun}{number}") from None
 
 
-def _add_simulation(out, desk):
-    def offer(action, about, body=None):
+def _add_simulation(out, backend):
+    def offer(action, about, body=None, default=...):
         answers = {"response_model": schemas.Done, "responses": _problems(*SENT)}
         if body is None:
 
             async def act():
-                return {"message": await desk.do(action)}
+                return {"message": await backend.do(action)}
         else:
+            given = Body(default)
 
-            async def act(wanted: body):
-                return {"message": await desk.do(action, *wanted.dict().values())}
+            async def act(wanted: body = given):
+                return {"message": await backend.do(action, *wanted.dict().values())}
 
         out.post(f"/simulation/{action}", name=action, description=about, **answers)(act)
 
     offer("pause", "Time stands still.")
     offer("resume", "Time goes on.")
-    offer("reset", "Everything goes back to where it came.", schemas.Reset)
-    offer("step", "While paused: so many steps of the physics.", schemas.Step)
+    offer("reset", "Everything goes back to where it came.", schemas.Reset, schemas.Reset())
+    offer("step", "While paused: so many steps of the physics.", schemas.Step, schemas.Step())
     offer("speed", "How fast simulated time passes.", schemas.Speed)
     offer("checkpoint", "Keeps the world as it is.", schemas.Checkpoint)
     offer("restore", "Goes back to a checkpoint.", schemas.Checkpoint)

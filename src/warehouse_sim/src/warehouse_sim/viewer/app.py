@@ -13,9 +13,10 @@ from fastapi.responses import FileResponse
 from fastapi.staticfiles import StaticFiles
 
 from warehouse_sim.viewer import api, stream
+from warehouse_sim.viewer.access import AccessControl
 from warehouse_sim.viewer.commander import Commander
+from warehouse_sim.viewer.connections import BoundedConnection
 from warehouse_sim.viewer.feed import Feed
-from warehouse_sim.viewer.gate import Gate
 from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
@@ -38,17 +39,16 @@ class Viewer:
         self.feed = Feed(ros, self._on_event, self._on_news)
         self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
-        self.desk = api.Desk(*parts)
+        self.backend = api.ApiBackend(*parts)
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):
         entry = self.journal.add(event)
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
-                self._loop.call_soon_threadsafe(self._note, event, entry)
+                self._loop.call_soon_threadsafe(self._note, entry)
 
-    def _note(self, event, entry):
-        self.model.note(event)
+    def _note(self, entry):
         self.commander.note(entry)
         self.hub.news()
 
@@ -64,14 +64,14 @@ class Viewer:
             "the WebSocket /api/v1/stream?rate=2.",
             docs_url=None,
             redoc_url=None,
-            openapi_url="/api/v1/openapi.json",
+            openapi_url="/openapi.json",
         )
-        app.include_router(api.router(self.desk))
+        app.include_router(api.router(self.backend))
+        app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
         app.add_exception_handler(405, api.not_allowed)
-        app.add_exception_handler(AssertionError, api.no_command)
         self._add_sockets(app)
         self._add_files(app)
-        return Gate(app, token, rate)
+        return AccessControl(app, token, rate)
 
     def start(self):
         """Begins to serve pages, in the running asyncio loop."""
@@ -86,7 +86,7 @@ class Viewer:
         @app.websocket("/api/v1/stream")
         async def json_stream(socket: WebSocket, rate: float = 2.0):
             rate = min(10.0, max(0.1, rate)) if rate == rate else 2.0
-            await self._admit(socket, lambda s: stream.serve(s, self.desk, rate))
+            await self._admit(socket, lambda s: stream.serve(s, self.backend, rate))
 
     async def _admit(self, socket, serve):
         await socket.accept()
@@ -109,12 +109,22 @@ class Viewer:
 
         app.get("/", include_in_schema=False)(page("index.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
-        app.mount("/three", StaticFiles(directory=THREE, check_dir=False))
+        app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", FreshFiles(directory=self._web))
 
 
-class FreshFiles(StaticFiles):
-    """Files that a browser asks for again, so that page and server are of one version."""
+class Files(StaticFiles):
+    """Files of a folder. What can be no name of a file is not found."""
+
+    def lookup_path(self, path):
+        try:
+            return super().lookup_path(path)
+        except (ValueError, OSError):  # a zero byte; too long
+            return "", None
+
+
+class FreshFiles(Files):
+    """Such that a browser asks for again, so that page and server are of one version."""
 
     def file_response(self, *args, **kwargs):
         response = super().file_response(*args, **kwargs)
@@ -145,7 +155,9 @@ class Server(uvicorn.Server):
 def listen(host, port):
     """A listening socket. Raises OSError if the port is taken or the host is not this machine's."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    out = socket.socket(family, socket.SOCK_STREAM)
+    # Of a socket that doesn't name its protocol asyncio can't tell that it is TCP; small answers
+    # would then wait 40 ms for the client's acknowledgement (Nagle, 1984).
+    out = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
         out.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         out.bind((host, port))
@@ -158,17 +170,20 @@ def listen(host, port):
 
 def server_of(viewer, token="", rate=100):
     """A Server for a Viewer; run it with the sockets to listen at."""
-    return Server(
-        uvicorn.Config(
-            viewer.application(token, rate),
-            lifespan="off",
-            log_level="warning",
-            access_log=False,
-            server_header=False,
-            proxy_headers=False,
-            ws_max_size=MOST_MESSAGE,
-            # Numbers hardly shrink, and it would cost more than all else here.
-            ws_per_message_deflate=False,
-        ),
-        viewer,
+    return Server(config_of(viewer.application(token, rate)), viewer)
+
+
+def config_of(application):
+    """How uvicorn serves."""
+    return uvicorn.Config(
+        application,
+        http=BoundedConnection,
+        lifespan="off",
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        proxy_headers=False,
+        ws_max_size=MOST_MESSAGE,
+        # Numbers hardly shrink, and it would cost more than all else here.
+        ws_per_message_deflate=False,
     )

@@ -3,24 +3,22 @@
 
 import numpy as np
 
-from warehouse_msgs.msg import KivaStatus
 from warehouse_sim import tracking
 from warehouse_sim.models import kind_and_number
 from warehouse_sim.viewer import schemas
-
-STATUS = ("IDLE", "BUSY", "BLOCKED")
-STATE = ("IDLE", "MOVING_X", "MOVING_Y", "ROTATING", "LIFTING", "BLOCKED")
+from warehouse_sim.words import EVENT, STATE, STATUS, shown_status
 
 
-def robots(fleet, is_blocked):
-    """Every Robot of a FleetState; is_blocked(id) tells whose last command ended so."""
-    status, state = bytes(fleet.status), bytes(fleet.state)
+def robots(fleet):
+    """Every Robot of a FleetState."""
+    status, state, last_end = shown_status(fleet), bytes(fleet.state), bytes(fleet.last_end)
     return [
         schemas.Robot(
             name=f"kiva{number}",
             id=number,
-            status=STATUS[KivaStatus.STATUS_BLOCKED if is_blocked(number) else status[i]],
+            status=STATUS[status[i]],
             state=STATE[state[i]],
+            last_end=EVENT[last_end[i]] if last_end[i] else "",
             x=fleet.x[i],
             y=fleet.y[i],
             yaw=fleet.yaw[i],

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sends commands to robots and tells what becomes of each.
 
-Events name the robot but not the command: while one command of a robot waits here for its end, the
-next for the same robot is sent all the same, and refused by the world, since the robot is not idle.
-A command that somebody else sends at the same moment can be taken for ours; the world serves both.
+From its answer on a command goes by the number that the answer tells. The answer itself names the
+robot alone, so commands to one robot are sent one after the other; what somebody else sends to the
+same robot at the same moment can be taken for ours.
 """
 
 import asyncio
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from warehouse_sim.state import COMMANDS
 
-ANSWERS, ENDS = ("ACCEPTED", "REFUSED"), ("REFUSED", "DONE", "BLOCKED")
+ANSWERS, ENDS = ("ACCEPTED", "REFUSED"), ("DONE", "BLOCKED")
 
 
 @dataclass
@@ -58,7 +58,7 @@ class Commander:
                     self._publishers[topic].publish(COMMANDS[topic](kiva_id=kiva_id, **fields))
                     await _follow(events, outcome, ANSWERS)
                 if until_end and outcome.kind == "accepted":
-                    await _follow(events, outcome, ENDS)
+                    await _follow(events, outcome, ENDS, outcome.events[-1]["command"])
         except TimeoutError:
             pass
         finally:
@@ -66,9 +66,12 @@ class Commander:
         return outcome
 
 
-async def _follow(events, outcome, kinds):
+async def _follow(events, outcome, kinds, command=None):
+    """Takes in events, those of one command alone if it is known, until one of these kinds."""
     while True:
         entry = await events.get()
+        if command is not None and entry["command"] != command:
+            continue
         outcome.events.append(entry)
         if entry["kind"] in kinds:
             outcome.kind = entry["kind"].lower()

@@ -6,6 +6,7 @@ import time
 
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs.msg import (
@@ -56,6 +57,14 @@ class Feed:
             for name in TOPICS.keys() - self._subscribers.keys():
                 self._subscribers[name] = self._subscribe(name, *TOPICS[name])
 
+    def hear_anew(self, name):
+        """Forgets a topic's message. Whoever comes to it anew gets one of now."""
+        with self._lock:
+            if name in self._subscribers:
+                self._subscribers.pop(name).unregister()
+                self._messages.pop(name, None)
+                self._subscribers[name] = self._subscribe(name, *TOPICS[name])
+
     def rest(self):
         """Stops to listen if nobody has looked for a while. True if it did."""
         with self._lock:
@@ -72,6 +81,22 @@ class Feed:
         """Whether it is known where everything is."""
         return bool(self.units_and_objects and self["fleet"])
 
+    def shows(self, standing, objects, fleet):
+        """Whether the newest messages tell of what stands there: a simulation.Standing.
+
+        Those from before it came, `objects` and `fleet`, don't, even where they look the same.
+        """
+        if not self.tells_all:
+            return False
+        told = _names(self["objects"])
+        robots = {f"kiva{n}" for n in self["fleet"].kiva_id}
+        if told != standing.names or robots != {n for n in told if n.startswith("kiva")}:
+            return False
+        is_new = self["objects"] is not objects or not told
+        stamp = self["fleet"].stamp.to_sec()
+        came_later = standing.is_paused or stamp >= standing.time
+        return is_new and (not robots or (self["fleet"] is not fleet and came_later))
+
     @property
     def complete(self):
         """Whether there is all that a picture needs."""
@@ -80,6 +105,8 @@ class Feed:
     def want(self, paths, scans):
         """Hears the paths or not, and the scans of exactly these robots (ids)."""
         wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        if scans:
+            wanted["frames"] = ("/tf_static", TFMessage)
         if paths:
             wanted["paths"] = ("/warehouse/paths", FleetPaths)
         with self._lock:
@@ -95,3 +122,9 @@ class Feed:
     def _keep(self, message, name):
         self._messages[name] = message
         self._on_news()
+
+
+def _names(objects):
+    """Of all that a WarehouseObjects tells of."""
+    robots = (f"kiva{n}" for n in objects.kiva_id)
+    return {*robots, *objects.storage_units, *objects.items, *objects.belts}

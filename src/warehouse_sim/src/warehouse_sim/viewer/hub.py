@@ -10,10 +10,12 @@ import math
 import time
 from contextlib import suppress
 
+import numpy as np
 from starlette.websockets import WebSocketDisconnect
 
+from warehouse_sim import poses
 from warehouse_sim.viewer import protocol
-from warehouse_sim.viewer.gate import RateLimit
+from warehouse_sim.viewer.access import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
 SCENE_GAP = 1.0  # likewise between two scenes, of a megabyte where there are many items [s, wall]
@@ -194,14 +196,25 @@ class Hub:
     async def _send_extras(self, page):
         for kiva_id in page.scans:
             scan = self._feed[f"scan{kiva_id}"]
-            if scan is not None and page.seen_scans.get(kiva_id) is not scan:
+            mount = mount_of(self._feed["frames"], f"kiva{kiva_id}/laser")
+            if scan and mount and page.seen_scans.get(kiva_id) is not scan:
                 page.seen_scans[kiva_id] = scan
-                frame = (scan.angle_min, scan.angle_increment, scan.ranges)
-                await page.socket.send_bytes(protocol.scan(kiva_id, *frame))
+                seen = (scan.angle_min, scan.angle_increment, scan.ranges)
+                await page.socket.send_bytes(protocol.scan(kiva_id, mount, *seen))
         paths = paths_of(self._feed["paths"], page.paths) if page.paths else {}
         if paths != page.seen_paths:
             page.seen_paths = paths
             await page.send_json({"type": "paths", "paths": paths})
+
+
+def mount_of(frames, name):
+    """(x, y, z, yaw) of a frame on its parent in a TFMessage; None where none tells."""
+    for stamped in frames.transforms if frames else ():
+        if stamped.child_frame_id == name:
+            at, turn = stamped.transform.translation, stamped.transform.rotation
+            row = np.array([[at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w]])
+            return at.x, at.y, at.z, float(poses.yaw(row)[0])
+    return None
 
 
 def paths_of(message, wanted):

@@ -4,12 +4,9 @@
 import threading
 from collections import deque
 
-from warehouse_msgs.msg import Event
+from warehouse_sim.words import EVENT
 
 KEPT = 2000
-KINDS = {
-    value: name for name, value in vars(Event).items() if name.isupper() and isinstance(value, int)
-}
 
 
 class Journal:
@@ -43,7 +40,8 @@ def entry_of(event):
     """An Event as the API tells it, but for its id."""
     return {
         "time": round(event.header.stamp.to_sec(), 3),
-        "kind": KINDS.get(event.kind, str(event.kind)),
+        "kind": EVENT.get(event.kind, str(event.kind)),
+        "command": event.command,
         "model": event.model,
         "other": event.other,
         "text": event.text,

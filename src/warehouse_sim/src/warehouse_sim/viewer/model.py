@@ -6,11 +6,10 @@ import time
 
 import numpy as np
 
-from warehouse_msgs.msg import Event, KivaStatus
 from warehouse_sim import poses
-from warehouse_sim.models import kind_and_number
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.table import Table
+from warehouse_sim.words import shown_status
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
 STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
@@ -27,7 +26,7 @@ class Model:
         self.loose, self.scenery = Table(protocol.BODY), Table(protocol.BODY)
         self._objects = self._states = self._scenery = self._fleet = None
         self._kiva_id, self._robot_of = np.zeros(0, int), {}
-        self._blocked, self._scene_text = set(), None
+        self._scene_text = None
         self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
 
     # --- messages in
@@ -57,20 +56,6 @@ class Model:
             self._told, self._told_at = self.stamp, self._clock()
         return self.changed_at == self.tick
 
-    def note(self, event):
-        """The status BLOCKED itself lasts but a moment; it shows until the next command."""
-        kind, number = kind_and_number(event.model)
-        if kind != "kiva":
-            return
-        if event.kind == Event.BLOCKED:
-            self._blocked.add(number)
-        elif event.kind in (Event.ACCEPTED, Event.DELETED):
-            self._blocked.discard(number)
-
-    def is_blocked(self, kiva_id):
-        """Whether the robot's last command ended so."""
-        return kiva_id in self._blocked
-
     def _take_scene(self, objects, fleet, scenery):
         """True if things came or went, so that indices mean others."""
         ids = np.array(fleet.kiva_id, int)
@@ -88,17 +73,13 @@ class Model:
 
     def _take_fleet(self, fleet):
         self.stamp = fleet.stamp.to_sec()
-        # rospy reads uint8[] as bytes.
-        status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
-        blocked = [self._robot_of[n] for n in self._blocked if n in self._robot_of]
-        status[blocked] = KivaStatus.STATUS_BLOCKED
         return self.robots.set(
             self.tick,
             x=fleet.x,
             y=fleet.y,
             yaw=fleet.yaw,
             shelf=fleet.shelf_id,
-            status=status,
+            status=shown_status(fleet),
             state=np.frombuffer(bytes(fleet.state), np.uint8),
         )
 

@@ -11,6 +11,7 @@
     u32 kind   2 = scan
     u32 kiva_id
     f32 angle_min, angle_increment [rad]
+    f32 x, y, z [m], yaw [rad] of the laser on its robot
     f32 ranges [m]     to the end; infinity = no return
 
 web/js/protocol.js reads it.
@@ -20,7 +21,7 @@ import struct
 
 import numpy as np
 
-VERSION = 1
+VERSION = 2
 UPDATE, SCAN = 1, 2
 
 # x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
@@ -41,7 +42,7 @@ ROBOT = np.dtype(
 BODY = np.dtype([("index", "<u4"), ("pose", "<f4", 7), ("carrier", "<i4")])
 
 _UPDATE_HEAD = struct.Struct("<IIdIIIII4x")
-_SCAN_HEAD = struct.Struct("<IIff")
+_SCAN_HEAD = struct.Struct("<II2f4f")
 
 
 def update(tick, stamp, revision, tables):
@@ -50,7 +51,7 @@ def update(tick, stamp, revision, tables):
     return b"".join([head, *(rows.tobytes() for rows in tables)])
 
 
-def scan(kiva_id, angle_min, angle_increment, ranges):
-    """Bytes of a robot's scan."""
-    head = _SCAN_HEAD.pack(SCAN, kiva_id, angle_min, angle_increment)
+def scan(kiva_id, mount, angle_min, angle_increment, ranges):
+    """Bytes of a robot's scan; `mount` is (x, y, z, yaw) of the laser on it."""
+    head = _SCAN_HEAD.pack(SCAN, kiva_id, angle_min, angle_increment, *mount)
     return head + np.asarray(ranges, "<f4").tobytes()

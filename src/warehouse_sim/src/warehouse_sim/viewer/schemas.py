@@ -89,7 +89,9 @@ class LiftCommand(_Body):
 
     command: Literal["lift"]
     status: conint(ge=0, le=255, strict=True) = Field(description="1 carry, 0 drop")
-    shelf_id: Int32 = Field(description="the number in storage_unit<id>")
+    shelf_id: Int32 = Field(
+        0, description="the number in storage_unit<id>; may be left out to drop what it carries"
+    )
 
 
 Command = Mov | MovX | MovY | Rot | LiftCommand
@@ -103,6 +105,12 @@ class NewWarehouse(_Body):
     robots: Int32 = 0
     items: Int32 = 0
     shelves: Int32 = 0
+
+
+class NewRobot(_Body):
+    x: Number = Field(description="[m], of a grid point")
+    y: Number = Field(description="[m], of a grid point")
+    heading: Number = Field(0, description="[rad] about z, by quarter turns; 0: along x")
 
 
 class Reset(_Body):
@@ -147,6 +155,9 @@ class Robot(BaseModel):
         description="BLOCKED: its last command ended so, and none was accepted since"
     )
     state: str
+    last_end: Literal["", "DONE", "BLOCKED"] = Field(
+        description="how its last command ended, until the next is accepted"
+    )
     x: float
     y: float
     yaw: float
@@ -167,6 +178,7 @@ class Event(BaseModel):
     id: int
     time: float = Field(description="[s], simulated")
     kind: str
+    command: int = Field(description="the one it belongs to, counted from 1; 0: none")
     model: str
     other: str
     text: str

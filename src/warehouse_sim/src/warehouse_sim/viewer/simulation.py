@@ -2,8 +2,14 @@
 """The simulation as its services offer it: pause, step, speed, checkpoints; build a warehouse."""
 
 import importlib
+import threading
+from contextlib import contextmanager
+from dataclasses import dataclass
 
-from gazebo_msgs.srv import GetPhysicsProperties
+from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
+from warehouse_sim import identity, models, placing
+from warehouse_sim.build_transaction import is_building
+from warehouse_sim.engine import Engine, EngineError
 
 # What is offered under which service; types by name, since not every engine has them all.
 SERVICES = {
@@ -28,11 +34,20 @@ class AwayError(RuntimeError):
     """The world does not answer."""
 
 
+@dataclass(frozen=True)
+class Standing:
+    """The `names` of all robots, storage units, items and belts at a simulated `time` [s]."""
+
+    names: set
+    time: float
+    is_paused: bool
+
+
 class Simulation:
     """One client of those services; calls block. `ros` is rospy."""
 
     def __init__(self, ros):
-        self._ros = ros
+        self._ros, self._placing = ros, threading.Lock()
 
     # --- what can be done
     def offers(self):
@@ -47,6 +62,8 @@ class Simulation:
             code, *_ = self._ros.get_master().lookupService(name)
         except OSError as error:
             return f"the ROS master does not answer: {error}"
+        if action == "undo" and not self._ros.get_param("/gazebo/autosave", 0):
+            return "nothing is saved for it: start with autosave:=60, say"
         return None if code == 1 else f"the engine offers no {name}"
 
     def state(self):
@@ -60,8 +77,13 @@ class Simulation:
 
     def warehouse(self):
         """(name, id) of the warehouse that stands; empty if it was built by nobody."""
-        get = self._ros.get_param
-        return str(get("/warehouse/name", "")), int(get("/warehouse/id", 0))
+        return identity.read(self._ros)
+
+    def standing(self):
+        """The Standing of now."""
+        world = self._call("/gazebo/get_world_properties", GetWorldProperties, {})
+        names = {name for name in world.model_names if models.kind_and_number(name)[0]}
+        return Standing(names, world.sim_time, self._physics().pause)
 
     # --- doing it; each returns what the world says of it. Raises RefusedError, AwayError.
     def pause(self):
@@ -99,6 +121,26 @@ class Simulation:
     def create(self, name, number, robots, items, shelves):
         fields = {"robots": robots, "items": items, "shelves": shelves}
         return self._do("create", warehouse_name=name, warehouse_id=number, **fields)
+
+    def add_robot(self, x, y, heading):
+        """Puts one on that grid point [m], turned by quarters [rad]. Returns its number."""
+        with self._placing, self._engine() as engine:
+            return placing.add_robot(engine, x, y, heading)
+
+    def remove_robot(self, number):
+        with self._engine() as engine:
+            engine.delete(f"kiva{number}")
+        return f"kiva{number} is gone"
+
+    @contextmanager
+    def _engine(self):
+        if is_building(self._ros):
+            raise RefusedError("a warehouse is being built; ask again")
+        try:
+            with Engine(self._ros) as engine:
+                yield engine
+        except (EngineError, placing.PlaceError) as error:
+            raise RefusedError(str(error)) from error
 
     def _physics(self):
         return self._call("/gazebo/get_physics_properties", GetPhysicsProperties, {})

@@ -20,7 +20,7 @@ from starlette.websockets import WebSocketDisconnect
 
 
 async def serve(socket, desk, rate):
-    """One client, from its coming to its going. `socket` was accepted; `desk` is an api.Desk."""
+    """One client, from its coming to its going. `socket` was accepted; `desk` is api.ApiBackend."""
     listener = asyncio.create_task(_until_gone(socket))
     known, event = {}, desk.journal.last_id
     with suppress(WebSocketDisconnect, RuntimeError):

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A small binary archive. What a struct holds is listed once, by a function
+//
+//   template <class Archive>
+//   void describe(Archive& a, MotionSegment& segment) {
+//     FIELDS(segment.kind, segment.x, within(segment.yaw, -1e9, 1e9));
+//   }
+//
+// which writes, reads or hashes it, depending on the archive, so that the three can't diverge. What
+// is read is checked: an enum has one of its values, as `lastOf` tells, a number is finite, or
+// within its limits. An error names the field.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+/// Bytes that end too early, or say what can't be. `field`: where, as in `robots[3].mass`.
+class ArchiveError : public std::runtime_error {
+ public:
+  explicit ArchiveError(const std::string& why, const std::string& field = "")
+      : std::runtime_error(field.empty() ? why : field + ": " + why), why_(why), field_(field) {}
+
+  /// The same, as a part of `outer`.
+  ArchiveError in(const std::string& outer) const {
+    const bool follows = !field_.empty() && field_.front() != '[';
+    return ArchiveError(why_, outer + (follows ? "." : "") + field_);
+  }
+
+ private:
+  std::string why_, field_;
+};
+
+/// Describes the fields of a struct to the archive `a`.
+#define FIELDS(...) a.named(#__VA_ARGS__, __VA_ARGS__)
+
+/// A number, or a list of numbers, with its limits.
+template <typename T>
+struct Within {
+  T& value;
+  double least, most;
+};
+template <typename T>
+Within<T> within(T& value, double least, double most) {
+  return {value, least, most};
+}
+
+constexpr double kFarthest = 1e17;  // no number of a world is larger but those with limits above it
+constexpr double kEndless = std::numeric_limits<double>::infinity();
+
+/// Text number `index` of a list such as `r.name, within(r.id, 1, 9)`: its last name, `id`.
+std::string nameIn(const char* list, int index);
+
+/// Mixes one word into a hash (the finaliser of MurmurHash3, Appleby 2011).
+inline std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
+  hash = (hash ^ word) * 0xff51afd7ed558ccdULL;
+  return hash ^ (hash >> 32);
+}
+
+inline std::uint64_t hashBytes(std::uint64_t hash, const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  for (; size >= 8; at += 8, size -= 8) {
+    std::uint64_t word;
+    std::memcpy(&word, at, 8);
+    hash = mix(hash, word);
+  }
+  std::uint64_t rest = 0;
+  if (size > 0) std::memcpy(&rest, at, size);
+  return mix(hash, rest ^ (static_cast<std::uint64_t>(size) << 56));
+}
+
+/// Where the bytes go to or come from: what the three archives differ in.
+struct WriteBytes {
+  static constexpr bool kReads = false;
+  std::string bytes;
+  void raw(void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }
+};
+
+struct ReadBytes {
+  static constexpr bool kReads = true;
+  const char* at;
+  const char* end;
+  explicit ReadBytes(const std::string& bytes)
+      : at(bytes.data()), end(bytes.data() + bytes.size()) {}
+  std::size_t left() const { return static_cast<std::size_t>(end - at); }
+  void raw(void* data, std::size_t size) {
+    if (size > left()) throw ArchiveError("it ends too early");
+    if (size > 0) std::memcpy(data, at, size);
+    at += size;
+  }
+};
+
+struct HashBytes {
+  static constexpr bool kReads = false;
+  std::uint64_t hash = 0x9e3779b97f4a7c15ULL;
+  void raw(void* data, std::size_t size) {
+    if (size != 8) {
+      hash = hashBytes(hash, data, size);
+      return;
+    }
+    std::uint64_t word;
+    std::memcpy(&word, data, 8);
+    hash = mix(hash, word);
+  }
+};
+
+/// x y z w qx qy qz of a pose, bit by bit: Pose's own comparison has a tolerance, and -0 == 0.
+inline std::array<std::uint64_t, 7> numbersOf(const Pose& pose) {
+  const Vector3& p = pose.Pos();
+  const Quaternion& q = pose.Rot();
+  const double numbers[7] = {p.X(), p.Y(), p.Z(), q.W(), q.X(), q.Y(), q.Z()};
+  std::array<std::uint64_t, 7> out;
+  std::memcpy(out.data(), numbers, sizeof numbers);
+  return out;
+}
+
+template <class Bytes>
+class Archive : public Bytes {
+ public:
+  using Bytes::Bytes;
+  using Bytes::kReads;
+
+  template <typename... Fields>
+  Archive& operator()(Fields&... fields) {
+    (one(fields), ...);
+    return *this;
+  }
+
+  template <typename... Fields>
+  Archive& named(const char* names, Fields&&... fields) {
+    int index = 0;
+    ((inField([&] { return nameIn(names, index); }, fields), ++index), ...);
+    return *this;
+  }
+
+  /// A pose that is mostly equal to another one, which was described before it.
+  void mostly(Pose& pose, const Pose& usual) {
+    bool differs = !kReads && numbersOf(pose) != numbersOf(usual);
+    one(differs);
+    if (differs) return one(pose);
+    if constexpr (kReads) pose = usual;
+  }
+
+ private:
+  template <typename T>
+  static constexpr bool kIsPlain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+  template <typename Name, typename T>
+  void inField(Name name, T& field) {
+    if constexpr (kReads) {
+      try {
+        one(field);
+      } catch (const ArchiveError& error) {
+        throw error.in(name());
+      }
+    } else {
+      one(field);
+    }
+  }
+
+  template <typename T>
+  static void check(T value, double least = -kFarthest, double most = kFarthest) {
+    if constexpr (std::is_enum_v<T>) {
+      const auto number = static_cast<std::int64_t>(value);
+      if (number >= 0 && number <= static_cast<std::int64_t>(lastOf(value))) return;
+      throw ArchiveError(std::to_string(number) + " is none of its values");
+    } else if constexpr (std::is_floating_point_v<T>) {
+      if (!(value >= least && value <= most)) throw ArchiveError(outside(value, least, most));
+    }
+  }
+
+  static std::string outside(double value, double least, double most) {
+    return "expected a number from " + std::to_string(least) + " to " + std::to_string(most) +
+           ", not " + std::to_string(value);
+  }
+  static std::string indexed(std::size_t i) { return "[" + std::to_string(i) + "]"; }
+
+  void one(bool& value) {
+    auto byte = static_cast<std::uint8_t>(value);
+    this->raw(&byte, 1);
+    if constexpr (kReads) {
+      if (byte > 1) throw ArchiveError(std::to_string(byte) + " is neither true nor false");
+      value = byte != 0;
+    }
+  }
+
+  template <typename T>
+  void one(Within<T>& field) {
+    one(field.value, field.least, field.most);
+  }
+
+  template <typename T>
+  void one(T& value, double least, double most) {
+    static_assert(std::is_arithmetic_v<T>);
+    this->raw(&value, sizeof value);
+    if constexpr (kReads) {
+      const auto number = static_cast<double>(value);
+      if (!(number >= least && number <= most)) throw ArchiveError(outside(number, least, most));
+    }
+  }
+
+  template <typename T, typename Allocator>
+  void one(std::vector<T, Allocator>& list, double least, double most) {
+    plain(list);
+    for (std::size_t i = 0; kReads && i < list.size(); ++i) {
+      const auto number = static_cast<double>(list[i]);
+      if (number >= least && number <= most) continue;
+      throw ArchiveError(outside(number, least, most), indexed(i));
+    }
+  }
+
+  void one(std::vector<bool>& flags) {
+    std::vector<std::uint8_t> bytes(flags.begin(), flags.end());
+    one(bytes);
+    if constexpr (kReads) flags.assign(bytes.begin(), bytes.end());
+  }
+
+  template <typename T>
+  void one(T& value) {
+    if constexpr (kIsPlain<T>) {
+      this->raw(&value, sizeof value);
+      if constexpr (kReads) check(value);
+    } else {
+      describe(*this, value);
+    }
+  }
+
+  template <typename T, std::size_t N>
+  void one(T (&values)[N]) {
+    for (std::size_t i = 0; i < N; ++i) inField([i] { return indexed(i); }, values[i]);
+  }
+
+  template <typename T>
+  void one(std::optional<T>& value) {
+    bool has = value.has_value();
+    one(has);
+    if constexpr (kReads) value = has ? std::optional<T>(std::in_place) : std::nullopt;
+    if (has) one(*value);
+  }
+
+  void one(std::string& text) {
+    const std::size_t size = count(text.size());
+    if constexpr (kReads) text.resize(size);
+    this->raw(text.data(), size);
+  }
+
+  template <typename T, typename Allocator>
+  void one(std::vector<T, Allocator>& list) {
+    if constexpr (kIsPlain<T>) {
+      plain(list);
+      for (std::size_t i = 0; kReads && i < list.size(); ++i) checkIn(list[i], i);
+    } else {
+      each(list);
+    }
+  }
+
+  template <typename T>
+  static void checkIn(T value, std::size_t i) {
+    try {
+      check(value);
+    } catch (const ArchiveError& error) {
+      throw error.in(indexed(i));
+    }
+  }
+
+  template <typename List>
+  void plain(List& list) {
+    constexpr std::size_t kEach = sizeof(typename List::value_type);
+    const std::size_t size = count(list.size() * kEach);
+    if (size % kEach != 0) throw ArchiveError("a list of it has an impossible size");
+    if constexpr (kReads) list.resize(size / kEach);
+    this->raw(list.data(), size);
+  }
+
+  template <typename T>
+  void one(std::deque<T>& list) {
+    each(list);
+  }
+
+  template <typename List>
+  void each(List& list) {
+    const std::size_t size = count(list.size());
+    if constexpr (kReads) {
+      list.clear();
+      // One by one: a wrong size must not take the memory before the bytes run out.
+      for (std::size_t i = 0; i < size; ++i)
+        inField([i] { return indexed(i); }, list.emplace_back());
+    } else {
+      for (auto& element : list) one(element);
+    }
+  }
+
+  /// The size of what follows; at least a byte for each is left, or the size is wrong.
+  std::size_t count(std::size_t size) {
+    auto number = static_cast<std::uint32_t>(size);
+    this->raw(&number, sizeof number);
+    if constexpr (kReads) {
+      if (number > this->left()) throw ArchiveError("it ends too early");
+    }
+    return number;
+  }
+};
+
+using Writer = Archive<WriteBytes>;
+using Reader = Archive<ReadBytes>;
+using Hasher = Archive<HashBytes>;
+
+template <class A>
+void describe(A& a, Vector3& v) {
+  FIELDS(v.X(), v.Y(), v.Z());
+}
+
+constexpr double kUnitError = 1e-3;  // of a quaternion's squared length
+
+/// Only what differs from the identity: most things stand upright, and squarely.
+template <class A>
+void describe(A& a, Pose& pose) {
+  static const std::array<std::uint64_t, 7> identity = numbersOf(Pose::Zero);
+  std::array<std::uint64_t, 7> numbers = numbersOf(pose);
+  std::uint8_t given = 0;
+  for (int i = 0; i < 7; ++i) given |= (numbers[i] != identity[i]) << i;
+  a(given);
+  for (int i = 0; i < 7; ++i) {
+    if (A::kReads) numbers[i] = identity[i];
+    if (given & (1 << i)) a(numbers[i]);
+  }
+  if constexpr (A::kReads) {
+    double n[7];
+    std::memcpy(n, numbers.data(), sizeof n);
+    pose.Pos().Set(n[0], n[1], n[2]);
+    pose.Rot().Set(n[3], n[4], n[5], n[6]);
+    const double far = pose.Pos().Abs().Max(),
+                 norm = pose.Rot().W() * pose.Rot().W() + pose.Rot().X() * pose.Rot().X() +
+                        pose.Rot().Y() * pose.Rot().Y() + pose.Rot().Z() * pose.Rot().Z();
+    if (!pose.IsFinite() || !(far <= kFarthest) || !(std::abs(norm - 1) < kUnitError)) {
+      throw ArchiveError("expected a finite position and a unit quaternion");
+    }
+  }
+}
+
+}  // namespace kiva

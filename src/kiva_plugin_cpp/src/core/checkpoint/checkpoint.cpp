@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/checkpoint/checkpoint.h"
+
+#include <algorithm>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+#include "core/checkpoint/consistency.h"
+#include "core/checkpoint/describe.h"
+#include "core/checkpoint/rebuild.h"
+#include "core/sensing/scans.h"
+
+namespace kiva {
+namespace {
+
+constexpr char kMagic[9] = "KIVAWRLD";
+constexpr std::uint32_t kVersion = 5;
+
+/// The models' descriptions, each once however many share it.
+struct DescriptionTable {
+  std::vector<ModelDescription> descriptions;
+  std::vector<std::int32_t> of_slot;  // -1 = no model
+};
+
+DescriptionTable tableOf(const WorldState& world) {
+  DescriptionTable table;
+  std::map<const ModelDescription*, std::int32_t> index;  // for looking up: its order is none
+  for (const auto& model : world.models) {
+    if (!model) {
+      table.of_slot.push_back(-1);
+      continue;
+    }
+    const ModelDescription* description = model->description.get();
+    const auto next = static_cast<std::int32_t>(table.descriptions.size());
+    const auto [at, is_new] = index.try_emplace(description, next);
+    if (is_new) table.descriptions.push_back(*description);
+    table.of_slot.push_back(at->second);
+  }
+  return table;
+}
+
+void makeModels(WorldState& world, DescriptionTable table) {
+  std::vector<std::shared_ptr<const ModelDescription>> shared;
+  for (ModelDescription& d : table.descriptions) {
+    shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
+  }
+  for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
+    const std::int32_t description = table.of_slot[slot];
+    if (description >= static_cast<std::int32_t>(shared.size())) {
+      throw ArchiveError("there is no such description", "of_slot[" + std::to_string(slot) + "]");
+    }
+    world.models.push_back(description < 0 ? nullptr : std::make_unique<Model>());
+    if (description < 0) continue;
+    world.models.back()->description = shared[description];
+    world.models.back()->slot = static_cast<int>(world.models.size()) - 1;
+  }
+}
+
+/// What stands in the world, and what it is made of.
+template <class A>
+void describeSetting(A& a, WorldState& world) {
+  DescriptionTable table;
+  if constexpr (!A::kReads) table = tableOf(world);
+  FIELDS(table.descriptions, table.of_slot);
+  if constexpr (A::kReads) makeModels(world, std::move(table));
+  FIELDS(world.name, world.gravity, world.options, within(world.dt, 1e-6, 1),
+         within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
+  FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
+}
+
+/// Whether a model has a state of its own; what is static or lies on a unit has none.
+bool hasState(const Model& model) {
+  return model.owner->isActivatedWhenNear() || (model.in_physics && !model.isStatic());
+}
+
+/// What changes from step to step.
+template <class A>
+void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
+  FIELDS(world.steps, world.total_steps, world.dt_since, world.dt_since_time);
+  for (auto& model : world.models) {
+    if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) FIELDS(*model);
+  }
+  FIELDS(world.fleet, world.units, world.items);
+  FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
+         world.sighted, world.crashes);
+  FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
+  FIELDS(physics);
+}
+
+/// What is on its way in or out.
+template <class A>
+void describeQueues(A& a, WorldState& world) {
+  FIELDS(world.last_command, world.commands, world.events, world.status_changes);
+}
+
+void indexModels(WorldState& world) {
+  for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
+    if (world.models[slot]) world.slot_of_name[world.models[slot]->name] = static_cast<int>(slot);
+  }
+  for (std::size_t i = 0; i < world.units.size(); ++i) {
+    world.unit_of_id[world.units[i].id] = static_cast<int>(i);
+  }
+  for (Item& item : world.items) item.name = world.models[item.model]->name;
+  for (Robot& robot : world.fleet.robots) setRays(world, &robot);
+}
+
+struct Header {
+  std::uint64_t size = 0, hash = 0;
+};
+
+std::string sealed(const std::string& content) {
+  Writer header;
+  std::uint32_t version = kVersion;
+  std::uint64_t size = content.size(), hash = hashBytes(kVersion, content.data(), content.size());
+  header.bytes = kMagic;
+  header(version, size, hash);
+  return header.bytes + content;
+}
+
+/// What is under the seal. Throws ArchiveError if it is broken.
+Reader opened(const std::string& bytes) {
+  Reader reader(bytes);
+  char magic[8];
+  std::uint32_t version;
+  std::uint64_t size, hash;
+  reader(magic);
+  if (std::memcmp(magic, kMagic, 8) != 0) throw ArchiveError("these bytes are none");
+  reader(version);
+  if (version != kVersion) {
+    throw ArchiveError("it has format " + std::to_string(version) + ", and this is format " +
+                       std::to_string(kVersion));
+  }
+  reader(size, hash);
+  if (size != reader.left()) {
+    throw ArchiveError("it has " + std::to_string(reader.left()) + " bytes of content where " +
+                       std::to_string(size) + " were expected");
+  }
+  if (hashBytes(kVersion, reader.at, size) != hash) throw ArchiveError("its bytes are damaged");
+  return reader;
+}
+
+Restored read(const std::string& bytes) {
+  Reader reader = opened(bytes);
+  Restored out{std::make_unique<WorldState>(WorldDescription(), WorldOptions()), {}};
+  PhysicsState physics;
+  describeSetting(reader, *out.world);
+  describeMotion(reader, *out.world, physics);
+  describeQueues(reader, *out.world);
+  reader(out.plugins);
+  if (reader.left() > 0) throw ArchiveError("it has bytes left over");
+  checkConsistent(*out.world, physics);
+  indexModels(*out.world);
+  rebuild(*out.world, physics);
+  return out;
+}
+
+}  // namespace
+
+std::string checkpoint(const WorldState& saved) {
+  auto& world = const_cast<WorldState&>(saved);  // describing changes nothing unless it reads
+  PhysicsState physics = readPhysics(world);
+  std::vector<PluginState> plugins = savePlugins(world);
+  Writer writer;
+  writer.bytes.reserve(1 << 22);
+  describeSetting(writer, world);
+  describeMotion(writer, world, physics);
+  describeQueues(writer, world);
+  writer(plugins);
+  return sealed(writer.bytes);
+}
+
+Restored readCheckpoint(const std::string& bytes) {
+  try {
+    return read(bytes);
+  } catch (const std::exception& error) {
+    throw CheckpointError(std::string("not a checkpoint that can be restored: ") + error.what());
+  }
+}
+
+std::uint64_t stateHash(const WorldState& world) {
+  Hasher hasher;
+  PhysicsState physics = readPhysics(world);
+  physics.contacts.clear();  // a restored world lacks those that the next step drops
+  // Describing changes nothing unless it reads.
+  describeMotion(hasher, const_cast<WorldState&>(world), physics);
+  std::vector<PluginState> plugins = savePlugins(world);
+  hasher(plugins);
+  return hasher.hash;
+}
+
+}  // namespace kiva

@@ -1,0 +1,436 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the structs of a world hold, listed once for writing, reading and hashing; see archive.h.
+#pragma once
+
+#include "core/checkpoint/archive.h"
+#include "core/checkpoint/plugin_states.h"
+#include "core/checkpoint/rebuild.h"
+#include "core/models/models.h"
+#include "core/state/footprints.h"
+
+namespace kiva {
+
+// A field that is added to a struct below has to be described too, and where that changes what the
+// bytes mean, the version counted up. Each of these numbers is to remind of it.
+#if defined(__x86_64__) && defined(__GLIBCXX__)
+#define DESCRIBED(type, size) \
+  static_assert(sizeof(type) == (size), "describe what is new in it, then correct the size")
+#else
+#define DESCRIBED(type, size)
+#endif
+
+// --- the last value of each enum, so that none beyond it is read
+
+constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
+constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
+constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
+constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kLift; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kDeleted; }
+constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
+constexpr Status lastOf(Status) { return Status::kBlocked; }
+constexpr State lastOf(State) { return State::kBlocked; }
+constexpr Drive lastOf(Drive) { return Drive::kJointed; }
+constexpr MotionSegment::Kind lastOf(MotionSegment::Kind) { return MotionSegment::Kind::kLower; }
+constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
+constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOther; }
+
+// --- descriptions
+
+template <class A>
+void describe(A& a, Mesh& m) {
+  DESCRIBED(Mesh, 112);
+  std::vector<int> corners;
+  for (const auto& triangle : m.triangles) {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  FIELDS(m.vertices, corners, m.min, m.max);
+  if constexpr (A::kReads) {
+    m.triangles.resize(corners.size() / 3);
+    for (std::size_t i = 0; i < m.triangles.size() * 3; ++i) m.triangles[i / 3][i % 3] = corners[i];
+  }
+}
+
+template <class A>
+void describe(A& a, Shape& s) {
+  DESCRIBED(Shape, 184);
+  FIELDS(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size, s.mesh_file, s.mesh_scale);
+  bool has_mesh = s.mesh != nullptr;
+  FIELDS(has_mesh);
+  if (!has_mesh) return;
+  Mesh mesh = A::kReads ? Mesh() : *s.mesh;
+  FIELDS(mesh);
+  if constexpr (A::kReads) s.mesh = std::make_shared<const Mesh>(std::move(mesh));
+}
+
+template <class A>
+void describe(A& a, Collision& c) {
+  DESCRIBED(Collision, 304);
+  FIELDS(c.name, c.pose_in_link, c.shape, c.friction, c.restitution);
+}
+
+template <class A>
+void describe(A& a, Visual& v) {
+  DESCRIBED(Visual, 320);
+  FIELDS(v.name, v.pose_in_link, v.shape, v.rgba);
+}
+
+template <class A>
+void describe(A& a, Link& l) {
+  DESCRIBED(Link, 272);
+  FIELDS(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
+         l.collisions, l.visuals);
+}
+
+template <class A>
+void describe(A& a, Joint& j) {
+  DESCRIBED(Joint, 216);
+  FIELDS(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model,
+         within(j.lower, -kEndless, kEndless), within(j.upper, -kEndless, kEndless),
+         within(j.max_effort, -kEndless, kEndless), within(j.max_velocity, -kEndless, kEndless),
+         j.damping, j.friction);
+}
+
+template <class A>
+void describe(A& a, Parameters& p) {
+  std::string where = p.where();
+  std::vector<std::string> keys, texts;
+  for (const auto& [key, text] : p.values()) {
+    keys.push_back(key);
+    texts.push_back(text);
+  }
+  FIELDS(where, keys, texts);
+  if constexpr (A::kReads) {
+    if (texts.size() != keys.size()) throw ArchiveError("as many as there are keys", "texts");
+    p = Parameters(where);
+    for (std::size_t i = 0; i < keys.size(); ++i) p.set(keys[i], texts[i]);
+  }
+}
+
+template <class A>
+void describe(A& a, PluginDescription& p) {
+  DESCRIBED(PluginDescription, 192);
+  FIELDS(p.name, p.filename, p.parameters);
+}
+
+template <class A>
+void describe(A& a, SensorDescription& s) {
+  DESCRIBED(SensorDescription, 328);
+  FIELDS(s.name, s.type, s.link, s.pose_in_link, s.update_rate, s.parameters, s.plugins);
+}
+
+template <class A>
+void describe(A& a, ModelDescription& m) {
+  DESCRIBED(ModelDescription, 128);
+  FIELDS(m.is_static, m.links, m.joints, m.plugins, m.sensors, m.nested_models);
+}
+
+// --- the fleet
+
+template <class A>
+void describe(A& a, DriveParameters& d) {
+  DESCRIBED(DriveParameters, 88);
+  FIELDS(d.drive, within(d.speed, 0, 10), within(d.acceleration, 0, 100),
+         within(d.emergency_deceleration, 0, 100), within(d.wheel_radius, 0.005, 1),
+         within(d.wheel_separation, 0.01, 10), within(d.wheel_inertia, 1e-6, 100),
+         within(d.motor_torque, 0, 1e5), within(d.friction, 0, 10),
+         within(d.drive_wheel_load, 0.01, 1), within(d.quarter_turn_time, 0, 1000));
+}
+
+template <class A>
+void describe(A& a, LiftParameters& l) {
+  DESCRIBED(LiftParameters, 48);
+  FIELDS(l.fitted, within(l.height, 0.001, 10), within(l.time, 0, 1000), within(l.max_load, 0, 1e6),
+         within(l.max_force, 0, 1e9), within(l.proximity, 0, 10));
+}
+
+template <class A>
+void describe(A& a, LaserParameters& l) {
+  DESCRIBED(LaserParameters, 64);
+  FIELDS(l.fitted, within(l.rays, 1, 10000), within(l.min_angle, -M_PI, M_PI),
+         within(l.max_angle, l.min_angle, M_PI), within(l.min_range, 0, 100),
+         within(l.max_range, l.min_range, 100), within(l.rate, 0.01, 1000), within(l.x, -10, 10),
+         within(l.z, 0, 10));
+}
+
+template <class A>
+void describe(A& a, MotionSegment& l) {
+  DESCRIBED(MotionSegment, 48);
+  FIELDS(l.kind, l.x, l.y, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
+}
+
+template <class A>
+void describe(A& a, Sighting& s) {
+  DESCRIBED(Sighting, 32);
+  FIELDS(s.taken, within(s.distance, 0, kEndless), s.model, s.faces, s.along);
+}
+
+template <class A>
+void describe(A& a, Task& t) {
+  DESCRIBED(Task, 264);
+  FIELDS(t.phase, t.command, t.goal, t.segments, t.overdue, t.sighting, t.last_sighting,
+         t.blocked_by, t.blocked_reason, t.reported_shelf);
+}
+
+template <class A>
+void describe(A& a, Robot& r) {
+  DESCRIBED(Robot, 368);
+  FIELDS(r.name, within(r.id, 1, kMaxKivaId), r.model, within(r.mass, 1e-9, 1e12),
+         within(r.inertia, 0, 1e15), within(r.half_length, 0, 100), within(r.half_width, 0, 100),
+         within(r.height, -100, 100));
+  FIELDS(within(r.centre[0], -100, 100), within(r.centre[1], -100, 100),
+         within(r.tyre_friction[0], 0, kEndless), within(r.tyre_friction[1], 0, kEndless));
+  FIELDS(within(r.load_mass, 0, 1e12), within(r.load_inertia, 0, 1e15),
+         within(r.load_centre[0], -100, 100), within(r.load_centre[1], -100, 100),
+         within(r.load_half_length, 0, 100), within(r.load_half_width, 0, 100));
+  FIELDS(r.drive, r.lift, r.laser, r.has_motion,
+         r.has_rotation);  // its ray_fan comes with its laser
+}
+
+template <class A>
+void describe(A& a, Stance& s) {
+  DESCRIBED(Stance, 48);
+  FIELDS(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
+}
+
+template <class A>
+void describe(A& a, FleetState& f) {
+  DESCRIBED(FleetState, 864);
+  FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
+  FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
+         within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), within(f.awake, 0, 1),
+         within(f.activated, 0, 1), within(f.clear_until, -kEndless, kEndless));
+  FIELDS(f.reference, f.reference_speed, f.goal, f.deceleration);
+  FIELDS(within(f.cruising, -1, 0), f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed,
+         f.acceleration);
+  FIELDS(f.robots, f.index_of_id, f.tasks);
+}
+
+// --- models, storage units, items
+
+template <class A>
+void describe(A& a, CollisionGeometry& o) {
+  DESCRIBED(CollisionGeometry, 288);
+  FIELDS(o.link, o.pose_in_link, o.shape);
+}
+
+template <class A>
+void describe(A& a, JointSettings& s) {
+  DESCRIBED(JointSettings, 48);
+  FIELDS(s.damping, s.friction, within(s.lower, -kEndless, kEndless),
+         within(s.upper, -kEndless, kEndless), s.motor_speed, s.motor_effort);
+}
+
+template <class A>
+void describe(A& a, JointState& s) {
+  DESCRIBED(JointState, 64);
+  FIELDS(s.position, s.rate, s.settings);
+}
+
+template <class A>
+void describe(A& a, Model& m) {
+  DESCRIBED(Model, 472);
+  FIELDS(m.name, m.kind, m.serial, m.spawn_pose);
+  if constexpr (A::kReads) m.owner = &ownerOf(m.kind);
+  a.mostly(m.pose, m.spawn_pose);
+  FIELDS(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
+  if (m.kind == ModelKind::kRobot) FIELDS(m.geometries);  // others follow from the description
+}
+
+template <class A>
+void describe(A& a, StorageUnit& u) {
+  DESCRIBED(StorageUnit, 136);
+  FIELDS(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier, u.raised);
+}
+
+template <class A>
+void describe(A& a, Item& i) {
+  DESCRIBED(Item, 200);
+  FIELDS(i.id, i.model, i.unit, i.pose_in_unit, i.mass);  // its name is its model's
+  a.mostly(i.spawn_pose_in_unit, i.pose_in_unit);
+}
+
+// --- Bullet
+
+template <class A>
+void describe(A& a, btVector3& v) {
+  FIELDS(v.m_floats[0], v.m_floats[1], v.m_floats[2]);
+}
+
+template <class A>
+void describe(A& a, btTransform& t) {
+  btMatrix3x3& basis = t.getBasis();
+  FIELDS(basis[0], basis[1], basis[2], t.getOrigin());
+  if (A::kReads && !(std::abs(basis.determinant() - 1) < kUnitError)) {
+    throw ArchiveError("expected a rotation", "basis");
+  }
+}
+
+template <class A>
+void describe(A& a, BodyState& b) {
+  DESCRIBED(BodyState, 568);
+  FIELDS(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
+         b.predicted_angular_velocity, b.force, b.torque, within(b.mass, 1e-9, 1e12),
+         b.inverse_inertia, within(b.activation, 1, 5), b.placed, b.resting, b.parts, b.faceted);
+}
+
+template <class A>
+void describe(A& a, MotorState& m) {
+  DESCRIBED(MotorState, 24);
+  FIELDS(m.powered, m.speed, m.effort);
+}
+
+template <class A>
+void describe(A& a, ModelInPhysics& m) {
+  DESCRIBED(ModelInPhysics, 56);
+  FIELDS(m.slot, m.links, m.motors);
+}
+
+template <class A>
+void describe(A& a, BodyAddress& b) {
+  FIELDS(b.model, b.link, b.is_surface);
+}
+
+template <class A>
+void describe(A& a, btManifoldPoint& p) {
+  FIELDS(p.m_localPointA, p.m_localPointB, p.m_positionWorldOnA, p.m_positionWorldOnB,
+         p.m_normalWorldOnB, p.m_distance1, p.m_combinedFriction, p.m_combinedRollingFriction,
+         p.m_combinedSpinningFriction, p.m_combinedRestitution, p.m_partId0, p.m_partId1,
+         p.m_index0, p.m_index1, p.m_contactPointFlags, p.m_appliedImpulse, p.m_prevRHS,
+         p.m_appliedImpulseLateral1, p.m_appliedImpulseLateral2, p.m_contactMotion1,
+         p.m_contactMotion2, p.m_contactCFM, p.m_contactERP, p.m_frictionCFM, p.m_lifeTime,
+         p.m_lateralFrictionDir1, p.m_lateralFrictionDir2);
+}
+
+template <class A>
+void describe(A& a, ContactMemory& c) {
+  FIELDS(c.a, c.b, c.part_a, c.part_b, c.points);
+  if (A::kReads && c.points.size() > MANIFOLD_CACHE_SIZE) {
+    throw ArchiveError("Bullet keeps no more than four", "points");
+  }
+}
+
+template <class A>
+void describe(A& a, Solid& s) {
+  DESCRIBED(Solid, 104);
+  FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
+}
+
+/// Of a mover: it has no body of its own, and no triangles.
+template <class A>
+void describe(A& a, Footprint& f) {
+  DESCRIBED(Footprint, 112);
+  std::optional<Solid> solid;
+  if (f.solid) solid = *f.solid;
+  FIELDS(f.kind, within(f.x, -100, 100), within(f.y, -100, 100), within(f.c, -1.001, 1.001),
+         within(f.s, -1.001, 1.001), within(f.hx, 0, 100), within(f.hy, 0, 100), f.z_min, f.z_max,
+         f.model, f.group, solid);
+  if constexpr (A::kReads) f.solid = solid ? std::make_shared<const Solid>(*solid) : nullptr;
+}
+
+template <class A>
+void describe(A& a, PhysicsState& p) {
+  FIELDS(p.models, p.contacts, p.movers);
+}
+
+// --- the world
+
+template <class A>
+void describe(A& a, Command& c) {
+  DESCRIBED(Command, 40);
+  FIELDS(c.kind, c.kiva_id, c.x, c.y, c.direction, c.lift, c.shelf_id);
+}
+
+template <class A>
+void describe(A& a, Impact& i) {
+  DESCRIBED(Impact, 80);
+  FIELDS(i.point, i.normal, i.speed, i.impulse);
+}
+
+template <class A>
+void describe(A& a, Event& e) {
+  DESCRIBED(Event, 200);
+  FIELDS(e.time, e.kind, e.model, e.other, e.text, e.command, e.impact);
+}
+
+template <class A>
+void describe(A& a, Period& p) {
+  FIELDS(p.start, within(p.end, -kEndless, kEndless));
+}
+
+template <class A>
+void describe(A& a, Wrench& w) {
+  DESCRIBED(Wrench, 144);
+  FIELDS(w.model, w.link, w.force, w.torque, w.period);
+}
+
+template <class A>
+void describe(A& a, Effort& e) {
+  DESCRIBED(Effort, 88);
+  FIELDS(e.model, e.joint, e.effort, e.period);
+}
+
+template <class A>
+void describe(A& a, Light& l) {
+  DESCRIBED(Light, 240);
+  FIELDS(l.name, l.kind, l.pose, l.diffuse, l.specular, l.attenuation_constant,
+         l.attenuation_linear, l.attenuation_quadratic, l.direction, l.cast_shadows);
+}
+
+template <class A>
+void describe(A& a, OdeSettings& o) {
+  DESCRIBED(OdeSettings, 72);
+  FIELDS(o.auto_disable_bodies, o.sor_pgs_precon_iters, o.sor_pgs_iters, o.sor_pgs_w,
+         o.sor_pgs_rms_error_tol, o.contact_surface_layer, o.contact_max_correcting_vel, o.cfm,
+         o.erp, o.max_contacts);
+}
+
+template <class A>
+void describe(A& a, ExternalInputs& i) {
+  std::vector<Light> lights;
+  for (const auto& [name, light] : i.lights) lights.push_back(light);
+  FIELDS(i.wrenches, i.efforts, lights, i.ode);
+  if constexpr (A::kReads) {
+    i.lights.clear();
+    for (Light& light : lights) i.lights[light.name] = std::move(light);
+  }
+}
+
+template <class A>
+void describe(A& a, StatusChange& s) {
+  DESCRIBED(StatusChange, 48);
+  FIELDS(s.time, s.kiva_id, s.status, s.state, s.shelf_id, s.x, s.y, s.yaw);
+}
+
+template <class A>
+void describe(A& a, TouchingPair& t) {
+  DESCRIBED(TouchingPair, 112);
+  FIELDS(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
+}
+
+template <class A>
+void describe(A& a, Crash& c) {
+  DESCRIBED(Crash, 40);
+  FIELDS(c.kiva_id, c.with);
+}
+
+template <class A>
+void describe(A& a, PluginState& p) {
+  FIELDS(p.model, p.index, p.state);
+}
+
+template <class A>
+void describe(A& a, Floor& f) {
+  DESCRIBED(Floor, 40);
+  FIELDS(f.min_x, f.max_x, f.min_y, f.max_y, f.z);
+}
+
+template <class A>
+void describe(A& a, WorldOptions& o) {
+  DESCRIBED(WorldOptions, 48);
+  FIELDS(o.seed, o.drive, o.always_in_bullet);  // the table of plugins stays the world's own
+}
+
+#undef DESCRIBED
+
+}  // namespace kiva

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/checkpoint/plugin_states.h"
+
+#include <memory>
+
+#include "core/models/models.h"
+#include "core/models/user_plugins.h"
+#include "core/state/fleet_plugin.h"
+
+namespace kiva {
+namespace {
+
+using Plugins = std::vector<std::shared_ptr<Plugin>>;
+using Descriptions = std::vector<PluginDescription>;
+
+void save(const std::string& model, const Plugins& plugins, std::vector<PluginState>* out) {
+  for (std::size_t i = 0; i < plugins.size(); ++i) {
+    out->push_back({model, static_cast<int>(i), plugins[i]->save()});
+  }
+}
+
+/// The descriptions of those that are a user's.
+Descriptions usersOwn(const WorldState& world, const Descriptions& all) {
+  Descriptions own;
+  for (const PluginDescription& plugin : all) {
+    if (!findFleetPlugin(world, plugin.filename)) own.push_back(plugin);
+  }
+  return own;
+}
+
+/// Those of a model and of its sensors.
+Descriptions usersOwn(const WorldState& world, const Model& model) {
+  Descriptions own = usersOwn(world, model.description->plugins);
+  for (const SensorDescription& sensor : model.description->sensors) {
+    own.insert(own.end(), sensor.plugins.begin(), sensor.plugins.end());
+  }
+  return own;
+}
+
+bool isSame(const Descriptions& a, const Descriptions& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].filename != b[i].filename) return false;
+    if (a[i].parameters.values() != b[i].parameters.values()) return false;
+  }
+  return true;
+}
+
+void adoptModel(WorldState& world, const WorldState& before, Model& model) {
+  const Model* known = before.find(model.name);
+  const bool same = known && known->robot_namespace == model.robot_namespace &&
+                    isSame(usersOwn(world, model), usersOwn(before, *known));
+  if (same) {
+    model.plugins = known->plugins;
+  } else {
+    loadPlugins(world, model);
+  }
+}
+
+void adoptWorld(WorldState& world, const WorldState& before) {
+  const Descriptions& own = world.world_plugin_descriptions;
+  if (isSame(own, before.world_plugin_descriptions)) {
+    world.world_plugins = before.world_plugins;
+    return;
+  }
+  for (const PluginDescription& plugin : own) {
+    auto loaded = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr);
+    if (loaded) world.world_plugins.push_back(std::move(loaded));
+  }
+}
+
+}  // namespace
+
+std::vector<PluginState> savePlugins(const WorldState& world) {
+  std::vector<PluginState> states;
+  save("", world.world_plugins, &states);
+  for (int slot : world.models_with_plugins) {
+    save(world.models[slot]->name, world.models[slot]->plugins, &states);
+  }
+  return states;
+}
+
+void adoptPlugins(WorldState& world, const WorldState& before) {
+  // What a plugin does when it is loaded was done long ago.
+  const auto commands = world.commands;
+  const auto events = world.events;
+  const auto status_changes = world.status_changes;
+  adoptWorld(world, before);
+  for (int slot : world.models_with_plugins) adoptModel(world, before, *world.models[slot]);
+  world.commands = commands;
+  world.events = events;
+  world.status_changes = status_changes;
+}
+
+void restorePlugins(WorldState& world, const std::vector<PluginState>& states) {
+  for (const PluginState& saved : states) {
+    const Model* model = saved.model.empty() ? nullptr : world.find(saved.model);
+    const Plugins& plugins = model ? model->plugins : world.world_plugins;
+    const auto index = static_cast<std::size_t>(saved.index);
+    if (index < plugins.size()) plugins[index]->restore(*world.owner, saved.state);
+  }
+}
+
+}  // namespace kiva

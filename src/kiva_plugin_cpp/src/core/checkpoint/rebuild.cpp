@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/checkpoint/rebuild.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "core/motion/joints.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+
+namespace kiva {
+namespace {
+
+/// Whose a body is. Asked only, never gone through: its order is none.
+using Addresses = std::unordered_map<const btCollisionObject*, BodyAddress>;
+
+Addresses addresses(const WorldState& world) {
+  Addresses out;
+  for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
+    if (!world.models[slot] || !world.models[slot]->in_physics) continue;
+    const ModelBodies& bodies = world.models[slot]->bodies;
+    for (const auto* list : {&bodies.links, &bodies.surfaces}) {
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        out[(*list)[i].body.get()] = {static_cast<int>(slot), static_cast<int>(i),
+                                      list == &bodies.surfaces};
+      }
+    }
+  }
+  return out;
+}
+
+/// When Bullet got it; a model's bodies come together.
+int arrivalOf(const Model& model) {
+  if (model.bodies.links.empty()) return -1;
+  return model.bodies.links.front().body->getBroadphaseHandle()->getUid();
+}
+
+std::vector<int> slotsInPhysics(const WorldState& world) {
+  std::vector<int> slots;
+  for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
+    if (world.models[slot] && world.models[slot]->in_physics) {
+      slots.push_back(static_cast<int>(slot));
+    }
+  }
+  std::sort(slots.begin(), slots.end(), [&world](int a, int b) {
+    return arrivalOf(*world.models[a]) < arrivalOf(*world.models[b]);
+  });
+  return slots;
+}
+
+ModelInPhysics readModel(const WorldState& world, int slot) {
+  ModelInPhysics out;
+  out.slot = slot;
+  const Model& model = *world.models[slot];
+  if (model.isStatic()) return out;
+  for (const LinkBody& link : model.bodies.links) out.links.push_back(readBody(*link.body));
+  for (const auto& joint : model.bodies.joints) out.motors.push_back(readMotor(*joint));
+  return out;
+}
+
+std::vector<ContactMemory> readContacts(const WorldState& world) {
+  const std::vector<btPersistentManifold*> manifolds = world.physics.manifolds();
+  std::vector<ContactMemory> out;
+  if (manifolds.empty()) return out;
+  const Addresses address = addresses(world);
+  for (const btPersistentManifold* manifold : manifolds) {
+    ContactMemory memory{address.at(manifold->getBody0()),
+                         address.at(manifold->getBody1()),
+                         manifold->m_companionIdA,
+                         manifold->m_companionIdB,
+                         {}};
+    for (int i = 0; i < manifold->getNumContacts(); ++i) {
+      memory.points.push_back(manifold->getContactPoint(i));
+    }
+    out.push_back(std::move(memory));
+  }
+  return out;
+}
+
+auto keyOf(const BodyAddress& a, const BodyAddress& b, int part_a, int part_b) {
+  return std::make_tuple(a.model, a.link, a.is_surface, b.model, b.link, b.is_surface, part_a,
+                         part_b);
+}
+
+/// A contact that has no manifold any more, since its bodies have parted in the last step, would
+/// have been dropped at the beginning of the next.
+void writeContacts(WorldState& world, const std::vector<ContactMemory>& memories) {
+  if (memories.empty()) return;
+  std::map<decltype(keyOf({}, {}, 0, 0)), const ContactMemory*> memory_of;
+  for (const ContactMemory& m : memories) memory_of[keyOf(m.a, m.b, m.part_a, m.part_b)] = &m;
+  const Addresses address = addresses(world);
+  for (btPersistentManifold* manifold : world.physics.makeManifolds()) {
+    const auto memory =
+        memory_of.find(keyOf(address.at(manifold->getBody0()), address.at(manifold->getBody1()),
+                             manifold->m_companionIdA, manifold->m_companionIdB));
+    if (memory == memory_of.end()) continue;
+    for (const btManifoldPoint& point : memory->second->points) manifold->addManifoldPoint(point);
+  }
+}
+
+void buildModel(WorldState& world, const ModelInPhysics& state) {
+  Model& model = *world.models.at(state.slot);
+  model.bodies = model.owner->build(world, model);
+  if (!model.isStatic() && (state.links.size() != model.bodies.links.size() ||
+                            state.motors.size() != model.bodies.joints.size())) {
+    throw std::invalid_argument("'" + model.name + "' has other bodies than its model");
+  }
+  for (std::size_t i = 0; i < state.links.size(); ++i) {
+    writeBody(state.links[i], *model.bodies.links[i].body);
+  }
+  world.physics.insert(model.bodies);
+  restoreLimits(model);
+  for (std::size_t i = 0; i < state.motors.size(); ++i) {
+    writeMotor(state.motors[i], *model.bodies.joints[i]);
+  }
+}
+
+/// One that was not touched in Bullet has those from before it entered.
+void addFootprints(WorldState& world, Model& model) {
+  const bool is_in = model.in_physics;
+  if (model.owner->isActivatedWhenNear() && !model.disturbed) model.in_physics = false;
+  moved(world, model);
+  model.in_physics = is_in;
+}
+
+void rebuildObstacles(WorldState& world, const PhysicsState& state) {
+  for (int slot : slotsInOrder(world)) {
+    Model& model = *world.models[slot];
+    const bool is_touched = model.in_physics || model.owner->isActivatedWhenNear();
+    if (model.geometries.empty() && is_touched) addCollisionGeometry(world, model);
+    addFootprints(world, model);
+  }
+  // Worked out where the robot was when its load changed, they would be a rounding apart.
+  for (std::size_t robot = 0; robot < state.movers.size(); ++robot) {
+    world.obstacles.setMover(static_cast<int>(robot), state.movers[robot]);
+  }
+}
+
+}  // namespace
+
+PhysicsState readPhysics(const WorldState& world) {
+  PhysicsState state;
+  for (int slot : slotsInPhysics(world)) state.models.push_back(readModel(world, slot));
+  state.contacts = readContacts(world);
+  for (int robot = 0; robot < world.fleet.size(); ++robot) {
+    state.movers.push_back(world.obstacles.ofMover(robot));
+  }
+  return state;
+}
+
+void rebuild(WorldState& world, const PhysicsState& state) {
+  world.physics.setGravity(world.gravity);
+  for (const ModelInPhysics& model : state.models) buildModel(world, model);
+  writeContacts(world, state.contacts);
+  rebuildObstacles(world, state);
+}
+
+}  // namespace kiva

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/contact/activation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/motion/clearance.h"
+#include "core/motion/dynamics.h"
+#include "core/motion/traction.h"
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kReach = 0.3;    // [m] around a robot in which to look
+constexpr double kLinger = 0.05;  // [s] in Bullet after the last one was near
+
+/// A load enters with the robot that carries it.
+void activateWhole(WorldState& world, int slot) {
+  Model& model = *world.models[slot];
+  if (!model.owner->isActivatedWhenNear()) return;
+  const int robot = model.owner->robot(world, model);
+  activate(world, robot < 0 ? model : world.modelOf(robot));
+}
+
+/// In an order that does not depend on how the obstacles are indexed.
+void activateAll(WorldState& world, std::vector<int> slots) {
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  for (int slot : slots) activateWhole(world, slot);
+}
+
+/// Looks whether the robot can be left alone for a while; else lets it and what it could touch
+/// enter Bullet.
+void lookAround(WorldState& world, int robot) {
+  FleetState& f = world.fleet;
+  if (!f.activated[robot] && findClearance(world, robot)) return;
+  const double speed = pointSpeed(f, robot);
+  double least = kReach;
+  std::vector<int> close;
+  for (const Footprint& own : world.obstacles.footprints(robot)) {
+    least = std::min(least, findClose(world, own, speed, kReach, &close));
+  }
+  if (!close.empty()) activate(world, world.modelOf(robot));
+  activateAll(world, std::move(close));
+  // It may be another that comes, and both may speed up.
+  const double way = 2 * (world.top_speed + kCornerSpeed) * world.dt;
+  const double free_steps = std::floor((least - kNear) / way - 1);
+  f.clear_until[robot] = static_cast<double>(world.total_steps) + std::max(0.0, free_steps);
+}
+
+bool isMoving(const WorldState& world, int robot) {
+  return world.fleet.tasks[robot].phase != Phase::kIdle || !atRest(world.fleet, robot);
+}
+
+/// A body that moves by itself: what it could hit enters Bullet too.
+void lookAroundBody(WorldState& world, Model& model) {
+  if (!isAwake(model)) return;
+  double fastest = 0;
+  for (const LinkBody& link : model.bodies.links) {
+    fastest = std::max(fastest, link.body->getLinearVelocity().length());
+  }
+  const double near = kNear + 4 * fastest * world.dt;
+  std::vector<int> close;
+  for (const CollisionGeometry& geometry : model.geometries) {
+    Footprint own = world.obstacles[geometry.handle];
+    own.z_min -= near;  // it may fall, or be thrown, upon something
+    own.z_max += near;
+    findClose(world, own, 4 * fastest, near, &close);
+  }
+  activateAll(world, std::move(close));
+}
+
+void release(WorldState& world) {
+  for (std::size_t k = 0; k < world.activated.size();) {
+    Model& model = *world.models[world.activated[k]];
+    if (model.owner->mayLeaveBullet(world, model, model.active_until < world.total_steps)) {
+      deactivate(world, model);  // removes entry k
+    } else {
+      ++k;
+    }
+  }
+}
+
+/// Most blocks of a large fleet have none, and cost little.
+void findSteppedSingly(WorldState& world) {
+  const FleetState& f = world.fleet;
+  world.stepped_singly.clear();
+  constexpr int kBlock = 16;
+  for (int begin = 0; begin < f.size(); begin += kBlock) {
+    const int end = std::min(begin + kBlock, f.size());
+    std::int64_t any = 0;
+    for (int i = begin; i < end; ++i) any |= f.awake[i] & ~f.cruising[i];
+    if (any == 0) continue;
+    for (int i = begin; i < end; ++i) {
+      if (f.awake[i] && f.cruising[i] == 0) world.stepped_singly.push_back(i);
+    }
+  }
+}
+
+}  // namespace
+
+void activate(WorldState& world, Model& model) {
+  model.active_until = world.total_steps + world.stepsIn(kLinger);
+  if (model.in_physics) return;
+  model.bodies = model.owner->build(world, model);
+  world.physics.insert(model.bodies);
+  model.in_physics = true;
+  world.activated.push_back(model.slot);
+  model.owner->activated(world, model);
+}
+
+void deactivate(WorldState& world, Model& model) {
+  model.owner->deactivated(world, model);
+  world.physics.remove(model.bodies);
+  model.bodies = ModelBodies();
+  model.in_physics = false;
+  auto& slots = world.activated;
+  slots.erase(std::remove(slots.begin(), slots.end(), model.slot), slots.end());
+  moved(world, model);
+}
+
+void rebuildBody(WorldState& world, Model& model) {
+  if (!model.in_physics) return;
+  deactivate(world, model);
+  activate(world, model);
+}
+
+void letFall(WorldState& world, Model& model) {
+  activate(world, model);
+  for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
+  model.disturbed = true;
+}
+
+void updateActivation(WorldState& world) {
+  const FleetState& f = world.fleet;
+  if (world.options.always_in_bullet) {
+    for (int i = 0; i < f.size(); ++i) activate(world, world.modelOf(i));
+  }
+  findSteppedSingly(world);
+  const auto now = static_cast<double>(world.total_steps);
+  for (int i : world.stepped_singly) {
+    if (f.clear_until[i] <= now && isMoving(world, i)) lookAround(world, i);
+  }
+  for (int slot : world.bodies) lookAroundBody(world, *world.models[slot]);
+  const std::vector<int> activated = world.activated;  // it grows meanwhile
+  for (int slot : activated) {
+    if (world.models[slot]->disturbed) lookAroundBody(world, *world.models[slot]);
+  }
+  release(world);
+  findSteppedSingly(world);  // who was activated has woken
+}
+
+}  // namespace kiva

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/contact/collisions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kApart = 0.0005;  // [m]
+constexpr double kForget = 0.1;    // [s]: a contact that returns within is the same one
+
+// An impact takes a few steps: Bullet first brings a body that comes near to where it touches, then
+// stops it there, and may find only one point of contact a step. It is over when none has neared
+// for a while; what goes on for longer than an impact is a push [s].
+constexpr double kQuiet = 0.002, kImpact = 0.01;
+// What counts as nearing: a share of the speed at first, and at least so much [m/s].
+constexpr double kShare = 0.01, kNearing = 0.001;
+
+int robotIn(const WorldState& world, const Model& model) {
+  return model.owner->robot(world, model);
+}
+
+bool isCollision(const WorldState& world, const Contact& contact) {
+  const Model& a = *world.models[contact.model_a];
+  const Model& b = *world.models[contact.model_b];
+  if (a.owner->isFloor() || b.owner->isFloor()) return false;
+  if (!a.owner->tellsCollisions() && !b.owner->tellsCollisions()) return false;
+  const int robot = robotIn(world, a);
+  return robot < 0 || robot != robotIn(world, b);
+}
+
+bool areApart(const WorldState& world, const TouchingPair& pair) {
+  bool apart = true;
+  forFootprints(world, pair.model_a, [&](const Footprint& a) {
+    forFootprints(world, pair.model_b, [&](const Footprint& b) {
+      if (shareHeight(a, b) && gap(a, b) < kApart) apart = false;
+    });
+  });
+  return apart;
+}
+
+/// A robot in it is to stop.
+void noteCrash(WorldState& world, const Model& model, const Model& other) {
+  const int robot = robotIn(world, model);
+  if (robot >= 0) world.crashes.push_back({world.fleet.robots[robot].id, other.name});
+}
+
+void tell(WorldState& world, TouchingPair* pair) {
+  const Model* a = world.models[pair->model_a].get();
+  const Model* b = world.models[pair->model_b].get();
+  Impact impact = pair->impact;
+  if (robotIn(world, *a) < 0) {
+    std::swap(a, b);
+    impact.normal = -impact.normal;
+  }
+  pair->tell_at = 0;
+  world.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name, impact);
+  noteCrash(world, *a, *b);
+  noteCrash(world, *b, *a);
+}
+
+void tellWhatIsOver(WorldState& world) {
+  for (TouchingPair& pair : world.touching) {
+    if (pair.tell_at > 0 && pair.tell_at <= world.total_steps) tell(world, &pair);
+  }
+}
+
+TouchingPair& pairOf(WorldState& world, const Contact& contact) {
+  for (TouchingPair& pair : world.touching) {
+    if (pair.model_a == contact.model_a && pair.model_b == contact.model_b) return pair;
+  }
+  const Impact impact{contact.point, contact.normal, contact.speed, 0};
+  const std::uint64_t now = world.total_steps;
+  world.touching.push_back({contact.model_a, contact.model_b, now, impact,
+                            now + world.stepsIn(kQuiet), now + world.stepsIn(kImpact)});
+  return world.touching.back();
+}
+
+void touch(WorldState& world, const Contact& contact) {
+  for (int slot : {contact.model_a, contact.model_b}) {
+    world.models[slot]->owner->touched(world, *world.models[slot]);
+  }
+  TouchingPair& pair = pairOf(world, contact);
+  pair.last_step = world.total_steps;
+  if (pair.tell_at == 0) return;
+  pair.impact.impulse += contact.impulse;
+  if (contact.nearing <= std::max(kNearing, kShare * pair.impact.speed)) return;
+  pair.tell_at = std::min(pair.tell_latest, world.total_steps + world.stepsIn(kQuiet));
+}
+
+}  // namespace
+
+void observeCollisions(WorldState& world) {
+  if (world.activated.empty() && world.touching.empty()) return;
+  world.physics.contacts(&world.contacts);
+  for (const Contact& contact : world.contacts) {
+    if (isCollision(world, contact)) touch(world, contact);
+  }
+  tellWhatIsOver(world);
+  const auto keep = world.stepsIn(kForget);
+  const auto over = [&](const TouchingPair& pair) {
+    return pair.last_step + keep < world.total_steps && areApart(world, pair);
+  };
+  world.touching.erase(std::remove_if(world.touching.begin(), world.touching.end(), over),
+                       world.touching.end());
+}
+
+void forgetContacts(WorldState& world, int slot) {
+  const auto has = [slot](const TouchingPair& pair) {
+    return slot < 0 || pair.model_a == slot || pair.model_b == slot;
+  };
+  for (TouchingPair& pair : world.touching) {
+    if (has(pair) && pair.tell_at > 0) tell(world, &pair);
+  }
+  world.touching.erase(std::remove_if(world.touching.begin(), world.touching.end(), has),
+                       world.touching.end());
+}
+
+}  // namespace kiva

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/commands.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/control/route.h"
+#include "core/state/tasks.h"
+#include "core/state/unit_geometry.h"
+
+namespace kiva {
+namespace {
+
+struct Plan {
+  std::deque<MotionSegment> segments;
+  std::string text;
+  std::string other;
+};
+
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
+void checkGoal(const WorldState& world, const Point& goal) {
+  if (isOnFloor(world, goal)) return;
+  const Floor& f = world.floor;
+  if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
+  throw Refusal(format("goal (%g, %g) is outside the floor, which spans x %g…%g m, y %g…%g m",
+                       goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
+}
+
+double checkedGoal(const WorldState& world, double coordinate, char axis) {
+  if (!std::isfinite(coordinate)) {
+    throw Refusal(format("%c = %g: a finite number of metres was expected", axis, coordinate));
+  }
+  const double grid = nearestGrid(world, coordinate);
+  if (std::abs(grid - coordinate) <= kGoalTolerance) return grid;
+  throw Refusal(format("%c = %g m is off the grid of %g m", axis, coordinate, world.grid_spacing));
+}
+
+double checkedDistance(const WorldState& world, double distance) {
+  if (!std::isfinite(distance)) {
+    throw Refusal(format("distance %g: a finite number of metres was expected", distance));
+  }
+  const double whole = nearestGrid(world, distance);
+  if (std::abs(whole - distance) <= kGoalTolerance) return whole;
+  throw Refusal(
+      format("distance %g m is no whole number of %g m cells", distance, world.grid_spacing));
+}
+
+void checkMotion(const WorldState& world, int robot) {
+  if (!world.fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
+}
+
+Plan planMoveTo(const WorldState& world, int robot, const Command& command) {
+  checkMotion(world, robot);
+  const Point goal{checkedGoal(world, command.x, 'x'), checkedGoal(world, command.y, 'y')};
+  checkGoal(world, goal);
+  Route route(world, robot);
+  route.driveTo(0, goal.x);
+  route.driveTo(1, goal.y);
+  return {route.takeSegments(), format("go to (%g, %g)", goal.x, goal.y), ""};
+}
+
+Plan planMoveAlong(const WorldState& world, int robot, int axis, double asked) {
+  checkMotion(world, robot);
+  const double distance = checkedDistance(world, asked);
+  Route route(world, robot);
+  Point goal = route.at();
+  goal[axis] += distance;
+  checkGoal(world, goal);
+  route.driveTo(axis, goal[axis]);
+  return {route.takeSegments(), format("go %g m along %c", distance, axis == 0 ? 'x' : 'y'), ""};
+}
+
+Plan planRotate(const WorldState& world, int robot, int direction) {
+  if (direction != 1 && direction != -1) {
+    throw Refusal(
+        format("direction %d: 1 (counterclockwise) or -1 (clockwise) was expected", direction));
+  }
+  Route route(world, robot);
+  route.rotate(direction);
+  return {route.takeSegments(), direction > 0 ? "turn counterclockwise" : "turn clockwise", ""};
+}
+
+int findUnit(const WorldState& world, int id) {
+  const auto at = world.unit_of_id.find(id);
+  if (at == world.unit_of_id.end()) throw Refusal(format("there is no storage_unit%d", id));
+  return at->second;
+}
+
+void checkCarry(const WorldState& world, int robot, int unit) {
+  const Fleet& f = world.fleet;
+  const StorageUnit& u = world.units[unit];
+  const LiftParameters& lift = f.robots[robot].lift;
+  if (f.unit[robot] >= 0) throw Refusal("it carries " + world.units[f.unit[robot]].name);
+  const int holder = u.carrier >= 0 ? u.carrier : u.claimed_by;
+  if (holder >= 0) throw Refusal(u.name + " is carried by " + f.robots[holder].name);
+  const double distance = unitDistance(world, robot, unit);
+  if (!(distance <= lift.proximity)) {
+    throw Refusal(format("%s is %.3f m away; %g m at the most is close enough", u.name.c_str(),
+                         distance, lift.proximity));
+  }
+  if (!standsUpright(world, unit)) throw Refusal(u.name + " does not stand upright on the floor");
+  if (u.mass > lift.max_load) {
+    throw Refusal(format("%s weighs %g kg, more than the %g kg it can carry", u.name.c_str(),
+                         u.mass, lift.max_load));
+  }
+  if (towerGap(world, robot, unit) >= lift.height) {
+    throw Refusal(
+        format("its tower rises %g m, which does not reach %s", lift.height, u.name.c_str()));
+  }
+}
+
+/// What a drop that names no unit means.
+int carriedUnit(const WorldState& world, int robot) {
+  const int unit = world.fleet.unit[robot];
+  if (unit < 0) throw Refusal("it carries nothing");
+  return unit;
+}
+
+Plan planLift(const WorldState& world, int robot, const Command& command) {
+  if (!world.fleet.robots[robot].lift.fitted) throw Refusal("it has no lift plugin");
+  if (command.lift != 0 && command.lift != 1) {
+    throw Refusal(format("status %d: 1 (carry) or 0 (drop) was expected", command.lift));
+  }
+  const bool carry = command.lift == 1;
+  const int unit = carry || command.shelf_id != 0 ? findUnit(world, command.shelf_id)
+                                                  : carriedUnit(world, robot);
+  if (carry) checkCarry(world, robot, unit);
+  const std::string& name = world.units[unit].name;
+  if (!carry && world.fleet.unit[robot] != unit) throw Refusal("it does not carry " + name);
+  Route route(world, robot);
+  route.lift(carry ? MotionSegment::Kind::kRaise : MotionSegment::Kind::kLower, unit);
+  return {route.takeSegments(), (carry ? "carry " : "drop ") + name, name};
+}
+
+Plan plan(const WorldState& world, int robot, const Command& command) {
+  switch (command.kind) {
+    case Command::Kind::kMoveTo:
+      return planMoveTo(world, robot, command);
+    case Command::Kind::kMoveX:
+      return planMoveAlong(world, robot, 0, command.x);
+    case Command::Kind::kMoveY:
+      return planMoveAlong(world, robot, 1, command.y);
+    case Command::Kind::kRotate:
+      return planRotate(world, robot, command.direction);
+    case Command::Kind::kLift:
+      return planLift(world, robot, command);
+  }
+  throw Refusal("unknown command");
+}
+
+const char* stateName(State state) {
+  static const char* const names[] = {"IDLE",     "MOVING_X", "MOVING_Y",
+                                      "ROTATING", "LIFTING",  "BLOCKED"};
+  return names[static_cast<int>(state)];
+}
+
+void start(WorldState& world, int robot, std::uint32_t number, Plan plan) {
+  Task& task = world.fleet.tasks[robot];
+  task.command = number;
+  task.goal = plan.text;
+  world.reportCommand(Event::Kind::kAccepted, robot, plan.other, plan.text);
+  beginTask(world, robot, std::move(plan.segments));
+}
+
+void answer(WorldState& world, const Command& command) {
+  const int robot = world.fleet.find(command.kiva_id);
+  const std::string name = "kiva" + std::to_string(command.kiva_id);
+  const std::uint32_t number = ++world.last_command;
+  try {
+    if (robot < 0) throw Refusal("there is no robot " + name);
+    if (world.fleet.status[robot] != Status::kIdle) {
+      throw Refusal(std::string("it is not idle but ") + stateName(world.fleet.state[robot]));
+    }
+    start(world, robot, number, plan(world, robot, command));
+  } catch (const Refusal& refusal) {
+    world.events.push_back(
+        {world.time(), Event::Kind::kRefused, name, "", refusal.what(), number, {}});
+  }
+}
+
+}  // namespace
+
+void acceptCommands(WorldState& world) {
+  while (!world.commands.empty()) {
+    answer(world, world.commands.front());
+    world.commands.pop_front();
+  }
+}
+
+void haltCrashed(WorldState& world) {
+  for (const Crash& crash : world.crashes) {
+    const int robot = world.fleet.find(crash.kiva_id);
+    if (robot >= 0) haltRobot(world, robot, crash.with, "collision with " + crash.with);
+  }
+  world.crashes.clear();
+}
+
+}  // namespace kiva

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/route.h"
+
+#include <cmath>
+
+#include "core/geometry/angle.h"
+#include "core/sensing/look_ahead.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kHalfPi = M_PI / 2;
+constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
+constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
+constexpr int kRecoverCells = 2;               // around a robot that looks for a free grid point
+constexpr double kRoomStep = 0.1;              // [m]: in which it looks for room to turn
+constexpr double kRoomReach = 1.5;             // [m]
+
+/// The heading nearest to `near` that points along `angle`; of two opposite ones the left turn.
+double headingNear(double near, double angle) {
+  const double turn = wrapAngle(angle - near);
+  return near + (turn < -M_PI + 1e-6 ? turn + 2 * M_PI : turn);
+}
+
+/// The free grid point nearest to a place. Throws Refusal if there is none near.
+Point nearestFree(const WorldState& world, int robot, const Point& from) {
+  Point best;
+  double least = 1e9;
+  for (int i = -kRecoverCells; i <= kRecoverCells; ++i) {
+    for (int j = -kRecoverCells; j <= kRecoverCells; ++j) {
+      const Point p{nearestGrid(world, from.x) + i * world.grid_spacing,
+                    nearestGrid(world, from.y) + j * world.grid_spacing};
+      const double distance = std::hypot(p.x - from.x, p.y - from.y);
+      if (distance >= least || !isOnFloor(world, p) || !isFree(world, robot, p.x, p.y)) continue;
+      least = distance;
+      best = p;
+    }
+  }
+  if (least > 1e8) throw Refusal("it is off the grid and no free grid point is near");
+  return best;
+}
+
+/// The nearest place straight ahead or behind where the robot has room to turn; here, if it has
+/// room here or nowhere.
+Point roomToTurn(const WorldState& world, int robot) {
+  const Fleet& f = world.fleet;
+  const Point here{f.x[robot], f.y[robot]};
+  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  for (int step = 0; step * kRoomStep <= kRoomReach; ++step) {
+    for (double way : {step * kRoomStep, -step * kRoomStep}) {
+      const Point p{here.x + c * way, here.y + s * way};
+      if (isFree(world, robot, p.x, p.y)) return p;
+    }
+  }
+  return here;
+}
+
+}  // namespace
+
+double nearestGrid(const WorldState& world, double coordinate) {
+  return std::round(coordinate / world.grid_spacing) * world.grid_spacing;
+}
+
+bool isOnFloor(const WorldState& world, const Point& p) {
+  const double half = world.grid_spacing / 2 - 1e-6;
+  const Floor& floor = world.floor;
+  return p.x - half >= floor.min_x && p.x + half <= floor.max_x && p.y - half >= floor.min_y &&
+         p.y + half <= floor.max_y;
+}
+
+Route::Route(const WorldState& world, int robot)
+    : world_(world),
+      robot_(robot),
+      at_{nearestGrid(world, world.fleet.x[robot]), nearestGrid(world, world.fleet.y[robot])},
+      yaw_(std::round(world.fleet.yaw[robot] / kHalfPi) * kHalfPi) {
+  const Fleet& f = world.fleet;
+  const double off = std::hypot(f.x[robot] - at_.x, f.y[robot] - at_.y);
+  if (off > kOnGrid) {
+    recover();
+  } else if (std::abs(f.yaw[robot] - yaw_) > kSquare) {
+    turnTo(yaw_);
+  }
+}
+
+void Route::rotate(int direction) { turnTo(yaw_ + direction * kHalfPi); }
+
+void Route::driveTo(int axis, double coordinate) {
+  const double way = coordinate - at_[axis];
+  if (std::abs(way) < kGoalTolerance) return;
+  const double angle = axis * kHalfPi + (way < 0 ? M_PI : 0);
+  const double heading = headingNear(yaw_, angle);
+  if (std::abs(heading - yaw_) > kSquare) turnTo(heading);
+  at_[axis] = coordinate;
+  MotionSegment segment = makeDrive(axis == 0 ? State::kMovingX : State::kMovingY);
+  segments_.push_back(segment);
+}
+
+void Route::lift(MotionSegment::Kind kind, int unit) {
+  MotionSegment segment;
+  segment.kind = kind;
+  segment.unit = unit;
+  segment.state = State::kLifting;
+  segments_.push_back(segment);
+}
+
+void Route::turnTo(double heading) {
+  if (!world_.fleet.robots[robot_].has_rotation) throw Refusal("it has no rotation plugin");
+  MotionSegment segment;
+  segment.yaw = yaw_ = heading;
+  segments_.push_back(segment);
+}
+
+MotionSegment Route::makeDrive(State state) const {
+  MotionSegment segment;
+  segment.kind = MotionSegment::Kind::kDrive;
+  segment.x = at_.x;
+  segment.y = at_.y;
+  segment.yaw = yaw_;
+  segment.state = state;
+  return segment;
+}
+
+/// Back to the grid from wherever it was pushed: out to where there is room to turn, then straight
+/// to a grid point, by the smaller turn, forwards or backwards.
+void Route::recover() {
+  const Fleet& f = world_.fleet;
+  const Point here{f.x[robot_], f.y[robot_]}, room = roomToTurn(world_, robot_);
+  const Point to = nearestFree(world_, robot_, room);
+  yaw_ = f.yaw[robot_];
+  driveOff(here, room);
+  driveOff(room, to);
+  const double square = std::round(yaw_ / kHalfPi) * kHalfPi;
+  if (std::abs(square - yaw_) > kSquare) turnTo(square);
+  yaw_ = square;
+}
+
+/// Straight from one place to another, off the grid.
+void Route::driveOff(const Point& from, const Point& to) {
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  if (std::hypot(dx, dy) < kOnGrid) return;
+  const double ahead = headingNear(yaw_, std::atan2(dy, dx));
+  const double back = headingNear(yaw_, std::atan2(-dy, -dx));
+  const bool reverse = std::abs(back - yaw_) < std::abs(ahead - yaw_);
+  const double heading = reverse ? back : ahead;
+  if (std::abs(heading - yaw_) > kSquare) turnTo(heading);
+  yaw_ = heading;
+  at_ = to;
+  MotionSegment segment =
+      makeDrive(std::abs(dx) > std::abs(dy) ? State::kMovingX : State::kMovingY);
+  segment.reverse = reverse;
+  segment.on_grid = false;
+  segments_.push_back(segment);
+}
+
+}  // namespace kiva

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The way that one command takes over the grid.
+#pragma once
+
+#include <cstdio>
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Why a command is refused, for a person.
+struct Refusal : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// In world [m].
+struct Point {
+  double x = 0, y = 0;
+  double& operator[](int axis) { return axis == 0 ? x : y; }
+};
+
+/// How near is there, for numbers that clients computed [m].
+constexpr double kGoalTolerance = 0.001;
+
+double nearestGrid(const WorldState& world, double coordinate);
+/// Whether the cell around the grid point lies on the floor as a whole.
+bool isOnFloor(const WorldState& world, const Point& p);
+
+/// Plans the way of one robot, segment by segment; knows where each segment will leave it.
+class Route {
+ public:
+  /// From where the robot stands; from off the grid it first returns to it. Throws Refusal if there
+  /// is no way back.
+  Route(const WorldState& world, int robot);
+
+  Point at() const { return at_; }
+  void rotate(int direction);
+  /// Drives along one axis to that coordinate, facing it.
+  void driveTo(int axis, double coordinate);
+  void lift(MotionSegment::Kind kind, int unit);
+  std::deque<MotionSegment> takeSegments() { return std::move(segments_); }
+
+ private:
+  void turnTo(double heading);
+  MotionSegment makeDrive(State state) const;
+  void recover();
+  void driveOff(const Point& from, const Point& to);
+
+  const WorldState& world_;
+  int robot_;
+  Point at_;
+  double yaw_;
+  std::deque<MotionSegment> segments_;
+};
+
+}  // namespace kiva

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/geometry/obstacles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/ray.h"
+#include "core/geometry/triangle_footprint.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kCell = 1.0;           // [m]
+constexpr int kMaxCells = 2048;         // a side; farther out nothing is indexed by cell
+constexpr long kMostCellsEach = 16384;  // what covers more is asked for everywhere
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double halfX(const Footprint& f) {
+  return f.kind == Footprint::Kind::kBox ? std::abs(f.c) * f.hx + std::abs(f.s) * f.hy : f.hx;
+}
+double halfY(const Footprint& f) {
+  return f.kind == Footprint::Kind::kBox        ? std::abs(f.s) * f.hx + std::abs(f.c) * f.hy
+         : f.kind == Footprint::Kind::kTriangle ? f.hy
+                                                : f.hx;
+}
+
+/// Separation of two boxes along the two axes of `a`: the larger gap of both.
+double gapAlongAxes(const Footprint& a, const Footprint& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double cos = std::abs(a.c * b.c + a.s * b.s), sin = std::abs(a.s * b.c - a.c * b.s);
+  const double along = std::abs(dx * a.c + dy * a.s) - a.hx - (cos * b.hx + sin * b.hy);
+  const double across = std::abs(-dx * a.s + dy * a.c) - a.hy - (sin * b.hx + cos * b.hy);
+  return std::max(along, across);
+}
+
+double gapToCircle(const Footprint& box, const Footprint& circle) {
+  const double dx = circle.x - box.x, dy = circle.y - box.y;
+  const double along = std::abs(dx * box.c + dy * box.s) - box.hx;
+  const double across = std::abs(-dx * box.s + dy * box.c) - box.hy;
+  if (along < 0 || across < 0) return std::max(along, across) - circle.hx;
+  return std::hypot(along, across) - circle.hx;
+}
+
+/// Distance along the ray (x, y) + t (dx, dy) to a circle, from outside or inside, or +inf.
+double castCircle(const Footprint& f, double radius, double x, double y, double dx, double dy) {
+  const double ox = x - f.x, oy = y - f.y;
+  const double b = ox * dx + oy * dy;
+  const double c = ox * ox + oy * oy - radius * radius;
+  const double discriminant = b * b - c;
+  if (discriminant < 0 || (c > 0 && b > 0)) return kInfinity;
+  return c > 0 ? -b - std::sqrt(discriminant) : -b + std::sqrt(discriminant);
+}
+
+/// The slab test (Kay and Kajiya 1986) in the box's own axes.
+double castBox(const Footprint& f, double x, double y, double dx, double dy) {
+  const double ox = x - f.x, oy = y - f.y;
+  const double px = ox * f.c + oy * f.s, py = -ox * f.s + oy * f.c;
+  const double vx = dx * f.c + dy * f.s, vy = -dx * f.s + dy * f.c;
+  double enter = -kInfinity, leave = kInfinity;
+  const double p[2] = {px, py}, v[2] = {vx, vy}, h[2] = {f.hx, f.hy};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (v[axis] == 0) {
+      if (std::abs(p[axis]) > h[axis]) return kInfinity;
+      continue;
+    }
+    const double inverse = 1 / v[axis];
+    const double t0 = (-h[axis] - p[axis]) * inverse, t1 = (h[axis] - p[axis]) * inverse;
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  if (enter > leave || leave < 0) return kInfinity;
+  return enter >= 0 ? enter : leave;
+}
+
+double castSolid(const Footprint& f, double x, double y, double z, double dx, double dy) {
+  const double ox = x - f.x, oy = y - f.y, up = z - 0.5 * (f.z_min + f.z_max);
+  return f.solid->cast({ox * f.c + oy * f.s, -ox * f.s + oy * f.c, up},
+                       {dx * f.c + dy * f.s, -dx * f.s + dy * f.c, 0});
+}
+
+/// Bullet sees bodies from outside; from inside one looks back from the far end.
+double castHull(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
+                double range) {
+  const double outside = castBody(body, from, direction, range);
+  if (outside < kInfinity) return outside;
+  const double back = castBody(body, from + direction * range, -direction, range);
+  return back < kInfinity ? range - back : kInfinity;
+}
+
+double castOne(const Footprint& f, double x, double y, double z, double dx, double dy,
+               double range) {
+  switch (f.kind) {
+    case Footprint::Kind::kBox:
+      return castBox(f, x, y, dx, dy);
+    case Footprint::Kind::kCircle:
+      return castCircle(f, f.hx, x, y, dx, dy);
+    case Footprint::Kind::kSphere: {
+      const double up = z - 0.5 * (f.z_min + f.z_max);
+      return castCircle(f, std::sqrt(std::max(0.0, f.hx * f.hx - up * up)), x, y, dx, dy);
+    }
+    case Footprint::Kind::kTriangle:
+      return castTriangle(*f.triangle, x, y, z, dx, dy);
+    case Footprint::Kind::kOther:
+      if (f.solid) return castSolid(f, x, y, z, dx, dy);
+      // What has no body now, as a unit that nobody is near, is seen as its circle.
+      if (!f.body) return castCircle(f, f.hx, x, y, dx, dy);
+      return castHull(*f.body, {x, y, z}, {dx, dy, 0}, range);
+  }
+  return kInfinity;
+}
+
+}  // namespace
+
+double gap(const Footprint& a, const Footprint& b) {
+  if (a.kind == Footprint::Kind::kTriangle) return gapToTriangle(*a.triangle, b);
+  if (b.kind == Footprint::Kind::kTriangle) return gapToTriangle(*b.triangle, a);
+  const bool box_a = a.kind == Footprint::Kind::kBox, box_b = b.kind == Footprint::Kind::kBox;
+  if (box_a && box_b) return std::max(gapAlongAxes(a, b), gapAlongAxes(b, a));
+  if (box_a) return gapToCircle(a, b);
+  if (box_b) return gapToCircle(b, a);
+  return std::hypot(b.x - a.x, b.y - a.y) - a.hx - b.hx;
+}
+
+void Obstacles::clear() {
+  entries_.clear();
+  movers_.clear();
+  radius_.clear();
+  free_.clear();
+  cells_.clear();
+  everywhere_.clear();
+  origin_x_ = origin_y_ = 0;
+  columns_ = rows_ = 0;
+}
+
+int Obstacles::add(const Footprint& footprint) {
+  int handle = static_cast<int>(entries_.size());
+  if (free_.empty()) {
+    entries_.emplace_back();
+  } else {
+    handle = free_.back();
+    free_.pop_back();
+  }
+  entries_[handle].used = true;
+  entries_[handle].footprint = footprint;
+  cover(boxOf(footprint));
+  link(handle, entries_[handle].place, boxOf(footprint));
+  return handle;
+}
+
+void Obstacles::update(int handle, const Footprint& footprint) {
+  Entry& entry = entries_[handle];
+  entry.footprint = footprint;
+  const Box box = boxOf(footprint);
+  if (!entry.place.everywhere && isInside(box) && range(box) == entry.place.range) return;
+  unlink(handle, entry.place);
+  cover(box);
+  link(handle, entry.place, box);
+}
+
+void Obstacles::remove(int handle) {
+  unlink(handle, entries_[handle].place);
+  entries_[handle] = Entry();
+  free_.push_back(handle);
+}
+
+void Obstacles::setMover(int robot, std::vector<Footprint> local) {
+  if (robot >= static_cast<int>(movers_.size())) {
+    movers_.resize(robot + 1);
+    radius_.resize(robot + 1);
+  }
+  radius_[robot] = 0;
+  for (const Footprint& f : local) {
+    radius_[robot] = std::max(radius_[robot], std::hypot(f.x, f.y) + radiusOf(f));
+  }
+  Mover& mover = movers_[robot];
+  mover.world = local;
+  mover.world_x = kInfinity;  // to be worked out
+  mover.local = std::move(local);
+  linkMover(robot);
+}
+
+void Obstacles::removeMover(int robot) {
+  unlink(~robot, movers_[robot].place);
+  const int last = static_cast<int>(movers_.size()) - 1;
+  if (robot != last) {
+    unlink(~last, movers_[last].place);
+    movers_[robot] = std::move(movers_[last]);
+    radius_[robot] = radius_[last];
+  }
+  movers_.pop_back();
+  radius_.pop_back();
+  if (robot != last) linkMover(robot);
+}
+
+void Obstacles::follow(int robot, double way) {
+  const Mover& mover = movers_[robot];
+  const double dx = fleet_.x[robot] - mover.x, dy = fleet_.y[robot] - mover.y;
+  const double room = kSlack - way;
+  if (dx * dx + dy * dy > std::max(0.0, room * room)) linkMover(robot);
+}
+
+const std::vector<Footprint>& Obstacles::footprints(int robot) const {
+  const Mover& mover = movers_[robot];
+  const double x = fleet_.x[robot], y = fleet_.y[robot], yaw = fleet_.yaw[robot];
+  if (mover.world_x == x && mover.world_y == y && mover.world_yaw == yaw) return mover.world;
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  for (std::size_t k = 0; k < mover.world.size(); ++k) {
+    const Footprint& local = mover.local[k];
+    Footprint& world = mover.world[k];
+    world.x = x + c * local.x - s * local.y;
+    world.y = y + s * local.x + c * local.y;
+    world.c = c * local.c - s * local.s;
+    world.s = s * local.c + c * local.s;
+  }
+  mover.world_x = x;
+  mover.world_y = y;
+  mover.world_yaw = yaw;
+  return mover.world;
+}
+
+void Obstacles::linkMover(int robot) {
+  Mover& mover = movers_[robot];
+  mover.x = fleet_.x[robot];
+  mover.y = fleet_.y[robot];
+  unlink(~robot, mover.place);
+  cover(boxOfMover(robot));
+  link(~robot, mover.place, boxOfMover(robot));
+}
+
+Obstacles::Range Obstacles::range(double min_x, double max_x, double min_y, double max_y) const {
+  const auto column = [this](double x) {
+    return static_cast<int>(std::clamp(std::floor((x - origin_x_) / kCell), -1.0, columns_ + 0.0));
+  };
+  const auto row = [this](double y) {
+    return static_cast<int>(std::clamp(std::floor((y - origin_y_) / kCell), -1.0, rows_ + 0.0));
+  };
+  return {std::max(column(min_x), 0), std::min(column(max_x), columns_ - 1),
+          std::max(row(min_y), 0), std::min(row(max_y), rows_ - 1)};
+}
+
+Obstacles::Box Obstacles::boxOf(const Footprint& f) {
+  return {f.x - halfX(f), f.x + halfX(f), f.y - halfY(f), f.y + halfY(f)};
+}
+
+Obstacles::Box Obstacles::boxOfMover(int robot) const {
+  const Mover& m = movers_[robot];
+  const double half = radius_[robot] + kSlack;
+  return {m.x - half, m.x + half, m.y - half, m.y + half};
+}
+
+bool Obstacles::isInside(const Box& box) const {
+  return box.min_x >= origin_x_ && box.min_y >= origin_y_ &&
+         box.max_x <= origin_x_ + columns_ * kCell && box.max_y <= origin_y_ + rows_ * kCell;
+}
+
+void Obstacles::link(int handle, Place& place, const Box& box) {
+  place.linked = true;
+  place.range = range(box);
+  const Range& cells = place.range;
+  const long count = (cells.x1 - cells.x0 + 1L) * (cells.y1 - cells.y0 + 1L);
+  place.everywhere = !isInside(box) || count > kMostCellsEach;
+  if (place.everywhere) {
+    everywhere_.push_back(handle);
+    return;
+  }
+  const Range& r = place.range;
+  for (int cy = r.y0; cy <= r.y1; ++cy) {
+    for (int cx = r.x0; cx <= r.x1; ++cx) cells_[cell(cx, cy)].push_back(handle);
+  }
+}
+
+void Obstacles::unlink(int handle, Place& place) {
+  if (!place.linked) return;
+  place.linked = false;
+  const auto drop = [handle](auto& list) {
+    const auto at = std::find(list.begin(), list.end(), handle);
+    *at = list.back();
+    list.pop_back();
+  };
+  if (place.everywhere) {
+    drop(everywhere_);
+    return;
+  }
+  for (int cy = place.range.y0; cy <= place.range.y1; ++cy) {
+    for (int cx = place.range.x0; cx <= place.range.x1; ++cx) drop(cells_[cell(cx, cy)]);
+  }
+}
+
+void Obstacles::cover(const Box& box) {
+  const double margin = 8 * kCell;  // so that a driver at the rim does not make the grid grow often
+  const bool empty = columns_ == 0;
+  if (!empty && isInside(box)) return;
+  const double x0 = std::floor(std::min(empty ? box.min_x : origin_x_, box.min_x - margin));
+  const double y0 = std::floor(std::min(empty ? box.min_y : origin_y_, box.min_y - margin));
+  const double x1 =
+      std::ceil(std::max(empty ? box.max_x : origin_x_ + columns_ * kCell, box.max_x + margin));
+  const double y1 =
+      std::ceil(std::max(empty ? box.max_y : origin_y_ + rows_ * kCell, box.max_y + margin));
+  if (!(x1 - x0 <= kMaxCells * kCell && y1 - y0 <= kMaxCells * kCell)) return;
+
+  origin_x_ = x0;
+  origin_y_ = y0;
+  columns_ = static_cast<int>(std::lround((x1 - x0) / kCell));
+  rows_ = static_cast<int>(std::lround((y1 - y0) / kCell));
+  cells_.assign(static_cast<std::size_t>(columns_) * rows_, {});
+  everywhere_.clear();
+  for (std::size_t handle = 0; handle < entries_.size(); ++handle) {
+    Entry& entry = entries_[handle];
+    if (entry.place.linked) link(static_cast<int>(handle), entry.place, boxOf(entry.footprint));
+  }
+  for (std::size_t robot = 0; robot < movers_.size(); ++robot) {
+    const int index = static_cast<int>(robot);
+    if (movers_[robot].place.linked) link(~index, movers_[robot].place, boxOfMover(index));
+  }
+}
+
+void Obstacles::castMover(int robot, double x, double y, double z, double dx, double dy,
+                          RayHit* hit) const {
+  // Most rays pass the circle around the mover: that costs no work on its footprints.
+  const double ox = fleet_.x[robot] - x, oy = fleet_.y[robot] - y;
+  const double radius = radius_[robot];
+  const double along = ox * dx + oy * dy, across = ox * dy - oy * dx;
+  if (std::abs(across) > radius || along < -radius || along - radius > hit->range) return;
+  for (const Footprint& f : footprints(robot)) {
+    if (z < f.z_min || z > f.z_max) continue;
+    const double t = castOne(f, x, y, z, dx, dy, hit->range);
+    if (t < hit->range) *hit = {t, f.model};
+  }
+}
+
+RayHit Obstacles::cast(double x, double y, double z, double dx, double dy, double range,
+                       int group) const {
+  RayHit hit{range, -1};
+  const auto test = [&](int handle) {
+    if (handle < 0) {
+      if (~handle != group) castMover(~handle, x, y, z, dx, dy, &hit);
+      return;
+    }
+    const Footprint& f = entries_[handle].footprint;
+    if (z < f.z_min || z > f.z_max) return;
+    const double t = castOne(f, x, y, z, dx, dy, range);
+    if (t < hit.range) hit = {t, f.model};
+  };
+  for (int handle : everywhere_) test(handle);
+
+  // Cell by cell along the ray (Amanatides and Woo 1987), in units of cells.
+  const double px = (x - origin_x_) / kCell, py = (y - origin_y_) / kCell;
+  int cx = static_cast<int>(std::floor(px)), cy = static_cast<int>(std::floor(py));
+  const int step_x = dx < 0 ? -1 : 1, step_y = dy < 0 ? -1 : 1;
+  const double delta_x = dx == 0 ? kInfinity : kCell / std::abs(dx);
+  const double delta_y = dy == 0 ? kInfinity : kCell / std::abs(dy);
+  double next_x = dx == 0 ? kInfinity : (dx < 0 ? px - cx : cx + 1 - px) * delta_x;
+  double next_y = dy == 0 ? kInfinity : (dy < 0 ? py - cy : cy + 1 - py) * delta_y;
+  double entered = 0;
+  while (entered < hit.range) {
+    if (cx >= 0 && cx < columns_ && cy >= 0 && cy < rows_) {
+      for (int handle : cells_[cell(cx, cy)]) test(handle);
+    }
+    entered = std::min(next_x, next_y);
+    if (next_x < next_y) {
+      cx += step_x;
+      next_x += delta_x;
+    } else {
+      cy += step_y;
+      next_y += delta_y;
+    }
+  }
+  if (hit.model < 0) hit.range = kInfinity;
+  return hit;
+}
+
+}  // namespace kiva

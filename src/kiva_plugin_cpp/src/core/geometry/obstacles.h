@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Everything that stands or moves on the floor, seen from above: footprints in a grid of cells.
+// It answers two questions quickly: what is near, and what does a horizontal ray meet.
+#pragma once
+
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cmath>
+#include <cstdint>
+#include <ignition/math/Vector3.hh>
+#include <memory>
+#include <vector>
+
+#include "core/geometry/solid.h"
+#include "kiva_plugin_cpp/fleet.h"
+
+class btCollisionObject;
+
+namespace kiva {
+
+/// The outline of an upright shape on the floor and the heights it spans. In world [m].
+struct Footprint {
+  enum class Kind : std::uint8_t {
+    kBox,       ///< Rectangle hx × hy, turned by (c, s).
+    kCircle,    ///< An upright cylinder of radius hx.
+    kSphere,    ///< A sphere of radius hx; narrower off its middle height.
+    kTriangle,  ///< `triangle`, within a rectangle hx × hy along the world's axes.
+    kOther      ///< Bounded by a circle of radius hx; a ray asks `solid` or `body` for the truth.
+  };
+  Kind kind = Kind::kBox;
+  double x = 0, y = 0;
+  double c = 1, s = 0;
+  double hx = 0, hy = 0;
+  double z_min = 0, z_max = 0;
+  int model = -1;  ///< Whose it is: index in the world's models.
+  int group = -1;  ///< Robot index for a robot and what it carries; rays of that robot pass.
+  std::shared_ptr<const Solid> solid;       ///< For kOther: centred on the footprint, in its frame.
+  const btCollisionObject* body = nullptr;  ///< For kOther; null: the circle is the truth.
+  const std::array<ignition::math::Vector3d, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
+};
+
+/// Of the circle around (x, y) that holds it [m].
+inline double radiusOf(const Footprint& f) {
+  const bool round = f.kind != Footprint::Kind::kBox && f.kind != Footprint::Kind::kTriangle;
+  return round ? f.hx : std::sqrt(f.hx * f.hx + f.hy * f.hy);
+}
+
+/// A lower bound of the distance between two outlines [m]; negative where they overlap.
+double gap(const Footprint& a, const Footprint& b);
+
+/// Whether the gap may be less than `distance`: cheap, and true for some whose gap is not.
+inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double reach = radiusOf(a) + radiusOf(b) + distance;
+  return reach > 0 && dx * dx + dy * dy < reach * reach;
+}
+
+struct RayHit {
+  double range = 0;  ///< [m]; +inf = nothing
+  int model = -1;
+};
+
+/// A robot and what it carries are a mover: footprints that move as one with it. They are indexed
+/// by a circle around the robot with some slack, so that the index changes seldom, and are worked
+/// out in world when somebody asks.
+class Obstacles {
+ public:
+  static constexpr double kSlack = 0.25;  ///< [m] that a mover may go before it is indexed anew.
+
+  /// Movers are at the poses of that fleet's robots.
+  explicit Obstacles(const Fleet& fleet) : fleet_(fleet) {}
+
+  void clear();
+  /// Returns a handle, valid until removed.
+  int add(const Footprint& footprint);
+  void update(int handle, const Footprint& footprint);
+  void remove(int handle);
+  const Footprint& operator[](int handle) const { return entries_[handle].footprint; }
+
+  /// The footprints of robot `robot`, in its frame; instead of those it had.
+  void setMover(int robot, std::vector<Footprint> local);
+  /// The same, as they were set.
+  const std::vector<Footprint>& ofMover(int robot) const { return movers_[robot].local; }
+  /// The last mover takes its index, as in the fleet.
+  void removeMover(int robot);
+  /// Indexes it anew if it is not, or within the next `way` [m] might not be, where it was.
+  void follow(int robot, double way = 0);
+  /// In world, now.
+  const std::vector<Footprint>& footprints(int robot) const;
+
+  /// Calls visit(footprint) for each one whose box lies within `reach` [m] of (x, y), once or more
+  /// often each.
+  template <typename Visit>
+  void near(double x, double y, double reach, Visit visit) const {
+    const auto see = [&](const Footprint& footprint) {
+      visit(footprint);
+      return false;
+    };
+    any(x, y, reach, see, [&](int robot, double radius) {
+      const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
+      const double farthest = radius + std::sqrt(2.0) * reach;  // in a corner of that square
+      if (dx * dx + dy * dy > farthest * farthest) return false;
+      for (const Footprint& footprint : footprints(robot)) visit(footprint);
+      return false;
+    });
+  }
+
+  /// Whether meets(footprint), of what is no mover, or approaches(robot, radius) is true for any
+  /// within `reach` of (x, y). `radius` is that of the circle around the robot that holds its
+  /// mover.
+  template <typename Meets, typename Approaches>
+  bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
+    const auto ask = [&](int handle) {
+      return handle >= 0 ? meets(entries_[handle].footprint)
+                         : approaches(~handle, radius_[~handle]);
+    };
+    const Range r = range(x - reach, x + reach, y - reach, y + reach);
+    for (int cy = r.y0; cy <= r.y1; ++cy) {
+      for (int cx = r.x0; cx <= r.x1; ++cx) {
+        for (int handle : cells_[cell(cx, cy)]) {
+          if (ask(handle)) return true;
+        }
+      }
+    }
+    for (int handle : everywhere_) {
+      if (ask(handle)) return true;
+    }
+    return false;
+  }
+
+  /// The first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but for
+  /// those of `group`: of what it begins in, the inside.
+  RayHit cast(double x, double y, double z, double dx, double dy, double range, int group) const;
+
+ private:
+  struct Range {  // of cells, inclusive
+    int x0 = 0, x1 = -1, y0 = 0, y1 = -1;
+    bool operator==(const Range& o) const {
+      return x0 == o.x0 && x1 == o.x1 && y0 == o.y0 && y1 == o.y1;
+    }
+  };
+  struct Box {  // along the world's axes [m]
+    double min_x, max_x, min_y, max_y;
+  };
+  struct Place {  // in the index
+    Range range;
+    bool everywhere = false;
+    bool linked = false;
+  };
+  struct Entry {
+    Footprint footprint;
+    Place place;
+    bool used = false;
+  };
+  struct Mover {
+    std::vector<Footprint> local;  // in the robot's frame
+    Place place;
+    double x = 0, y = 0;  // around which it is indexed
+    mutable std::vector<Footprint> world;
+    mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
+  };
+
+  static Box boxOf(const Footprint& footprint);
+  Box boxOfMover(int robot) const;
+  Range range(double min_x, double max_x, double min_y, double max_y) const;
+  Range range(const Box& b) const { return range(b.min_x, b.max_x, b.min_y, b.max_y); }
+  bool isInside(const Box& box) const;
+  int cell(int cx, int cy) const { return cy * columns_ + cx; }
+  void link(int handle, Place& place, const Box& box);
+  void unlink(int handle, Place& place);
+  void linkMover(int robot);
+  void cover(const Box& box);
+  void castMover(int robot, double x, double y, double z, double dx, double dy, RayHit* hit) const;
+
+  const Fleet& fleet_;
+  std::vector<Entry> entries_;
+  std::vector<Mover> movers_;
+  std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
+  std::vector<int> free_;
+  // Handles; ~robot for a mover. Few a cell: beside each other in memory, which is most of a ray.
+  std::vector<boost::container::small_vector<int, 4>> cells_;
+  std::vector<int> everywhere_;  // too large for cells
+  double origin_x_ = 0, origin_y_ = 0;
+  int columns_ = 0, rows_ = 0;
+};
+
+}  // namespace kiva

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Finds height, extent and friction of the floor in the level surfaces of all static models. The
+/// largest tells the height; a plane only where nothing large lies on it. If the height is another
+/// than it was, everything is fitted to it: robots and storage units stand on it.
+void measureFloor(WorldState& world);
+
+}  // namespace kiva

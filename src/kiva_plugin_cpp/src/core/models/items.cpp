@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/models/items.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/models/load.h"
+#include "core/state/poses.h"
+#include "core/state/unit_geometry.h"
+
+namespace kiva {
+namespace {
+
+bool liesOnUnit(const WorldState& world, const Model& model) {
+  return world.items[model.index].unit >= 0;
+}
+
+Model& unitBelow(const WorldState& world, const Model& model) {
+  return *world.models[world.units[world.items[model.index].unit].model];
+}
+
+/// The unit that an item lies on. One that was raised onto the floor takes along what would lie on
+/// it had the floor been where it was thought to be.
+int findUnit(const WorldState& world, Model& item) {
+  const Vector3 lift(0, 0, std::max(0.0, world.floor.z));
+  const int raised = unitAt(world, item.pose.Pos() + lift);
+  if (raised < 0 || world.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
+  item.pose.Pos().Z() += world.units[raised].raised;
+  return raised;
+}
+
+}  // namespace
+
+void Items::add(WorldState& world, Model& model) const {
+  Item item;
+  item.name = model.name;
+  item.id = numberIn(model.name, "item");
+  item.model = model.slot;
+  item.mass = massOf(*model.description);
+  item.unit = findUnit(world, model);
+  if (item.unit >= 0) item.pose_in_unit = unitPose(world, item.unit).Inverse() * model.pose;
+  item.spawn_pose_in_unit = item.pose_in_unit;
+  model.index = static_cast<int>(world.items.size());
+  world.items.push_back(item);
+  if (item.unit >= 0) {
+    addMass(world, item.unit, item.mass);
+  } else {
+    OrdinaryModels::add(world, model);
+  }
+}
+
+void Items::remove(WorldState& world, Model& model) const {
+  OrdinaryModels::remove(world, model);
+  if (model.index < 0) return;  // it never joined
+  const Item gone = world.items[model.index];
+  const int last = static_cast<int>(world.items.size()) - 1;
+  if (model.index != last) {
+    world.items[model.index] = std::move(world.items[last]);
+    world.models[world.items[model.index].model]->index = model.index;
+  }
+  world.items.pop_back();
+  if (gone.unit >= 0) addMass(world, gone.unit, -gone.mass);
+  world.unitsMoved();
+}
+
+void Items::place(WorldState& world, Model& model, const EntityState& state) const {
+  if (!liesOnUnit(world, model)) return OrdinaryModels::place(world, model, state);
+  Item& item = world.items[model.index];
+  item.pose_in_unit = unitPose(world, item.unit).Inverse() * state.pose;
+}
+
+/// One that lies on a unit goes where that goes.
+void Items::reset(WorldState& world, Model& model) const {
+  if (!liesOnUnit(world, model)) return OrdinaryModels::reset(world, model);
+  Item& item = world.items[model.index];
+  item.pose_in_unit = item.spawn_pose_in_unit;
+}
+
+EntityState Items::state(const WorldState& world, const Model& model) const {
+  if (!liesOnUnit(world, model)) return OrdinaryModels::state(world, model);
+  return carriedState(modelState(world, unitBelow(world, model)), itemPose(world, model.index));
+}
+
+Pose Items::linkPose(const WorldState& world, const Model& model, int link) const {
+  if (!liesOnUnit(world, model)) return OrdinaryModels::linkPose(world, model, link);
+  return itemPose(world, model.index) * model.description->links[link].pose_in_model;
+}
+
+void Items::reweigh(WorldState& world, Model& model, double added) const {
+  Item& item = world.items[model.index];
+  item.mass += added;
+  if (item.unit >= 0) return addMass(world, item.unit, added);
+  OrdinaryModels::reweigh(world, model, added);
+}
+
+bool Items::push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
+                 const Vector3& torque) const {
+  if (!liesOnUnit(world, model)) {
+    return OrdinaryModels::push(world, model, link, at, force, torque);
+  }
+  Model& unit = unitBelow(world, model);
+  return unit.owner->push(world, unit, 0, at, force, torque);
+}
+
+}  // namespace kiva

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/models/load.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/activation.h"
+#include "core/motion/jointed_body.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+#include "core/state/unit_geometry.h"
+
+namespace kiva {
+namespace {
+
+void loadRobot(WorldState& world, int robot, int unit) {
+  Robot& r = world.fleet.robots[robot];
+  const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
+  SpatialInertia load;
+  load.add(sumUnit(world, unit), in_robot);
+  const Vector3 centre = load.centre();
+  r.load_mass = world.units[unit].mass;
+  r.load_centre[0] = centre.X();
+  r.load_centre[1] = centre.Y();
+  r.load_inertia =
+      load.inertia()(2, 2) + load.mass() * (centre.X() * centre.X() + centre.Y() * centre.Y());
+  Bounds box;
+  const Model& model = *world.models[world.units[unit].model];
+  for (const Link& link : model.description->links) {
+    for (const Collision& c : link.collisions) {
+      box.add(bounds(c.shape, in_robot * link.pose_in_model * c.pose_in_link));
+    }
+  }
+  r.load_half_length = std::max(box.max.X(), -box.min.X());
+  r.load_half_width = std::max(box.max.Y(), -box.min.Y());
+}
+
+}  // namespace
+
+void takeUp(WorldState& world, int robot, int unit) {
+  StorageUnit& u = world.units[unit];
+  Model& model = *world.models[u.model];
+  if (model.in_physics) deactivate(world, model);
+  u.pose_on_carrier = towerPose(world, robot).Inverse() * unitPose(world, unit);
+  u.pose_on_carrier.Pos().Z() = -underside(world, unit);  // however far the tower went in a step
+  u.carrier = robot;
+  u.claimed_by = -1;
+  world.fleet.unit[robot] = unit;
+  loadRobot(world, robot, unit);
+  moved(world.fleet, robot);
+  moved(world, model);
+  rebuildBody(world, world.modelOf(robot));
+  world.setStatus(robot, world.fleet.status[robot], world.fleet.state[robot]);
+}
+
+void putDown(WorldState& world, int robot) {
+  const int unit = world.fleet.unit[robot];
+  StorageUnit& u = world.units[unit];
+  Model& model = *world.models[u.model];
+  const Pose pose = unitPose(world, unit);
+  model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+  u.carrier = -1;
+  unload(world, robot);
+  moved(world, model);
+}
+
+void unload(WorldState& world, int robot) {
+  Fleet& f = world.fleet;
+  Robot& r = f.robots[robot];
+  f.unit[robot] = -1;
+  r.load_mass = r.load_inertia = r.load_half_length = r.load_half_width = 0;
+  r.load_centre[0] = r.load_centre[1] = 0;
+  moved(world.fleet, robot);  // its tower may have to come down
+  moved(world, world.modelOf(robot));
+  rebuildBody(world, world.modelOf(robot));
+  world.setStatus(robot, f.status[robot], f.state[robot]);
+}
+
+void addMass(WorldState& world, int unit, double mass) {
+  world.units[unit].mass += mass;
+  const int carrier = world.units[unit].carrier;
+  if (carrier < 0) return;
+  loadRobot(world, carrier, unit);
+  moved(world.fleet, carrier);
+  rebuildBody(world, world.modelOf(carrier));
+}
+
+double massOf(const ModelDescription& description) {
+  double mass = 0;
+  for (const Link& link : description.links) mass += link.mass;
+  return mass;
+}
+
+}  // namespace kiva

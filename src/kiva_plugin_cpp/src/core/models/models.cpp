@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/models/models.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/collisions.h"
+#include "core/contact/external_wrenches.h"
+#include "core/models/items.h"
+#include "core/models/robots.h"
+#include "core/models/storage_units.h"
+#include "core/models/user_plugins.h"
+#include "core/motion/dynamics.h"
+#include "core/motion/joints.h"
+#include "core/state/fleet_plugin.h"
+#include "core/state/floors.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kMaxCoordinate = 1e5;  // [m]; beyond, a double grows too coarse for contacts
+constexpr double kMaxSpeed = 1e4;       // [m/s, rad/s]; bodies beyond pass through each other
+
+[[noreturn]] void refuse(const ModelInstance& instance, const std::string& why) {
+  throw DescriptionError("model '" + instance.name + "': " + why);
+}
+
+void checkPose(const std::string& name, const Pose& pose) {
+  if (pose.IsFinite() && pose.Pos().Abs().Max() <= kMaxCoordinate) return;
+  throw DescriptionError("model '" + name +
+                         "': its pose must be finite and within 100 km of the origin");
+}
+
+void checkTwist(const std::string& name, const Twist& twist) {
+  const bool is_finite = twist.linear.IsFinite() && twist.angular.IsFinite();
+  if (is_finite && std::max(twist.linear.Length(), twist.angular.Length()) <= kMaxSpeed) return;
+  throw DescriptionError("model '" + name +
+                         "': its velocity must be finite and at most 10 km/s and 10,000 rad/s");
+}
+
+void checkInstance(const WorldState& world, const ModelInstance& instance) {
+  const std::string& name = instance.name;
+  if (name.empty()) throw DescriptionError("a model needs a name");
+  if (name.size() > 200) refuse(instance, "a name may have 200 characters at the most");
+  if (name.find("::") != std::string::npos) refuse(instance, "'::' can't be part of a name");
+  if (world.find(name)) refuse(instance, "entity already exists");
+  checkPose(name, instance.pose);
+}
+
+ModelKind classify(const ModelInstance& instance) {
+  const ModelDescription& description = *instance.description;
+  if (isRobot(description)) return ModelKind::kRobot;
+  if (isFloor(instance)) return ModelKind::kFloor;
+  if (instance.name.rfind("conveyor_belt", 0) == 0) return ModelKind::kBelt;
+  if (description.is_static) return ModelKind::kOther;
+  if (numberIn(instance.name, "storage_unit")) return ModelKind::kStorageUnit;
+  if (numberIn(instance.name, "item")) return ModelKind::kItem;
+  return ModelKind::kOther;
+}
+
+Model& takeSlot(WorldState& world, const ModelInstance& instance) {
+  int slot = static_cast<int>(world.models.size());
+  if (world.free_slots.empty()) {
+    world.models.emplace_back();
+  } else {
+    slot = world.free_slots.back();
+    world.free_slots.pop_back();
+  }
+  auto model = std::make_unique<Model>();
+  model->name = instance.name;
+  model->description = instance.description;
+  model->kind = classify(instance);
+  model->owner = &ownerOf(model->kind);
+  model->slot = slot;
+  model->serial = world.next_serial++;
+  model->spawn_pose = model->pose = instance.pose;
+  model->robot_namespace = instance.robot_namespace;
+  world.models[slot] = std::move(model);
+  world.slot_of_name[instance.name] = slot;
+  return *world.models[slot];
+}
+
+void freeSlot(WorldState& world, int slot) {
+  world.slot_of_name.erase(world.models[slot]->name);
+  world.models[slot].reset();
+  world.free_slots.push_back(slot);
+}
+
+/// Whether a plugin of that file comes with the world and is dealt with elsewhere.
+bool isOurs(const WorldState& world, const Model& model, const PluginDescription& plugin) {
+  const std::string& where = plugin.parameters.where();
+  if (const FleetPlugin* ours = findFleetPlugin(world, plugin.filename)) {
+    if (isRobot(*model.description)) return true;
+    throw DescriptionError(where + ": " + ours->filename() +
+                           " works on a model that has libkiva_motion.so too");
+  }
+  if (plugin.filename == kGridPlugin) {
+    throw DescriptionError(where + ": libkiva_grid.so is a plugin of a world, not of a model");
+  }
+  return false;
+}
+
+void loadPlugin(WorldState& world, Model& model, const PluginDescription& description,
+                const SensorDescription* sensor) {
+  if (isOurs(world, model, description)) return;
+  Parameters parameters = description.parameters;
+  if (!model.robot_namespace.empty() && !parameters.has("robotNamespace")) {
+    parameters.set("robotNamespace", model.robot_namespace);
+  }
+  if (auto plugin = loadPlugin(world, model.name, description.filename, parameters, sensor)) {
+    model.plugins.push_back(std::move(plugin));
+  }
+}
+
+void dismantle(WorldState& world, Model& model) {
+  forgetContacts(world, model.slot);
+  model.plugins.clear();
+  forgetExternalInputs(world, model.name);
+  if (model.in_physics) world.physics.remove(model.bodies);
+  model.in_physics = false;
+  for (auto* slots : {&world.activated, &world.models_with_plugins}) {
+    slots->erase(std::remove(slots->begin(), slots->end(), model.slot), slots->end());
+  }
+  model.owner->remove(world, model);
+  hideFootprints(world, model);
+  freeSlot(world, model.slot);
+  wakeBodies(world);  // what sleeps on something falls once that is gone
+}
+
+void loadAllPlugins(WorldState& world, Model& model) {
+  loadPlugins(world, model);
+  if (!model.plugins.empty()) world.models_with_plugins.push_back(model.slot);
+}
+
+/// Others notice that a model was put somewhere.
+void placed(WorldState& world, Model& model) {
+  moved(world, model);
+  alarm(world);
+  wakeBodies(world);
+}
+
+/// `model::link::collision` of a part. A body of several links' parts knows their names only.
+std::string collisionName(const WorldState& world, const btCollisionObject* body,
+                          const BodyPart* part) {
+  const Model& model = *world.models[part ? part->model : body->getUserIndex()];
+  const auto& links = model.description->links;
+  const std::string name = part ? part->collision : "";
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const bool own = model.owner->followsBodies(model) || model.isStatic();
+    const bool is_body =
+        own && i < model.bodies.links.size() && model.bodies.links[i].body.get() == body;
+    const bool has = std::any_of(links[i].collisions.begin(), links[i].collisions.end(),
+                                 [&](const Collision& c) { return c.name == name; });
+    if (own ? is_body : has) return model.name + "::" + links[i].name + "::" + name;
+  }
+  return model.name + "::" + (links.empty() ? "" : links.front().name) + "::" + name;
+}
+
+}  // namespace
+
+const ModelOwner& ownerOf(ModelKind kind) {
+  static const Robots robots;
+  static const StorageUnits storage_units;
+  static const Items items;
+  static const ConveyorBelts belts;
+  static const Floors floors;
+  static const OrdinaryModels others;
+  switch (kind) {
+    case ModelKind::kRobot:
+      return robots;
+    case ModelKind::kStorageUnit:
+      return storage_units;
+    case ModelKind::kItem:
+      return items;
+    case ModelKind::kBelt:
+      return belts;
+    case ModelKind::kFloor:
+      return floors;
+    case ModelKind::kOther:
+      break;
+  }
+  return others;
+}
+
+void loadPlugins(WorldState& world, Model& model) {
+  const auto description = model.description;  // a plugin may give the model another
+  for (const PluginDescription& plugin : description->plugins) {
+    loadPlugin(world, model, plugin, nullptr);
+  }
+  for (const SensorDescription& sensor : description->sensors) {
+    for (const PluginDescription& plugin : sensor.plugins) {
+      loadPlugin(world, model, plugin, &sensor);
+    }
+  }
+}
+
+void spawnModel(WorldState& world, const ModelInstance& instance) {
+  checkInstance(world, instance);
+  Model& model = takeSlot(world, instance);
+  try {
+    model.owner->add(world, model);
+    moved(world, model);
+    loadAllPlugins(world, model);
+  } catch (const DescriptionError&) {
+    dismantle(world, model);
+    throw;
+  } catch (const std::exception& error) {
+    dismantle(world, model);
+    refuse(instance, error.what());
+  }
+  const int robot = model.owner->robot(world, model);
+  if (robot >= 0) world.setStatus(robot, Status::kIdle, State::kIdle);
+  alarm(world);
+  ++world.models_revision;
+  world.report(Event::Kind::kSpawned, instance.name, "", instance.name + " has come");
+}
+
+void removeModel(WorldState& world, int slot) {
+  Model& model = *world.models[slot];
+  const std::string name = model.name;
+  for (int passenger : model.owner->passengers(world, model)) removeModel(world, passenger);
+  dismantle(world, model);
+  ++world.models_revision;
+  world.report(Event::Kind::kDeleted, name, "", name + " is gone");
+}
+
+void placeModel(WorldState& world, Model& model, const EntityState& state) {
+  checkPose(model.name, state.pose);
+  checkTwist(model.name, state.twist);
+  model.owner->place(world, model, state);
+  placed(world, model);
+}
+
+void placeLink(WorldState& world, Model& model, int link, const EntityState& state) {
+  const Pose way = state.pose * linkPose(world, model, link).Inverse();
+  if (!model.owner->followsBodies(model)) {
+    return placeModel(world, model, {way * modelState(world, model).pose, state.twist});
+  }
+  checkPose(model.name, state.pose);
+  checkTwist(model.name, state.twist);
+  for (int held : linksHeldTo(*model.description, link)) {
+    LinkBody& body = model.bodies.links[held];
+    body.place(toBullet(way) * body.linkPose());
+    body.body->activate(true);
+  }
+  setBodyState(model.bodies.links[link], state);
+  placed(world, model);
+}
+
+void reweighLink(WorldState& world, Model& model, int link, const Link& like) {
+  auto changed = std::make_shared<ModelDescription>(*model.description);
+  Link& to = changed->links[link];
+  const double added = like.mass - to.mass;
+  to.mass = like.mass;
+  to.inertial_pose_in_link = like.inertial_pose_in_link;
+  to.principal_moments = like.principal_moments;
+  to.gravity = like.gravity;
+  model.description = changed;
+  if (!model.isStatic()) model.owner->reweigh(world, model, added);
+  moved(world, model);
+}
+
+void resetModel(WorldState& world, Model& model) {
+  model.owner->reset(world, model);
+  placed(world, model);
+}
+
+std::vector<ContactPoint> contactsOf(const WorldState& world, int slot) {
+  std::vector<ContactPoint> out;
+  for (const TouchPoint& touch : world.physics.touchPoints(slot)) {
+    out.push_back({collisionName(world, touch.body_a, touch.part_a),
+                   collisionName(world, touch.body_b, touch.part_b), touch.point, touch.normal,
+                   touch.depth, touch.impulse / world.dt});
+  }
+  return out;
+}
+
+}  // namespace kiva

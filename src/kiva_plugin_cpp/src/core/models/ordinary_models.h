@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models that are in Bullet for as long as they stand: obstacles, belts, floors, and whatever moves
+// by its own joints.
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+class OrdinaryModels : public ModelOwner {
+ public:
+  void add(WorldState& world, Model& model) const override;
+  void remove(WorldState& world, Model& model) const override;
+  void place(WorldState& world, Model& model, const EntityState& state) const override;
+  void reset(WorldState& world, Model& model) const override;
+  EntityState state(const WorldState& world, const Model& model) const override;
+  Pose linkPose(const WorldState& world, const Model& model, int link) const override;
+  void reweigh(WorldState& world, Model& model, double added) const override;
+  bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
+            const Vector3& torque) const override;
+  ModelBodies build(const WorldState& world, const Model& model) const override;
+  bool isObstacle() const override { return true; }
+  int group(const Model& model) const override { return kMaxKivaId + 1 + model.slot; }
+};
+
+/// They are in the way like any other, but somebody put them there for robots to come to.
+class ConveyorBelts : public OrdinaryModels {
+ public:
+  bool isObstacle() const override { return false; }
+  int group(const Model& /*model*/) const override { return -1; }
+};
+
+/// What wheels roll on. All floors together make the ground that robots may stand on.
+class Floors : public OrdinaryModels {
+ public:
+  bool isFloor() const override { return true; }
+  bool isObstacle() const override { return false; }
+};
+
+/// Puts a model's bodies there, at that velocity.
+void moveBodies(Model& model, const EntityState& to);
+void setBodyState(LinkBody& link, const EntityState& to);
+
+}  // namespace kiva

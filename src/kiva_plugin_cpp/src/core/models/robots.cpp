@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/models/robots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/activation.h"
+#include "core/geometry/angle.h"
+#include "core/models/load.h"
+#include "core/motion/drives.h"
+#include "core/motion/jointed_body.h"
+#include "core/sensing/scans.h"
+#include "core/state/fleet_plugin.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+#include "core/state/tasks.h"
+
+namespace kiva {
+namespace {
+
+constexpr char kMotionPlugin[] = "libkiva_motion.so";
+constexpr double kUprightAngle = 1e-3;  // [rad]
+constexpr double kNearFloor = 1.0;      // [m]: from where a spawned robot is put on the floor
+
+int idIn(const std::string& name) {
+  const int id = numberIn(name, "kiva");
+  if (id >= 1 && id <= kMaxKivaId) return id;
+  throw DescriptionError("model '" + name + "': a robot is called kiva<id> with an id from 1 to " +
+                         std::to_string(kMaxKivaId));
+}
+
+void checkPose(const Model& model) {
+  const Vector3 euler = model.pose.Rot().Euler();
+  if (std::abs(euler.X()) > kUprightAngle || std::abs(euler.Y()) > kUprightAngle) {
+    throw DescriptionError("model '" + model.name + "': a robot must stand upright, not at roll " +
+                           std::to_string(euler.X()) + ", pitch " + std::to_string(euler.Y()));
+  }
+  if (std::abs(model.pose.Z()) > kNearFloor) {
+    throw DescriptionError("model '" + model.name + "': a robot stands on the floor, not at z = " +
+                           std::to_string(model.pose.Z()) + " m");
+  }
+}
+
+Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
+  const Bounds box = bounds(description);
+  if (box.empty()) throw DescriptionError("a robot needs a collision shape");
+  const double reach_x = std::max(box.max.X(), -box.min.X());
+  const double reach_y = std::max(box.max.Y(), -box.min.Y());
+  robot->half_length = reach_x;
+  robot->half_width = reach_y;
+  robot->height = box.max.Z();
+  Shape shape;
+  shape.size = box.max - box.min;
+  *centre = Pose((box.max + box.min) * 0.5, Quaternion::Identity);
+  return shape;
+}
+
+void configure(const WorldState& world, const ModelDescription& description, Robot* robot) {
+  for (const PluginDescription& plugin : description.plugins) {
+    const FleetPlugin* ours = findFleetPlugin(world, plugin.filename);
+    if (!ours) continue;
+    ours->configure(*robot, plugin.parameters);
+    plugin.parameters.rejectUnread();
+  }
+  if (world.options.drive) robot->drive.drive = *world.options.drive;
+}
+
+/// What is stored by index follows a robot that got another one.
+void reindex(WorldState& world, int from, int to) {
+  Model& model = world.modelOf(to);
+  model.index = to;
+  for (StorageUnit& unit : world.units) {
+    if (unit.carrier == from) unit.carrier = to;
+    if (unit.claimed_by == from) unit.claimed_by = to;
+  }
+  moved(world, model);
+}
+
+void weigh(const ModelDescription& description, Robot* robot) {
+  robot->mass = robot->inertia = robot->centre[0] = robot->centre[1] = 0;
+  for (const Link& link : description.links) {
+    const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
+    const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
+    const double own = up.X() * up.X() * link.principal_moments.X() +
+                       up.Y() * up.Y() * link.principal_moments.Y() +
+                       up.Z() * up.Z() * link.principal_moments.Z();
+    for (int axis = 0; axis < 2; ++axis) {
+      robot->centre[axis] += link.mass * centre.Pos()[axis];
+    }
+    robot->mass += link.mass;
+    robot->inertia += own + link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
+  }
+  for (double& moment : robot->centre) moment /= robot->mass;
+}
+
+/// Of the tyres, where the model has wheels.
+void setTyres(const ModelDescription& description, Robot* robot) {
+  const char* const wheels[] = {"left_wheel", "right_wheel"};
+  for (int side = 0; side < 2; ++side) {
+    const Link* wheel = description.findLink(wheels[side]);
+    if (wheel) robot->tyre_friction[side] = tyreFriction(*wheel);
+  }
+}
+
+void stand(FleetState& f, int robot, const EntityState& at) {
+  f.x[robot] = at.pose.X();
+  f.y[robot] = at.pose.Y();
+  f.yaw[robot] = at.pose.Rot().Yaw();
+  f.vx[robot] = at.twist.linear.X();
+  f.vy[robot] = at.twist.linear.Y();
+  f.yaw_rate[robot] = at.twist.angular.Z();
+}
+
+}  // namespace
+
+bool isRobot(const ModelDescription& description) {
+  return std::any_of(description.plugins.begin(), description.plugins.end(),
+                     [](const PluginDescription& p) { return p.filename == kMotionPlugin; });
+}
+
+void Robots::add(WorldState& world, Model& model) const {
+  Robot robot;
+  robot.name = model.name;
+  robot.id = idIn(model.name);
+  robot.model = model.slot;
+  checkPose(model);
+  configure(world, *model.description, &robot);
+  weigh(*model.description, &robot);
+  setTyres(*model.description, &robot);
+  Pose centre;
+  const Shape box = measure(*model.description, &robot, &centre);
+  model.geometries.push_back({-1, centre, box, -1});
+  const double yaw = model.pose.Rot().Yaw();
+  const bool jointed = robot.drive.drive == Drive::kJointed;
+  setRays(world, &robot);
+  world.top_speed = std::max(world.top_speed, robot.drive.speed);
+  model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
+  moved(world, model);
+  if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
+}
+
+void Robots::remove(WorldState& world, Model& model) const {
+  const int robot = model.index, last = world.fleet.size() - 1;
+  if (robot < 0) return;  // it never joined
+  if (world.fleet.unit[robot] >= 0) putDown(world, robot);
+  for (StorageUnit& unit : world.units) {
+    if (unit.claimed_by == robot) unit.claimed_by = -1;
+  }
+  world.fleet.remove(robot);
+  world.obstacles.removeMover(robot);
+  world.scans_due.clear();  // indices have changed
+  world.sighted.clear();
+  if (robot != last) reindex(world, last, robot);
+}
+
+void Robots::place(WorldState& world, Model& model, const EntityState& state) const {
+  const int robot = model.index;
+  if (world.fleet.tasks[robot].phase != Phase::kIdle) {
+    endBlocked(world, robot, "", "was moved by hand");
+  }
+  stand(world.fleet, robot, state);
+  moved(world.fleet, robot);
+  rebuildBody(world, model);
+}
+
+void Robots::reset(WorldState& world, Model& model) const {
+  FleetState& fleet = world.fleet;
+  const int robot = model.index;
+  if (fleet.unit[robot] >= 0) putDown(world, robot);
+  fleet.tower[robot] = 0;
+  fleet.stance[robot] = Stance();
+  place(world, model, {model.spawn_pose, {}});
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
+  }
+}
+
+EntityState Robots::state(const WorldState& world, const Model& model) const {
+  return robotState(world, model.index);
+}
+
+/// Wheels turned and tower raised.
+Pose Robots::linkPose(const WorldState& world, const Model& model, int link) const {
+  const Fleet& fleet = world.fleet;
+  const int robot = model.index;
+  const Link& description = model.description->links[link];
+  const Pose pose = basePose(world, robot) * description.pose_in_model;
+  if (description.name == "tower") {
+    return Pose(0, 0, fleet.tower[robot], 0, 0, 0) * pose;
+  }
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    if (description.name != (wheel == 0 ? "left_wheel" : "right_wheel")) continue;
+    const double angle = wrapAngle(fleet.wheel_angle[wheel][robot]);
+    // The axle is the chassis' y axis, however the wheel's own frame is turned.
+    const Vector3 axle = description.pose_in_model.Rot().RotateVectorReverse(Vector3::UnitY);
+    return pose * Pose(Vector3::Zero, Quaternion(axle, angle));
+  }
+  return pose;
+}
+
+void Robots::reweigh(WorldState& world, Model& model, double /*added*/) const {
+  moved(world.fleet, model.index);
+  weigh(*model.description, &world.fleet.robots[model.index]);
+  rebuildBody(world, model);
+}
+
+/// The wheels' grip answers in the same step.
+bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& at,
+                  const Vector3& force, const Vector3& torque) const {
+  FleetState& f = world.fleet;
+  const int i = model.index;
+  const Vehicle vehicle = vehicleOf(f.robots[i], groundOf(world));
+  const Vector3 centre = centreFromOrigin(f, i);
+  const Vector3 arm = at - basePose(world, i).Pos() - centre;
+  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.dt;
+  moved(f, i);
+  f.vx[i] += force.X() / vehicle.mass * world.dt + turn * centre.Y();
+  f.vy[i] += force.Y() / vehicle.mass * world.dt - turn * centre.X();
+  f.yaw_rate[i] += turn;
+  return true;
+}
+
+ModelBodies Robots::build(const WorldState& world, const Model& model) const {
+  const int robot = model.index;
+  const Robot& r = world.fleet.robots[robot];
+  Link link;
+  const Vehicle vehicle = vehicleOf(r, groundOf(world));
+  link.mass = vehicle.mass;
+  link.principal_moments.Set(vehicle.inertia, vehicle.inertia, vehicle.inertia);
+  link.inertial_pose_in_link.Pos().Set(vehicle.centre[0], vehicle.centre[1], 0);
+  link.gravity = false;
+  ModelDescription planar;
+  planar.links.push_back(link);
+  ModelBodies bodies =
+      world.physics.build(planar, basePose(world, robot), model.slot, kRobotGroup, ~kFloorGroup);
+  LinkBody& body = bodies.links.front();
+  const btTransform base = (toBullet(basePose(world, robot)) * body.mass_frame).inverse();
+  const auto add = [&](const Model& part) {
+    for (std::size_t i = 0; i < part.description->links.size(); ++i) {
+      const btTransform at = base * toBullet(kiva::linkPose(world, part, static_cast<int>(i)));
+      for (const Collision& collision : part.description->links[i].collisions) {
+        body.shape.add(collision, at * toBullet(collision.pose_in_link), part.slot);
+      }
+    }
+  };
+  add(model);
+  const int unit = world.fleet.unit[robot];
+  if (unit >= 0) add(*world.models[world.units[unit].model]);
+  body.body->setLinearFactor({1, 1, 0});
+  body.body->setAngularFactor({0, 0, 1});
+  body.body->setActivationState(DISABLE_DEACTIVATION);
+  return bodies;
+}
+
+void Robots::activated(WorldState& world, Model& model) const {
+  world.fleet.activated[model.index] = 1;
+  moved(world.fleet, model.index);
+}
+
+void Robots::deactivated(WorldState& world, Model& model) const {
+  world.fleet.activated[model.index] = 0;
+}
+
+}  // namespace kiva

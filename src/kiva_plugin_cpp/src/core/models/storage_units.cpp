@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/models/storage_units.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/activation.h"
+#include "core/models/load.h"
+#include "core/models/ordinary_models.h"
+#include "core/state/floors.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+#include "core/state/unit_geometry.h"
+
+namespace kiva {
+namespace {
+
+// A unit that is slower, more upright and no higher than this stands on its legs again.
+constexpr double kStill = 1e-3;     // [m/s]
+constexpr double kTilt = 1 - 5e-5;  // cosine
+constexpr double kAbove = 0.002;    // [m]
+constexpr double kResting = 0.05;   // [s] for which Bullet has found it at rest
+
+bool standsStill(const WorldState& world, const Model& model) {
+  const btRigidBody& body = *model.bodies.links.front().body;
+  const double up = body.getWorldTransform().getBasis().getColumn(2).z();
+  return up > kTilt && body.getLinearVelocity().length() < kStill &&
+         body.getAngularVelocity().length() < kStill &&
+         unitPose(world, model.index).Z() - world.floor.z < kAbove;
+}
+
+/// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
+void reindex(WorldState& world, int from, int to) {
+  for (Item& item : world.items) {
+    if (item.unit == from) item.unit = to;
+  }
+  for (Task& task : world.fleet.tasks) {
+    for (MotionSegment& segment : task.segments) {
+      if (segment.unit == from) segment.unit = to;
+    }
+  }
+  if (to < 0) return;
+  const StorageUnit& unit = world.units[to];
+  world.unit_of_id[unit.id] = to;
+  world.models[unit.model]->index = to;
+  if (unit.carrier >= 0) world.fleet.unit[unit.carrier] = to;
+}
+
+/// Off its robot, and out of Bullet.
+void takeAway(WorldState& world, Model& model) {
+  const int carrier = world.units[model.index].carrier;
+  if (carrier >= 0) putDown(world, carrier);
+  if (model.in_physics) deactivate(world, model);
+}
+
+}  // namespace
+
+void StorageUnits::add(WorldState& world, Model& model) const {
+  StorageUnit unit;
+  unit.name = model.name;
+  unit.id = numberIn(model.name, "storage_unit");
+  unit.model = model.slot;
+  unit.mass = massOf(*model.description);
+  raiseToFloor(world, &unit, &model);
+  model.index = static_cast<int>(world.units.size());
+  world.units.push_back(unit);
+  world.unit_of_id[unit.id] = model.index;
+  addCollisionGeometry(world, model);
+  if (!standsUpright(world, model.index)) letFall(world, model);
+}
+
+void StorageUnits::remove(WorldState& world, Model& model) const {
+  if (model.index < 0) return;  // it never joined
+  const int index = model.index, last = static_cast<int>(world.units.size()) - 1;
+  const StorageUnit& unit = world.units[index];
+  if (unit.carrier >= 0) unload(world, unit.carrier);
+  world.unit_of_id.erase(unit.id);
+  reindex(world, index, -1);
+  if (index != last) {
+    world.units[index] = std::move(world.units[last]);
+    reindex(world, last, index);
+  }
+  world.units.pop_back();
+  world.unitsMoved();
+}
+
+std::vector<int> StorageUnits::passengers(const WorldState& world, const Model& model) const {
+  std::vector<int> slots;
+  for (const Item& item : world.items) {
+    if (item.unit == model.index) slots.push_back(item.model);
+  }
+  return slots;
+}
+
+void StorageUnits::place(WorldState& world, Model& model, const EntityState& state) const {
+  takeAway(world, model);
+  model.pose = state.pose;
+  letFall(world, model);  // one that is moved by hand may float: let Bullet tell
+  moveBodies(model, state);
+}
+
+void StorageUnits::reset(WorldState& world, Model& model) const {
+  takeAway(world, model);
+  model.pose = model.spawn_pose;
+  if (!standsUpright(world, model.index)) letFall(world, model);
+}
+
+EntityState StorageUnits::state(const WorldState& world, const Model& model) const {
+  if (followsBodies(model)) return canonicalState(model);
+  const int carrier = world.units[model.index].carrier;
+  const Pose pose = unitPose(world, model.index);
+  return carrier < 0 ? EntityState{pose, {}} : carriedState(robotState(world, carrier), pose);
+}
+
+Pose StorageUnits::linkPose(const WorldState& world, const Model& model, int link) const {
+  if (followsBodies(model)) return fromBullet(model.bodies.links[link].linkPose());
+  return unitPose(world, model.index) * model.description->links[link].pose_in_model;
+}
+
+void StorageUnits::reweigh(WorldState& world, Model& model, double added) const {
+  addMass(world, model.index, added);
+  if (!model.in_physics) return;
+  const EntityState state = bodyState(model.bodies.links.front());
+  deactivate(world, model);
+  letFall(world, model);
+  setBodyState(model.bodies.links.front(), state);
+}
+
+bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3& at,
+                        const Vector3& force, const Vector3& torque) const {
+  const int carrier = world.units[model.index].carrier;
+  if (carrier >= 0) {
+    Model& below = world.modelOf(carrier);
+    return below.owner->push(world, below, 0, at, force, torque);
+  }
+  letFall(world, model);
+  return OrdinaryModels().push(world, model, link, at, force, torque);
+}
+
+/// With the mass of its items.
+ModelBodies StorageUnits::build(const WorldState& world, const Model& model) const {
+  const StorageUnit& unit = world.units[model.index];
+  ModelDescription loaded = *model.description;
+  const double own = massOf(loaded);
+  for (Link& link : loaded.links) {
+    link.mass *= unit.mass / own;
+    link.principal_moments *= unit.mass / own;
+  }
+  ModelBodies bodies = world.physics.build(loaded, model.pose, model.slot, kDynamicGroup, ~0);
+  for (LinkBody& link : bodies.links) link.body->setActivationState(ISLAND_SLEEPING);
+  return bodies;
+}
+
+/// Takes over where Bullet left the unit, upright on its legs.
+void StorageUnits::deactivated(WorldState& world, Model& model) const {
+  if (model.disturbed) {
+    const Pose pose = unitPose(world, model.index);
+    model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+  }
+  model.disturbed = false;
+}
+
+/// One that was pushed leaves as soon as it has come to rest: else it and a robot beside it would
+/// keep each other in Bullet.
+bool StorageUnits::mayLeaveBullet(const WorldState& world, const Model& model,
+                                  bool is_alone) const {
+  if (!model.disturbed) return is_alone;
+  const bool rests = model.bodies.links.front().body->getDeactivationTime() > kResting;
+  return (is_alone || rests) && standsStill(world, model);
+}
+
+/// From now on it is where its body is.
+void StorageUnits::touched(WorldState& world, Model& model) const {
+  if (model.disturbed || world.units[model.index].carrier >= 0) return;
+  model.disturbed = true;
+  moved(world, model);
+}
+
+int StorageUnits::robot(const WorldState& world, const Model& model) const {
+  return world.units[model.index].carrier;
+}
+
+/// A robot without a load passes beneath one that stands.
+bool StorageUnits::stops(const WorldState& world, const Model& model, int robot) const {
+  return world.fleet.unit[robot] >= 0 || world.units[model.index].carrier >= 0;
+}
+
+}  // namespace kiva

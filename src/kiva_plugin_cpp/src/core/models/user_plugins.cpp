@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/models/user_plugins.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <ignition/plugin/Loader.hh>
+#include <sstream>
+#include <vector>
+
+namespace kiva {
+namespace {
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// The folders that KIVA_PLUGIN_PATH lists, then those of the libraries of sourced workspaces.
+std::vector<std::filesystem::path> libraryFolders() {
+  std::vector<std::filesystem::path> out;
+  const auto add = [&out](const char* list, const char* below) {
+    std::istringstream folders(environment(list));
+    for (std::string folder; std::getline(folders, folder, ':');) {
+      if (!folder.empty()) out.push_back(std::filesystem::path(folder) / below);
+    }
+  };
+  add("KIVA_PLUGIN_PATH", "");
+  add("CMAKE_PREFIX_PATH", "lib");
+  return out;
+}
+
+/// The library's path; empty, with the reason, if there is none. A document from anywhere names it,
+/// so it does not get to choose the folder.
+std::string locate(const std::string& filename, std::string* why) {
+  if (filename.find('/') != std::string::npos) {
+    *why = "'" + filename + "' is a path; a library's name was expected";
+    return "";
+  }
+  std::error_code error;
+  for (const std::filesystem::path& folder : libraryFolders()) {
+    const std::filesystem::path file = folder / filename;
+    if (std::filesystem::is_regular_file(file, error)) return file.string();
+  }
+  *why = "there is no library '" + filename + "' (searched KIVA_PLUGIN_PATH='" +
+         environment("KIVA_PLUGIN_PATH") + "' and lib/ in CMAKE_PREFIX_PATH='" +
+         environment("CMAKE_PREFIX_PATH") + "')";
+  return "";
+}
+
+/// Why the dynamic linker can't open it; empty if it can. Ignition's loader only prints.
+std::string linkerError(const std::string& library) {
+  void* handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (!handle) return dlerror();
+  dlclose(handle);
+  return "";
+}
+
+/// Null, with the reason, if there is no such library.
+std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::string& where,
+                                    std::string* why) {
+  const std::string library = locate(filename, why);
+  if (library.empty()) return nullptr;
+  const std::string error = linkerError(library);
+  if (!error.empty()) {
+    throw DescriptionError(where + ": plugin library '" + filename + "' can't be loaded: " + error);
+  }
+  // One loader for all, for as long as the program runs: a library must outlive its objects.
+  static ignition::plugin::Loader loader;
+  for (const std::string& name : loader.LoadLib(library)) {
+    const auto instance = loader.Instantiate(name);
+    if (!instance) continue;
+    if (auto plugin = instance->QueryInterfaceSharedPtr<Plugin>()) return plugin;
+  }
+  throw DescriptionError(where + ": library '" + filename +
+                         "' holds no class registered with IGNITION_ADD_PLUGIN(…, kiva::Plugin)");
+}
+
+/// What is misspelt is an error, but for plugins that take the parameters of others.
+void checkUnread(WorldState& world, const Plugin& plugin, const std::string& filename,
+                 const Parameters& parameters) {
+  if (plugin.isStrict()) return parameters.rejectUnread();
+  std::string list;
+  for (const std::string& key : parameters.unread()) list += (list.empty() ? "" : ", ") + key;
+  if (list.empty()) return;
+  world.warn(filename + list, parameters.where() + ": " + filename + " makes no use of " + list);
+}
+
+}  // namespace
+
+std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
+                                   const std::string& filename, const Parameters& parameters,
+                                   const SensorDescription* sensor) {
+  const std::string& where = parameters.where();
+  std::string why;
+  std::shared_ptr<Plugin> plugin;
+  if (world.options.plugins) plugin = world.options.plugins(filename, sensor);
+  if (!plugin) plugin = fromLibrary(filename, where, &why);
+  if (!plugin) {
+    world.warn(filename, where + ": the plugin is left out: " + why);
+    return nullptr;
+  }
+  try {
+    plugin->load(*world.owner, model, parameters);
+    checkUnread(world, *plugin, filename, parameters);
+    return plugin;
+  } catch (const std::exception& error) {
+    if (plugin->isStrict()) throw;
+    world.warn(model + filename + error.what(),
+               where + ": the plugin is left out: " + error.what());
+    return nullptr;
+  }
+}
+
+}  // namespace kiva

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/motion/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kHorizons[] = {0.3, 0.08, 0.02};  // [s] for which the way may be found free
+constexpr double kWorthwhile = 0.015;              // [s]: less is no clearance to cruise on
+constexpr double kAstray = 0.001;  // [m] that a robot may be beside its way at the horizon
+constexpr double kPushed = 0.5;    // [m/s] by which a robot in Bullet may be faster than it drives
+constexpr double kStill = 1e-9;    // [m/s, rad/s]
+
+bool standsStill(const FleetState& f, int i) {
+  if (!f.awake[i]) return true;
+  if (f.activated[i] || std::abs(f.vx[i]) > kStill || std::abs(f.vy[i]) > kStill ||
+      std::abs(f.yaw_rate[i]) > kStill) {
+    return false;
+  }
+  const MotionSegment* at = f.tasks[i].segment();
+  return !at || at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower;
+}
+
+/// Its circle stays where it is until it begins another segment, and then it looks around itself.
+bool turnsInPlace(const FleetState& f, int i) {
+  const MotionSegment* at = f.tasks[i].segment();
+  return !f.activated[i] && at && at->kind == MotionSegment::Kind::kTurn &&
+         std::abs(f.vx[i]) < kStill && std::abs(f.vy[i]) < kStill;
+}
+
+/// How fast its circle may come nearer [m/s].
+double approachSpeed(const FleetState& f, int i) {
+  if (turnsInPlace(f, i)) return 0;
+  const double speed = f.robots[i].drive.speed;
+  return f.activated[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
+}
+
+Footprint circleOf(const Fleet& f, int i, double radius) {
+  Footprint circle;
+  circle.kind = Footprint::Kind::kCircle;
+  circle.x = f.x[i];
+  circle.y = f.y[i];
+  circle.hx = radius;
+  return circle;
+}
+
+/// The robot with its load as one upright box, in world.
+Footprint boxOf(const Fleet& f, int i) {
+  const Robot& r = f.robots[i];
+  Footprint own;
+  own.x = f.x[i];
+  own.y = f.y[i];
+  own.c = std::cos(f.yaw[i]);
+  own.s = std::sin(f.yaw[i]);
+  own.hx = halfLength(r);
+  own.hy = halfWidth(r);
+  own.z_max = f.unit[i] < 0 ? r.height + f.tower[i] : 1e9;
+  return own;
+}
+
+/// The circle that holds it however it turns.
+Footprint turned(Footprint box) {
+  box.kind = Footprint::Kind::kCircle;
+  box.hx = std::hypot(box.hx, box.hy);
+  return box;
+}
+
+/// What it covers while it goes by (dx, dy) [m] along its heading.
+Footprint shifted(Footprint box, double dx, double dy) {
+  box.x += dx / 2;
+  box.y += dy / 2;
+  box.hx += std::hypot(dx, dy) / 2;
+  return box;
+}
+
+/// How far the reference of a robot that cruises goes at most in that time.
+double wayWithin(const FleetState& f, int i, double time) {
+  const double most = f.top_speed[i] * time;
+  return std::clamp(f.goal[i] - f.reference[i], -most, most);
+}
+
+/// The floor that a robot covers which follows its reference exactly.
+Footprint cruiseSweep(const FleetState& f, int i, double time) {
+  if (f.per_yaw[i] != 0) return turned(boxOf(f, i));
+  const double way = wayWithin(f, i, time);
+  return shifted(boxOf(f, i), f.per_x[i] * way, f.per_y[i] * way);
+}
+
+/// The floor that any other may cover, by what it is at: a driving one goes either way.
+Footprint sweep(const FleetState& f, int i, double time) {
+  const MotionSegment* at = f.tasks[i].segment();
+  Footprint own = boxOf(f, i);
+  own.hx += kAstray;
+  own.hy += kAstray;
+  if (!at || at->kind == MotionSegment::Kind::kTurn) own = turned(own);
+  if (at && at->kind != MotionSegment::Kind::kDrive) return own;
+  own.hx += std::max(f.robots[i].drive.speed, std::hypot(f.vx[i], f.vy[i])) * time;
+  return own;
+}
+
+/// Whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
+bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
+  const FleetState& f = world.fleet;
+  Footprint lifted = swept;  // it counts from the floor
+  lifted.z_min += world.floor.z;
+  lifted.z_max += world.floor.z;
+  const auto meets = [&](const Footprint& other) {
+    return shareHeight(other, lifted) && mayBeWithin(kNear, swept, other) &&
+           gap(swept, other) < kNear;
+  };
+  const auto approaches = [&](int i, double radius) {
+    if (i == robot) return false;
+    const bool still = standsStill(f, i);
+    const double reach = kNear + (still ? 0 : approachSpeed(f, i)) * time;
+    if (gap(swept, circleOf(f, i, radius)) >= reach) return false;
+    if (!still) return true;
+    const auto& footprints = world.obstacles.footprints(i);
+    return std::any_of(footprints.begin(), footprints.end(), meets);
+  };
+  const double farthest = (world.top_speed + kPushed) * time + kNear;
+  return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
+}
+
+/// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its
+/// place among the obstacles.
+double horizonOf(const FleetState& f, int i, double horizon) {
+  if (f.cruising[i] == 0 || f.per_yaw[i] != 0) return horizon;
+  return std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
+}
+
+}  // namespace
+
+bool findClearance(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  for (const double horizon : kHorizons) {
+    const double time = horizonOf(f, i, horizon);
+    const bool cruises = f.cruising[i] != 0;
+    if (!isClear(world, i, cruises ? cruiseSweep(f, i, time) : sweep(f, i, time), time)) continue;
+    if (cruises) world.obstacles.follow(i, f.per_yaw[i] != 0 ? 0 : std::abs(wayWithin(f, i, time)));
+    f.clear_until[i] =
+        static_cast<double>(world.total_steps) + std::max(1.0, std::floor(time / world.dt));
+    return true;
+  }
+  return false;
+}
+
+bool hasClearance(const WorldState& world, int i) {
+  const double left = world.fleet.clear_until[i] - static_cast<double>(world.total_steps);
+  return left * world.dt >= kWorthwhile;
+}
+
+double pointSpeed(const FleetState& f, int i) {
+  const Robot& r = f.robots[i];
+  const double speed = std::hypot(f.vx[i], f.vy[i]) + std::abs(f.yaw_rate[i]) * cornerRadius(r);
+  const bool at_once = r.drive.acceleration == 0 || r.drive.quarter_turn_time == 0;
+  return at_once ? std::max(speed, r.drive.speed + kCornerSpeed) : speed;
+}
+
+double findClose(const WorldState& world, const Footprint& own, double speed, double reach,
+                 std::vector<int>* close) {
+  const double farthest = kNear + (speed + world.top_speed + kCornerSpeed) * world.dt;
+  double least = reach;
+  world.obstacles.near(own.x, own.y, radiusOf(own) + reach, [&](const Footprint& other) {
+    if (other.model == own.model || (own.group >= 0 && other.group == own.group)) return;
+    if (!shareHeight(own, other) || !mayBeWithin(std::max(least, farthest), own, other)) return;
+    const double distance = gap(own, other);
+    least = std::min(least, distance);
+    const bool is_robot = other.group >= 0 && other.group < world.fleet.size();
+    const double theirs = is_robot ? pointSpeed(world.fleet, other.group) : 0;
+    if (distance < kNear + (speed + theirs) * world.dt) close->push_back(other.model);
+  });
+  return least;
+}
+
+}  // namespace kiva

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Until when a robot's way is free: whether, wherever it may go within a short time, it can come
+// near anything. FleetState::clear_until keeps the answer until the robot moves otherwise, so that
+// one that stands need not be reckoned with as if it moved.
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Nearer than that Bullet decides [m]; less than what is between two that turn in adjacent cells.
+constexpr double kNear = 0.004;
+/// [m/s] of a chassis' corner in the fastest turn.
+constexpr double kCornerSpeed = 3.2;
+
+/// Looks for how long nothing can come near the robot, and notes it in clear_until. Returns false,
+/// with nothing noted, if that is no time worth speaking of.
+bool findClearance(WorldState& world, int robot);
+
+/// Whether the way is free for long enough to cruise on it.
+bool hasClearance(const WorldState& world, int robot);
+
+/// What of others is near the footprint `own`, no point of which goes faster than `speed` [m/s]:
+/// slots of models that it could touch in the next step go to `close`. Returns the least gap to
+/// anything foreign, at most `reach`; both in [m].
+double findClose(const WorldState& world, const Footprint& own, double speed, double reach,
+                 std::vector<int>* close);
+
+/// How fast any point of the robot may go within the next step [m/s].
+double pointSpeed(const FleetState& fleet, int robot);
+
+}  // namespace kiva

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/motion/cruise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/clearance.h"
+#include "core/motion/drives.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kMargin = 2;  // of force to spare: a profile's last steps are uneven
+
+/// Whether the chassis is just as fast as its reference says.
+bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
+  const double v = f.reference_speed[i];
+  return isExact(f.vx[i] - per.x * v) && isExact(f.vy[i] - per.y * v) &&
+         isExact(f.yaw_rate[i] - per.yaw * v);
+}
+
+bool hasForce(const Robot& robot, const ReferenceMotion& per, double deceleration,
+              const Ground& ground) {
+  if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
+  if (per.acceleration == 0) return false;
+  const double hardest = kMargin * std::max(per.acceleration, deceleration);
+  const Vehicle vehicle = vehicleOf(robot, ground);
+  if (per.yaw == 0) return hardest < std::min(drivingLimit(vehicle), brakingLimit(vehicle));
+  return std::max(turningEffort(vehicle, hardest, per.top_speed),
+                  turningEffort(vehicle, -hardest, per.top_speed)) < 1;
+}
+
+constexpr int kBlock = 16;  // robots that are stepped together
+
+/// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
+/// reference has ended, or its time is over at step `now`.
+__attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
+                                                               double dt, double now) {
+  const std::int64_t* __restrict mask = f.cruising.data();
+  const double* __restrict goal = f.goal.data();
+  const double* __restrict top = f.top_speed.data();
+  const double* __restrict acceleration = f.acceleration.data();
+  const double* __restrict deceleration = f.deceleration.data();
+  const double* __restrict until = f.clear_until.data();
+  const double* __restrict per_x = f.per_x.data();
+  const double* __restrict per_y = f.per_y.data();
+  const double* __restrict per_yaw = f.per_yaw.data();
+  const double* __restrict per_left = f.per_wheel[0].data();
+  const double* __restrict per_right = f.per_wheel[1].data();
+  double* __restrict reference = f.reference.data();
+  double* __restrict speed = f.reference_speed.data();
+  double* __restrict x = f.x.data();
+  double* __restrict y = f.y.data();
+  double* __restrict yaw = f.yaw.data();
+  double* __restrict vx = f.vx.data();
+  double* __restrict vy = f.vy.data();
+  double* __restrict yaw_rate = f.yaw_rate.data();
+  double* __restrict left = f.wheel_angle[0].data();
+  double* __restrict right = f.wheel_angle[1].data();
+  double* __restrict left_speed = f.wheel_speed[0].data();
+  double* __restrict right_speed = f.wheel_speed[1].data();
+  std::int64_t attention = 0;
+#pragma GCC ivdep
+  for (int i = begin; i < end; ++i) {
+    const std::int64_t cruises = mask[i];
+    const double was_reference = reference[i], was_speed = speed[i];
+    const double was_vx = vx[i], was_vy = vy[i], was_yaw_rate = yaw_rate[i];
+    const double was_left = left_speed[i], was_right = right_speed[i];
+    Profile profile{was_reference, was_speed};
+    profile.advance(goal[i], top[i], acceleration[i], deceleration[i], dt);
+    const double v = profile.speed;
+    const double way = cruises ? v * dt : 0.0;
+    reference[i] = cruises ? profile.position : was_reference;
+    speed[i] = cruises ? v : was_speed;
+    x[i] += per_x[i] * way;
+    y[i] += per_y[i] * way;
+    yaw[i] += per_yaw[i] * way;
+    left[i] += per_left[i] * way;
+    right[i] += per_right[i] * way;
+    vx[i] = cruises ? per_x[i] * v : was_vx;
+    vy[i] = cruises ? per_y[i] * v : was_vy;
+    yaw_rate[i] = cruises ? per_yaw[i] * v : was_yaw_rate;
+    left_speed[i] = cruises ? per_left[i] * v : was_left;
+    right_speed[i] = cruises ? per_right[i] * v : was_right;
+    const std::int64_t ended = profile.position == goal[i] ? -1 : 0;
+    const std::int64_t due = until[i] <= now ? -1 : 0;
+    attention |= cruises & (ended | due);
+  }
+  return attention != 0;
+}
+
+void attend(WorldState& world, int i, double now) {
+  FleetState& f = world.fleet;
+  const bool ended = f.reference[i] == f.goal[i];
+  if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) moved(f, i);
+}
+
+}  // namespace
+
+bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
+  FleetState& f = world.fleet;
+  const Robot& r = f.robots[i];
+  if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
+      f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
+      std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
+      !keepsUp(f, i, per) || !hasForce(r, per, f.deceleration[i], groundOf(world))) {
+    return false;
+  }
+  const double turn = per.yaw * r.drive.wheel_separation / 2;
+  const double ahead = std::cos(f.yaw[i]) * per.x + std::sin(f.yaw[i]) * per.y;
+  f.per_x[i] = per.x;
+  f.per_y[i] = per.y;
+  f.per_yaw[i] = per.yaw;
+  f.per_wheel[0][i] = (ahead - turn) / r.drive.wheel_radius;
+  f.per_wheel[1][i] = (ahead + turn) / r.drive.wheel_radius;
+  f.top_speed[i] = per.top_speed;
+  f.acceleration[i] = per.acceleration;
+  f.cruising[i] = -1;
+  if (findClearance(world, i)) return true;
+  f.cruising[i] = 0;
+  return false;
+}
+
+void cruise(WorldState& world) {
+  FleetState& f = world.fleet;
+  const auto next = static_cast<double>(world.total_steps + 1);
+  bool any_loaded = false;
+  for (int begin = 0; begin < f.size(); begin += kBlock) {
+    const int end = std::min(begin + kBlock, f.size());
+    std::int64_t any = 0;
+    for (int i = begin; i < end; ++i) {
+      any |= f.cruising[i];
+      any_loaded |= f.cruising[i] != 0 && f.unit[i] >= 0;
+    }
+    if (any == 0 || !advance(f, begin, end, world.dt, next)) continue;
+    for (int i = begin; i < end; ++i) {
+      if (f.cruising[i] != 0) attend(world, i, next);
+    }
+  }
+  if (any_loaded) world.unitsMoved();
+}
+
+}  // namespace kiva

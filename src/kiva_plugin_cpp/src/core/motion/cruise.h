@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A robot cruises while it follows the reference of its segment exactly and nothing can come near:
+// its motors and the floor have force to spare, so that wheels and chassis do what the profile
+// says. Then a step is a few operations on arrays, several robots at a time; the same motion, to
+// rounding errors, as traction's equations give.
+#pragma once
+
+#include <cmath>
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Where the reference of a segment goes: what a unit of it [m or rad] moves the chassis in world,
+/// and how fast it may go.
+struct ReferenceMotion {
+  double x = 0, y = 0, yaw = 0;  ///< [m, m, rad] a unit.
+  double top_speed = 0;          ///< [m/s or rad/s]
+  double acceleration = 0;       ///< [m/s² or rad/s²]; 0 = at once.
+};
+
+/// Whether an error [m, rad, m/s, rad/s] may be rounding's.
+inline bool isExact(double error) { return std::abs(error) < 2e-11; }
+
+/// Lets the robot cruise along its segment from this step on, if it is fit for it and its way is
+/// free. It does until something else moves it, see moved().
+bool tryCruise(WorldState& world, int robot, const ReferenceMotion& per);
+
+/// One step of all who cruise. Those whose reference ends, or who may have somebody near, stop.
+void cruise(WorldState& world);
+
+}  // namespace kiva

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/motion/drives.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/motion/jointed.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kGripReserve = 0.9;  // share of the grip that plans count on
+constexpr double kGripsAll = 1e16;    // Coulomb coefficient: the wheels' decides
+
+double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&), double wanted) {
+  if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
+  return std::min(wanted, limit(plannedVehicle(world, robot)));
+}
+
+}  // namespace
+
+Ground groundOf(const WorldState& world) { return {world.gravityDown(), world.floor_friction}; }
+
+Vector3 centreFromOrigin(const Fleet& f, int robot) {
+  const Vehicle vehicle = vehicleOf(f.robots[robot], {});
+  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  return {c * vehicle.centre[0] - s * vehicle.centre[1],
+          s * vehicle.centre[0] + c * vehicle.centre[1], 0};
+}
+
+Vehicle plannedVehicle(WorldState& world, int robot) {
+  const Ground ground{world.gravityDown(), kGripsAll};
+  const Robot& r = world.fleet.robots[robot];
+  const bool is_jointed = r.drive.drive == Drive::kJointed;
+  Vehicle vehicle = is_jointed ? jointedVehicle(world, robot, ground) : vehicleOf(r, ground);
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    const double known =
+        vehicle.friction[wheel] > 0 ? r.drive.friction / vehicle.friction[wheel] : 1;
+    vehicle.friction[wheel] *= known;
+    vehicle.grip[wheel] *= known * kGripReserve;
+  }
+  return vehicle;
+}
+
+double plannedAcceleration(WorldState& world, int robot) {
+  const double wanted = world.fleet.robots[robot].drive.acceleration;
+  return std::min(plannedLimit(world, robot, drivingLimit, wanted),
+                  plannedLimit(world, robot, brakingLimit, wanted));
+}
+
+double plannedBraking(WorldState& world, int robot) {
+  const DriveParameters& drive = world.fleet.robots[robot].drive;
+  if (drive.acceleration == 0) return drive.emergency_deceleration;
+  return plannedLimit(world, robot, brakingLimit, drive.emergency_deceleration);
+}
+
+}  // namespace kiva

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is asked of either drive model: the floor it stands on, and what its robot can be asked for.
+#pragma once
+
+#include "core/motion/vehicle.h"
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+Ground groundOf(const WorldState& world);
+
+/// From the robot's origin to the centre of mass of all that is it, along the world's axes [m].
+Vector3 centreFromOrigin(const Fleet& fleet, int robot);
+
+/// A robot as it knows itself and its load, to plan by: on a floor that its wheels grip as its
+/// drive's parameters say, with a reserve to mend errors with.
+Vehicle plannedVehicle(WorldState& world, int robot);
+
+/// What speeding up and braking are planned with, as far as motors and wheels can with that load
+/// [m/s²]; 0 = at once.
+double plannedAcceleration(WorldState& world, int robot);
+/// The same for an obstacle's sake, at least as hard.
+double plannedBraking(WorldState& world, int robot);
+
+}  // namespace kiva

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/motion/dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/angle.h"
+#include "core/motion/cruise.h"
+#include "core/motion/drives.h"
+#include "core/motion/jointed.h"
+#include "core/motion/joints.h"
+#include "core/motion/traction.h"
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
+
+btRigidBody& bodyOf(const WorldState& world, int robot) {
+  return *world.modelOf(robot).bodies.links.front().body;
+}
+
+void pushBody(const WorldState& world, int robot) {
+  const Fleet& f = world.fleet;
+  btRigidBody& body = bodyOf(world, robot);
+  const btVector3 turning(0, 0, f.yaw_rate[robot]);
+  const btVector3 arm = toBullet(centreFromOrigin(f, robot));
+  body.setLinearVelocity(btVector3(f.vx[robot], f.vy[robot], 0) + turning.cross(arm));
+  body.setAngularVelocity(turning);
+}
+
+void readBody(WorldState& world, int robot) {
+  Fleet& f = world.fleet;
+  const btRigidBody& body = bodyOf(world, robot);
+  // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
+  const btVector3 arm = toBullet(centreFromOrigin(f, robot));
+  const btVector3 velocity = body.getLinearVelocity() - body.getAngularVelocity().cross(arm);
+  const btTransform pose = world.modelOf(robot).bodies.links.front().linkPose();
+  const btVector3 at = pose.getOrigin(), ahead = pose.getBasis().getColumn(0);
+  f.x[robot] = at.x();
+  f.y[robot] = at.y();
+  f.yaw[robot] += wrapAngle(std::atan2(ahead.y(), ahead.x()) - f.yaw[robot]);
+  f.vx[robot] = velocity.x();
+  f.vy[robot] = velocity.y();
+  f.yaw_rate[robot] = body.getAngularVelocity().z();
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.dt;
+  }
+}
+
+/// A robot that stands without a command is left alone until it gets one, or is hit.
+void letRest(FleetState& f, int robot) {
+  if (f.tasks[robot].phase != Phase::kIdle || f.activated[robot] || !atRest(f, robot)) return;
+  if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
+  f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
+  f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
+  f.awake[robot] = f.tower[robot] > 0 && f.unit[robot] < 0;  // an empty tower still comes down
+}
+
+void integrateRobots(WorldState& world) {
+  FleetState& f = world.fleet;
+  for (int i : world.stepped_singly) {
+    if (f.cruising[i] != 0) continue;  // since this step
+    if (f.activated[i]) {
+      readBody(world, i);
+    } else {
+      integrate(f, i, world.dt);
+    }
+    if (isJointed(f.robots[i])) settleJointed(world, i);
+    followRobot(world, i);
+    letRest(f, i);
+  }
+  cruise(world);
+}
+
+void followBodies(WorldState& world) {
+  for (int slot : world.bodies) {
+    if (isAwake(*world.models[slot])) moved(world, *world.models[slot]);
+  }
+  for (int slot : world.activated) {
+    Model& model = *world.models[slot];
+    if (model.disturbed && isAwake(model)) moved(world, model);
+  }
+}
+
+}  // namespace
+
+void actuate(WorldState& world) {
+  FleetState& f = world.fleet;
+  for (int i : world.stepped_singly) {
+    if (f.cruising[i] != 0) continue;
+    if (isJointed(f.robots[i])) {
+      driveJointed(world, i);
+    } else {
+      applyTraction(f, i, groundOf(world), world.dt);
+    }
+    if (f.activated[i]) pushBody(world, i);
+  }
+  driveJoints(world);
+}
+
+void integrate(WorldState& world) {
+  integrateRobots(world);
+  followBodies(world);
+  readJoints(world);
+}
+
+void wakeBodies(WorldState& world) {
+  for (int slot : world.bodies) {
+    for (LinkBody& link : world.models[slot]->bodies.links) link.body->activate();
+  }
+}
+
+}  // namespace kiva

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The reference drive model: a chassis on two jointed, motorised wheels and casters, with rigid
+// contacts and Coulomb friction at the floor. Each robot is a small system of its own, in eight
+// degrees of freedom: the chassis' six and the wheels' spins. The wheel joints hold by the choice
+// of coordinates (Featherstone 2008, chapter 3); motors and contacts are solved for as impulses of
+// a step (Stewart and Trinkle 1996). Robots and other things touch each other in Bullet, which
+// moves a robot in the plane as one of the traction drive.
+#pragma once
+
+#include "core/motion/vehicle.h"
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Changes velocities and wheel speeds of robot `i` by one step's gravity, motors and floor;
+/// positions stay.
+void driveJointed(WorldState& world, int robot);
+/// As a jointed robot is: what casters bear that stand ahead of or behind the axle, and what leans
+/// on them when it speeds up or brakes, is not on the wheels.
+Vehicle jointedVehicle(WorldState& world, int robot, const Ground& ground);
+
+/// Moves the chassis up, down and about by one step; its place in the plane has been found.
+void settleJointed(WorldState& world, int robot);
+/// Ends the last of a standing chassis' rocking. Returns whether it is little enough for that.
+bool restJointed(FleetState& fleet, int robot);
+
+}  // namespace kiva

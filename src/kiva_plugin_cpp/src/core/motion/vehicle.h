@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A robot with its load as what its motors move, and the accelerations that can be asked of it:
+// what motors give and wheels hold without slip.
+#pragma once
+
+#include <algorithm>
+
+#include "kiva_plugin_cpp/fleet.h"
+
+namespace kiva {
+
+/// What robots drive on.
+struct Ground {
+  double gravity = 9.81;  ///< [m/s²]
+  double friction = 1;    ///< Coulomb coefficient of its surface.
+};
+
+/// In the chassis frame, wheels upright on the floor; index 0 is the left wheel.
+struct Vehicle {
+  double mass;             ///< [kg]
+  double inertia;          ///< About z through the centre of mass [kg m²].
+  double centre[2];        ///< Of mass [m].
+  double radius;           ///< Of a wheel [m].
+  double half_separation;  ///< Of the wheels [m].
+  double wheel_inertia;    ///< Of one wheel with its motor about the axle [kg m²].
+  double torque;           ///< Limit of one motor [Nm].
+  double grip[2];          ///< Largest friction force of each wheel at rest [N].
+  double friction[2];      ///< Coulomb coefficient of each wheel on this ground.
+  /// Load that an acceleration takes off the wheels, per mass and acceleration: half of it off each
+  /// when it drives off or brakes, off the inner one for sideways.
+  double lift_ahead = 0, lift_braking = 0, lift_sideways = 0;
+
+  /// Share of a force along the heading that each wheel gives where it is not to yaw, and of the
+  /// weight where all of it is on the wheels.
+  double share(int wheel) const {
+    const double aside = centre[1] / (2 * half_separation);
+    return wheel == 0 ? 0.5 + aside : 0.5 - aside;
+  }
+  /// Share of the weight on a wheel where casters bear all but `on_wheels` of it, in the middle.
+  double weight(int wheel, double on_wheels) const {
+    return std::max(0.0, share(wheel) - (1 - on_wheels) / 2);
+  }
+};
+
+/// Coulomb coefficient between a wheel and the ground: the smallest of the drive's, the tyre's and
+/// the ground's.
+double wheelFriction(const Robot& robot, int wheel, const Ground& ground);
+
+/// As the traction drive has it: weight stays where it is.
+Vehicle vehicleOf(const Robot& robot, const Ground& ground);
+
+/// Acceleration along the heading [m/s²].
+double drivingLimit(const Vehicle& vehicle);
+/// Deceleration along the heading [m/s²]. Who plans to brake harder slides.
+double brakingLimit(const Vehicle& vehicle);
+
+/// Acceleration [rad/s²] of a turn in place about the middle of the axle, from rest to rest over
+/// `angle` [rad] with half of it at that and half at minus that.
+double turningLimit(const Vehicle& vehicle, double angle);
+/// Share of what motors and wheels can give that such a turn takes at an acceleration [rad/s²] and
+/// a speed [rad/s]: a load off the centre has to be held on its circle, too.
+double turningEffort(const Vehicle& vehicle, double acceleration, double speed);
+
+}  // namespace kiva

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/physics/ordered_bullet.h"
+
+#include <BulletCollision/CollisionDispatch/btCompoundCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace kiva {
+namespace {
+
+/// The parts of two compounds that Bullet is about to look at. It tells through a global hook only.
+thread_local const btCollisionShape* near_parts[2];
+
+bool noteParts(const btCollisionShape* a, const btCollisionShape* b) {
+  near_parts[0] = a;
+  near_parts[1] = b;
+  return true;
+}
+
+/// Which part of the body that is; 0 of one that has but one.
+int nearPart(const btCollisionObject* body) {
+  if (!body->getCollisionShape()->isCompound()) return 0;
+  const auto* compound = static_cast<const btCompoundShape*>(body->getCollisionShape());
+  for (int i = 0; i < compound->getNumChildShapes(); ++i) {
+    const btCollisionShape* part = compound->getChildShape(i);
+    if (part == near_parts[0] || part == near_parts[1]) return i;
+  }
+  return 0;
+}
+
+int arrivalOf(const btCollisionObject* body) { return body->getBroadphaseHandle()->getUid(); }
+
+bool comesBefore(const btPersistentManifold* a, const btPersistentManifold* b) {
+  const auto key = [](const btPersistentManifold* m) {
+    return std::make_tuple(arrivalOf(m->getBody0()), arrivalOf(m->getBody1()), m->m_companionIdA,
+                           m->m_companionIdB);
+  };
+  return key(a) < key(b);
+}
+
+bool jointComesBefore(const btTypedConstraint* a, const btTypedConstraint* b) {
+  const auto key = [](const btTypedConstraint* joint) {
+    return std::make_pair(joint->getUserConstraintType(), joint->getUserConstraintId());
+  };
+  return key(a) < key(b);
+}
+
+bool touches(const btPersistentManifold* manifold) { return manifold->getNumContacts() > 0; }
+
+}  // namespace
+
+OrderedDispatcher::OrderedDispatcher(btCollisionConfiguration* configuration)
+    : btCollisionDispatcher(configuration) {
+  gCompoundChildShapePairCallback = noteParts;
+  gCompoundCompoundChildShapePairCallback = noteParts;
+}
+
+btPersistentManifold* OrderedDispatcher::getNewManifold(const btCollisionObject* a,
+                                                        const btCollisionObject* b) {
+  btPersistentManifold* manifold = btCollisionDispatcher::getNewManifold(a, b);
+  manifold->m_companionIdA = nearPart(a);
+  manifold->m_companionIdB = nearPart(b);
+  return manifold;
+}
+
+bool OrderedDispatcher::needsCollision(const btCollisionObject* a, const btCollisionObject* b) {
+  if (!minds_sleepers_) return btCollisionDispatcher::needsCollision(a, b);
+  return a->checkCollideWith(b) && b->checkCollideWith(a);
+}
+
+std::vector<btPersistentManifold*> OrderedDispatcher::makeManifolds(btOverlappingPairCache* pairs,
+                                                                    const btDispatcherInfo& info) {
+  minds_sleepers_ = true;
+  dispatchAllCollisionPairs(pairs, info, this);
+  minds_sleepers_ = false;
+  for (int i = 0; i < m_manifoldsPtr.size(); ++i) m_manifoldsPtr[i]->clearManifold();
+  return {getInternalManifoldPointer(), getInternalManifoldPointer() + m_manifoldsPtr.size()};
+}
+
+std::vector<btPersistentManifold*> OrderedDispatcher::manifolds() const {
+  std::vector<btPersistentManifold*> out;
+  for (int i = 0; i < m_manifoldsPtr.size(); ++i) {
+    if (touches(m_manifoldsPtr[i])) out.push_back(m_manifoldsPtr[i]);
+  }
+  std::sort(out.begin(), out.end(), comesBefore);
+  return out;
+}
+
+btScalar OrderedSolver::solveGroup(btCollisionObject** bodies, int body_count,
+                                   btPersistentManifold** manifolds, int manifold_count,
+                                   btTypedConstraint** joints, int joint_count,
+                                   const btContactSolverInfo& info, btIDebugDraw* draw,
+                                   btDispatcher* dispatcher) {
+  // One without contacts may be about a body of another island: the solver must not move it twice.
+  btPersistentManifold** const end = std::partition(manifolds, manifolds + manifold_count, touches);
+  std::sort(manifolds, end, comesBefore);
+  std::sort(joints, joints + joint_count, jointComesBefore);
+  return btSequentialImpulseConstraintSolver::solveGroup(bodies, body_count, manifolds,
+                                                         static_cast<int>(end - manifolds), joints,
+                                                         joint_count, info, draw, dispatcher);
+}
+
+void ContactIslandWorld::calculateSimulationIslands() {
+  btSimulationIslandManager& islands = *getSimulationIslandManager();
+  islands.updateActivationState(getCollisionWorld(), getDispatcher());  // numbers the bodies
+  islands.initUnionFind(islands.getUnionFind().getNumElements());       // its own unions are undone
+  const auto unite = [&](const btCollisionObject& a, const btCollisionObject& b) {
+    if (!a.mergesSimulationIslands() || !b.mergesSimulationIslands()) return;
+    islands.getUnionFind().unite(a.getIslandTag(), b.getIslandTag());
+  };
+  for (int i = 0; i < getDispatcher()->getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *getDispatcher()->getManifoldByIndexInternal(i);
+    if (touches(&manifold)) unite(*manifold.getBody0(), *manifold.getBody1());
+  }
+  for (int i = 0; i < m_constraints.size(); ++i) {
+    if (!m_constraints[i]->isEnabled()) continue;
+    unite(m_constraints[i]->getRigidBodyA(), m_constraints[i]->getRigidBodyB());
+  }
+  islands.storeIslandActivationState(getCollisionWorld());
+}
+
+void mark(btTypedConstraint& joint, int model, int index) {
+  joint.setUserConstraintType(model);
+  joint.setUserConstraintId(index);
+}
+
+}  // namespace kiva

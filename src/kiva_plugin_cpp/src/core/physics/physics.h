@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bullet, wrapped: descriptions become bodies and joints, and the bodies' contacts become pairs.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/physics/box_contacts.h"
+#include "core/physics/ordered_bullet.h"
+#include "core/physics/round_contacts.h"
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+btTransform toBullet(const Pose& pose);
+btVector3 toBullet(const Vector3& v);
+Pose fromBullet(const btTransform& transform);
+Vector3 fromBullet(const btVector3& v);
+
+/// Who touches whom: collision filter groups.
+enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
+
+/// Third user index of a body that was put somewhere, with a velocity, since the last step.
+constexpr int kPlaced = 1;
+
+/// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
+/// friction a body.
+struct BodyPart {
+  std::unique_ptr<btTriangleMesh> triangles;  ///< Of a static mesh: what its shape is made of.
+  std::unique_ptr<btCollisionShape> shape;
+  int model = -1;
+  double friction = 1;
+  double restitution = 0;
+  std::string collision;  ///< Its name.
+};
+
+/// A Bullet shape with the parts it is made of.
+struct BodyShape {
+  std::unique_ptr<btCompoundShape> compound = std::make_unique<btCompoundShape>();
+  std::vector<std::unique_ptr<BodyPart>> parts;
+
+  /// Adds a collision's shape at `pose` in the compound, for `model`.
+  void add(const Collision& collision, const btTransform& pose, int model);
+};
+
+/// A rigid body for one link. Bullet's body frame is the centre of mass along the principal axes.
+struct LinkBody {
+  BodyShape shape;
+  std::unique_ptr<BodyPart> surface;  ///< Instead of `shape`: an unbounded plane, a static mesh.
+  std::unique_ptr<btRigidBody> body;
+  btTransform mass_frame;  ///< Centre of mass in the link.
+  int link = 0;
+  int group = kDynamicGroup, mask = ~0;
+
+  btTransform linkPose() const { return body->getWorldTransform() * mass_frame.inverse(); }
+  void place(const btTransform& link_pose);
+  /// Velocity of the link's origin, in world.
+  btVector3 velocityAtOrigin() const;
+};
+
+struct ModelBodies {
+  std::vector<LinkBody> links;     ///< One a link, in the description's order.
+  std::vector<LinkBody> surfaces;  ///< The links' unbounded planes and static meshes.
+  std::vector<std::unique_ptr<btTypedConstraint>> joints;
+};
+
+/// Two models that touch; the point, the normal and the speed are those of the hardest contact.
+struct Contact {
+  int model_a = -1, model_b = -1;
+  Vector3 point;       ///< In world.
+  Vector3 normal;      ///< From b to a.
+  double speed = 0;    ///< Of approach before the step [m/s].
+  double impulse = 0;  ///< Of all their contacts in the step, as far as it ended approach that
+                       ///< was there before the step; what holds against pushes is not in it [Ns].
+  double most = -1;    ///< Of the hardest one.
+  double nearing = 0;  ///< Like `speed`, of the contact where it is largest [m/s].
+};
+
+/// One point of contact between two collisions.
+struct TouchPoint {
+  const btCollisionObject* body_a;
+  const btCollisionObject* body_b;
+  const BodyPart* part_a;
+  const BodyPart* part_b;
+  Vector3 point, normal;  ///< In world, the normal from b to a.
+  double depth = 0;       ///< [m], >= 0.
+  Vector3 impulse;        ///< On a in the last step, with friction [Ns].
+};
+
+class Physics {
+ public:
+  explicit Physics(const Vector3& gravity);
+  ~Physics();
+
+  /// Bodies of all links and joints, at `pose`, not yet in the world; `model` marks them.
+  ModelBodies build(const ModelDescription& description, const Pose& pose, int model, int group,
+                    int mask) const;
+  void insert(ModelBodies& bodies);
+  void remove(ModelBodies& bodies);
+
+  /// One step; costs nothing where no body is awake.
+  void step(double dt);
+  /// For what is in the world and what will be.
+  void setGravity(const Vector3& gravity);
+  /// Pairs of models that touch now, each once, the lower index first.
+  void contacts(std::vector<Contact>* out) const;
+  /// What Bullet keeps of contacts, in an order that follows from the bodies.
+  std::vector<btPersistentManifold*> manifolds() const { return dispatcher_.manifolds(); }
+  /// A manifold, still without contacts, for every two parts that are near each other.
+  std::vector<btPersistentManifold*> makeManifolds();
+  /// Every point at which that model touches another now, itself being a.
+  std::vector<TouchPoint> touchPoints(int model) const;
+  /// First body on a ray, as a fraction of `range`; +inf = none.
+  double cast(const Vector3& from, const Vector3& direction, double range) const;
+
+ private:
+  bool anyAwake() const;
+  struct Velocity {
+    btVector3 linear, angular;
+  };
+  /// Of a body about a step.
+  struct Motion {
+    Velocity before;  ///< When the last step had ended.
+    Velocity driven;  ///< When this one began: motors have set it since.
+    Velocity pushed;  ///< With what forces add in it.
+  };
+
+  void noteMotions(double dt);
+  double approach(const btPersistentManifold& pair, const btManifoldPoint& point,
+                  Velocity Motion::*when) const;
+  double impactShare(const btPersistentManifold& pair, const btManifoldPoint& point) const;
+
+  btDefaultCollisionConfiguration configuration_;
+  BoxBoxContacts::Creator box_contacts_;
+  RoundContacts::Creator round_contacts_, swapped_round_contacts_;
+  OrderedDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  OrderedSolver solver_;
+  ContactIslandWorld world_;
+
+  std::vector<Motion> motions_;  ///< By a body's second user index.
+  double dt_ = 0;                ///< Of the last step [s].
+};
+
+}  // namespace kiva

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ignition/math/Matrix3.hh>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+/// Mass, centre and inertia of several bodies as one, all in one frame.
+class SpatialInertia {
+ public:
+  using Matrix = ignition::math::Matrix3d;
+
+  void add(const Link& link, const Pose& link_in_frame);
+  void addPoint(double mass, const Vector3& at);
+  /// A sum in another frame, which stands at `pose` in this one.
+  void add(const SpatialInertia& other, const Pose& pose);
+
+  double mass() const { return mass_; }  ///< [kg]
+  Vector3 centre() const { return mass_ > 0 ? moment_ / mass_ : Vector3::Zero; }
+  /// Inertia tensor about the centre, along the frame's axes [kg m²].
+  Matrix inertia() const { return about_origin_ - ofPoint(mass_, centre()); }
+
+ private:
+  static Matrix ofPoint(double mass, const Vector3& at);
+  void add(double mass, const Vector3& centre, const Matrix& about_centre);
+
+  double mass_ = 0;
+  Vector3 moment_;  // sum of mass · position
+  Matrix about_origin_{0, 0, 0, 0, 0, 0, 0, 0, 0};
+};
+
+}  // namespace kiva

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sensing/look_ahead.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/sensing/scans.h"
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+// What the corridor is wider than the robot, a side. A loaded robot that turns in the next lane
+// reaches to 1 − 0.566 m, which must stay outside.
+constexpr double kSideMargin = 0.03;  // [m]
+constexpr double kFlat = 0.02;        // [m] by which two rays beside each other differ on a face
+
+bool stops(const WorldState& world, int model, int robot) {
+  const Model& other = *world.models[model];
+  return other.owner->stops(world, other, robot);
+}
+
+/// The nearest obstacle in the corridor that the robot would sweep.
+Sighting look(const WorldState& world, int robot) {
+  const Robot& r = world.fleet.robots[robot];
+  const RayFan& fan = world.ray_fans[r.ray_fan];
+  const double half = halfWidth(r) + kSideMargin;
+  static thread_local std::vector<RayHit> hits;
+  // A ray is of interest until it leaves the corridor.
+  const auto limit = [&](int ray) {
+    return std::min(r.laser.max_range, half / std::max(1e-9, std::abs(fan.s[ray])));
+  };
+  castRays(world, robot, limit, &hits);
+  Sighting seen;
+  seen.taken = true;
+  seen.along = alongSegment(world.fleet, robot);
+  seen.distance = std::numeric_limits<double>::infinity();
+  int before = -1;  // what the ray before this one met
+  double before_distance = 0;
+  for (int ray = 0; ray < r.laser.rays; ++ray) {
+    const RayHit& hit = hits[ray];
+    const int model = hit.model >= 0 && stops(world, hit.model, robot) ? hit.model : -1;
+    const double distance = r.laser.x + hit.range * fan.c[ray];
+    const bool faces = model == before && std::abs(distance - before_distance) < kFlat;
+    if (model >= 0 && distance < seen.distance) {
+      seen.distance = distance;
+      seen.model = model;
+      seen.faces = faces;
+    } else if (faces && before_distance == seen.distance) {
+      seen.faces = true;
+    }
+    before = model;
+    before_distance = distance;
+  }
+  return seen;
+}
+
+bool isOnGuard(const FleetState& f, int robot) {
+  const Task& task = f.tasks[robot];
+  return f.robots[robot].laser.fitted && task.drives() && !task.segments.front().reverse;
+}
+
+void watch(WorldState& world, int robot) {
+  Task& task = world.fleet.tasks[robot];
+  task.last_sighting = task.sighting;
+  task.sighting = look(world, robot);
+  world.sighted.push_back(robot);
+}
+
+}  // namespace
+
+void lookAhead(WorldState& world) {
+  const FleetState& f = world.fleet;
+  world.sighted.clear();
+  for (int i : world.scans_due) {
+    if (f.awake[i] && isOnGuard(f, i)) watch(world, i);
+  }
+  for (int i : world.stepped_singly) {
+    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) watch(world, i);
+  }
+}
+
+double alongSegment(const FleetState& f, int i) {
+  const MotionSegment& segment = f.tasks[i].segments.front();
+  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
+         std::sin(segment.yaw) * (f.y[i] - segment.y);
+}
+
+bool isFree(const WorldState& world, int robot, double x, double y) {
+  Footprint disc;
+  disc.kind = Footprint::Kind::kCircle;
+  disc.x = x;
+  disc.y = y;
+  disc.hx = cornerRadius(world.fleet.robots[robot]);
+  bool is_free = true;
+  world.obstacles.near(x, y, disc.hx, [&](const Footprint& other) {
+    if (!is_free || other.group == robot || gap(disc, other) > 0) return;
+    is_free = !stops(world, other.model, robot);
+  });
+  return is_free;
+}
+
+}  // namespace kiva

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/sensing/scans.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kiva {
+namespace {
+
+constexpr int kMostTogether = 16;
+
+double rayAngle(const LaserParameters& laser, int ray) {
+  const double span = laser.max_angle - laser.min_angle;
+  return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
+}
+
+/// How many robots with successive ids scan in the same step, where more than one has to: they
+/// mostly stand side by side and see the same, which then is in the processor's cache. A power of
+/// two, so that it seldom changes as robots come and go, and with it when a robot scans.
+int scanTogether(int robots, std::uint64_t period) {
+  int together = 1;
+  while (together < kMostTogether && 2 * together * period <= static_cast<std::uint64_t>(robots)) {
+    together *= 2;
+  }
+  return together;
+}
+
+/// Rebuilds the rounds after robots have come or gone.
+void arrangeScans(WorldState& world) {
+  world.scan_rounds.clear();
+  world.scan_rounds_revision = world.models_revision;
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    const Robot& robot = world.fleet.robots[i];
+    if (!robot.laser.fitted) continue;
+    const std::uint64_t period = scanPeriod(world, robot);
+    auto round = std::find_if(world.scan_rounds.begin(), world.scan_rounds.end(),
+                              [&](const ScanRound& r) { return r.period == period; });
+    if (round == world.scan_rounds.end()) {
+      round = world.scan_rounds.insert(round, {period, {}});
+      round->robots_at.resize(period);
+    }
+    // Weyl's sequence by the golden ratio spreads any set of ids evenly.
+    const int group = robot.id / scanTogether(world.fleet.size(), period);
+    const double spread = std::fmod(group * 0.6180339887498949, 1.0);
+    const auto offset = static_cast<std::uint64_t>(spread * static_cast<double>(period));
+    round->robots_at[(period - offset) % period].push_back(i);
+  }
+}
+
+}  // namespace
+
+std::uint64_t scanPeriod(const WorldState& world, const Robot& robot) {
+  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * world.dt)));
+}
+
+void findDueScans(WorldState& world) {
+  if (world.scan_rounds_revision != world.models_revision) arrangeScans(world);
+  world.scans_due.clear();
+  for (const ScanRound& round : world.scan_rounds) {
+    const std::vector<int>& due = round.robots_at[world.total_steps % round.period];
+    world.scans_due.insert(world.scans_due.end(), due.begin(), due.end());
+  }
+  if (world.scan_rounds.size() > 1) std::sort(world.scans_due.begin(), world.scans_due.end());
+}
+
+void setRays(WorldState& world, Robot* robot) {
+  const LaserParameters& laser = robot->laser;
+  const auto same = [&](const RayFan& fan) {
+    return fan.rays == laser.rays && fan.min_angle == laser.min_angle &&
+           fan.max_angle == laser.max_angle;
+  };
+  const auto at = std::find_if(world.ray_fans.begin(), world.ray_fans.end(), same);
+  robot->ray_fan = static_cast<int>(at - world.ray_fans.begin());
+  if (at != world.ray_fans.end()) return;
+  RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}};
+  for (int ray = 0; ray < laser.rays; ++ray) {
+    fan.c.push_back(std::cos(rayAngle(laser, ray)));
+    fan.s.push_back(std::sin(rayAngle(laser, ray)));
+  }
+  world.ray_fans.push_back(std::move(fan));
+}
+
+Sensor sensorOf(const WorldState& world, int robot) {
+  const FleetState& f = world.fleet;
+  const LaserParameters& laser = f.robots[robot].laser;
+  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.z + laser.z, c, s};
+}
+
+void castScan(const WorldState& world, int robot, std::vector<RayHit>* hits) {
+  const double range = world.fleet.robots[robot].laser.max_range;
+  castRays(
+      world, robot, [range](int) { return range; }, hits);
+}
+
+}  // namespace kiva

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/state/fleet_plugin.h"
+
+namespace kiva {
+
+const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename) {
+  for (const auto& plugin : world.fleet_plugins) {
+    if (filename == plugin->filename()) return plugin.get();
+  }
+  return nullptr;
+}
+
+}  // namespace kiva

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The plugins that come with the world. A user's plugin is an object a model; these serve the
+// whole fleet with one object each, so that a step is a loop over arrays.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+class FleetPlugin {
+ public:
+  virtual ~FleetPlugin() = default;
+  /// The file name by which an SDF asks for it.
+  virtual const char* filename() const = 0;
+  /// Reads one robot's parameters, before the robot joins the fleet. Throws DescriptionError.
+  virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
+  /// Decides upon what was seen in the last step, before robots take new commands.
+  virtual void react(WorldState& /*world*/) const {}
+  /// Says what motors and towers are to do in this step.
+  virtual void control(WorldState& /*world*/) const {}
+};
+
+/// The plugin with that file name, or null.
+const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename);
+
+/// The file name by which a world asks for its grid.
+constexpr char kGridPlugin[] = "libkiva_grid.so";
+
+}  // namespace kiva

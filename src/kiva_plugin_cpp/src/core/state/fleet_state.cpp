@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/state/fleet_state.h"
+
+#include <utility>
+
+namespace kiva {
+namespace {
+
+/// Calls visit(array) for every array that the world keeps beside the public ones.
+template <typename Visit>
+void forEachArray(FleetState& f, Visit visit) {
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    visit(f.wheel_target[wheel]);
+    visit(f.per_wheel[wheel]);
+  }
+  for (auto* array : {&f.reference, &f.reference_speed, &f.goal, &f.deceleration, &f.per_x,
+                      &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until}) {
+    visit(*array);
+  }
+  visit(f.cruising);
+  visit(f.awake);
+  visit(f.activated);
+  visit(f.tasks);
+}
+
+}  // namespace
+
+int FleetState::add(Robot robot, double x, double y, double yaw) {
+  forEachArray(*this, [](auto& array) { array.emplace_back(); });
+  return Fleet::add(std::move(robot), x, y, yaw);
+}
+
+void FleetState::remove(int i) {
+  forEachArray(*this, [i](auto& array) {
+    array[i] = std::move(array.back());
+    array.pop_back();
+  });
+  Fleet::remove(i);
+}
+
+void moved(FleetState& f, int i) {
+  f.awake[i] = 1;
+  f.clear_until[i] = 0;
+  if (f.cruising[i] == 0) return;
+  f.cruising[i] = 0;
+  for (int wheel = 0; wheel < 2; ++wheel) f.wheel_target[wheel][i] = f.wheel_speed[wheel][i];
+}
+
+}  // namespace kiva

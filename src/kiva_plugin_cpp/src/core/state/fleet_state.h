@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The fleet as the world itself sees it: beside what clients see, what each robot is at, the
+// reference that its drive follows, and until when its way is known to be free.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "core/state/profile.h"
+#include "kiva_plugin_cpp/fleet.h"
+
+namespace kiva {
+
+/// One thing a robot does at a time; a command is a row of them.
+struct MotionSegment {
+  enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
+  Kind kind = Kind::kTurn;
+  double x = 0;                    ///< Drive: where it ends, in world [m].
+  double y = 0;                    ///< Drive [m].
+  double yaw = 0;                  ///< Turn, drive: heading in world, unwrapped [rad].
+  bool reverse = false;            ///< Drive: backwards, against the heading.
+  bool on_grid = true;             ///< Drive: along a grid line.
+  int unit = -1;                   ///< Raise, lower: index of the storage unit.
+  State state = State::kRotating;  ///< What the robot reports meanwhile.
+};
+
+/// What a robot is at, and what ends it.
+enum class Phase : std::uint8_t {
+  kIdle,       ///< Without a command. Ends with the next one.
+  kStarting,   ///< The next control step begins the first segment.
+  kTurning,    ///< Ends at the segment's heading.
+  kDriving,    ///< Ends at the segment's goal.
+  kLifting,    ///< The tower raises or lowers the unit. Ends when it has.
+  kBraking,    ///< Drives on to a stop before an obstacle. Ends standing: BLOCKED.
+  kHalting,    ///< With locked wheels. Ends standing: BLOCKED.
+  kAbandoning  ///< Gives up a lift: the tower comes down. Ends with it down: BLOCKED.
+};
+
+/// What a robot's laser saw ahead at one scan on a drive.
+struct Sighting {
+  bool taken = false;   ///< False: nothing has been looked for on this segment yet.
+  double distance = 0;  ///< From the robot's centre along its heading [m]; +inf = free.
+  int model = -1;       ///< What it is: index in the world's models.
+  bool faces = false;   ///< A face across the way: it can be measured again.
+  double along = 0;     ///< Where on the segment the robot was [m].
+};
+
+/// What one robot is asked for, and what has become of it.
+struct Task {
+  Phase phase = Phase::kIdle;
+  std::uint32_t command = 0;           ///< The number of the last command; 0 = none yet.
+  std::string goal;                    ///< What it asked for, for a person.
+  std::deque<MotionSegment> segments;  ///< Of the command, the first under way.
+  double overdue = 0;                  ///< Since its reference ended without it being there [s].
+  Sighting sighting, last_sighting;    ///< The newest, and the one before.
+  std::string blocked_by;              ///< A model's name, or empty.
+  std::string blocked_reason;          ///< Why, for a person.
+  int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
+
+  bool drives() const { return phase == Phase::kDriving || phase == Phase::kBraking; }
+  /// Its command is to end in BLOCKED.
+  bool isStopping() const { return phase >= Phase::kBraking; }
+  const MotionSegment* segment() const { return segments.empty() ? nullptr : &segments.front(); }
+};
+
+struct FleetState : Fleet {
+  std::vector<Task> tasks;
+  Column<double> wheel_target[2];  ///< Left, right: what the motors are asked for [rad/s].
+  Column<std::uint8_t> awake;      ///< 0 = at rest without a command: costs nothing.
+  Column<std::uint8_t> activated;  ///< 1 = stepped by Bullet, since something is near.
+
+  // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
+  Column<double> reference, reference_speed;
+  Column<double> goal;          ///< Where it is to end.
+  Column<double> deceleration;  ///< With which it is to end.
+
+  /// Step up to which nothing can come near the robot, as long as it moves as it does. As a number
+  /// that is compared with others several at a time.
+  Column<double> clear_until;
+
+  // Of robots that follow their references exactly, see core/motion/cruise.h.
+  Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
+  Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis,
+  Column<double> per_wheel[2];             ///< and its wheels.
+  Column<double> top_speed, acceleration;  ///< Of the reference.
+
+  Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
+  void setProfile(int i, const Profile& profile) {
+    reference[i] = profile.position;
+    reference_speed[i] = profile.speed;
+  }
+
+  /// Appends a robot at rest and returns its index.
+  int add(Robot robot, double x, double y, double yaw);
+  /// Removes robot `i`; the last one takes its index.
+  void remove(int i);
+};
+
+/// Robot `i` moves otherwise than was foreseen from now on, by a command, a push or another load:
+/// it is awake, no longer cruises, and looks around before it goes on. Whoever changes how a robot
+/// moves calls this, and nothing else follows.
+void moved(FleetState& fleet, int i);
+
+}  // namespace kiva

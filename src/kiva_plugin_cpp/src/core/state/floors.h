@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What of the static models wheels can drive on. Worlds have their floor as a plane, as a box, or
+// as a part of the mesh of a whole building, and not always with its top at zero.
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// What is smaller than that on a plane is a thing that lies there [m2].
+constexpr double kRoom = 9;
+
+/// Level surfaces whose heights differ by less are one [m].
+constexpr double kSameHeight = 0.005;
+
+/// How much higher than the floor something may rise for wheels to get over it [m].
+constexpr double kStep = 0.03;
+
+/// Whether a static model is floor and nothing else: a plane, or what is flat and near the ground.
+bool isFloor(const ModelInstance& instance);
+
+/// The level surfaces of a static model that may be floor.
+std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, const Pose& pose);
+
+/// A static model's bodies: what lies at the floor is in a group that robots don't touch.
+ModelBodies buildStatic(const WorldState& world, const Model& model);
+
+/// Whether what rises to `top` in world [m] is low enough to drive over.
+inline bool isLow(const Floor& floor, double top) { return top <= floor.z + kStep + 1e-9; }
+
+/// Puts a storage unit that would stand in the floor on it.
+void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model);
+
+/// Whether the square around (x, y) with edges of twice `half` [m] lies on surfaces of the floor.
+class FloorCover {
+ public:
+  explicit FloorCover(const WorldState& world);
+  bool covers(double x, double y, double half) const;
+
+ private:
+  struct Piece {
+    std::array<Vector3, 4> corners;  // of a convex outline, counterclockwise; the last may be twice
+    double min_x, max_x, min_y, max_y;
+  };
+  bool covers(double x, double y) const;
+  static bool isInside(const Piece& piece, double x, double y);
+  std::vector<Piece> pieces_;
+  std::vector<std::vector<int>> rows_;  // indices of pieces, by metre of y
+  int first_row_ = 0;
+};
+
+}  // namespace kiva

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/state/footprints.h"
+
+#include <algorithm>
+
+#include "core/geometry/triangle_footprint.h"
+#include "core/state/floors.h"
+#include "core/state/poses.h"
+
+namespace kiva {
+namespace {
+
+/// What belongs to the floor, in the mesh of a building say, is in nobody's way.
+void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) {
+  const Mesh& mesh = *geometry.shape.mesh;
+  const Pose pose =
+      model.pose * model.description->links[geometry.link].pose_in_model * geometry.pose_in_link;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    geometry.triangle = static_cast<int>(i);
+    geometry.corners = std::make_shared<Triangle>(cornersOf(mesh, geometry.triangle, pose));
+    const Footprint flat = makeFootprint(*geometry.corners);
+    if (!isLow(floor, flat.z_max)) model.geometries.push_back(geometry);
+  }
+}
+
+/// In world [m].
+double topOf(const Model& model, const CollisionGeometry& geometry) {
+  const Pose link = model.pose * model.description->links[geometry.link].pose_in_model;
+  return bounds(geometry.shape, link * geometry.pose_in_link).max.Z();
+}
+
+/// The footprints of one model, of `group`, in the frame whose inverse is given.
+void appendFootprints(const WorldState& world, const Model& model, const Pose& to_frame, int group,
+                      std::vector<Footprint>* out) {
+  for (const CollisionGeometry& geometry : model.geometries) {
+    const Pose link =
+        geometry.link < 0 ? basePose(world, model.index) : linkPose(world, model, geometry.link);
+    const Pose pose = to_frame * link * geometry.pose_in_link;
+    Footprint footprint;
+    if (geometry.triangle >= 0) {
+      *geometry.corners = cornersOf(*geometry.shape.mesh, geometry.triangle, pose);
+      footprint = makeFootprint(*geometry.corners);
+    } else {
+      footprint = makeFootprint(geometry.shape, pose);
+    }
+    footprint.model = model.slot;
+    footprint.group = group;
+    if (footprint.kind == Footprint::Kind::kOther && model.in_physics) {
+      footprint.body = model.bodies.links[std::max(0, geometry.link)].body.get();
+    }
+    out->push_back(footprint);
+  }
+}
+
+/// A robot and its load move as one.
+void updateMover(WorldState& world, int robot) {
+  const Pose to_robot = Pose(0, 0, world.floor.z, 0, 0, 0) * basePose(world, robot).Inverse();
+  std::vector<Footprint> local;
+  appendFootprints(world, world.modelOf(robot), to_robot, robot, &local);
+  const int unit = world.fleet.unit[robot];
+  if (unit >= 0) {
+    appendFootprints(world, *world.models[world.units[unit].model], to_robot, robot, &local);
+  }
+  world.obstacles.setMover(robot, std::move(local));
+}
+
+void updateStanding(WorldState& world, Model& model) {
+  std::vector<Footprint> footprints;
+  appendFootprints(world, model, Pose::Zero, model.owner->group(model), &footprints);
+  for (std::size_t k = 0; k < footprints.size(); ++k) {
+    int& handle = model.geometries[k].handle;
+    if (handle < 0) {
+      handle = world.obstacles.add(footprints[k]);
+    } else {
+      world.obstacles.update(handle, footprints[k]);
+    }
+  }
+}
+
+}  // namespace
+
+void refitGeometry(WorldState& world, Model& model) {
+  hideFootprints(world, model);
+  model.geometries.clear();
+  addCollisionGeometry(world, model);
+  moved(world, model);
+}
+
+void addCollisionGeometry(const WorldState& world, Model& model) {
+  const auto& links = model.description->links;
+  if (model.isStatic()) model.level_surfaces = levelSurfaces(*model.description, model.pose);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    for (const Collision& collision : links[i].collisions) {
+      if (collision.shape.kind == Shape::Kind::kPlane) continue;
+      const CollisionGeometry geometry{static_cast<int>(i), collision.pose_in_link,
+                                       collision.shape};
+      if (collision.shape.kind == Shape::Kind::kMesh && model.isStatic()) {
+        addTriangles(world.floor, model, geometry);
+      } else if (!model.isStatic() || !isLow(world.floor, topOf(model, geometry))) {
+        model.geometries.push_back(geometry);
+      }
+    }
+  }
+}
+
+void moved(WorldState& world, Model& model) {
+  const int mover = model.owner->robot(world, model);
+  if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0)) world.unitsMoved();
+  if (mover < 0) return updateStanding(world, model);
+  hideFootprints(world, model);  // of a unit that was taken up
+  updateMover(world, mover);
+}
+
+void followRobot(WorldState& world, int robot) {
+  const FleetState& f = world.fleet;
+  const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
+  const bool loaded = f.unit[robot] >= 0;
+  if (!still) world.obstacles.follow(robot);
+  if (loaded && f.state[robot] == State::kLifting) {
+    moved(world, world.modelOf(robot));
+  } else if (loaded && !still) {
+    world.unitsMoved();
+  }
+}
+
+void hideFootprints(WorldState& world, Model& model) {
+  for (CollisionGeometry& geometry : model.geometries) {
+    if (geometry.handle >= 0) world.obstacles.remove(geometry.handle);
+    geometry.handle = -1;
+  }
+}
+
+void alarm(WorldState& world) {
+  std::fill(world.fleet.clear_until.begin(), world.fleet.clear_until.end(), 0);
+}
+
+}  // namespace kiva

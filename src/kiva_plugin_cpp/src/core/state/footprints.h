@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models among the obstacles: what their collision shapes cover of the floor, and how that follows
+// where they are.
+#pragma once
+
+#include "core/geometry/footprint.h"
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Gives a model the geometry of its collision shapes, without footprints so far.
+void addCollisionGeometry(const WorldState& world, Model& model);
+/// The same for a static model that has them already, once it or the floor is elsewhere.
+void refitGeometry(WorldState& world, Model& model);
+/// A model, or a robot's load, is somewhere else or shaped otherwise: its footprints follow, and
+/// whoever asks World::unitsRevision hears of units and items that moved. Whoever moves a model
+/// calls this, and nothing else follows.
+void moved(WorldState& world, Model& model);
+/// The same for a robot that drove by itself in this step.
+void followRobot(WorldState& world, int robot);
+/// Takes the footprints away; the model keeps its geometry.
+void hideFootprints(WorldState& world, Model& model);
+/// Something came or was moved from outside: robots look around before they go on.
+void alarm(WorldState& world);
+
+/// Calls visit(footprint) for each of the model's footprints in world.
+template <typename Visit>
+void forFootprints(const WorldState& world, int slot, Visit visit) {
+  const Model& model = *world.models[slot];
+  const int mover = model.owner->robot(world, model);
+  if (mover < 0) {
+    for (const CollisionGeometry& g : model.geometries) visit(world.obstacles[g.handle]);
+    return;
+  }
+  for (const Footprint& footprint : world.obstacles.footprints(mover)) {
+    if (footprint.model == slot) visit(footprint);
+  }
+}
+
+/// Whether they span a height in common.
+inline bool shareHeight(const Footprint& a, const Footprint& b) {
+  return a.z_min <= b.z_max && b.z_min <= a.z_max;
+}
+
+/// Half the length and width of a robot with its load, along its axes [m].
+inline double halfLength(const Robot& r) { return std::max(r.half_length, r.load_half_length); }
+inline double halfWidth(const Robot& r) { return std::max(r.half_width, r.load_half_width); }
+/// From its centre to the farthest corner of both [m].
+inline double cornerRadius(const Robot& r) { return std::hypot(halfLength(r), halfWidth(r)); }
+
+}  // namespace kiva

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/state/unit_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/footprint.h"
+#include "core/state/poses.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kAboveFloor = 0.05;  // [m]: what is lower is a leg's foot, not an underside
+constexpr double kOnFloor = 0.005;    // [m]
+constexpr double kUpright = 0.9999;   // cosine of a tilt of 0.8°
+
+}  // namespace
+
+double underside(const WorldState& world, int unit) {
+  const Model& model = *world.models[world.units[unit].model];
+  double lowest = 1e9;
+  for (const Link& link : model.description->links) {
+    for (const Collision& c : link.collisions) {
+      const Bounds box = bounds(c.shape, link.pose_in_model * c.pose_in_link);
+      const bool over_centre = box.min.X() <= 0 && box.max.X() >= 0 && box.min.Y() <= 0 &&
+                               box.max.Y() >= 0 && box.min.Z() > kAboveFloor;
+      if (over_centre) lowest = std::min(lowest, box.min.Z());
+    }
+  }
+  return lowest;
+}
+
+bool standsUpright(const WorldState& world, int unit) {
+  const Pose pose = unitPose(world, unit);
+  return std::abs(pose.Z() - world.floor.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
+}
+
+int unitAt(const WorldState& world, const Vector3& point) {
+  int found = -1;
+  Footprint here;
+  here.kind = Footprint::Kind::kCircle;
+  here.x = point.X();
+  here.y = point.Y();
+  world.obstacles.near(point.X(), point.Y(), 0.0, [&](const Footprint& f) {
+    const Model& model = *world.models[f.model];
+    if (found >= 0 || !model.owner->holdsItems()) return;
+    if (gap(f, here) <= 0 && point.Z() <= f.z_max && point.Z() >= f.z_min) found = model.index;
+  });
+  return found;
+}
+
+double towerGap(const WorldState& world, int robot, int unit) {
+  return underside(world, unit) - world.fleet.robots[robot].height;
+}
+
+double unitDistance(const WorldState& world, int robot, int unit) {
+  const Pose pose = unitPose(world, unit);
+  return std::hypot(pose.X() - world.fleet.x[robot], pose.Y() - world.fleet.y[robot]);
+}
+
+}  // namespace kiva

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/state/world_state.h"
+
+namespace kiva {
+namespace {
+
+int shelfId(const WorldState& world, int robot) {
+  const int unit = world.fleet.unit[robot];
+  return unit < 0 ? 0 : world.units[unit].id;
+}
+
+}  // namespace
+
+WorldState::WorldState(const WorldDescription& description, const WorldOptions& world_options)
+    : name(description.name),
+      gravity(description.gravity),
+      options(world_options),
+      dt(description.step_size),
+      physics(description.gravity) {}
+
+WorldState::~WorldState() {
+  for (auto& model : models) {
+    if (model && model->in_physics) physics.remove(model->bodies);
+  }
+}
+
+void WorldState::report(Event::Kind kind, const std::string& model, const std::string& other,
+                        const std::string& text, const Impact& impact) {
+  events.push_back({time(), kind, model, other, text, 0, impact});
+}
+
+void WorldState::reportCommand(Event::Kind kind, int robot, const std::string& other,
+                               const std::string& text) {
+  events.push_back(
+      {time(), kind, fleet.robots[robot].name, other, text, fleet.tasks[robot].command, {}});
+}
+
+void WorldState::warn(const std::string& subject, const std::string& text) {
+  if (warned.insert(subject).second) warnings.push_back(text);
+}
+
+void WorldState::setStatus(int robot, Status status, State state) {
+  Task& task = fleet.tasks[robot];
+  const int shelf = shelfId(*this, robot);
+  if (fleet.status[robot] == status && fleet.state[robot] == state &&
+      task.reported_shelf == shelf) {
+    return;
+  }
+  fleet.status[robot] = status;
+  fleet.state[robot] = state;
+  task.reported_shelf = shelf;
+  status_changes.push_back({time(), fleet.robots[robot].id, status, state, shelf, fleet.x[robot],
+                            fleet.y[robot], fleet.yaw[robot]});
+}
+
+}  // namespace kiva

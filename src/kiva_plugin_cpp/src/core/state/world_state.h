@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The state of a world in one place. The rooms above this one are functions over it, in the order
+// in which World::step calls them; none includes one that stands behind it here:
+//   motion      wheels on the floor, references that are followed, until when a way is free
+//   contact     who is stepped by Bullet and who in arrays, collisions, forces from outside
+//   models      what comes and goes: robots, storage units, items, all else
+//   sensing     scans, and what lies ahead
+//   control     what robots are asked for, and what becomes of it
+//   checkpoint  all of it as bytes, and back
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/geometry/obstacles.h"
+#include "core/physics/physics.h"
+#include "core/state/fleet_state.h"
+#include "core/state/model.h"
+#include "kiva_plugin_cpp/world.h"
+
+namespace kiva {
+
+class FleetPlugin;
+
+/// Two models in contact.
+struct TouchingPair {
+  int model_a = -1, model_b = -1;
+  std::uint64_t last_step = 0;
+  Impact impact;                  ///< So far, its normal from b to a.
+  std::uint64_t tell_at = 0;      ///< The step at which it is told, if it is over; 0 = it has been.
+  std::uint64_t tell_latest = 0;  ///< The step at which it is told, over or not.
+};
+
+/// A collision that was seen, and stops that robot.
+struct Crash {
+  int kiva_id = 0;
+  std::string with;  ///< A model's name.
+};
+
+/// Directions of a laser's rays in the frame of its robot, as (cos, sin).
+struct RayFan {
+  int rays = 0;
+  double min_angle = 0, max_angle = 0;  // [rad]
+  std::vector<double> c, s;
+};
+
+/// Robots whose scans have the same period, by the step within it.
+struct ScanRound {
+  std::uint64_t period = 0;  // steps
+  std::vector<std::vector<int>> robots_at;
+};
+
+struct WorldState {
+  explicit WorldState(const WorldDescription& description, const WorldOptions& options);
+  ~WorldState();
+
+  World* owner = nullptr;
+  std::string name;
+  Vector3 gravity;
+  WorldOptions options;
+  double dt = 0.001;              // [s]
+  double dt_since_time = 0;       // [s]: when the present step size began,
+  std::uint64_t dt_since = 0;     // and after how many steps
+  double grid_spacing = 1;        // [m]
+  std::uint64_t steps = 0;        // since the last reset of time
+  std::uint64_t total_steps = 0;  // ever; what schedules count by
+
+  Physics physics;
+  FleetState fleet;
+  Obstacles obstacles{fleet};
+  std::vector<StorageUnit> units;
+  std::vector<Item> items;
+  std::unordered_map<int, int> unit_of_id;
+
+  std::vector<std::unique_ptr<Model>> models;  // by slot; null where one was removed
+  std::vector<int> free_slots;
+  std::unordered_map<std::string, int> slot_of_name;
+  std::uint64_t next_serial = 0;
+  std::uint64_t models_revision = 0;
+  std::uint64_t units_revision = 0;
+  std::vector<int> bodies;               // slots of models with bodies of their own that can move
+  std::vector<int> models_with_plugins;  // slots
+  std::vector<int> activated;            // slots of robots and units that are in Bullet now
+  std::vector<RayFan> ray_fans;
+  std::vector<ScanRound> scan_rounds;
+  std::uint64_t scan_rounds_revision = ~0ull;  // of the models that scan_rounds were made for
+  std::vector<int> scans_due;                  // robots whose scan is due at this step
+  std::vector<int> stepped_singly;             // robots that are stepped one by one
+  double top_speed = 0;                        // [m/s] of the fastest robot there was
+  // Of robots without a load, by description; owned by those robots.
+  std::unordered_map<const ModelDescription*, std::weak_ptr<const JointedBody>> bare_jointed;
+  Floor floor;
+  double floor_friction = 1;  // Coulomb coefficient of the floor's surface
+
+  std::vector<std::shared_ptr<const FleetPlugin>> fleet_plugins;
+  std::vector<std::shared_ptr<Plugin>> world_plugins;
+  std::vector<PluginDescription> world_plugin_descriptions;  // of those
+
+  std::deque<Command> commands;
+  std::vector<Event> events;
+  std::vector<StatusChange> status_changes;
+  std::vector<TouchingPair> touching;
+  std::vector<Contact> contacts;   // scratch
+  std::vector<int> sighted;        // robots whose lasers looked ahead in the last step
+  std::vector<Crash> crashes;      // of the last step
+  std::uint32_t last_command = 0;  // the number of the command that was answered last
+  ExternalInputs external_inputs;
+  std::vector<std::string> warnings;
+  std::set<std::string> warned;
+
+  /// A storage unit, or an item that lies on none, is somewhere else or changed hands.
+  void unitsMoved() { ++units_revision; }
+  /// Steps that last at least so long [s].
+  std::uint64_t stepsIn(double seconds) const {
+    return static_cast<std::uint64_t>(std::ceil(seconds / dt));
+  }
+  double time() const { return dt_since_time + static_cast<double>(steps - dt_since) * dt; }
+  double gravityDown() const { return -gravity.Z(); }
+  Model& modelOf(int robot) { return *models[fleet.robots[robot].model]; }
+  const Model& modelOf(int robot) const { return *models[fleet.robots[robot].model]; }
+  Model* find(const std::string& model) const {
+    const auto at = slot_of_name.find(model);
+    return at == slot_of_name.end() ? nullptr : models[at->second].get();
+  }
+
+  void report(Event::Kind kind, const std::string& model, const std::string& other,
+              const std::string& text, const Impact& impact = {});
+  /// The same of what became of a robot's command.
+  void reportCommand(Event::Kind kind, int robot, const std::string& other,
+                     const std::string& text);
+  /// Tells what was left out, once for each `subject`.
+  void warn(const std::string& subject, const std::string& text);
+  /// Sets what the robot reports, and records it if it is new.
+  void setStatus(int robot, Status status, State state);
+};
+
+/// The door for tests that look at what clients don't see.
+WorldState& insideOf(World& world);
+const WorldState& insideOf(const World& world);
+
+}  // namespace kiva

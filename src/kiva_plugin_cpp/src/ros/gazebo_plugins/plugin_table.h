@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+
+#include "kiva_plugin_cpp/world.h"
+#include "plugin_inputs.h"
+#include "ros/transport/publish_queue.h"
+
+namespace kiva_ros {
+
+/// Stand-ins for the plugins of gazebo_ros, by their file names; the arguments must outlive what it
+/// makes.
+kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_queue,
+                                PluginInputs& inputs);
+
+}  // namespace kiva_ros

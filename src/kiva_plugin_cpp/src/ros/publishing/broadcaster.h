@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gazebo_msgs/LinkStates.h>
+#include <gazebo_msgs/ModelStates.h>
+#include <ros/ros.h>
+
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "robot_topics.h"
+#include "robot_transforms.h"
+#include "ros/transport/poll_thread.h"
+#include "ros/transport/subscriber_counts.h"
+#include "snapshot_queue.h"
+
+namespace kiva_ros {
+
+/// The one thread that publishes what the step thread saw: serialisation and sockets are the
+/// second core's.
+class Broadcaster {
+ public:
+  /// `node`: the node's private names.
+  Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, SubscriberCounts& subscribers,
+              SnapshotQueue& snapshots);
+  ~Broadcaster() { stop(); }
+  /// Publishes what is still on its way, and nothing after it.
+  void stop();
+
+ private:
+  void run();
+  void publish(const Snapshot& snapshot);
+  void publishEvent(const kiva::Event& event);
+  void publishModels(const ModelStates& models);
+  void publishLinks(const ModelStates& links);
+
+  SnapshotQueue& snapshots_;
+  RobotTopics robots_;
+  RobotTransforms transforms_;
+  PollThread poll_thread_;
+  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_, hash_;
+  ros::Publisher model_states_, gazebo_model_states_, link_states_;
+  // Kept, since their names seldom change.
+  std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.
+  gazebo_msgs::ModelStates models_;
+  gazebo_msgs::LinkStates links_;
+  std::thread thread_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reporter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "ros/messages/convert.h"
+#include "ros/messages/step_rate.h"
+#include "warehouse_messages.h"
+
+namespace kiva_ros {
+namespace {
+
+constexpr double kFleetRate = 10;   // [Hz]
+constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
+// Simulated time may fly; a client that gets a thousand clocks a second does little else.
+constexpr auto kClockGap = std::chrono::milliseconds(4);
+constexpr double kStatusRate = 10;  // [Hz], while somebody subscribes
+constexpr double kHashRate = 1;     // [Hz]
+constexpr auto kObjectsInterval = std::chrono::milliseconds(100);
+constexpr auto kLatchedStatusInterval = std::chrono::milliseconds(400);
+
+kiva::Pose poseOfLink(const kiva::ModelDescription& model, const char* link) {
+  const kiva::Link* found = model.findLink(link);
+  return found ? found->pose_in_model : kiva::Pose();
+}
+
+RobotInfos robotInfos(const kiva::World& world) {
+  RobotInfos out;
+  for (const kiva::Robot& robot : world.fleet().robots) {
+    const auto model = world.description(robot.name);
+    out.push_back({robot.id, robot.laser, poseOfLink(*model, "left_wheel"),
+                   poseOfLink(*model, "right_wheel"), poseOfLink(*model, "tower")});
+  }
+  return out;
+}
+
+RobotPose poseOf(const kiva::World& world, int i) {
+  const kiva::Fleet& f = world.fleet();
+  RobotPose out;
+  out.kiva_id = f.robots[i].id;
+  out.base = world.basePose(i);
+  out.twist.linear = out.base.Rot().RotateVectorReverse({f.vx[i], f.vy[i], 0});
+  out.twist.angular = {0, 0, f.yaw_rate[i]};
+  for (int wheel = 0; wheel < 2; ++wheel) out.wheel_angle[wheel] = f.wheel_angle[wheel][i];
+  out.tower = f.tower[i];
+  return out;
+}
+
+}  // namespace
+
+Reporter::Reporter(const kiva::World& world, const Rates& rates, double rtf,
+                   SubscriberCounts& subscribers, PublishQueue& publish_queue,
+                   SnapshotQueue& snapshots)
+    : rates_(rates),
+      subscribers_(subscribers),
+      publish_queue_(publish_queue),
+      snapshots_(snapshots) {
+  retime(world.stepSize(), rtf);
+}
+
+void Reporter::retime(double step_size, double rtf) {
+  clock_gap_ = rtf == 0 ? kClockGap : WallClock::duration(0);
+  clock_every_ = stepsPer(rates_.clock, step_size);
+  models_every_ = stepsPer(rates_.model_states, step_size);
+  fleet_every_ = stepsPer(kFleetRate, step_size);
+  robots_every_ = stepsPer(kRobotsRate, step_size);
+  heartbeat_every_ = stepsPer(kStatusRate * kHeartbeatSlots, step_size);
+  hash_every_ = stepsPer(kHashRate, step_size);
+}
+
+void Reporter::afterStep(kiva::World& world, bool reliable) {
+  Snapshot out;
+  out.time = world.time();
+  addNews(world, &out);
+  addPeriodic(world, reliable, &out);
+  addObjects(world, &out);
+  out.publications = publish_queue_.take();
+  last_steps_ = world.steps();
+  send(std::move(out), reliable);
+}
+
+void Reporter::refused(const kiva::World& world, const kiva::Command& command,
+                       const std::string& text) {
+  const std::string robot = "kiva" + std::to_string(command.kiva_id);
+  extra_events_.push_back({world.time(), kiva::Event::Kind::kRefused, robot, "", text});
+}
+
+void Reporter::restored(const kiva::World& world, const std::vector<std::string>& before) {
+  using Kind = kiva::Event::Kind;
+  const std::vector<std::string> now = world.modelNames();
+  const std::set<std::string> old_names(before.begin(), before.end());
+  const std::set<std::string> new_names(now.begin(), now.end());
+  const auto tell = [&](Kind kind, const std::string& name) {
+    extra_events_.push_back({world.time(), kind, name, "", "by going back to a checkpoint"});
+  };
+  for (const std::string& name : before) {
+    if (!new_names.count(name)) tell(Kind::kDeleted, name);
+  }
+  for (const std::string& name : now) {
+    if (!old_names.count(name)) tell(Kind::kSpawned, name);
+  }
+  last_steps_ = clock_sent_steps_ = kNever;  // whatever the time was and is, it jumped
+}
+
+void Reporter::whenPublished(const kiva::World& world, std::function<void()> done) {
+  Snapshot out;
+  out.time = world.time();
+  addObjects(world, &out, true);
+  out.reliable_clock = world.steps() != clock_sent_steps_;
+  clock_sent_steps_ = world.steps();
+  out.published = std::move(done);
+  send(std::move(out));
+}
+
+void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
+  Snapshot out;
+  out.time = world.time();
+  addNews(world, &out);
+  updateSubscribedRobots();
+  // Where time stands still or jumped, nobody should have to wait for a step to learn of it.
+  const bool reset = world.steps() < last_steps_;
+  if ((paused || reset) && world.steps() != clock_sent_steps_) {
+    out.reliable_clock = true;
+    clock_sent_steps_ = world.steps();
+  }
+  if (moved && (paused || reset)) {
+    addStatuses(world, &out);
+    addFleet(world, &out);
+    addOdometry(world, &out);
+    if (reset) addTransforms(world, &out);  // a second one of the same time would be ignored
+  }
+  if (paused) addForNewcomers(world, &out);
+  addObjects(world, &out);
+  last_steps_ = world.steps();
+  send(std::move(out));
+}
+
+void Reporter::addForNewcomers(const kiva::World& world, Snapshot* out) {
+  if (subscribers_.takeNewSubscriber(SubscriberCounts::Topic::kFleet)) addFleet(world, out);
+  if (subscribers_.takeNewSubscriber(SubscriberCounts::Topic::kTransforms))
+    addTransforms(world, out);
+  if (subscribers_.takeNewSubscriber(SubscriberCounts::RobotTopic::kOdometry))
+    addOdometry(world, out);
+}
+
+void Reporter::send(Snapshot snapshot, bool reliable) {
+  if (snapshot.hasReliable() || snapshot.hasBestEffort())
+    snapshots_.push(std::move(snapshot), reliable);
+}
+
+void Reporter::addNews(kiva::World& world, Snapshot* out) {
+  for (const std::string& warning : world.takeWarnings()) ROS_WARN("%s", warning.c_str());
+  out->events = world.takeEvents();
+  out->statuses = world.takeStatusChanges();
+  out->events.insert(out->events.end(), extra_events_.begin(), extra_events_.end());
+  extra_events_.clear();
+  for (const kiva::Event& event : out->events) {
+    if (!isAboutRobot(world, event)) continue;
+    out->robots = robotInfos(world);
+    robots_.clear();
+    for (const kiva::Robot& robot : world.fleet().robots) robots_.insert(robot.name);
+    addStatuses(world, out);
+    return;
+  }
+}
+
+/// Whether a robot came or went.
+bool Reporter::isAboutRobot(const kiva::World& world, const kiva::Event& event) const {
+  if (event.kind == kiva::Event::Kind::kDeleted) return robots_.count(event.model) != 0;
+  return event.kind == kiva::Event::Kind::kSpawned &&
+         world.kind(event.model) == kiva::ModelKind::kRobot;
+}
+
+void Reporter::addStatuses(const kiva::World& world, Snapshot* out) const {
+  for (int i = 0; i < world.fleet().size(); ++i) out->statuses.push_back(statusOf(world, i));
+}
+
+void Reporter::addClock(const kiva::World& world, bool reliable, Snapshot* out) {
+  if (world.steps() % clock_every_ != 0) return;
+  if (clock_gap_.count() > 0) {
+    const auto now = WallClock::now();
+    if (now < clock_sent_ + clock_gap_) return;
+    clock_sent_ = now;
+  }
+  out->clock = true;
+  if (reliable) clock_sent_steps_ = world.steps();
+}
+
+/// Of robots with subscribers at kStatusRate; of every robot once a simulated second, or where
+/// that is often by the wall clock less often, to refresh what is latched.
+void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
+  const std::uint64_t beat = world.steps() / heartbeat_every_;
+  const int slot = static_cast<int>(beat % kHeartbeatSlots);
+  const bool second = beat / kHeartbeatSlots % static_cast<int>(kStatusRate) == 0;
+  const auto now = WallClock::now();
+  const bool all = second && now >= heartbeat_sent_[slot] + kLatchedStatusInterval;
+  if (all) heartbeat_sent_[slot] = now;
+  for (int i = 0; i < world.fleet().size(); ++i) {
+    const int id = world.fleet().robots[i].id;
+    if (id % kHeartbeatSlots != slot) continue;
+    if (all) {
+      out->statuses.push_back(statusOf(world, i));
+    } else if (std::binary_search(status_ids_.begin(), status_ids_.end(), id)) {
+      out->heartbeats.push_back(statusOf(world, i));
+    }
+  }
+}
+
+void Reporter::addPeriodic(const kiva::World& world, bool reliable, Snapshot* out) {
+  const std::uint64_t steps = world.steps();
+  updateSubscribedRobots();
+  addClock(world, reliable, out);
+  if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
+  if (steps % fleet_every_ == 0) addFleet(world, out);
+  if (steps % robots_every_ == 0) {
+    addOdometry(world, out);
+    addTransforms(world, out);
+  }
+  if (steps % models_every_ == 0) {
+    addModelStates(world, out);
+    addLinkStates(world, out);
+  }
+  if (!scan_ids_.empty()) addScans(world, out);
+  if (steps % hash_every_ == 0 &&
+      subscribers_.hasSubscribers(SubscriberCounts::Topic::kStateHash)) {
+    out->state_hash = hashText(world);
+  }
+}
+
+void Reporter::updateSubscribedRobots() {
+  const std::uint64_t revision = subscribers_.robotsRevision();
+  if (revision == subscribed_revision_) return;
+  subscribed_revision_ = revision;
+  status_ids_ = subscribers_.subscribedRobots(SubscriberCounts::RobotTopic::kStatus);
+  scan_ids_ = subscribers_.subscribedRobots(SubscriberCounts::RobotTopic::kScan);
+  odometry_ids_ = subscribers_.subscribedRobots(SubscriberCounts::RobotTopic::kOdometry);
+}
+
+void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
+  if (subscribers_.hasSubscribers(SubscriberCounts::Topic::kFleet)) out->fleet = fleetState(world);
+}
+
+void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
+  out->odometry.clear();
+  for (int id : odometry_ids_) {
+    if (const int i = world.fleet().find(id); i >= 0) out->odometry.push_back(poseOf(world, i));
+  }
+}
+
+void Reporter::addTransforms(const kiva::World& world, Snapshot* out) const {
+  if (!subscribers_.hasSubscribers(SubscriberCounts::Topic::kTransforms)) return;
+  out->transforms.clear();
+  for (int i = 0; i < world.fleet().size(); ++i) out->transforms.push_back(poseOf(world, i));
+}
+
+void Reporter::addScans(const kiva::World& world, Snapshot* out) const {
+  for (int i : world.scansDue()) {
+    const int id = world.fleet().robots[i].id;
+    if (!std::binary_search(scan_ids_.begin(), scan_ids_.end(), id)) continue;
+    out->scans.push_back({id, {}});
+    world.scan(i, &out->scans.back().ranges);
+  }
+}
+
+void Reporter::addModelStates(const kiva::World& world, Snapshot* out) {
+  if (!subscribers_.hasSubscribers(SubscriberCounts::Topic::kModelStates)) return;
+  if (names_revision_ != world.modelsRevision()) {
+    names_ = std::make_shared<const std::vector<std::string>>(world.modelNames());
+    names_revision_ = world.modelsRevision();
+  }
+  out->models.emplace();
+  out->models->names = names_;
+  world.states(&out->models->states);
+}
+
+void Reporter::addLinkStates(const kiva::World& world, Snapshot* out) {
+  if (!subscribers_.hasSubscribers(SubscriberCounts::Topic::kLinkStates)) return;
+  std::vector<std::string> names;
+  out->links.emplace();
+  world.linkStates(&names, &out->links->states);
+  if (link_names_revision_ != world.modelsRevision()) {
+    link_names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+    link_names_revision_ = world.modelsRevision();
+  }
+  out->links->names = link_names_;
+}
+
+void Reporter::addObjects(const kiva::World& world, Snapshot* out, bool at_once) {
+  const bool models = world.modelsRevision() != objects_revision_;
+  next_due_ = WallClock::time_point::max();
+  if (!models && world.unitsRevision() == units_revision_) return;
+  const auto now = WallClock::now();
+  if (!at_once && now < objects_sent_ + kObjectsInterval) {
+    next_due_ = objects_sent_ + kObjectsInterval;
+    return;
+  }
+  // Together, since the second is read by the order of the first.
+  if (models) out->objects = warehouseObjects(world);
+  out->units = unitStates(world);
+  objects_revision_ = world.modelsRevision();
+  units_revision_ = world.unitsRevision();
+  objects_sent_ = now;
+}
+
+}  // namespace kiva_ros

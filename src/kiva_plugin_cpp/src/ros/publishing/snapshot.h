@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the step thread hands to the broadcaster: copies, so that neither waits for the other.
+#pragma once
+
+#include <warehouse_msgs/FleetState.h>
+#include <warehouse_msgs/UnitStates.h>
+#include <warehouse_msgs/WarehouseObjects.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/world.h"
+#include "ros/transport/publish_queue.h"
+
+namespace kiva_ros {
+
+/// What the topics of one robot need to know about it.
+struct RobotInfo {
+  int id = 0;
+  kiva::LaserParameters laser;
+  kiva::Pose left_wheel, right_wheel, tower;  ///< In base_link, with all joints at zero.
+};
+using RobotInfos = std::vector<RobotInfo>;
+
+struct Scan {
+  int kiva_id = 0;
+  std::vector<float> ranges;
+};
+
+struct RobotPose {
+  int kiva_id = 0;
+  kiva::Pose base;                 ///< In world.
+  kiva::Twist twist;               ///< In base_link.
+  double wheel_angle[2] = {0, 0};  ///< Left, right [rad].
+  double tower = 0;                ///< Above its rest [m].
+};
+
+/// Of all models, or of all links.
+struct ModelStates {
+  std::shared_ptr<const std::vector<std::string>> names;  ///< The same object while none changes.
+  std::vector<kiva::EntityState> states;
+};
+
+/// One moment of the world; only what is due.
+struct Snapshot {
+  double time = 0;  ///< Simulated [s].
+
+  // Reliable: each reaches the broadcaster.
+  bool reliable_clock = false;  ///< To be sent, whatever the rate of /clock.
+  std::vector<kiva::Event> events;
+  std::optional<RobotInfos> robots;  ///< All robots, after some came or went.
+  std::vector<kiva::StatusChange> statuses;
+  std::optional<warehouse_msgs::WarehouseObjects> objects;
+  std::optional<warehouse_msgs::UnitStates> units;
+  std::vector<PublishQueue::Publication> publications;  ///< Of plugins.
+  std::string state_hash;                               ///< Empty: not due.
+  std::function<void()> published;  ///< To be called when this and all before is with the sockets.
+  bool reliable = false;            ///< All of it is: somebody waits for these steps.
+
+  // Best effort, since the next one is as good: dropped where the broadcaster lags.
+  bool clock = false;
+  std::optional<warehouse_msgs::FleetState> fleet;
+  std::optional<ModelStates> models;
+  std::optional<ModelStates> links;
+  std::vector<kiva::StatusChange> heartbeats;  ///< Of robots with subscribers.
+  std::vector<Scan> scans;
+  std::vector<RobotPose> odometry;
+  std::vector<RobotPose> transforms;
+
+  /// How many of those messages go to topics of single robots.
+  std::size_t bulk() const { return heartbeats.size() + scans.size() + odometry.size(); }
+  bool hasReliable() const {
+    return reliable_clock || !events.empty() || robots || !statuses.empty() || objects || units ||
+           !publications.empty() || !state_hash.empty() || published;
+  }
+  bool hasBestEffort() const {
+    return clock || fleet || models || links || !heartbeats.empty() || !scans.empty() ||
+           !odometry.empty() || !transforms.empty();
+  }
+  void dropBestEffort() {
+    clock = false;
+    fleet.reset();
+    models.reset();
+    links.reset();
+    heartbeats.clear();
+    scans.clear();
+    odometry.clear();
+    transforms.clear();
+  }
+};
+
+}  // namespace kiva_ros

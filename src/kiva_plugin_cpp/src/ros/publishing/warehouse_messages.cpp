@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "warehouse_messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/geometry/angle.h"
+#include "ros/messages/convert.h"
+
+namespace kiva_ros {
+namespace {
+
+using warehouse_msgs::KivaStatus;
+static_assert(int(kiva::Status::kBlocked) == int(KivaStatus::STATUS_BLOCKED));
+static_assert(int(kiva::State::kMovingX) == int(KivaStatus::STATE_MOVING_X));
+static_assert(int(kiva::State::kBlocked) == int(KivaStatus::STATE_BLOCKED));
+static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
+static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
+
+std::string robotName(int id) { return "kiva" + std::to_string(id); }
+
+/// The number in `kiva<id>` of the robot at that index, 0 for none.
+int idOf(const kiva::Fleet& fleet, int robot) { return robot < 0 ? 0 : fleet.robots[robot].id; }
+
+int shelfOf(const kiva::World& world, int robot) {
+  const int unit = world.fleet().unit[robot];
+  return unit < 0 ? 0 : world.storageUnits()[unit].id;
+}
+
+}  // namespace
+
+warehouse_msgs::Event toMessage(const kiva::Event& event) {
+  warehouse_msgs::Event out;
+  out.header = header(event.time, "world");
+  out.kind = static_cast<std::uint8_t>(event.kind);
+  out.model = event.model;
+  out.other = event.other;
+  out.text = event.text;
+  out.command = event.command;
+  return out;
+}
+
+warehouse_msgs::Collision toCollision(const kiva::Event& event) {
+  warehouse_msgs::Collision out;
+  out.header = header(event.time, "world");
+  out.model = event.model;
+  out.other = event.other;
+  out.point.x = event.impact.point.X();
+  out.point.y = event.impact.point.Y();
+  out.point.z = event.impact.point.Z();
+  out.normal = toMessage(event.impact.normal);
+  out.speed = event.impact.speed;
+  out.impulse = event.impact.impulse;
+  return out;
+}
+
+warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status) {
+  warehouse_msgs::KivaStatus out;
+  out.header = header(status.time, "world");
+  out.kiva_id = status.kiva_id;
+  out.status = static_cast<std::uint8_t>(status.status);
+  out.state = static_cast<std::uint8_t>(status.state);
+  out.shelf_id = status.shelf_id;
+  out.pose.x = status.x;
+  out.pose.y = status.y;
+  out.pose.theta = kiva::wrapAngle(status.yaw);
+  return out;
+}
+
+sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser,
+                                 double time) {
+  sensor_msgs::LaserScan out;
+  out.header = header(time, robotName(scan.kiva_id) + "/laser");
+  out.angle_min = static_cast<float>(laser.min_angle);
+  out.angle_max = static_cast<float>(laser.max_angle);
+  const int gaps = std::max(laser.rays - 1, 1);
+  out.angle_increment = static_cast<float>((laser.max_angle - laser.min_angle) / gaps);
+  out.scan_time = static_cast<float>(1 / laser.rate);
+  out.range_min = static_cast<float>(laser.min_range);
+  out.range_max = static_cast<float>(laser.max_range);
+  out.ranges = scan.ranges;
+  return out;
+}
+
+nav_msgs::Odometry toMessage(const RobotPose& robot, double time) {
+  nav_msgs::Odometry out;
+  out.header = header(time, "world");
+  out.child_frame_id = robotName(robot.kiva_id) + "/base_link";
+  out.pose.pose = toMessage(robot.base);
+  out.twist.twist = toMessage(robot.twist);
+  return out;
+}
+
+kiva::StatusChange statusOf(const kiva::World& world, int robot) {
+  const kiva::Fleet& f = world.fleet();
+  return {world.time(),          f.robots[robot].id, f.status[robot], f.state[robot],
+          shelfOf(world, robot), f.x[robot],         f.y[robot],      f.yaw[robot]};
+}
+
+warehouse_msgs::FleetState fleetState(const kiva::World& world) {
+  const kiva::Fleet& f = world.fleet();
+  warehouse_msgs::FleetState out;
+  out.stamp = ros::Time(world.time());
+  out.x.assign(f.x.begin(), f.x.end());
+  out.y.assign(f.y.begin(), f.y.end());
+  out.vx.assign(f.vx.begin(), f.vx.end());
+  out.vy.assign(f.vy.begin(), f.vy.end());
+  out.yaw_rate.assign(f.yaw_rate.begin(), f.yaw_rate.end());
+  out.last_end.assign(f.last_end.begin(), f.last_end.end());
+  for (int i = 0; i < f.size(); ++i) {
+    out.kiva_id.push_back(f.robots[i].id);
+    out.yaw.push_back(kiva::wrapAngle(f.yaw[i]));
+    out.status.push_back(static_cast<std::uint8_t>(f.status[i]));
+    out.state.push_back(static_cast<std::uint8_t>(f.state[i]));
+    out.shelf_id.push_back(shelfOf(world, i));
+  }
+  return out;
+}
+
+warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world) {
+  warehouse_msgs::WarehouseObjects out;
+  out.header = header(world.time(), "world");
+  out.revision = static_cast<std::uint32_t>(world.modelsRevision());
+  for (const kiva::StorageUnit& unit : world.storageUnits()) out.storage_units.push_back(unit.name);
+  const auto& items = world.items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    out.items.push_back(items[i].name);
+    out.item_unit.push_back(items[i].unit);
+    const int index = static_cast<int>(i);
+    append(items[i].unit < 0 ? world.itemPose(index) : items[i].pose_in_unit, &out.item_pose);
+  }
+  for (const std::string& name : world.modelNames()) {
+    if (world.kind(name) == kiva::ModelKind::kBelt) out.belts.push_back(name);
+  }
+  for (const kiva::Robot& robot : world.fleet().robots) out.kiva_id.push_back(robot.id);
+  return out;
+}
+
+warehouse_msgs::UnitStates unitStates(const kiva::World& world) {
+  warehouse_msgs::UnitStates out;
+  out.header = header(world.time(), "world");
+  out.revision = static_cast<std::uint32_t>(world.modelsRevision());
+  const auto& units = world.storageUnits();
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    append(world.storageUnitPose(static_cast<int>(i)), &out.pose);
+    out.carrier.push_back(idOf(world.fleet(), units[i].carrier));
+  }
+  const auto& items = world.items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].unit >= 0) continue;
+    out.loose_item.push_back(static_cast<int>(i));
+    append(world.itemPose(static_cast<int>(i)), &out.loose_pose);
+  }
+  return out;
+}
+
+}  // namespace kiva_ros

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The state of robots and warehouse, and what happened there, as messages.
+#pragma once
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
+#include <warehouse_msgs/Collision.h>
+#include <warehouse_msgs/Event.h>
+#include <warehouse_msgs/FleetState.h>
+#include <warehouse_msgs/KivaStatus.h>
+#include <warehouse_msgs/UnitStates.h>
+#include <warehouse_msgs/WarehouseObjects.h>
+
+#include "kiva_plugin_cpp/world.h"
+#include "snapshot.h"
+
+namespace kiva_ros {
+
+warehouse_msgs::Event toMessage(const kiva::Event& event);
+/// Of a collision's event.
+warehouse_msgs::Collision toCollision(const kiva::Event& event);
+warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status);
+sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser, double time);
+nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
+
+/// What a robot's status is now.
+kiva::StatusChange statusOf(const kiva::World& world, int robot);
+warehouse_msgs::FleetState fleetState(const kiva::World& world);
+warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world);
+warehouse_msgs::UnitStates unitStates(const kiva::World& world);
+
+}  // namespace kiva_ros

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace kiva_ros {
+
+/// Checkpoints by name: in memory or, where the name ends in `.checkpoint`, as files of one folder.
+/// One thread at a time.
+class CheckpointStore {
+ public:
+  /// `most_bytes`: in memory, and in the folder.
+  CheckpointStore(std::string folder, std::uintmax_t most_bytes);
+
+  /// All or nothing. Throws Refusal that says why not.
+  void save(const std::string& name, std::string bytes);
+  /// Throws Refusal that says why there is none.
+  std::string load(const std::string& name) const;
+
+ private:
+  void saveFile(const std::string& name, const std::string& bytes) const;
+  std::string loadFile(const std::string& name) const;
+  std::uintmax_t inMemory() const;
+  std::uintmax_t inFolder() const;
+
+  const std::string folder_;
+  const std::uintmax_t most_bytes_;
+  std::map<std::string, std::string> by_name_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_topics.h"
+
+#include <boost/function.hpp>
+
+#include "ros/messages/command_messages.h"
+
+namespace kiva_ros {
+namespace {
+
+constexpr int kUnlimited = 0;  // every command is answered, however fast they come
+
+}  // namespace
+
+CommandTopics::CommandTopics(ros::NodeHandle& root, SimulationThread& simulation) {
+  forEachCommandTopic([&](auto type, const char* topic, auto toCommand) {
+    using Message = typename decltype(type)::Message;
+    const boost::function<void(const boost::shared_ptr<const Message>&)> post =
+        [&simulation, toCommand](const boost::shared_ptr<const Message>& message) {
+          simulation.command(toCommand(*message));
+        };
+    subscribers_.push_back(root.subscribe<Message>(topic, kUnlimited, post, ros::VoidConstPtr(),
+                                                   ros::TransportHints().tcpNoDelay()));
+  });
+}
+
+}  // namespace kiva_ros

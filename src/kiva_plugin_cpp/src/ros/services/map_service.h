@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nav_msgs/GetMap.h>
+#include <ros/ros.h>
+
+#include "ros/simulation/simulation_thread.h"
+
+namespace kiva_ros {
+
+/// `/warehouse/map` (nav_msgs/GetMap): the floor with one cell a grid point, 100 where a model that
+/// belongs to no warehouse is in a robot's way, 0 where none is.
+class MapService {
+ public:
+  MapService(ros::NodeHandle& root, SimulationThread& simulation);
+
+ private:
+  bool get(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
+
+  SimulationThread& simulation_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "ros/transport/wall_clock.h"
+
+namespace kiva_ros {
+
+/// Tells when steps are due so that simulated time follows the wall clock.
+///
+/// Steps come in batches, since waking up for each costs more than a small world's step; a batch
+/// is short against the reaction time of whatever listens. Time that was lost is forgiven: a
+/// world that was too slow goes on from where it is, without a burst.
+class Pacer {
+ public:
+  /// `rtf`: simulated seconds a wall second, 0 = as fast as it goes.
+  Pacer(double step_size, double rtf);
+
+  bool paced() const { return rtf_ > 0; }
+  /// From now on.
+  void restart(WallClock::time_point now);
+  /// How many steps are owed; unpaced, as many as are done before the clock is asked again.
+  int due(WallClock::time_point now);
+  void stepped() { ++done_; }
+  /// When the next batch is due.
+  WallClock::time_point next() const;
+
+ private:
+  double wallOwed(WallClock::time_point now) const;
+
+  double rtf_;
+  double wall_per_step_ = 0;  ///< [s]
+  int batch_ = 1;
+  WallClock::time_point origin_;
+  std::int64_t done_ = 0;  ///< Steps since origin_.
+};
+
+}  // namespace kiva_ros

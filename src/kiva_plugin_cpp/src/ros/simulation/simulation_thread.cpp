@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulation_thread.h"
+
+#include <ros/ros.h>
+
+#include <algorithm>
+
+namespace kiva_ros {
+namespace {
+
+constexpr std::size_t kMostWaitingCommands = 100000;
+constexpr auto kAbandonedCheck = std::chrono::milliseconds(100);
+
+}  // namespace
+
+SimulationThread::SimulationThread(kiva::World& world, Reporter& reporter, double rtf,
+                                   bool lockstep)
+    : lockstep_(lockstep),
+      world_(world),
+      reporter_(reporter),
+      pacer_(world.stepSize(), rtf),
+      target_factor_(rtf),
+      models_revision_(world.modelsRevision()) {}
+
+void SimulationThread::start() {
+  running_ = true;
+  thread_ = std::thread([this] {
+    try {
+      loop();
+    } catch (const std::exception& error) {  // of a plugin, say
+      ROS_FATAL("%s", error.what());
+      failed_ = true;
+      refuseRequests();
+      ros::requestShutdown();
+    }
+    step_requests_.clear();  // and with them the promises of their answers
+  });
+}
+
+void SimulationThread::stop() {
+  refuseRequests();
+  wake_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void SimulationThread::refuseRequests() {
+  Requests unanswered;  // dies here, and with it the promises of its answers
+  const std::lock_guard<std::mutex> lock(mutex_);
+  running_ = false;
+  attention_ = true;
+  unanswered.swap(requests_);
+}
+
+void SimulationThread::post(std::function<void(kiva::World&)> request) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!running_) return;
+    requests_.push_back(std::move(request));
+    attention_ = true;
+  }
+  wake_.notify_one();
+}
+
+void SimulationThread::command(const kiva::Command& command) {
+  post([this, command](kiva::World&) { takeCommand(command); });
+}
+
+void SimulationThread::takeCommand(const kiva::Command& command) {
+  const std::size_t waiting = held_commands_.size();
+  if (waiting < kMostWaitingCommands) return held_commands_.push_back(command);
+  reporter_.refused(world_, command, std::to_string(waiting) + " commands wait for the next step");
+}
+
+void SimulationThread::postCommands() {
+  const auto by_robot = [](const kiva::Command& a, const kiva::Command& b) {
+    return a.kiva_id < b.kiva_id;
+  };
+  if (lockstep_) std::stable_sort(held_commands_.begin(), held_commands_.end(), by_robot);
+  for (const kiva::Command& command : held_commands_) {
+    world_.post(command);
+    for (StepHook* hook : hooks_) hook->onCommand(command);
+  }
+  held_commands_.clear();
+}
+
+void SimulationThread::refuseCommands(const std::string& why) {
+  for (const kiva::Command& command : held_commands_) reporter_.refused(world_, command, why);
+  held_commands_.clear();
+}
+
+SimulationThread::Stepped SimulationThread::step(std::uint32_t steps,
+                                                 const std::function<bool()>& is_abandoned) {
+  StepRequest request;
+  request.left = steps;
+  auto done = request.done->get_future();
+  const auto is_cancelled = request.is_cancelled;
+  post([this, request = std::move(request)](kiva::World&) { step_requests_.push_back(request); });
+  while (done.wait_for(kAbandonedCheck) != std::future_status::ready) {
+    if (is_abandoned()) *is_cancelled = true;
+  }
+  try {
+    return done.get();
+  } catch (const std::future_error&) {
+    throw std::runtime_error("the simulation is shutting down");
+  }
+}
+
+std::string SimulationThread::checkpoint() {
+  return run([](kiva::World& world) { return world.checkpoint(); });
+}
+
+double SimulationThread::restore(const std::string& checkpoint) {
+  return run([&](kiva::World& world) {
+    restoreHere(world, checkpoint);
+    return world.time();
+  });
+}
+
+void SimulationThread::restoreHere(kiva::World& world, const std::string& checkpoint) {
+  const std::vector<std::string> before = world.modelNames();
+  world.restore(checkpoint);
+  moved_ = changed_ = true;
+  reporter_.restored(world, before);
+  refuseCommands("the world went back to a checkpoint before its next step");
+  retime(world.stepSize(), target_factor_);  // it may have another step
+}
+
+void SimulationThread::reset(bool time_too) {
+  move([this, time_too](kiva::World& world) {
+    for (StepHook* hook : hooks_) hook->beforeReset(world);
+    world.reset(time_too);
+    refuseCommands("the world was reset before its next step");
+  });
+}
+
+void SimulationThread::pause(bool paused) {
+  run([this, paused](kiva::World&) {
+    if (paused_ != paused) startClocks();
+    paused_ = paused;
+  });
+}
+
+void SimulationThread::retime(double step_size, double rtf) {
+  pacer_ = Pacer(step_size, rtf);
+  target_factor_ = rtf;
+  reporter_.retime(step_size, rtf);
+  startClocks();
+}
+
+void SimulationThread::startClocks() {
+  const auto now = WallClock::now();
+  pacer_.restart(now);
+  measured_since_ = now;
+  measured_steps_ = 0;
+  real_time_factor_ = 0;
+}
+
+void SimulationThread::loop() {
+  startClocks();
+  for (Requests requests; waitForWork(&requests);) {
+    handleRequests(requests);
+    if (!step_requests_.empty()) {
+      runSteps(step_requests_.front());
+    } else if (runs()) {
+      advance();
+    }
+  }
+}
+
+bool SimulationThread::waitForWork(Requests* requests) {
+  // Within an hour, since waiting until the end of all time overflows in some libraries.
+  auto until = std::min(reporter_.nextDue(), WallClock::now() + std::chrono::hours(1));
+  if (runs()) until = std::min(until, pacer_.next());
+  if (!step_requests_.empty()) until = WallClock::time_point::min();
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (until > WallClock::time_point::min()) {
+    wake_.wait_until(lock, until, [this] { return attention_.load(); });
+  }
+  attention_ = !running_;
+  *requests = std::exchange(requests_, {});
+  return running_;
+}
+
+void SimulationThread::handleRequests(const Requests& requests) {
+  for (const auto& request : requests) request(world_);
+  if (world_.modelsRevision() != models_revision_) changed_ = true;
+  models_revision_ = world_.modelsRevision();
+  if (std::exchange(changed_, false)) {
+    for (StepHook* hook : hooks_) hook->onChange();
+  }
+  reporter_.afterRequests(world_, !runs(), std::exchange(moved_, false));
+}
+
+void SimulationThread::advance() {
+  const int due = pacer_.due(WallClock::now());
+  int steps = 0;
+  // At least one, or a flood of requests would hold time up.
+  while (steps < due && (steps == 0 || !attention_)) {
+    if (!stepOnce(false)) return;
+    pacer_.stepped();
+    ++steps;
+  }
+  measure(steps);
+}
+
+void SimulationThread::runSteps(StepRequest& request) {
+  int steps = 0;
+  while (request.left > 0 && (steps == 0 || !attention_)) {
+    if (*request.is_cancelled || !stepOnce(true)) {
+      request.left = 0;
+      break;
+    }
+    --request.left;
+    ++steps;
+  }
+  measure(steps);
+  if (request.left > 0) return;
+  reporter_.whenPublished(
+      world_, [done = request.done,
+               stepped = Stepped{world_.time(), world_.steps(), held_commands_.size()}] {
+        done->set_value(stepped);
+      });
+  step_requests_.pop_front();
+  if (runs()) startClocks();
+}
+
+bool SimulationThread::stepOnce(bool reliable) {
+  if (!held_commands_.empty()) postCommands();
+  for (StepHook* hook : hooks_) {
+    if (hook->beforeStep(world_)) continue;
+    paused_ = true;
+    return false;
+  }
+  world_.step();
+  for (StepHook* hook : hooks_) hook->afterStep(world_);
+  models_revision_ = world_.modelsRevision();  // what plugins do, they will do again
+  reporter_.afterStep(world_, reliable);
+  return true;
+}
+
+void SimulationThread::measure(int steps) {
+  measured_steps_ += steps;
+  const auto now = WallClock::now();
+  const double wall = std::chrono::duration<double>(now - measured_since_).count();
+  if (wall < 1) return;
+  real_time_factor_ = measured_steps_ * world_.stepSize() / wall;
+  measured_since_ = now;
+  measured_steps_ = 0;
+}
+
+}  // namespace kiva_ros

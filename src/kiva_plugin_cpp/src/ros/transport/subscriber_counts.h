@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Subscribers, counted as they come and go, so that the step thread never has to ask roscpp, which
+// takes a lock and walks a list for every answer.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace kiva_ros {
+
+class SubscriberCounts {
+ public:
+  enum class Topic { kFleet, kModelStates, kLinkStates, kTransforms, kStateHash, kEnd };
+  enum class RobotTopic { kStatus, kScan, kOdometry, kEnd };
+
+  /// Called, in any thread, when a subscriber came.
+  void onSubscribe(std::function<void()> call) { on_subscribe_ = std::move(call); }
+  /// Whether a subscriber of that topic, of one robot or another, came since the last call.
+  bool takeNewSubscriber(Topic topic) {
+    return new_subscriber_[static_cast<int>(topic)].exchange(false);
+  }
+  bool takeNewSubscriber(RobotTopic topic) {
+    return new_robot_subscriber_[static_cast<int>(topic)].exchange(false);
+  }
+
+  bool hasSubscribers(Topic topic) const { return counts_[static_cast<int>(topic)] > 0; }
+  /// Counts up whenever the ids that subscribedRobots returns may have changed.
+  std::uint64_t robotsRevision() const { return robots_revision_; }
+  /// Ids of the robots with a subscriber of that topic, ascending.
+  std::vector<int> subscribedRobots(RobotTopic topic) const;
+
+  void count(Topic topic, int change);
+  void count(RobotTopic topic, int kiva_id, int change);
+  /// A robot went, and its topics with it.
+  void forget(int kiva_id);
+
+ private:
+  static constexpr int kTopics = static_cast<int>(Topic::kEnd);
+  static constexpr int kRobotTopics = static_cast<int>(RobotTopic::kEnd);
+
+  void noteSubscriber(int change, std::atomic<bool>* flag);
+
+  std::function<void()> on_subscribe_;
+  std::atomic<bool> new_subscriber_[kTopics] = {}, new_robot_subscriber_[kRobotTopics] = {};
+  std::atomic<int> counts_[kTopics] = {};
+  std::atomic<std::uint64_t> robots_revision_{0};
+  mutable std::mutex mutex_;
+  std::map<int, int> robot_counts_[kRobotTopics];  ///< By robot's id; guarded by mutex_.
+};
+
+/// Advertises a topic whose subscribers are counted: `count` is called with +1 or -1.
+template <typename Message>
+ros::Publisher advertiseCounted(ros::NodeHandle& node, const std::string& topic, int queue_size,
+                                const std::function<void(int)>& count, bool latched = false) {
+  return node.advertise<Message>(
+      topic, queue_size, [count](const ros::SingleSubscriberPublisher&) { count(+1); },
+      [count](const ros::SingleSubscriberPublisher&) { count(-1); }, ros::VoidConstPtr(), latched);
+}
+
+}  // namespace kiva_ros

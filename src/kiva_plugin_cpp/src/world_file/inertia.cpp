@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world_file/inertia.h"
+
+#include <cmath>
+
+#include "world_file/errors.h"
+
+namespace kiva {
+namespace {
+
+using ignition::math::MassMatrix3d;
+
+bool isMass(double mass) { return std::isfinite(mass) && mass > 0; }
+
+/// A body's moments are positive, and none exceeds the sum of the other two.
+bool isPossible(const MassMatrix3d& inertia) {
+  return inertia.DiagonalMoments().IsFinite() && inertia.OffDiagonalMoments().IsFinite() &&
+         inertia.PrincipalMoments().Min() > 0 && inertia.IsValid();
+}
+
+bool hasPossibleMoments(const sdf::ElementPtr& inertial) {
+  const sdf::ElementPtr inertia = inertial->FindElement("inertia");
+  if (!inertia) return true;
+  const auto moment = [&](const char* name, double fallback) {
+    return inertia->Get<double>(name, fallback).first;
+  };
+  const MassMatrix3d matrix(inertial->Get<double>("mass", 1.0).first,
+                            {moment("ixx", 1), moment("iyy", 1), moment("izz", 1)},
+                            {moment("ixy", 0), moment("ixz", 0), moment("iyz", 0)});
+  return isPossible(matrix);
+}
+
+}  // namespace
+
+void repairInertial(const sdf::ElementPtr& link, sdf::Errors* warnings) {
+  const sdf::ElementPtr inertial = link->FindElement("inertial");
+  if (!inertial) return;
+  if (!isMass(inertial->Get<double>("mass", 1.0).first)) {
+    warnings->push_back(
+        noteAt(inertial->FindElement("mass"), "expected a mass above 0 kg, found " +
+                                                  inertial->Get<std::string>("mass") +
+                                                  "; this link has 1 kg and 1 kg m² instead"));
+    link->RemoveChild(inertial);
+  } else if (!hasPossibleMoments(inertial)) {
+    const sdf::ElementPtr inertia = inertial->FindElement("inertia");
+    warnings->push_back(
+        noteAt(inertia,
+               "no body has this inertia; expected finite principal moments above 0 kg m², none "
+               "larger than the sum of the other two; this link has 1 kg m² instead"));
+    inertial->RemoveChild(inertia);
+  }
+}
+
+void setInertia(const ignition::math::Inertiald& inertial, Link* link) {
+  const MassMatrix3d& matrix = inertial.MassMatrix();
+  link->mass = matrix.Mass();
+  link->principal_moments = matrix.PrincipalMoments();
+  const Pose axes(Vector3::Zero, matrix.PrincipalAxesOffset());
+  link->inertial_pose_in_link = inertial.Pose() * axes;
+}
+
+}  // namespace kiva

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world_file/links.h"
+
+#include <sdf/Collision.hh>
+#include <sdf/Visual.hh>
+
+#include "world_file/elements.h"
+#include "world_file/errors.h"
+#include "world_file/inertia.h"
+#include "world_file/shapes.h"
+
+namespace kiva {
+namespace {
+
+void addCollision(const sdf::Collision& from, const Origin& origin, Link* link,
+                  sdf::Errors* warnings) {
+  const auto shape = readShape(from.Element(), origin, warnings);
+  if (!shape) return;
+  Collision collision;
+  collision.name = from.Name();
+  collision.pose_in_link = resolved(from.SemanticPose(), from.Element());
+  collision.shape = *shape;
+  readSurface(from.Element(), &collision, warnings);
+  link->collisions.push_back(collision);
+}
+
+void addVisual(const sdf::Visual& from, const Origin& origin, Link* link, sdf::Errors* warnings) {
+  const auto shape = readShape(from.Element(), origin, warnings);
+  if (!shape) return;
+  Visual visual;
+  visual.name = from.Name();
+  visual.pose_in_link = resolved(from.SemanticPose(), from.Element());
+  visual.shape = *shape;
+  readMaterial(from.Element(), &visual, warnings);
+  link->visuals.push_back(visual);
+}
+
+}  // namespace
+
+Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnings) {
+  Link link;
+  link.name = scope.prefix + from.Name();
+  link.pose_in_model = scope.pose * resolved(from.SemanticPose(), from.Element(), "__model__");
+  link.gravity = from.Element()->Get<bool>("gravity", true).first;
+  setInertia(from.Inertial(), &link);
+  for (uint64_t i = 0; i < from.CollisionCount(); ++i) {
+    buildOrLeaveOut("collision", warnings, [&] {
+      addCollision(*from.CollisionByIndex(i), scope.origin, &link, warnings);
+    });
+  }
+  for (uint64_t i = 0; i < from.VisualCount(); ++i) {
+    buildOrLeaveOut("visual", warnings,
+                    [&] { addVisual(*from.VisualByIndex(i), scope.origin, &link, warnings); });
+  }
+  return link;
+}
+
+}  // namespace kiva

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world_file/model_library.h"
+
+#include <sdf/Model.hh>
+
+#include "world_file/bounded_cache.h"
+#include "world_file/elements.h"
+#include "world_file/errors.h"
+#include "world_file/files.h"
+#include "world_file/model_paths.h"
+#include "world_file/models.h"
+#include "world_file/parser.h"
+#include "world_file/sensors.h"
+#include "world_file/xml.h"
+
+namespace kiva {
+namespace {
+
+void readModel(const sdf::Model& model, const Origin& origin, sdf::Errors* warnings,
+               LibraryModel* result) {
+  result->name = model.Name();
+  result->pose = resolved(model.SemanticPose(), model.Element());
+  result->placement = model.RawPose().Inverse() * result->pose;
+  result->description =
+      std::make_shared<const ModelDescription>(describeModel(model, origin, warnings));
+}
+
+LibraryModel readFile(const std::string& folder, const std::string& file,
+                      const ModelPaths& model_paths) {
+  LibraryModel result;
+  SdfDocument document = parseSdf(readText(file, kMostBytes), model_paths);
+  if (const sdf::Model* model = document.root->Model()) {
+    readModel(*model, {file, model_paths}, &document.warnings, &result);
+    addMeshFiles(*result.description, &document.files);
+  } else if (const sdf::Light* light = document.root->Light()) {
+    result.light = describeLight(*light, light->RawPose());
+  }
+  for (const sdf::Error& warning : document.warnings) {
+    result.warnings.push_back(describe(warning, file));
+  }
+  document.files.insert(file);
+  document.files.insert(folder + "/model.config");
+  result.stamps = FileStamps(document.files);
+  return result;
+}
+
+LibraryModel read(const std::string& folder, const ModelPaths& model_paths) {
+  std::string file = folder + "/model.config";
+  try {
+    file = modelFile(folder);
+    return readFile(folder, file, model_paths);
+  } catch (const SdfError& error) {
+    throw DescriptionError(describe(error.error(), file));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const LibraryModel> libraryModel(const std::string& folder,
+                                                 const ModelPaths& model_paths) {
+  static BoundedCache<LibraryModel> cache(256);
+  // Models inside may be found elsewhere with other paths.
+  std::string key = folder;
+  for (const std::string& path : model_paths) key += '\n' + path;
+  auto model = cache.find(key);
+  if (model && model->stamps.areCurrent()) return model;
+  model = std::make_shared<const LibraryModel>(read(folder, model_paths));
+  cache.put(key, model);
+  return model;
+}
+
+void addMeshFiles(const ModelDescription& description, std::set<std::string>* files) {
+  for (const Link& link : description.links) {
+    for (const Collision& collision : link.collisions) {
+      if (!collision.shape.mesh_file.empty()) files->insert(collision.shape.mesh_file);
+    }
+  }
+}
+
+}  // namespace kiva

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace kiva {
+
+/// The folder, or the file, that the uri of an include names: `model://name` or `model://name/file`
+/// is looked up in the paths, `file:///path` and `/path` are as they are; empty if there is none.
+std::string findModel(const std::string& uri, const ModelPaths& paths);
+
+/// The file that the uri of a mesh names: `model://`, `package://`, `file://`, an absolute path, or
+/// one relative to `folder`; empty if there is none.
+std::string findFile(const std::string& uri, const std::string& folder, const ModelPaths& paths);
+
+/// What to tell a person who asked for a model that is in none of the folders.
+std::string modelNotFound(const std::string& uri, const ModelPaths& paths);
+/// The same, and that the include goes without it.
+std::string leftOut(const std::string& uri, const ModelPaths& paths);
+
+/// The SDF file of the model in `folder`, as its model.config has it. Throws SdfError.
+std::string modelFile(const std::string& folder);
+
+/// Adds the files that would make `uri` a model: what was missing may come.
+void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files);
+
+}  // namespace kiva

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// `<collision>` and `<visual>`: what touches and what is seen.
+#pragma once
+
+#include <optional>
+#include <sdf/Element.hh>
+#include <sdf/Types.hh>
+#include <string>
+
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace kiva {
+
+/// Where a document comes from.
+struct Origin {
+  /// What errors call the document: its path, if it is a file; empty for one without a name.
+  std::string where;
+  const ModelPaths& model_paths;
+};
+
+/// The shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`, and with a
+/// warning for a mesh that can't be had. A visual's mesh is named, not read.
+/// Throws SdfError at a size that is not positive, and at a kind we can't build.
+std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin,
+                               sdf::Errors* warnings);
+
+/// Friction and restitution of a `<collision>`.
+void readSurface(const sdf::ElementPtr& element, Collision* collision, sdf::Errors* warnings);
+
+/// The colour of a `<visual>`.
+void readMaterial(const sdf::ElementPtr& element, Visual* visual, sdf::Errors* warnings);
+
+}  // namespace kiva

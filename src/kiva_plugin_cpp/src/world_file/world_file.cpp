@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiva_plugin_cpp/world_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sdf/Model.hh>
+#include <sdf/Physics.hh>
+#include <sdf/World.hh>
+#include <set>
+
+#include "world_file/bounded_cache.h"
+#include "world_file/elements.h"
+#include "world_file/errors.h"
+#include "world_file/files.h"
+#include "world_file/model_library.h"
+#include "world_file/model_paths.h"
+#include "world_file/models.h"
+#include "world_file/parser.h"
+#include "world_file/preparation.h"
+#include "world_file/sensors.h"
+
+namespace kiva {
+namespace {
+
+/// What libsdformat's part of a text came to.
+struct ParsedText {
+  bool is_world = false;
+  WorldDescription world;
+  sdf::Errors warnings;
+  FileStamps stamps;
+};
+
+void addModel(const sdf::Model& model, const Origin& origin, std::vector<ModelInstance>* models,
+              sdf::Errors* warnings) {
+  buildOrLeaveOut("model", warnings, [&] {
+    ModelInstance instance;
+    instance.name = model.Name();
+    instance.pose = resolved(model.SemanticPose(), model.Element());
+    instance.description =
+        std::make_shared<ModelDescription>(describeModel(model, origin, warnings));
+    models->push_back(std::move(instance));
+  });
+}
+
+void setPhysics(const sdf::Physics& from, WorldDescription* world) {
+  const double step = from.MaxStepSize(), factor = from.RealTimeFactor();
+  if (!std::isfinite(step) || step <= 0) {
+    failAt(from.Element(), "expected a max_step_size above 0 s");
+  }
+  if (!std::isfinite(factor) || factor < 0) {
+    failAt(from.Element(), "expected a real_time_factor of 0 or above");
+  }
+  world->step_size = step;
+  world->real_time_factor = factor;
+}
+
+void setGravity(const sdf::World& from, WorldDescription* world) {
+  if (!from.Gravity().IsFinite()) failAt(from.Element(), "expected a finite gravity");
+  world->gravity = from.Gravity();
+}
+
+void describeWorld(const sdf::World& from, const Origin& origin, WorldDescription* world,
+                   sdf::Errors* warnings) {
+  world->name = from.Name();
+  buildOrLeaveOut("gravity", warnings, [&] { setGravity(from, world); });
+  if (from.PhysicsDefault()) {
+    buildOrLeaveOut("physics", warnings, [&] { setPhysics(*from.PhysicsDefault(), world); });
+  }
+  world->plugins = readPlugins(from.Element(), origin.where);
+  for (uint64_t i = 0; i < from.ModelCount(); ++i) {
+    addModel(*from.ModelByIndex(i), origin, &world->models, warnings);
+  }
+  for (uint64_t i = 0; i < from.LightCount(); ++i) {
+    const sdf::Light& light = *from.LightByIndex(i);
+    buildOrLeaveOut("light", warnings, [&] {
+      const Pose pose = resolved(light.SemanticPose(), light.Element());
+      world->lights.push_back(describeLight(light, pose));
+    });
+  }
+}
+
+ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
+                     const std::string& where) {
+  SdfDocument document = parseSdf(text, model_paths);
+  const sdf::Root& root = *document.root;
+  const Origin origin{where, model_paths};
+  ParsedText parsed;
+  parsed.is_world = root.WorldCount() > 0;
+  if (root.WorldCount() > 1) failAt(root.Element(), "expected one <world>, found several");
+  if (parsed.is_world) {
+    describeWorld(*root.WorldByIndex(0), origin, &parsed.world, &document.warnings);
+  } else if (root.Model()) {
+    addModel(*root.Model(), origin, &parsed.world.models, &document.warnings);
+  } else if (root.Light()) {
+    parsed.world.lights.push_back(describeLight(*root.Light(), root.Light()->RawPose()));
+  }
+  parsed.warnings = std::move(document.warnings);
+  for (const ModelInstance& model : parsed.world.models) {
+    addMeshFiles(*model.description, &document.files);
+  }
+  parsed.stamps = FileStamps(document.files);
+  return parsed;
+}
+
+/// A thousand requests for the same model, or for models of a library by an include each, differ in
+/// nothing that libsdformat sees.
+std::shared_ptr<const ParsedText> cachedRest(const std::string& text,
+                                             const ModelPaths& model_paths) {
+  static BoundedCache<ParsedText> cache(256);
+  std::string key = text;
+  for (const std::string& path : model_paths) key += '\n' + path;
+  auto parsed = cache.find(key);
+  if (parsed && parsed->stamps.areCurrent()) return parsed;
+  parsed = std::make_shared<const ParsedText>(parseRest(text, model_paths, ""));
+  cache.put(key, parsed);
+  return parsed;
+}
+
+/// One reading of one text: knows what the text is called and collects its warnings, each once.
+class Reading {
+ public:
+  Reading(const ModelPaths& model_paths, const std::string& where,
+          std::vector<std::string>* warnings)
+      : model_paths_(model_paths), where_(where), warnings_(warnings) {}
+
+  /// `parse` is given the text without its includes. Throws DescriptionError.
+  template <typename Parse>
+  ParsedText read(const std::string& xml, Parse parse) {
+    try {
+      const PreparedText prepared = prepare(xml);
+      ParsedText parsed = *parse(prepared.rest);
+      for (const sdf::Error& warning : prepared.warnings) warn(describe(warning, where_));
+      for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
+      parsed.world.models = merge(prepared, std::move(parsed.world.models));
+      std::move(lights_.begin(), lights_.end(), std::back_inserter(parsed.world.lights));
+      for (ModelInstance& model : parsed.world.models) {
+        const auto saved = prepared.poses.find(model.name);
+        if (saved != prepared.poses.end()) model.pose = saved->second;
+      }
+      return parsed;
+    } catch (const SdfError& error) {
+      throw DescriptionError(describe(error.error(), where_));
+    }
+  }
+
+  /// What is most likely why a text holds nothing that can stand.
+  const std::string& firstWarning() const { return first_warning_; }
+
+ private:
+  void warn(const std::string& text) {
+    if (first_warning_.empty()) first_warning_ = text;
+    if (warnings_ && warned_.insert(text).second) warnings_->push_back(text);
+  }
+
+  /// In the order of the text.
+  std::vector<ModelInstance> merge(const PreparedText& split, std::vector<ModelInstance> rest) {
+    if (split.includes.empty()) return rest;
+    std::map<std::string, ModelInstance> originals;
+    for (const ModelInstance& model : rest) originals[model.name] = model;
+    for (const auto& [name, model] : originals) names_.insert(name);
+    std::vector<ModelInstance> models;
+    models.reserve(split.includes.size() + rest.size());
+    auto of_rest = rest.begin();
+    for (const int index : split.order) {
+      if (index != PreparedText::kOfRest) {
+        const Include& include = split.includes[index];
+        if (include.copy_of.empty()) {
+          addInclude(include, &models);
+        } else {
+          addCopy(include, originals, &models);
+        }
+      } else if (of_rest != rest.end()) {
+        models.push_back(std::move(*of_rest++));
+      }
+    }
+    std::move(of_rest, rest.end(), std::back_inserter(models));
+    return models;
+  }
+
+  void addCopy(const Include& include, const std::map<std::string, ModelInstance>& originals,
+               std::vector<ModelInstance>* models) {
+    const auto original = originals.find(include.copy_of);
+    if (original != originals.end()) return add(include, copyOf(original->second, include), models);
+    warn(at(include) + "this model is left out, as is '" + include.copy_of + "', which is like it");
+  }
+
+  void addLight(const Include& include, Light light) {
+    if (!include.name.empty()) light.name = include.name;
+    if (include.pose) light.pose = *include.pose;
+    lights_.push_back(std::move(light));
+  }
+
+  void addInclude(const Include& include, std::vector<ModelInstance>* models) {
+    const LibraryModel* model = nullptr;
+    try {
+      model = library(include);
+    } catch (const DescriptionError& error) {
+      return warn(at(include) + "this include is left out: " + error.what());
+    }
+    if (!model) return warn(at(include) + leftOut(include.uri, model_paths_));
+    if (model->light) return addLight(include, *model->light);
+    if (!model->description) {
+      warn(at(include) + "'" + include.uri + "' holds no model and is left out");
+      return;
+    }
+    add(include, instance(include, *model), models);
+  }
+
+  void add(const Include& include, ModelInstance model, std::vector<ModelInstance>* models) {
+    if (names_.insert(model.name).second) return models->push_back(std::move(model));
+    warn(at(include) + "it is left out: the name '" + model.name +
+         "' is taken; expected every <model> in <world> to have a name of its own");
+  }
+
+  /// Looked up once for each reading: five thousand shelves are one model. Null: there is none.
+  const LibraryModel* library(const Include& include) {
+    auto [found, is_new] = models_.try_emplace(include.uri);
+    if (!is_new) return found->second.get();
+    const std::string folder = findModel(include.uri, model_paths_);
+    if (folder.empty()) return nullptr;
+    found->second = libraryModel(folder, model_paths_);
+    for (const std::string& warning : found->second->warnings) warn(warning);
+    return found->second.get();
+  }
+
+  std::string at(const Include& include) const {
+    const std::string what = include.copy_of.empty() ? "include" : "model";
+    return where_ + ":" + std::to_string(include.line) + ": " + what + ": ";
+  }
+
+  static ModelInstance copyOf(const ModelInstance& original, const Include& include) {
+    return {include.name, *include.pose * original.pose, original.description};
+  }
+
+  static ModelInstance instance(const Include& include, const LibraryModel& model) {
+    ModelInstance result{model.name, model.pose, model.description};
+    if (!include.name.empty()) result.name = include.name;
+    if (include.pose) result.pose = *include.pose * model.placement;
+    if (include.is_static && *include.is_static != model.description->is_static) {
+      auto changed = std::make_shared<ModelDescription>(*model.description);
+      changed->is_static = *include.is_static;
+      result.description = std::move(changed);
+    }
+    return result;
+  }
+
+  const ModelPaths& model_paths_;
+  const std::string& where_;
+  std::vector<std::string>* warnings_;
+  std::string first_warning_;
+  std::set<std::string> warned_;
+  std::set<std::string> names_;
+  std::vector<Light> lights_;  ///< Of includes.
+  std::map<std::string, std::shared_ptr<const LibraryModel>> models_;
+};
+
+}  // namespace
+
+WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
+                           std::vector<std::string>* warnings) {
+  return parseWorld(readText(path, kMostBytes), model_paths, path, warnings);
+}
+
+WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
+                            const std::string& where, std::vector<std::string>* warnings) {
+  ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
+    return std::make_shared<const ParsedText>(parseRest(rest, model_paths, where));
+  });
+  if (!parsed.is_world) throw DescriptionError(where + ": expected a <world> in <sdf>");
+  return std::move(parsed.world);
+}
+
+std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
+                                       const std::string& where, std::vector<std::string>* warnings,
+                                       std::vector<Light>* lights) {
+  Reading reading(model_paths, where, warnings);
+  ParsedText parsed =
+      reading.read(xml, [&](const std::string& rest) { return cachedRest(rest, model_paths); });
+  const bool has_lights = lights && !parsed.world.lights.empty();
+  if (has_lights) *lights = std::move(parsed.world.lights);
+  if (parsed.world.models.empty() && !has_lights) {
+    const std::string& why = reading.firstWarning();
+    throw DescriptionError(why.empty() ? where + ": expected a <model> in <sdf>" : why);
+  }
+  return std::move(parsed.world.models);
+}
+
+}  // namespace kiva

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// World files as trees that we may change before libsdformat sees them: it is given text again,
+// with every element on the line where it was, so that what it says is about the user's file.
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <memory>
+#include <optional>
+#include <sdf/Error.hh>
+#include <string>
+#include <vector>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+using XmlDocument = tinyxml2::XMLDocument;
+using XmlElement = tinyxml2::XMLElement;
+
+/// The largest text that is read [byte]: libsdformat needs fourteen times as much memory.
+constexpr std::size_t kMostBytes = 20'000'000;
+
+/// Throws SdfError with the line where a text is no XML, is too long, or nests too deep.
+std::unique_ptr<XmlDocument> parseXml(const std::string& text);
+
+/// The text of a whole document, every element on its line, without comments. Elements that were
+/// added follow on the line of what is before them.
+std::string textOf(const XmlDocument& document);
+/// The text of one element on one line; `but`, if given, is left out.
+std::string textOf(const XmlElement& element, const XmlElement* but = nullptr);
+
+/// A message at the line and entity of `element`.
+sdf::Error noteAt(const XmlElement& element, const std::string& message);
+
+/// The element that libsdformat's `/sdf/model[@name="m"]/link` names, at that line if it is above
+/// 0; null if there is none.
+XmlElement* findElement(XmlDocument& document, const std::string& xml_path, int line);
+
+/// Blanks around it are left out; empty if there is no such attribute.
+std::string attributeOf(const XmlElement& element, const char* name);
+/// The text in an element, without the blanks around it; empty for null.
+std::string contentOf(const XmlElement* element);
+std::string trimmed(const std::string& text);
+
+/// Calls visit(element) for `element` and all below it, but for what is inside plugins: that is
+/// their own affair. `visit` may remove children of what it is given.
+template <typename Visit>
+void forAll(XmlElement* element, const Visit& visit) {
+  visit(element);
+  XmlElement* next = nullptr;
+  for (XmlElement* child = element->FirstChildElement(); child; child = next) {
+    next = child->NextSiblingElement();
+    if (std::string(child->Name()) != "plugin") forAll(child, visit);
+  }
+}
+
+/// So many finite numbers, and nothing else.
+std::optional<std::vector<double>> parseNumbers(const std::string& text, std::size_t count);
+/// Six finite numbers.
+std::optional<Pose> parsePose(const std::string& text);
+/// As libsdformat reads it.
+std::string textOf(const Pose& pose);
+
+}  // namespace kiva

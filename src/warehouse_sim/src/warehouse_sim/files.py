@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the package's own files are, in the source tree or where it was installed; without ROS."""
+
+from pathlib import Path
+
+_HERE = Path(__file__).resolve()
+
+
+def share():
+    """The folder with launch/, worlds/ and web/."""
+    source, installed = _HERE.parents[2], _HERE.parents[4] / "share" / "warehouse_sim"
+    return installed if installed.is_dir() else source
+
+
+def model(name):
+    """The SDF file of one of worlds/models."""
+    return share() / "worlds" / "models" / name / "model.sdf"

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the warehouse is called: the parameters /warehouse/name and /warehouse/id."""
+
+NAME, NUMBER = "/warehouse/name", "/warehouse/id"
+INT32 = 2**31
+
+
+def read(ros):
+    """(name, id) of the warehouse that stands; ("", 0) of one that nobody named.
+
+    Anybody may set parameters: one of another type is warned of once and read as none.
+    """
+    name = ros.get_param(NAME, "")
+    number = ros.get_param(NUMBER, 0)
+    is_id = isinstance(number, int) and not isinstance(number, bool) and -INT32 <= number < INT32
+    if not is_id:
+        ros.logwarn_once(f"{NUMBER} is {number!r}; a whole number of 32 bits was expected")
+    return str(name), number if is_id else 0
+
+
+def write(ros, name, number):
+    ros.set_param(NAME, name)
+    ros.set_param(NUMBER, number)

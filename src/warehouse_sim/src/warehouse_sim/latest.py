@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Between ROS's threads and a node's one worker: what came last, and what is asked for."""
+
+import threading
+
+
+class LatestMessages:
+    """Keeps the newest message of each topic, for a worker that may be slower than they come.
+
+    `ros` is rospy, or what stands in for it in a test.
+    """
+
+    def __init__(self, ros, **topics):
+        """`topics` maps a name to (topic, message type)."""
+        self._fresh, self._lock = threading.Event(), threading.Lock()
+        self._messages = dict.fromkeys(topics)
+        for name, (topic, kind) in topics.items():
+            ros.Subscriber(topic, kind, self._keep, callback_args=name, queue_size=1)
+
+    def _keep(self, message, name):
+        with self._lock:
+            self._messages[name] = message
+        self._fresh.set()
+
+    def wait(self, timeout):
+        """Until something new came, at most `timeout` wall seconds. True if it did."""
+        came = self._fresh.wait(timeout)
+        self._fresh.clear()
+        return came
+
+    def __getitem__(self, name):
+        with self._lock:
+            return self._messages[name]
+
+    @property
+    def units_and_objects(self):
+        """(WarehouseObjects, UnitStates) if both are there and fit each other, else None.
+
+        Between the two messages of one change they don't; the second is on its way.
+        """
+        objects, states = self["objects"], self["states"]
+        fit = objects and states and objects.revision == states.revision
+        return (objects, states) if fit else None
+
+
+class LazyPublisher:
+    """A latched topic whose message is made only where somebody reads it.
+
+    It is sent to all on publish(), and a newcomer gets the newest at once. `make()` returns the
+    message, or None as long as there is nothing to tell. Where publish() shall send less than all
+    that a newcomer needs, `news()` returns that.
+    """
+
+    def __init__(self, ros, topic, kind, make, news=None):
+        self._make, self._news, self._lock = make, news or make, threading.Lock()
+        self._publisher = None
+        self._publisher = ros.Publisher(
+            topic, kind, subscriber_listener=self, latch=True, queue_size=1
+        )
+        # Whoever connected within the line above found no publisher yet.
+        self.publish()
+
+    def publish(self):
+        if self._publisher.get_num_connections():
+            self._send(self._news)
+
+    def peer_subscribe(self, _topic, _publish, _publish_to_newcomer):
+        """Called by rospy, just before it sends what is latched."""
+        if self._publisher:
+            self._send(self._make)
+
+    def peer_unsubscribe(self, _topic, _connections):
+        """Called by rospy."""
+
+    def _send(self, make):
+        with self._lock:
+            message = make()
+            if message is not None:
+                self._publisher.publish(message)

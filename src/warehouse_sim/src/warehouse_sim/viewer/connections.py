@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""HTTP connections that end where they ask nothing, and of which there are only so many.
+
+uvicorn bounds how long a connection may idle between two requests, but not how long the first, or
+the rest of one that was begun, may take to come; nor how many connections there are.
+"""
+
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+
+class BoundedConnection(H11Protocol):
+    """One of at most MOST; where they are taken, a newcomer ends the one that waited longest."""
+
+    MOST = 200  # WebSockets included; each costs a file
+    PATIENCE = 15.0  # with a request that does not come, or not wholly [s, wall]
+
+    def connection_made(self, transport):
+        super().connection_made(transport)
+        self._since = self.loop.time()  # it waits for a request
+        if len(self.connections) > self.MOST:
+            self._make_room()
+        self._look_later(self.PATIENCE)
+
+    def on_response_complete(self):
+        self._since = self.loop.time()
+        super().on_response_complete()
+
+    def _waits(self):
+        """For its client, to ask or to go on with what it began to ask."""
+        return self.cycle is None or self.cycle.response_complete or self.cycle.more_body
+
+    def _make_room(self):
+        ours = (c for c in self.connections if isinstance(c, BoundedConnection))
+        waiting = [c for c in ours if c is not self and c._waits()]
+        min(waiting, key=lambda c: c._since, default=self).transport.abort()
+
+    def _look_later(self, delay):
+        self._timer = self.loop.call_later(delay, self._look)
+
+    def _look(self):
+        if self.transport.is_closing() or self.transport.get_protocol() is not self:
+            return  # it ended, or became a WebSocket
+        left = self._since + self.PATIENCE - self.loop.time() if self._waits() else self.PATIENCE
+        if left > 0:
+            self._look_later(left)
+        else:
+            self.transport.abort()
+
+    def connection_lost(self, exc):
+        self._timer.cancel()
+        super().connection_lost(exc)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The secret that visitors bring: from a file that nobody else can read, or the environment.
+
+Never in a parameter or an argument: every ROS client and every user of the machine reads those.
+"""
+
+import os
+import re
+import secrets
+import stat
+from pathlib import Path
+
+VARIABLE = "WAREHOUSE_TOKEN"
+
+
+class TokenError(ValueError):
+    """No token where one was named, or one that others can read; the message says what helps."""
+
+
+def default_path(environment=os.environ):
+    """Where the token lies that the viewer makes for itself."""
+    home = environment.get("ROS_HOME") or Path.home() / ".ros"
+    return Path(home) / "warehouse" / "viewer_token"
+
+
+def find(path="", needed=False, environment=os.environ):
+    """(token, where it lies); ("", "") if there is none and none is `needed`.
+
+    From the file `path`, else from the environment. One that is needed and given by nobody is made
+    once, and kept for the next time. Raises TokenError.
+    """
+    if path:
+        return read(Path(path)), str(path)
+    if environment.get(VARIABLE):
+        return _checked(environment[VARIABLE], VARIABLE), f"the environment's {VARIABLE}"
+    if not needed:
+        return "", ""
+    path = default_path(environment)
+    _make(path)
+    return read(path), str(path)
+
+
+def read(path):
+    """The token in a file of mode 0600. Raises TokenError."""
+    try:
+        with open(path, encoding="ascii", errors="replace") as file:
+            mode = os.fstat(file.fileno()).st_mode
+            if not stat.S_ISREG(mode):
+                raise TokenError(f"{path} is no regular file")
+            if mode & 0o077:
+                raise TokenError(f"{path} can be read by others: chmod 600 {path}")
+            return _checked(file.read(1000).strip(), path)
+    except OSError as error:
+        raise TokenError(f"{path}: {error.strerror}") from error
+
+
+def _checked(token, where):
+    if not re.fullmatch(r"[!-~]{8,500}", token):
+        raise TokenError(f"{where}: a token of 8 to 500 letters and digits was expected")
+    return token
+
+
+def _make(path):
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    except FileExistsError:
+        return
+    except OSError as error:
+        raise TokenError(f"{path}: {error.strerror}") from error
+    with open(file, "w", encoding="ascii") as out:
+        out.write(secrets.token_hex(16) + "\n")

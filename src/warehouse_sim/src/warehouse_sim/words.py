@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers in messages as the words that the messages define for them."""
+
+import numpy as np
+
+from warehouse_msgs.msg import Event, KivaStatus
+
+
+def _constants(kind, prefix=""):
+    """{value: name} of a message type's constants that begin so, without the beginning."""
+    named = {n: v for n, v in vars(kind).items() if n.isupper() and isinstance(v, int)}
+    return {v: n.removeprefix(prefix) for n, v in named.items() if n.startswith(prefix)}
+
+
+EVENT = _constants(Event)
+STATUS = _constants(KivaStatus, "STATUS_")
+STATE = _constants(KivaStatus, "STATE_")
+
+
+def shown_status(fleet):
+    """The status of each robot in a FleetState, (n,) uint8, as a person shall see it.
+
+    BLOCKED itself lasts but a moment; it shows until the robot's next command is accepted.
+    """
+    # rospy reads uint8[] as bytes.
+    status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
+    ended_blocked = np.frombuffer(bytes(fleet.last_end), np.uint8) == Event.BLOCKED
+    status[ended_blocked] = KivaStatus.STATUS_BLOCKED
+    return status

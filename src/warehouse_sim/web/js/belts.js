@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The slats that run along the top of conveyor belts.
+
+import * as THREE from '/three/build/three.module.js';
+import { largestOf } from './looks.js';
+
+const SLATS = 6, SPEED = 0.4; // a belt; [m/s]
+const MARGIN = 0.04, SLAT = [0.05, 0.004]; // to the belt's edges; length and height [m]
+
+const own = new THREE.Matrix4();
+const model = new THREE.Matrix4();
+
+export class Belts {
+  /** `models` index the matrices of `base`; `links`: their look, whose largest shape is the belt. */
+  constructor(group, models, links, base) {
+    Object.assign(this, { models, base, way: 0, mesh: null });
+    const belt = largestOf(links ?? []);
+    if (!belt) return;
+    const [length, width, height] = belt.size;
+    this.length = length - MARGIN;
+    this.top = belt.matrix.elements[14] + height / 2 + SLAT[1] / 2;
+    const slat = new THREE.BoxBufferGeometry(SLAT[0], width - MARGIN, SLAT[1]);
+    this.mesh = new THREE.InstancedMesh(slat, new THREE.MeshLambertMaterial({ color: 0x3a3d42 }),
+      SLATS * models.length);
+    this.mesh.frustumCulled = false;
+    group.add(this.mesh);
+  }
+
+  /** Moves the belts' surfaces on by so many seconds. */
+  run(seconds) {
+    if (!this.mesh) return;
+    this.way = (this.way + SPEED * seconds) % this.length;
+    this.models.forEach((index, i) => {
+      model.fromArray(this.base, 16 * index);
+      for (let slat = 0; slat < SLATS; ++slat) {
+        const x = (this.way + slat * this.length / SLATS) % this.length - this.length / 2;
+        own.makeTranslation(x, 0, this.top).premultiply(model);
+        this.mesh.setMatrixAt(SLATS * i + slat, own);
+      }
+    });
+    this.mesh.instanceMatrix.needsUpdate = true;
+  }
+}

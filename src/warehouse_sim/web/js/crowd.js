@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many things of one kind, drawn by a handful of calls: in detail where they are seen large, as
+// boxes where they are small, and not at all out of sight.
+
+import * as THREE from '/three/build/three.module.js';
+
+export const FAR = 1, NEAR = 2;
+const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
+
+export class Crowd {
+  /** `count` things whose shapes reach `radius` around `centre` [m, in the thing's frame]. They
+   *  are seen in detail from `detail` pixels a metre on. */
+  constructor(group, count, { centre, radius }, detail) {
+    Object.assign(this, { group, count, centre, radius, detail });
+    this.base = new Float32Array(16 * count); // where each is
+    this.tint = new Float32Array(3 * count);
+    for (let i = 0; i < count; ++i) this.base[16 * i + 15] = 1; // of no size until placed
+    this.layers = [];
+    this.vertices = 0; // of all in detail
+    this.stale = true;
+  }
+
+  /** Draws a geometry for each thing at a level; `place(i, matrix)` turns a thing's matrix
+   *  into that of a part that moves on it. */
+  add(geometry, material, level, place = null) {
+    const mesh = new THREE.InstancedMesh(geometry, material, this.count);
+    mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+    mesh.frustumCulled = false;
+    const tint = new THREE.InstancedBufferAttribute(new Float32Array(3 * this.count), 3);
+    geometry.setAttribute('tint', tint.setUsage(THREE.DynamicDrawUsage));
+    this.group.add(mesh);
+    this.layers.push({ mesh, tint, level, place });
+    if (level === NEAR) this.vertices += this.count * geometry.attributes.position.count;
+  }
+
+  put(i, matrix) {
+    matrix.toArray(this.base, 16 * i);
+    this.stale = true;
+  }
+
+  paint(i, colour) {
+    colour.toArray(this.tint, 3 * i);
+    this.stale = true;
+  }
+
+  /** Chooses how each is drawn, for a View; `moved`: it is another than before. */
+  fill(view, moved) {
+    if (!this.count || !(moved || this.stale)) return;
+    this.stale = false;
+    for (const layer of this.layers) layer.drawn = 0;
+    for (let i = 0; i < this.count; ++i) {
+      const level = this.levelOf(view, i);
+      for (const layer of this.layers) if (layer.level === level) this.draw(layer, i);
+    }
+    for (const layer of this.layers) send(layer);
+  }
+
+  levelOf(view, i) {
+    const { base, centre: [cx, cy, cz] } = this, at = 16 * i;
+    // Things stand upright, or nearly so.
+    const x = base[at + 12] + base[at] * cx + base[at + 4] * cy;
+    const y = base[at + 13] + base[at + 1] * cx + base[at + 5] * cy;
+    const scale = view.scaleAt(x, y, base[at + 14] + cz, this.radius);
+    if (scale === 0) return 0;
+    return scale >= this.detail || this.vertices <= CHEAP ? NEAR : FAR;
+  }
+
+  draw(layer, i) {
+    const { mesh, tint, place, drawn } = layer;
+    const out = mesh.instanceMatrix.array;
+    for (let k = 0; k < 16; ++k) out[16 * drawn + k] = this.base[16 * i + k];
+    if (place) place(i, out, 16 * drawn);
+    for (let k = 0; k < 3; ++k) tint.array[3 * drawn + k] = this.tint[3 * i + k];
+    layer.drawn += 1;
+  }
+}
+
+function send({ mesh, tint, drawn }) {
+  mesh.count = drawn;
+  mesh.visible = drawn > 0;
+  for (const attribute of [mesh.instanceMatrix, tint]) {
+    attribute.updateRange.count = drawn * attribute.itemSize;
+    attribute.needsUpdate = true;
+  }
+}
+
+/** What a camera sees, and how large. */
+export class View {
+  constructor() {
+    this.planes = new Float64Array(24);
+    this.matrix = new THREE.Matrix4();
+    this.frustum = new THREE.Frustum();
+  }
+
+  /** Takes in a camera on a picture of that height [px]. True if it sees other than before. */
+  look(camera, height) {
+    camera.updateMatrixWorld();
+    const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    if (matrix.equals(this.matrix) && height === this.height) return false;
+    Object.assign(this, { matrix, height });
+    this.eye = camera.position.toArray();
+    this.focal = height / 2 * camera.projectionMatrix.elements[5]; // [px]
+    this.frustum.setFromMatrix(matrix).planes.forEach(({ normal, constant }, i) => (
+      this.planes.set([normal.x, normal.y, normal.z, constant], 4 * i)));
+    return true;
+  }
+
+  /** Pixels a metre of a sphere there [m]; 0: it is out of sight. */
+  scaleAt(x, y, z, radius) {
+    const { planes, eye } = this;
+    for (let i = 0; i < 24; i += 4) {
+      if (planes[i] * x + planes[i + 1] * y + planes[i + 2] * z + planes[i + 3] < -radius) return 0;
+    }
+    return this.focal / Math.max(0.1, Math.hypot(x - eye[0], y - eye[1], z - eye[2]));
+  }
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which robots have a label.
+
+export const LABEL_HEIGHT = 0.42; // above the floor [m]
+const LARGE = 24; // [px] a metre: who is seen so large has a number
+const MOST = 60; // of numbers, and of names
+const BLOCKED = 2;
+
+/** Indices of robots in sight of a View: {names, numbers}. Names have those of the set `wanted` and
+ *  who is blocked; numbers the nearest of those that are seen large. */
+export function labelled({ shown, status }, view, wanted) {
+  const scales = Array.from(status, (_, i) => (
+    view.scaleAt(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT, 0.5)));
+  const seen = [...scales.keys()].filter((i) => scales[i] > 0);
+  const matters = (i) => wanted.has(i) || status[i] === BLOCKED;
+  const nearestFirst = (a, b) => scales[b] - scales[a] || a - b;
+  return {
+    names: seen.filter(matters)
+      .sort((a, b) => wanted.has(b) - wanted.has(a) || nearestFirst(a, b)).slice(0, MOST),
+    numbers: seen.filter((i) => scales[i] >= LARGE && !matters(i)).sort(nearestFirst).slice(0, MOST),
+  };
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robots in the picture: chassis, wheels that roll, towers that lift, and a frame in the
+// colour of their status.
+
+import * as THREE from '/three/build/three.module.js';
+import { Crowd, FAR, NEAR } from './crowd.js';
+import { boundsOf, hull, materialOf, matrixOf, merge } from './looks.js';
+
+// Idle, busy, blocked; as style.css has them.
+export const STATUS_COLOURS = [0x0072b2, 0xf0e442, 0xd55e00].map((c) => new THREE.Color(c));
+const FRAME = { inner: 0.40, outer: 0.49 }; // half edges [cells]
+const DETAIL = 22; // [px] a metre, from which on robots are drawn in detail
+const MOVING = ['left_wheel', 'right_wheel', 'tower']; // links
+const AT_REST = [0, 0, 0, 0, 0, 0, 1];
+
+// Thousands of matrices a frame: these are reused.
+const matrix = new THREE.Matrix4();
+const local = new THREE.Matrix4();
+const turn = new THREE.Matrix4();
+
+export class Robots {
+  /** The World's robots, all of the same look. */
+  constructor(group, world, links) {
+    const count = world.scene.robots.length;
+    this.world = world;
+    this.crowd = new Crowd(group, count, boundsOf(links), DETAIL);
+    this.rolled = new Float64Array(2 * count); // left and right wheel [rad]
+    this.wheels = wheelsOf(links);
+    if (!count || !links.some((link) => link.shapes.length)) return;
+    this.crowd.add(merge(links.filter(({ name }) => !MOVING.includes(name)), true), materialOf(true), NEAR);
+    this.crowd.add(hull(links, true, FRAME.outer * world.scene.grid), materialOf(true), FAR);
+    for (const [which, name] of MOVING.entries()) {
+      const link = links.find((l) => l.name === name);
+      if (link) this.addJoint(link, which);
+    }
+    this.crowd.add(frameGeometry(world.scene.grid), frameMaterial(), NEAR);
+  }
+
+  addJoint(link, which) {
+    const rest = matrixOf(link.pose);
+    const own = merge([{ ...link, pose: AT_REST }]);
+    this.crowd.add(own, materialOf(), NEAR, (i, out, at) => {
+      local.copy(rest);
+      if (which < 2) local.multiply(turn.makeRotationY(this.rolled[2 * i + which]));
+      else local.elements[14] += this.towerOf(i);
+      local.premultiply(matrix.fromArray(this.crowd.base, 16 * i)).toArray(out, at);
+    });
+  }
+
+  /** How far a robot's tower is up [m]. */
+  towerOf(i) {
+    const load = this.world.loadOf(i);
+    return load < 0 ? 0 : Math.max(0, this.world.unitPose[7 * load + 2]);
+  }
+
+  paint(robots) {
+    for (const i of robots) this.crowd.paint(i, STATUS_COLOURS[this.world.status[i]]);
+  }
+
+  /** Puts a robot where it is drawn now. */
+  put(i) {
+    const [x, y, yaw] = this.world.shown.subarray(3 * i, 3 * i + 3);
+    const old = this.crowd.base, at = 16 * i;
+    if (old[at + 10]) { // it stood somewhere: its wheels roll from there
+      const [left, right] = rolledBy([old[at + 12], old[at + 13], Math.atan2(old[at + 1], old[at])],
+        [x, y, yaw], this.wheels);
+      this.rolled[2 * i] += left;
+      this.rolled[2 * i + 1] += right;
+    }
+    const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
+    this.crowd.put(i, matrix.set(c, -s, 0, x, s, c, 0, y, 0, 0, 1, 0, 0, 0, 0, 1));
+  }
+}
+
+/** {radius, track} of the wheels of a look [m]. */
+export function wheelsOf(links) {
+  const [left, right] = MOVING.map((name) => links.find((link) => link.name === name));
+  if (!left?.shapes.length || !right) return { radius: Infinity, track: 0 };
+  const radius = Math.max(...left.shapes.flatMap(({ size }) => size)) / 2;
+  return { radius, track: left.pose[1] - right.pose[1] };
+}
+
+/** [left, right]: how far wheels turn [rad] from one pose [x, y, yaw] to the next. */
+export function rolledBy([x0, y0, yaw0], [x, y, yaw], { radius, track }) {
+  const ahead = Math.cos(yaw0) * (x - x0) + Math.sin(yaw0) * (y - y0);
+  const apart = Math.sin(yaw - yaw0) * track / 2; // turns between two pictures are small
+  return [(ahead - apart) / radius, (ahead + apart) / radius];
+}
+
+/** A square frame on the floor, seen from above even beneath a storage unit. */
+function frameGeometry(cell) {
+  const corners = (half) => [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+    .map(([x, y]) => new THREE.Vector2(half * cell * x, half * cell * y));
+  const shape = new THREE.Shape(corners(FRAME.outer));
+  shape.holes.push(new THREE.Path(corners(FRAME.inner).reverse()));
+  return new THREE.ShapeBufferGeometry(shape).translate(0, 0, 0.012);
+}
+
+function frameMaterial() {
+  const out = new THREE.MeshBasicMaterial();
+  out.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace('#include <common>',
+      '#include <common>\nattribute vec3 tint;\nvarying vec3 vTint;')
+      .replace('#include <begin_vertex>', '#include <begin_vertex>\nvTint = tint;');
+    shader.fragmentShader = shader.fragmentShader.replace('#include <common>',
+      '#include <common>\nvarying vec3 vTint;')
+      .replace('vec4 diffuseColor = vec4( diffuse, opacity );', 'vec4 diffuseColor = vec4(vTint, opacity);');
+  };
+  return out;
+}

@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Robots move and carry as actions: with results, feedback, cancelling and refusals."""
+
+import unittest
+
+import actionlib
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from node_test import PATIENCE, create, wait_until
+from warehouse_test import place
+
+from warehouse_msgs.msg import CarryAction, CarryFeedback, CarryGoal, Event, MoveAction, MoveGoal
+
+NEAR = 0.05  # [m]
+TIMEOUT = rospy.Duration(1000)  # simulated; the test itself has a limit
+
+
+class Actions(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.wait_for_service("/warehouse/create_warehouse_models", PATIENCE)
+        cls.move = actionlib.SimpleActionClient("/warehouse/move", MoveAction)
+        cls.carry = actionlib.SimpleActionClient("/warehouse/carry", CarryAction)
+        for client in (cls.move, cls.carry):
+            wait_until(client.wait_for_server, "the action servers")
+
+    def setUp(self):
+        self.assertTrue(create("small").success)
+        self.feedback = []
+        # Beneath the first row of units there is room for a robot; beside it runs a street.
+        self.unit = tuple(map(round, place("storage_unit1")[:2]))
+        self.street = (self.unit[0], self.unit[1] - 1)
+
+    def send(self, client, goal):
+        client.send_goal(goal, feedback_cb=self.feedback.append)
+
+    def ended(self, client, state):
+        self.assertTrue(client.wait_for_result(TIMEOUT))
+        result = client.get_result()
+        self.assertEqual(client.get_state(), state, result)
+        return result
+
+    def at(self, name):
+        return place(name)[:2]
+
+    def assert_near(self, name, point):
+        for is_at, wanted in zip(self.at(name), point):
+            self.assertAlmostEqual(is_at, wanted, delta=NEAR)
+
+    def test_move(self):
+        self.send(self.move, MoveGoal(1, *self.street))
+        result = self.ended(self.move, GoalStatus.SUCCEEDED)
+        self.assertEqual(result.kind, Event.DONE)
+        self.assert_near("kiva1", self.street)
+        self.assertAlmostEqual(result.pose.x, self.street[0], delta=0.3)
+        distances = [f.distance for f in self.feedback]
+        self.assertGreater(distances[0], distances[-1])
+
+    def test_carry(self):
+        self.send(self.carry, CarryGoal(1, 1, *self.street))
+        result = self.ended(self.carry, GoalStatus.SUCCEEDED)
+        self.assertEqual(result.kind, Event.DONE)
+        self.assert_near("storage_unit1", self.street)
+        phases = [f.phase for f in self.feedback]
+        self.assertEqual(phases, sorted(phases))
+        self.assertIn(CarryFeedback.FETCHING, phases)
+        self.assertIn(CarryFeedback.CARRYING, phases)
+
+    def test_what_the_world_refuses_is_aborted_with_the_reason(self):
+        self.send(self.move, MoveGoal(1, 0.5, 0))
+        result = self.ended(self.move, GoalStatus.ABORTED)
+        self.assertEqual(result.kind, Event.REFUSED)
+        self.assertIn("off the grid", result.text)
+        self.send(self.move, MoveGoal(99, 0, 0))
+        self.ended(self.move, GoalStatus.ABORTED)
+
+    def test_what_can_not_be_begun_is_rejected(self):
+        self.send(self.carry, CarryGoal(1, 99, *self.street))
+        result = self.ended(self.carry, GoalStatus.REJECTED)
+        self.assertIn("no storage_unit99", result.text)
+        self.send(self.carry, CarryGoal(1, 1, *self.street))
+        wait_until(lambda: self.feedback, "the robot at work")
+        self.send(self.move, MoveGoal(1, 0, 0))
+        self.assertIn("another goal", self.ended(self.move, GoalStatus.REJECTED).text)
+        self.ended(self.carry, GoalStatus.SUCCEEDED)
+
+    def test_cancelled_it_sends_no_further_command(self):
+        self.send(self.carry, CarryGoal(1, 1, *self.street))
+        wait_until(lambda: self.feedback, "the robot at work")
+        self.carry.cancel_goal()
+        self.ended(self.carry, GoalStatus.PREEMPTED)
+        self.assert_near("kiva1", self.unit)
+        self.assert_near("storage_unit1", self.unit)
+        self.send(self.move, MoveGoal(1, *self.street))
+        self.ended(self.move, GoalStatus.SUCCEEDED)
+
+    def test_robots_work_side_by_side(self):
+        other = actionlib.SimpleActionClient("/warehouse/move", MoveAction)
+        wait_until(other.wait_for_server, "the action server")
+        home = self.at("kiva2")
+        self.send(self.move, MoveGoal(1, *self.street))
+        self.send(other, MoveGoal(2, home[0], home[1]))
+        self.ended(other, GoalStatus.SUCCEEDED)
+        self.ended(self.move, GoalStatus.SUCCEEDED)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_actions")
+    rostest.rosrun("warehouse_tests", "actions", __name__)

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is searched and shown as text, and read from bytes.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { reasonOf } from '../../../src/warehouse_sim/web/js/api.js';
+import { clock } from '../../../src/warehouse_sim/web/js/bar.js';
+import { planOf } from '../../../src/warehouse_sim/web/js/builder.js';
+import { fanOf } from '../../../src/warehouse_sim/web/js/overlays.js';
+import { decode } from '../../../src/warehouse_sim/web/js/protocol.js';
+import { found, rowsOf, wanted } from '../../../src/warehouse_sim/web/js/search.js';
+import { bordersOf } from '../../../src/warehouse_sim/web/js/stage.js';
+
+test('a search is for what a person means', () => {
+  assert.equal(wanted('Robot 3'), 'kiva3');
+  assert.equal(wanted(' unit  12 '), 'unit12');
+  const names = ['storage_unit12', 'item70', 'item7', 'storage_unit1'];
+  assert.deepEqual(found(names, 'item7'), ['item7', 'item70']);
+  assert.deepEqual(found(names, 'unit12'), ['storage_unit12']);
+  assert.deepEqual(found(names, ''), []);
+  assert.equal(found(Array.from({ length: 50 }, (_, i) => `item${i}`), 'item').length, 6);
+});
+
+test('robots are listed by trouble, then by number', () => {
+  const world = { scene: { robots: [9, 10, 1, 2] }, status: Uint8Array.of(0, 2, 1, 2) };
+  assert.deepEqual(rowsOf(world, '', ''), [3, 1, 2, 0]);
+  assert.deepEqual(rowsOf(world, '', '2'), [3, 1]);
+  assert.deepEqual(rowsOf(world, 'kiva1', ''), [1, 2]);
+});
+
+test('simulated time in minutes and seconds', () => {
+  assert.equal(clock(0), '0:00.0');
+  assert.equal(clock(59.96), '1:00.0');
+  assert.equal(clock(3725.34), '62:05.3');
+});
+
+test('reasons of refusals', () => {
+  assert.equal(reasonOf('no'), 'no');
+  assert.equal(reasonOf([{ loc: ['body', 'x'], msg: 'is no number' }, { loc: ['body', 'y'], msg: 'missing' }]),
+    'x: is no number; y: missing');
+});
+
+test('a preset is named alone, one of your own with its counts', () => {
+  const own = { name: 'mine', robots: 1, shelves: 2, items: 3 };
+  assert.deepEqual(planOf('huge', own), { name: 'huge' });
+  assert.deepEqual(planOf('', own), own);
+});
+
+test('the borders of cells lie midway between grid points, and are never too many', () => {
+  assert.deepEqual(bordersOf(-1.5, 1.5, 1), [-1.5, -0.5, 0.5, 1.5]);
+  assert.deepEqual(bordersOf(-1, 1, 1), [-0.5, 0.5]);
+  assert.ok(bordersOf(-5000, 5000, 1).length <= 601);
+});
+
+test('a scan spans triangles from the laser on its robot', () => {
+  const scan = { mount: [0.4, 0, 0.2, 0], angleMin: 0, angleStep: Math.PI / 2, ranges: Float32Array.of(1, Infinity) };
+  const [from, first, second] = fanOf(scan, [2, 3, 0, Math.PI / 2]).map((p) => p.map((x) => Math.round(1e6 * x) / 1e6 + 0));
+  assert.deepEqual([from, first, second], [[2, 3.4, 0.2], [2, 4.4, 0.2], [-3, 3.4, 0.2]]);
+});
+
+test('an update is read as it was written', () => {
+  const bytes = new ArrayBuffer(40 + 24 + 36);
+  const view = new DataView(bytes);
+  [1, 5].forEach((x, i) => view.setUint32(4 * i, x, true));
+  view.setFloat64(8, 12.5, true);
+  [3, 1, 1, 0, 0].forEach((x, i) => view.setUint32(16 + 4 * i, x, true));
+  view.setUint32(40, 2, true);
+  view.setFloat32(44, 1.5, true);
+  view.setUint8(60, 2);
+  view.setUint32(64, 8, true);
+  view.setInt32(96, 7, true);
+  const { tick, stamp, revision, robots, units, loose } = decode(bytes);
+  assert.deepEqual([tick, stamp, revision], [5, 12.5, 3]);
+  assert.deepEqual([robots.count, robots.i32[0], robots.f32[1], robots.u8[20]], [1, 2, 1.5, 2]);
+  assert.deepEqual([units.count, units.i32[0], units.i32[8], loose.count], [1, 8, 7, 0]);
+});
