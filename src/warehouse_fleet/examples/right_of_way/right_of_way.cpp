@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A planner to learn from: each robot in turn drives along x, then along y, and gives way to all
+// who came before it in the list. It is safe, but robots that meet head on stay there for ever:
+// compare it with the one of the house. Named in a YAML file,
+//
+//   planner: /path/to/libright_of_way.so:RightOfWay
+#include <ignition/plugin/Register.hh>
+#include <unordered_set>
+
+#include "warehouse_fleet/planner.h"
+
+namespace {
+
+class RightOfWay : public fleet::Planner {
+ public:
+  void start(const fleet::Floor& floor, const fleet::Rules& /*rules*/,
+             std::uint64_t /*seed*/) override {
+    floor_ = &floor;
+  }
+
+  void plan(const fleet::Fleet& fleet, const fleet::Budget& /*budget*/,
+            fleet::Plan& plan) override {
+    // No cell is entered that somebody is in or goes to: nobody swaps, follows or meets.
+    std::unordered_set<fleet::Cell> taken(fleet.cell.begin(), fleet.cell.end());
+    taken.insert(fleet.closed.begin(), fleet.closed.end());
+    plan.horizon = 1;
+    plan.actions.assign(fleet.size(), fleet::Action::kWait);
+    for (int robot = 0; robot < fleet.size(); ++robot) {
+      const fleet::Action action = wanted(fleet, robot);
+      if (action == fleet::Action::kForward) {
+        const fleet::Cell next =
+            floor_->next(fleet.deck(robot), fleet.cell[robot], fleet.heading[robot]);
+        if (next == fleet::kNowhere || !taken.insert(next).second) continue;
+      }
+      plan.actions[robot] = action;
+    }
+  }
+
+ private:
+  fleet::Action wanted(const fleet::Fleet& fleet, int robot) const {
+    const fleet::Cell goal = fleet.goal[robot], cell = fleet.cell[robot];
+    if (goal == fleet::kNowhere || goal == cell || fleet.isStopped(robot)) {
+      return fleet::Action::kWait;
+    }
+    const int along_x = floor_->x(goal) - floor_->x(cell);
+    const int along_y = floor_->y(goal) - floor_->y(cell);
+    const int heading = along_x > 0 ? 0 : along_x < 0 ? 2 : along_y > 0 ? 1 : 3;
+    const int quarters = fleet::turned(heading, -fleet.heading[robot]);
+    if (quarters == 0) return fleet::Action::kForward;
+    return quarters == 3 ? fleet::Action::kTurnNegative : fleet::Action::kTurnPositive;
+  }
+
+  const fleet::Floor* floor_ = nullptr;
+};
+
+}  // namespace
+
+// By this line the library tells what it holds.
+IGNITION_ADD_PLUGIN(RightOfWay, fleet::Planner)

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The planner of the house: priority inheritance with backtracking over operations of several
+// ticks (Yukhnevich and Andreychuk, AAAI 2026), led by costs that are learnt from the traffic, and
+// improved by a large-neighbourhood search while time is left.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "warehouse_fleet/planner.h"
+
+namespace fleet {
+
+struct EpibtOptions {
+  int depth = 4;       ///< ticks of an operation, 1 to 5
+  int revisits = 10;   ///< how often one robot may be moved aside for another
+  int pushes = 400;    ///< how many robots may be moved aside to find one robot's operation
+  int exchanges = 40;  ///< the same in the search for something better
+  /// A goal is where it stops (for a lift, say); else to have passed it is enough.
+  bool goals_are_stops = true;
+  std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept
+  int table_work = 1500;     ///< states a robot that distance tables made in one step may have
+  int renewal_work = 60000;  ///< states that tables made anew in one step may have
+  int renewal_age = 20;      ///< ticks after which a table is made anew, if there is work left
+  double against = 10;       ///< what it costs to meet one robot a tick head on [ticks]
+  double crowd = 0;          ///< what it costs where one robot a tick waits [ticks]
+  double memory = 50;        ///< for how long that is remembered [ticks]
+};
+
+std::unique_ptr<Planner> makeEpibt(const EpibtOptions& options = {});
+
+}  // namespace fleet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a planner sees at a step and what it answers: a fleet as arrays, one element a robot.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "warehouse_fleet/floor.h"
+
+namespace fleet {
+
+/// What a robot does in one tick: the time of a cell at top speed, or of a quarter turn.
+enum class Action : std::uint8_t {
+  kWait = 0,
+  kForward = 1,
+  kTurnPositive = 2,  ///< from +x towards +y
+  kTurnNegative = 3,
+};
+
+/// By how many quarter turns it changes the heading.
+constexpr int quarters(Action action) {
+  return action == Action::kTurnPositive ? 1 : action == Action::kTurnNegative ? -1 : 0;
+}
+
+/// What may happen at once.
+struct Rules {
+  /// A cell may be entered while its robot leaves it. Else it must have been left a tick before.
+  bool following = true;
+  /// Robots that follow each other in a ring may all move at once.
+  bool rings = false;
+};
+
+/// The fleet at a planning step. `cell`, `heading` and `goal` have an element for each robot; the
+/// others too, or none where a default is named.
+struct Fleet {
+  std::vector<Cell> cell;
+  std::vector<Heading> heading;
+  std::vector<Cell> goal;             ///< kNowhere: none, it stands where it is in nobody's way
+  std::vector<std::uint8_t> loaded;   ///< 1: drives on the aisles (default: none)
+  std::vector<Cell> home;             ///< a storage place that it may enter loaded (default: none)
+  std::vector<std::uint8_t> stopped;  ///< 1: stays where it is, whatever it is told (default: none)
+  /// What each can no longer take back, `committed_ticks` actions a robot: its next actions, in
+  /// order. A robot's row ends with kFree from where it is free (default: all are).
+  std::vector<std::uint8_t> committed;
+  int committed_ticks = 0;
+  std::vector<Cell> closed;  ///< cells that nobody may enter now
+
+  static constexpr std::uint8_t kFree = 0xff;
+
+  int size() const { return static_cast<int>(cell.size()); }
+  bool isLoaded(int robot) const { return !loaded.empty() && loaded[robot]; }
+  bool isStopped(int robot) const { return !stopped.empty() && stopped[robot]; }
+  Cell homeOf(int robot) const { return home.empty() ? kNowhere : home[robot]; }
+  Deck deck(int robot) const { return isLoaded(robot) ? Deck::kAisles : Deck::kUnder; }
+  /// How many of its next actions are committed, and which.
+  int commitments(int robot) const;
+  Action commitment(int robot, int tick) const {
+    return static_cast<Action>(committed[robot * committed_ticks + tick]);
+  }
+};
+
+/// What all are to do: `horizon` actions a robot, robot after robot. No two of them are in each
+/// other's way if all keep to it.
+struct Plan {
+  int horizon = 0;  ///< ticks
+  std::vector<Action> actions;
+
+  Action at(int robot, int tick) const { return actions[robot * horizon + tick]; }
+};
+
+/// Where `action` leads on an open floor, whether it may or not; kNowhere beyond its edge.
+struct State {
+  Cell cell = kNowhere;
+  Heading heading = 0;
+  bool operator==(const State& other) const {
+    return cell == other.cell && heading == other.heading;
+  }
+};
+State after(const Floor& floor, State state, Action action);
+
+/// Throws FloorError where a robot stands in a wall, two stand in one cell, a goal is off the floor
+/// or lengths don't agree. `names` (or "robot <index>") are for the message.
+void check(const Floor& floor, const Fleet& fleet, const std::vector<std::string>& names = {});
+
+}  // namespace fleet

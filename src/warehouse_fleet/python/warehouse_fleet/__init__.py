@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Plans for a fleet, without ROS.
+
+    import numpy as np
+    from warehouse_fleet import Fleet, Floor, epibt
+
+    floor = Floor(np.ones((20, 30)))              # 20 rows of 30 cells, all passable
+    planner = epibt(floor, seed=1)
+    fleet = Fleet(cell=[0, 31], heading=[0, 2], goal=[599, 0])
+    actions = planner.plan(fleet, seconds=0.01)   # (robots, ticks) of Action
+
+A cell is a number, y * width + x; a heading counts quarter turns from +x towards +y. A tick is the
+time of one cell at top speed, or of a quarter turn.
+"""
+
+from enum import IntEnum
+
+from warehouse_fleet._core import (
+    Fleet,
+    Floor,
+    FloorError,
+    Planner,
+    Rules,
+    Violation,
+    check_layout,
+    epibt,
+    load_planner,
+    validate,
+)
+
+__all__ = [
+    "Action",
+    "Fleet",
+    "Floor",
+    "FloorError",
+    "Planner",
+    "Rules",
+    "Violation",
+    "check_layout",
+    "epibt",
+    "load_planner",
+    "validate",
+]
+
+
+class Action(IntEnum):
+    """What a robot does in one tick."""
+
+    WAIT = 0
+    FORWARD = 1
+    TURN_POSITIVE = 2  # from +x towards +y
+    TURN_NEGATIVE = 3

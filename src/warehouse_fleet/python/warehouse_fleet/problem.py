@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files of the League of Robot Runners: problems read, results written.
+
+A location is row * width + column; rows go down, so that the turn from +x towards +y is clockwise.
+"""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+PASSABLE, WALLS = ".ESG", "@TOW"
+
+
+class ProblemError(Exception):
+    """A file that can't be used: which, where in it, and what was expected."""
+
+
+@dataclass
+class Problem:
+    """What is to be done."""
+
+    passable: np.ndarray  # (rows, columns) of bool
+    agents: np.ndarray  # location of each robot; all face east
+    tasks: list  # lists of the locations of each task, to be visited in order
+    round_robin: bool = False  # task k belongs to robot k mod robots
+    reveal: float = 1.0  # tasks known at a time, of the number of robots
+    source: str = field(default="", repr=False)
+
+
+def read(path):
+    """The problem of a JSON file and of the files that it names; raises ProblemError."""
+    path = Path(path)
+    data = _json(path)
+    width_of = _field(path, data, "mapFile", str)
+    passable = read_map(path.parent / width_of)
+    agents = _numbers(path.parent / _field(path, data, "agentFile", str), one_a_line=True)
+    tasks = _numbers(path.parent / _field(path, data, "taskFile", str), one_a_line=False)
+    robots = _field(path, data, "teamSize", int, len(agents.lines))
+    if not 1 <= robots <= len(agents.lines):
+        raise ProblemError(
+            f"{path}: teamSize is {robots}; 1 to {len(agents.lines)}, the robots of "
+            f"{agents.path}, was expected"
+        )
+    strategy = _field(path, data, "taskAssignmentStrategy", str, "greedy")
+    if strategy not in ("greedy", "roundrobin"):
+        raise ProblemError(
+            f"{path}: taskAssignmentStrategy is '{strategy}'; roundrobin or greedy was expected"
+        )
+    reveal = _field(path, data, "numTasksReveal", (int, float), 1)
+    if not reveal > 0:
+        raise ProblemError(f"{path}: numTasksReveal is {reveal}; more than 0 was expected")
+    agents.lines = agents.lines[:robots]
+    agents.check(passable)
+    agents.check_distinct()
+    tasks.check(passable)
+    return Problem(
+        passable,
+        np.array([line[0] for _, line in agents.lines], np.int32),
+        [line for _, line in tasks.lines],
+        strategy == "roundrobin",
+        float(reveal),
+        str(path),
+    )
+
+
+def read_map(path):
+    """Where robots can drive, (rows, columns) of bool; raises ProblemError."""
+    lines = _text(path).splitlines()
+    size = {}
+    for number, expected in enumerate(("type", "height", "width", "map"), 1):
+        words = lines[number - 1].split() if len(lines) >= number else []
+        if not words or words[0] != expected:
+            raise ProblemError(f"{path}:{number}: a line '{expected} …' was expected")
+        if expected in ("height", "width"):
+            size[expected] = _integer(words[1] if len(words) == 2 else "", path, number, 1)
+    rows = lines[4 : 4 + size["height"]]
+    if len(rows) < size["height"]:
+        raise ProblemError(
+            f"{path}:{len(lines)}: {size['height']} rows were expected, {len(rows)} are there"
+        )
+    for number, row in enumerate(rows, 5):
+        if len(row) != size["width"]:
+            raise ProblemError(
+                f"{path}:{number}: {len(row)} cells; width {size['width']} was expected"
+            )
+        for column, cell in enumerate(row):
+            if cell not in PASSABLE + WALLS:
+                raise ProblemError(
+                    f"{path}:{number}: '{cell}' in column {column}; "
+                    f"one of {PASSABLE}{WALLS} was expected"
+                )
+    return np.array([[cell in PASSABLE for cell in row] for row in rows])
+
+
+class _Lines:
+    """The locations in a file of robots or tasks, each with the number of its line."""
+
+    def __init__(self, path):
+        self.path, self.lines = path, []
+
+    def check(self, passable):
+        for number, locations in self.lines:
+            for location in locations:
+                if not 0 <= location < passable.size:
+                    raise ProblemError(
+                        f"{self.path}:{number}: location {location}; "
+                        f"0 to {passable.size - 1} was expected"
+                    )
+                if not passable.flat[location]:
+                    raise ProblemError(f"{self.path}:{number}: location {location} is in a wall")
+
+    def check_distinct(self):
+        first = {}
+        for number, (location,) in self.lines:
+            if location in first:
+                raise ProblemError(
+                    f"{self.path}:{number}: location {location} has a robot already, "
+                    f"of line {first[location]}"
+                )
+            first[location] = number
+
+
+def _numbers(path, one_a_line):
+    result, count = _Lines(path), None
+    for number, line in enumerate(_text(path).splitlines(), 1):
+        text = line.split("#", 1)[0].strip()
+        if not text:
+            continue
+        values = [_integer(word, path, number, 0) for word in text.replace(",", " ").split()]
+        if (one_a_line or count is None) and len(values) != 1:
+            raise ProblemError(f"{path}:{number}: one number was expected")
+        if count is None:
+            count = values[0]
+        elif len(result.lines) < count:
+            result.lines.append((number, values))
+    if count is None:
+        raise ProblemError(f"{path}:1: the number of lines that follow was expected")
+    if len(result.lines) < count:
+        raise ProblemError(f"{path}: {count} lines were announced, {len(result.lines)} are there")
+    return result
+
+
+def _integer(word, path, number, least):
+    try:
+        value = int(word)
+    except ValueError:
+        value = None
+    if value is None or value < least:
+        raise ProblemError(f"{path}:{number}: '{word}'; a whole number from {least} was expected")
+    return value
+
+
+def _text(path):
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ProblemError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
+
+
+def _json(path):
+    try:
+        data = json.loads(_text(path))
+    except json.JSONDecodeError as error:
+        raise ProblemError(f"{path}:{error.lineno}: {error.msg}; JSON was expected") from error
+    if not isinstance(data, dict):
+        raise ProblemError(f"{path}:1: a JSON object was expected")
+    return data
+
+
+_MISSING = object()
+
+
+def _field(path, data, name, kind, default=_MISSING):
+    value = data.get(name, default)
+    if value is _MISSING:
+        raise ProblemError(f"{path}: there is no '{name}'")
+    if isinstance(value, bool) or not isinstance(value, kind):
+        expected = {str: "a text", int: "a whole number"}.get(kind, "a number")
+        raise ProblemError(f"{path}: {name} is {json.dumps(value)}; {expected} was expected")
+    return value
+
+
+def write_problem(folder, name, passable, agents, tasks, round_robin=True, reveal=1):
+    """The four files of a problem in `folder`; the path of the one to read."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = ["".join("." if cell else "@" for cell in row) for row in passable]
+    head = f"type octile\nheight {passable.shape[0]}\nwidth {passable.shape[1]}\nmap\n"
+    (folder / f"{name}.map").write_text(head + "\n".join(rows) + "\n")
+    (folder / f"{name}.agents").write_text("\n".join(map(str, [len(agents), *agents])) + "\n")
+    lines = [",".join(map(str, task)) for task in tasks]
+    (folder / f"{name}.tasks").write_text("\n".join([str(len(tasks)), *lines]) + "\n")
+    data = {
+        "mapFile": f"{name}.map",
+        "agentFile": f"{name}.agents",
+        "taskFile": f"{name}.tasks",
+        "teamSize": len(agents),
+        "numTasksReveal": reveal,
+    }
+    if round_robin:
+        data["taskAssignmentStrategy"] = "roundrobin"
+    path = folder / f"{name}.json"
+    path.write_text(json.dumps(data, indent=1) + "\n")
+    return path

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "candidates.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace fleet {
+namespace {
+
+/// Costs of paths are finer than those of edges: between equals the one that moves early is better.
+constexpr int kFine = 16;
+
+}  // namespace
+
+Candidates::Candidates(const Floor& floor, const Edges& edges, int depth)
+    : floor_(floor), edges_(edges), depth_(depth) {
+  operations_.emplace_back();
+  for (int free = 1; free <= depth; ++free) {
+    operations_.push_back(std::make_unique<Operations>(free));
+  }
+}
+
+void Candidates::begin(int robots) {
+  paths_.resize(robots);
+  is_known_.assign(robots, 0);
+}
+
+const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
+  std::vector<Path>& paths = paths_[robot];
+  if (is_known_[robot]) return paths;
+  is_known_[robot] = 1;
+  paths.clear();
+  if (wish.stopped || wish.committed == depth_) {
+    paths.push_back(standing(wish));
+    return paths;
+  }
+  grow(wish, paths);
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const Path& one, const Path& other) { return one.cost < other.cost; });
+  return paths;
+}
+
+Path Candidates::standing(const Wish& wish) const {
+  Path path;
+  const State state = commit(wish, path);
+  for (int tick = wish.committed; tick < depth_; ++tick) {
+    path.actions[tick] = Action::kWait;
+    path.cells[tick + 1] = state.cell;
+  }
+  path.cost = cost(wish, path, state.heading);
+  return path;
+}
+
+Path Candidates::rest(const Path& path, const Wish& wish) const {
+  Path rest;
+  int heading = wish.state.heading;
+  for (int tick = 0; tick < depth_; ++tick) {
+    const bool is_last = tick + 1 == depth_;
+    rest.cells[tick] = path.cells[tick + 1];
+    rest.actions[tick] = is_last ? Action::kWait : path.actions[tick + 1];
+    heading += quarters(rest.actions[tick]);
+  }
+  rest.cells[depth_] = path.cells[depth_];
+  rest.cost = cost(wish, rest, heading & 3);
+  return rest;
+}
+
+bool Candidates::canDrive(const Path& path, const Wish& wish) const {
+  State state = wish.state;
+  for (int tick = 0; tick < depth_; ++tick) {
+    const Action action = path.actions[tick];
+    if (wish.stopped ? action != Action::kWait
+                     : tick < wish.committed && action != wish.commitment[tick]) {
+      return false;
+    }
+    if (action == Action::kForward) {
+      // What it is committed to it can't be kept from any more.
+      if (tick >= wish.committed && next(wish, state.cell, state.heading) == kNowhere) return false;
+      state.cell = path.cells[tick + 1];
+    }
+    state.heading = turned(state.heading, quarters(action));
+  }
+  return true;
+}
+
+/// The committed part of a path; where it leads.
+State Candidates::commit(const Wish& wish, Path& path) const {
+  State state = wish.state;
+  path.cells[0] = state.cell;
+  for (int tick = 0; tick < wish.committed; ++tick) {
+    const State there = after(floor_, state, wish.commitment[tick]);
+    if (there.cell != kNowhere) state = there;
+    path.actions[tick] = wish.commitment[tick];
+    path.cells[tick + 1] = state.cell;
+  }
+  return state;
+}
+
+Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
+  const int edge = cell * kHeadings + heading;
+  const Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
+  if (to != kNowhere || wish.home == kNowhere) return to;
+  return edges_.next[0][edge] == wish.home ? wish.home : kNowhere;
+}
+
+void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
+  Path path;
+  const State start = commit(wish, path);
+  const Operations& operations = *operations_[depth_ - wish.committed];
+  reached_.resize(operations.nodes().size());
+  for (std::size_t i = 0; i < operations.nodes().size(); ++i) {
+    const auto& node = operations.nodes()[i];
+    const Cell from = node.parent < 0 ? start.cell : reached_[node.parent];
+    reached_[i] = from;
+    if (from == kNowhere || node.move == Operations::kStay) continue;
+    reached_[i] = next(wish, from, turned(start.heading, node.move));
+  }
+  for (const auto& leaf : operations.leaves()) {
+    if (reached_[leaf.node] == kNowhere) continue;
+    for (int at = leaf.node, tick = depth_; at >= 0; at = operations.nodes()[at].parent, --tick) {
+      path.cells[tick] = reached_[at];
+    }
+    int best = -1;
+    for (int turn = 0; turn < kHeadings; ++turn) {
+      if (!leaf.ends[turn]) continue;
+      const int cost = this->cost(wish, path, turned(start.heading, turn));
+      if (best >= 0 && cost >= path.cost) continue;
+      best = turn;
+      path.cost = cost;
+    }
+    path.cost += leaf.late;
+    std::copy_n(leaf.actions[best].begin(), depth_ - wish.committed,
+                path.actions.begin() + wish.committed);
+    paths.push_back(path);
+  }
+}
+
+int Candidates::cost(const Wish& wish, const Path& path, int heading) const {
+  const Cell end = path.cells[depth_];
+  if (wish.goal == kNowhere) {
+    // Nothing to do: to be where it is, or back there soon.
+    return kFine * kTickCost *
+           (std::abs(floor_.x(end) - floor_.x(path.cells[0])) +
+            std::abs(floor_.y(end) - floor_.y(path.cells[0])));
+  }
+  if (!wish.stops_at_goal || end == wish.goal) {
+    for (int tick = 0; tick <= depth_; ++tick) {
+      if (path.cells[tick] != wish.goal) continue;
+      return kFine * kTickCost * (tick - depth_);
+    }
+  }
+  return kFine * distance(wish, {end, static_cast<Heading>(heading)});
+}
+
+int Candidates::distance(const Wish& wish, State state) const {
+  if (wish.table != nullptr) return wish.table->at(state.cell, state.heading);
+  return kTickCost * (std::abs(floor_.x(state.cell) - floor_.x(wish.goal)) +
+                      std::abs(floor_.y(state.cell) - floor_.y(wish.goal)));
+}
+
+}  // namespace fleet

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What each robot could do next, the best first.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "distance_tables.h"
+#include "path.h"
+
+namespace fleet {
+
+/// Where one robot is and wants to go.
+struct Wish {
+  State state;
+  Deck deck = Deck::kUnder;
+  Cell goal = kNowhere;
+  Cell home = kNowhere;                  ///< a storage place that it may enter
+  const DistanceTable* table = nullptr;  ///< to the goal; nullptr: not known yet
+  int committed = 0;                     ///< its first actions are these
+  Actions commitment{};
+  bool stopped = false;
+  bool stops_at_goal = true;
+};
+
+class Candidates {
+ public:
+  Candidates(const Floor& floor, const Edges& edges, int depth);
+
+  /// A new step, nobody's candidates are known.
+  void begin(int robots);
+
+  /// Works them out, once a step.
+  const std::vector<Path>& of(int robot, const Wish& wish);
+
+  /// Keeps to what is committed, and stands from then on. Allowed if nobody else does otherwise.
+  Path standing(const Wish& wish) const;
+  /// What is left of a path after a tick, and standing from then on.
+  Path rest(const Path& path, const Wish& wish) const;
+  /// Whether a path from where it stands leads along edges that there are, as it is committed to.
+  bool canDrive(const Path& path, const Wish& wish) const;
+
+  /// The cell in front of one who stands in `cell`, on its deck or its own storage place.
+  Cell next(const Wish& wish, Cell cell, int heading) const;
+  /// How far it is to the goal from there, in kTickCost: an estimate while there is no table.
+  int distance(const Wish& wish, State state) const;
+
+ private:
+  State commit(const Wish& wish, Path& path) const;
+  int cost(const Wish& wish, const Path& path, int heading) const;
+  void grow(const Wish& wish, std::vector<Path>& paths);
+
+  const Floor& floor_;
+  const Edges& edges_;
+  const int depth_;
+  std::vector<std::unique_ptr<Operations>> operations_;  ///< by ticks that are free
+  std::vector<std::vector<Path>> paths_;
+  std::vector<std::uint8_t> is_known_;
+  std::vector<Cell> reached_;  ///< by node of a tree of operations
+};
+
+}  // namespace fleet

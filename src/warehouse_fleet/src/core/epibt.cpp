@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "warehouse_fleet/epibt.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <random>
+
+#include "candidates.h"
+#include "distance_tables.h"
+#include "guidance.h"
+#include "making_way.h"
+#include "reservations.h"
+#include "spacing.h"
+
+namespace fleet {
+namespace {
+
+double threadSeconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return now.tv_sec + 1e-9 * now.tv_nsec;
+}
+
+/// What is remembered of a robot from step to step.
+struct Memory {
+  Cell goal = kNowhere;
+  int waiting = 0;  ///< ticks since it was given its goal, or reached it
+  State planned;    ///< where its path begins
+  State expected;   ///< where it leads in one tick
+  Deck deck = Deck::kUnder;
+};
+
+class Epibt : public Planner {
+ public:
+  explicit Epibt(const EpibtOptions& options) : options_(options) {
+    if (options.depth < 1 || options.depth > kMaxDepth) {
+      throw FloorError("depth " + std::to_string(options.depth) + "; 1 to " +
+                       std::to_string(kMaxDepth) + " was expected");
+    }
+  }
+
+  void start(const Floor& floor, const Rules& rules, std::uint64_t seed) override;
+  void plan(const Fleet& fleet, const Budget& budget, Plan& plan) override;
+
+ private:
+  void observe(const Fleet& fleet);
+  void close(const Fleet& fleet);
+  void wish(const Fleet& fleet);
+  void inherit(const Fleet& fleet);
+  void resume(const std::vector<Path>& rests);
+  void prioritise(const Fleet& fleet);
+  void improve(const Budget& budget, double deadline);
+  void answer(const Fleet& fleet, Plan& plan);
+
+  /// How an operation is looked for.
+  struct Search {
+    bool takes_all;  ///< or only what makes all paths together no dearer
+    int pushes;      ///< how many more robots may be moved aside
+    int rank;        ///< only those of a lower rank; -1: anybody
+  };
+  bool mayMove(int robot, const Search& search) const;
+  bool insert(int robot, std::int64_t gain, Search& search);
+  std::int64_t weigh(int robot, const Path& path) const {
+    return std::int64_t{weight_[robot]} * path.cost;
+  }
+  bool replan(int robot, Search search);
+  void visit(int robot);
+
+  const EpibtOptions options_;
+  std::unique_ptr<Edges> edges_;
+  std::unique_ptr<Guidance> guidance_;
+  std::unique_ptr<DistanceTables> tables_;
+  std::unique_ptr<Candidates> candidates_;
+  std::unique_ptr<Reservations> reserved_;
+  std::unique_ptr<Spacing> spacing_;
+  std::unique_ptr<MakingWay> way_;
+  Rules rules_;
+  const Floor* floor_ = nullptr;
+  std::mt19937_64 random_;
+  int now_ = 0;
+  int version_ = 0;
+  std::vector<Cell> closed_;  ///< now, sorted
+  std::vector<Memory> memory_;
+  std::vector<Wish> wishes_;
+  std::vector<int> order_, rank_;  ///< who comes first, and who comes when
+  std::vector<int> weight_;        ///< of a robot's cost in that of all
+  // Of one pass: whom it has come to, how often, and who is being moved right now.
+  std::vector<int> searched_, visits_, settled_;
+  int pass_ = 0, search_ = 0;
+};
+
+void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
+  floor_ = &floor;
+  random_.seed(seed);
+  guidance_ = std::make_unique<Guidance>(
+      floor, GuidanceOptions{options_.against, options_.crowd, options_.memory});
+  edges_ = std::make_unique<Edges>();
+  edges_->next[0] = floor.edges(Deck::kUnder);
+  edges_->next[1] = floor.edges(Deck::kAisles);
+  edges_->costs = &guidance_->costs();
+  tables_ = std::make_unique<DistanceTables>(floor, *edges_, options_.table_bytes);
+  candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth);
+  reserved_ = std::make_unique<Reservations>(floor, rules, options_.depth);
+  spacing_ = std::make_unique<Spacing>(options_.depth);
+  way_ = std::make_unique<MakingWay>(floor);
+  rules_ = rules;
+}
+
+void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
+  const double deadline = threadSeconds() + budget.seconds;
+  check(*floor_, fleet);
+  observe(fleet);
+  close(fleet);
+  wish(fleet);
+  way_->direct(fleet, *candidates_, wishes_);
+  inherit(fleet);
+  prioritise(fleet);
+  ++pass_;
+  for (const int robot : order_) {
+    if (settled_[robot] != pass_) replan(robot, {true, options_.pushes, rank_[robot]});
+  }
+  improve(budget, deadline);
+  answer(fleet, plan);
+  ++now_;
+}
+
+/// Learns from what has become of the last plan.
+void Epibt::observe(const Fleet& fleet) {
+  if (fleet.size() < static_cast<int>(memory_.size())) memory_.clear();
+  memory_.resize(fleet.size());
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    Memory& memory = memory_[robot];
+    ++memory.waiting;
+    if (memory.goal != fleet.goal[robot] || fleet.cell[robot] == memory.goal) memory.waiting = 0;
+    memory.goal = fleet.goal[robot];
+    if (static_cast<int>(wishes_.size()) <= robot) continue;
+    const State& was = wishes_[robot].state;
+    if (was.cell != fleet.cell[robot]) {
+      guidance_->drove(was.cell, was.heading);
+    } else if (was.heading == fleet.heading[robot] && wishes_[robot].goal != kNowhere) {
+      guidance_->waited(was.cell);
+    }
+  }
+  guidance_->tick();
+  constexpr int kRefresh = 10;
+  if (now_ % kRefresh == 0) guidance_->refresh();
+}
+
+/// Takes the edges away that lead into closed cells, and gives those of others back.
+void Epibt::close(const Fleet& fleet) {
+  std::vector<Cell> closed = fleet.closed;
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    if (fleet.isStopped(robot)) closed.push_back(fleet.cell[robot]);
+  }
+  std::sort(closed.begin(), closed.end());
+  closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
+  if (closed != closed_) {
+    const auto set = [&](const std::vector<Cell>& cells, bool is_open) {
+      for (const Cell cell : cells) {
+        for (int heading = 0; heading < kHeadings; ++heading) {
+          const Cell from = floor_->beside(cell, heading + 2);
+          if (from == kNowhere) continue;
+          for (const Deck deck : {Deck::kUnder, Deck::kAisles}) {
+            edges_->next[static_cast<int>(deck)][from * kHeadings + heading] =
+                is_open ? floor_->next(deck, from, heading) : kNowhere;
+          }
+        }
+      }
+    };
+    set(closed_, true);
+    set(closed, false);
+    closed_ = closed;
+    ++version_;
+  }
+}
+
+void Epibt::wish(const Fleet& fleet) {
+  const int states = floor_->size() * kHeadings;
+  constexpr int kLeastWork = 60000;
+  const int work = std::max(kLeastWork, options_.table_work * fleet.size());
+  tables_->begin(now_, version_, std::max(1, work / states));
+  wishes_.resize(fleet.size());
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    Wish& wish = wishes_[robot];
+    wish = {};
+    wish.state = {fleet.cell[robot], fleet.heading[robot]};
+    wish.deck = fleet.deck(robot);
+    wish.goal = fleet.goal[robot];
+    wish.home = fleet.isLoaded(robot) ? fleet.homeOf(robot) : kNowhere;
+    wish.stopped = fleet.isStopped(robot);
+    wish.stops_at_goal = options_.goals_are_stops;
+    wish.committed = wish.stopped ? 0 : std::min(fleet.commitments(robot), options_.depth);
+    for (int tick = 0; tick < wish.committed; ++tick) {
+      wish.commitment[tick] = fleet.commitment(robot, tick);
+    }
+    if (wish.goal == kNowhere || wish.stopped) continue;
+    wish.table = tables_->find(wish.deck, wish.goal);
+    if (wish.table != nullptr && !wish.table->reaches(wish.state.cell)) wish.goal = kNowhere;
+  }
+  tables_->renew(options_.renewal_age, std::max(1, options_.renewal_work / states));
+  candidates_->begin(fleet.size());
+}
+
+/// Everybody begins with what is left of the last plan, if it still can be driven.
+void Epibt::inherit(const Fleet& fleet) {
+  std::vector<Path> rests(fleet.size());
+  bool all_as_planned = true;
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    const Wish& wish = wishes_[robot];
+    const Memory& memory = memory_[robot];
+    const bool is_as_planned = memory.expected == wish.state;
+    bool is_known = false;
+    if (is_as_planned || memory.planned == wish.state) {
+      const Path& path = reserved_->path(robot);
+      rests[robot] = is_as_planned ? candidates_->rest(path, wish) : path;
+      is_known = memory.deck == wish.deck && candidates_->canDrive(rests[robot], wish);
+    }
+    if (!is_known) rests[robot] = candidates_->standing(wish);
+    if (!is_known || !is_as_planned) all_as_planned = false;
+  }
+  reserved_->begin(fleet);
+  if (!all_as_planned) return resume(rests);
+  for (int robot = 0; robot < fleet.size(); ++robot) reserved_->place(robot, rests[robot]);
+}
+
+/// All stand first but those who are committed, and who is in nobody's way takes up its path again.
+void Epibt::resume(const std::vector<Path>& rests) {
+  const int robots = static_cast<int>(rests.size());
+  for (const bool is_committed : {true, false}) {
+    for (int robot = 0; robot < robots; ++robot) {
+      if ((wishes_[robot].committed > 0) != is_committed) continue;
+      const Path standing = candidates_->standing(wishes_[robot]);
+      const bool can_stand = reserved_->conflict(robot, standing) == Reservations::kNobody;
+      reserved_->place(robot, can_stand ? standing : rests[robot]);
+    }
+  }
+  std::vector<int> waiting(robots), still;
+  std::iota(waiting.begin(), waiting.end(), 0);
+  do {
+    still.clear();
+    for (const int robot : waiting) {
+      const Path standing = reserved_->path(robot);
+      reserved_->remove(robot);
+      const bool is_free = reserved_->conflict(robot, rests[robot]) == Reservations::kNobody;
+      reserved_->place(robot, is_free ? rests[robot] : standing);
+      if (!is_free) still.push_back(robot);
+    }
+    waiting.swap(still);
+  } while (waiting.size() < still.size());
+}
+
+/// Who is nearest to its goal goes first, which serves throughput; what a robot has waited counts
+/// against what it has still to go, so that nobody waits for ever.
+void Epibt::prioritise(const Fleet& fleet) {
+  constexpr int kWaitingWorth = 2;  // of kTickCost, a tick
+  constexpr int kFirst = std::numeric_limits<int>::min();
+  constexpr int kLast = std::numeric_limits<int>::max();
+  std::vector<int> key(fleet.size());
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    const Wish& wish = wishes_[robot];
+    if (way_->isTold(robot)) {
+      key[robot] = kFirst;
+      continue;
+    }
+    key[robot] = wish.goal == kNowhere ? kLast
+                                       : candidates_->distance(wish, wish.state) -
+                                             kWaitingWorth * memory_[robot].waiting;
+  }
+  order_.resize(fleet.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(), [&](int one, int other) {
+    return key[one] != key[other] ? key[one] < key[other] : one < other;
+  });
+  rank_.resize(fleet.size());
+  weight_.resize(fleet.size());
+  for (int rank = 0; rank < fleet.size(); ++rank) {
+    const double share = 1 - static_cast<double>(rank) / fleet.size();
+    rank_[order_[rank]] = rank;
+    weight_[order_[rank]] = 1 + static_cast<int>(1000 * share * share);
+  }
+  searched_.assign(fleet.size(), 0);
+  visits_.assign(fleet.size(), 0);
+  settled_.assign(fleet.size(), 0);
+  pass_ = search_ = 0;
+}
+
+void Epibt::visit(int robot) {
+  if (searched_[robot] != search_) visits_[robot] = 0;
+  searched_[robot] = search_;
+  ++visits_[robot];
+}
+
+/// Finds `robot`, which has no path, the best operation for which others, one after the other, can
+/// be moved aside. `gain` is what the paths that have changed so far are cheaper together.
+bool Epibt::insert(int robot, std::int64_t gain, Search& search) {
+  visit(robot);
+  settled_[robot] = pass_;
+  bool is_found = false;
+  for (const Path& path : candidates_->of(robot, wishes_[robot])) {
+    const int other = reserved_->conflict(robot, path);
+    if (other == Reservations::kNobody) {
+      is_found = search.takes_all || gain >= weigh(robot, path);
+      if (is_found) reserved_->place(robot, path);
+      break;  // those that follow are no better
+    }
+    if (other == Reservations::kSeveral || !mayMove(other, search)) continue;
+    if (--search.pushes < 0) break;
+    const Path others = reserved_->path(other);
+    reserved_->remove(other);
+    reserved_->place(robot, path);
+    is_found = insert(other, gain - weigh(robot, path) + weigh(other, others), search);
+    if (is_found) break;
+    reserved_->remove(robot);
+    reserved_->place(other, others);
+  }
+  if (!is_found) settled_[robot] = 0;
+  return is_found;
+}
+
+/// Not who is being moved or has been already, nor who comes first.
+bool Epibt::mayMove(int robot, const Search& search) const {
+  if (settled_[robot] == pass_ || wishes_[robot].stopped) return false;
+  if (searched_[robot] == search_ && visits_[robot] >= options_.revisits) return false;
+  return search.rank < 0 || rank_[robot] > search.rank;
+}
+
+bool Epibt::replan(int robot, Search search) {
+  const Path kept = reserved_->path(robot);
+  reserved_->remove(robot);
+  ++search_;
+  if (insert(robot, weigh(robot, kept), search)) return true;
+  reserved_->place(robot, kept);
+  return false;
+}
+
+/// A large-neighbourhood search: moves robots aside where all together gain by it.
+void Epibt::improve(const Budget& budget, double deadline) {
+  if (order_.empty()) return;
+  constexpr int kBetweenLooks = 8;
+  const bool is_timed = budget.seconds > 0;
+  if (!is_timed && budget.attempts < 0) return;
+  for (int attempt = 0; attempt != budget.attempts; ++attempt) {
+    if (is_timed && attempt % kBetweenLooks == 0 && threadSeconds() >= deadline) return;
+    if (attempt % order_.size() == 0) {
+      ++pass_;
+      std::shuffle(order_.begin(), order_.end(), random_);
+    }
+    const int robot = order_[attempt % order_.size()];
+    if (settled_[robot] != pass_) replan(robot, {false, options_.exchanges, -1});
+  }
+}
+
+void Epibt::answer(const Fleet& fleet, Plan& plan) {
+  plan.horizon = options_.depth;
+  plan.actions.resize(fleet.size() * plan.horizon);
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    const Path& path = reserved_->path(robot);
+    std::copy_n(path.actions.begin(), plan.horizon, plan.actions.begin() + robot * plan.horizon);
+    const Heading heading = wishes_[robot].state.heading;
+    memory_[robot].planned = wishes_[robot].state;
+    memory_[robot].deck = wishes_[robot].deck;
+    memory_[robot].expected = {path.cells[1], turned(heading, quarters(path.actions[0]))};
+  }
+  if (!rules_.following) plan.actions = spacing_->space(fleet, *floor_, *reserved_);
+}
+
+}  // namespace
+
+std::unique_ptr<Planner> makeEpibt(const EpibtOptions& options) {
+  return std::make_unique<Epibt>(options);
+}
+
+}  // namespace fleet

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "guidance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleet {
+
+Guidance::Guidance(const Floor& floor, const GuidanceOptions& options)
+    : floor_(floor),
+      options_(options),
+      drove_(floor.size() * kHeadings),
+      waited_(floor.size()),
+      costs_(floor.size() * kHeadings, kTickCost) {}
+
+void Guidance::tick() {
+  constexpr double kLargestGain = 1e6;
+  gain_ *= std::exp(1 / options_.memory);
+  if (gain_ < kLargestGain) return;
+  for (float& sum : drove_) sum /= gain_;
+  for (float& sum : waited_) sum /= gain_;
+  gain_ = 1;
+}
+
+void Guidance::refresh() {
+  // Sums of what fades like this are `memory` times the mean.
+  const double per_tick = 1 / (gain_ * options_.memory);
+  for (Cell cell = 0; cell < floor_.size(); ++cell) {
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const Cell to = floor_.next(Deck::kUnder, cell, heading);
+      if (to == kNowhere) continue;
+      const double met = drove_[to * kHeadings + turned(heading, 2)] * per_tick;
+      const double ticks = 1 + options_.against * met + options_.crowd * waited_[to] * per_tick;
+      costs_[cell * kHeadings + heading] =
+          std::min<double>(kMaxEdgeCost, std::lround(ticks * kTickCost));
+    }
+  }
+}
+
+}  // namespace fleet

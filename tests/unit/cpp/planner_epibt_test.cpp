@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The planner at work on floors with two decks: nobody in anybody's way, and everybody arrives.
+#include "planner_shift.h"
+#include "warehouse_fleet/layout_check.h"
+
+namespace fleet::test {
+namespace {
+
+TEST(Epibt, TakesTheShortestWayAlone) {
+  const Floor floor(drawn(std::vector<std::string>(20, std::string(30, '.'))));
+  const auto planner = makeEpibt();
+  planner->start(floor, {}, 1);
+  Fleet fleet;
+  fleet.cell = {0};
+  fleet.heading = {2};
+  fleet.goal = {19 * 30 + 29};
+  Plan plan;
+  int ticks = 0;
+  for (; fleet.cell[0] != fleet.goal[0] && ticks < 1000; ++ticks) {
+    planner->plan(fleet, {}, plan);
+    const State state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
+    fleet.cell[0] = state.cell;
+    fleet.heading[0] = state.heading;
+  }
+  // A quarter turn and one between the legs, 29 + 19 cells.
+  EXPECT_EQ(ticks, 2 + 29 + 19);
+}
+
+class EveryLayout : public testing::TestWithParam<std::tuple<int, int, bool>> {};
+
+TEST_P(EveryLayout, EverybodyArrivesAndNobodyMeets) {
+  const auto [seed, aisle, following] = GetParam();
+  const auto rows = blocks(5, 4, aisle);
+  Rules rules;
+  rules.following = following;
+  Shift shift(rows, aisle == 1 ? 15 : 25, seed, rules);
+  ASSERT_TRUE(checkLayout(shift.floor).empty());
+  ASSERT_TRUE(shift.run(400));
+  EXPECT_LT(shift.longest, 200) << "somebody was stuck";
+  EXPECT_GT(shift.arrivals, shift.fleet.size() * 400 / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, EveryLayout,
+                         testing::Combine(testing::Range(1, 4), testing::Values(1, 2, 3),
+                                          testing::Bool()));
+
+TEST(Epibt, MovesNobodyAroundInARing) {
+  // Four in a square, each with the next one's cell as its goal and facing it.
+  const Floor floor(drawn({"....", "....", "...."}));
+  Fleet fleet;
+  fleet.cell = {0, 1, 5, 4};
+  fleet.heading = {0, 1, 2, 3};
+  fleet.goal = {1, 5, 4, 0};
+  for (const bool rings : {false, true}) {
+    Rules rules;
+    rules.rings = rings;
+    const auto planner = makeEpibt();
+    planner->start(floor, rules, 1);
+    Plan plan;
+    planner->plan(fleet, {0, 200}, plan);
+    EXPECT_TRUE(validate(floor, fleet, plan, rules).empty());
+    int moving = 0;
+    for (int robot = 0; robot < 4; ++robot) moving += plan.at(robot, 0) == Action::kForward;
+    if (rings) {
+      EXPECT_EQ(moving, 4);
+    } else {
+      EXPECT_LT(moving, 4);
+    }
+  }
+}
+
+TEST(Epibt, DrivesAroundADeadRobotAndAClosedCell) {
+  for (const int seed : {1, 2}) {
+    Shift shift(blocks(5, 4, 2), 25, seed);
+    ASSERT_TRUE(shift.run(100));
+    shift.fleet.stopped[3] = shift.fleet.stopped[8] = 1;
+    const Cell crossing = 13 * shift.floor.width() / 2;
+    for (const Cell cell : {crossing, crossing + 1}) {
+      const auto& cells = shift.fleet.cell;
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end() &&
+          !shift.floor.isStorage(cell)) {
+        shift.fleet.closed.push_back(cell);
+      }
+    }
+    const int before = shift.arrivals;
+    ASSERT_TRUE(shift.run(300));
+    EXPECT_GT(shift.arrivals, before + 23 * 300 / 100);
+    shift.fleet.closed.clear();
+    shift.fleet.stopped.assign(25, 0);
+    ASSERT_TRUE(shift.run(300));
+    for (const int since : shift.since()) EXPECT_LT(since, 250) << "flows again for all";
+  }
+}
+
+TEST(Epibt, KeepsWhatIsCommittedAndGoesOnFromWhereRobotsAre) {
+  // Robots that don't do what they were told: each misses one action in ten.
+  std::mt19937_64 random(5);
+  Shift shift(blocks(5, 4, 2), 25, 5);
+  for (int tick = 0; tick < 300; ++tick) {
+    for (auto& stopped : shift.fleet.stopped) stopped = random() % 10 == 0;
+    ASSERT_TRUE(shift.step());
+  }
+  EXPECT_GT(shift.arrivals, 25 * 300 / 150);
+}
+
+TEST(Epibt, SearchChangesPlansAndIsRepeatable) {
+  std::vector<std::vector<Cell>> cells;
+  for (const int attempts : {0, 300, 300}) {
+    Shift shift(blocks(5, 4, 1), 15, 9);
+    ASSERT_TRUE(shift.run(200, {0, attempts}));
+    cells.push_back(shift.fleet.cell);
+  }
+  EXPECT_EQ(cells[1], cells[2]);
+  EXPECT_NE(cells[0], cells[1]);
+}
+
+TEST(Epibt, TakesNoLongerThanItIsGiven) {
+  Shift shift(blocks(5, 4, 2), 40, 2);
+  timespec begin, end;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
+  ASSERT_TRUE(shift.run(50, {0.004, -1}));
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
+  const double seconds = end.tv_sec - begin.tv_sec + 1e-9 * (end.tv_nsec - begin.tv_nsec);
+  EXPECT_GE(seconds, 50 * 0.004);
+  EXPECT_LT(seconds, 50 * 0.008);
+}
+
+TEST(Epibt, AGoalThatIsCutOffStopsNobodyElse) {
+  Shift shift(blocks(3, 2, 1), 2, 1);
+  const Cell goal = shift.floor.size() - 1;
+  shift.fleet.cell = {0, 3};
+  shift.fleet.goal = {goal, 8};
+  shift.fleet.closed = {goal - 1, goal - shift.floor.width()};
+  ASSERT_TRUE(shift.run(40));
+  EXPECT_GT(shift.arrivals, 0);
+}
+
+TEST(Epibt, RefusesAFleetThatCannotBe) {
+  const Floor floor(drawn({"..#", "..."}));
+  const auto planner = makeEpibt();
+  planner->start(floor, {}, 1);
+  const auto refusal = [&](std::vector<Cell> cell, std::vector<Cell> goal) -> std::string {
+    Fleet fleet;
+    fleet.cell = cell;
+    fleet.heading.assign(cell.size(), 0);
+    fleet.goal = goal;
+    Plan plan;
+    try {
+      planner->plan(fleet, {}, plan);
+    } catch (const FloorError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({0, 1}, {1, 0}), "");
+  EXPECT_EQ(refusal({0, 0}, {1, 1}), "robot 0 and robot 1 both stand at (0, 0)");
+  EXPECT_EQ(refusal({2}, {1}), "robot 0 stands at (2, 0), where no robot can stand");
+  EXPECT_EQ(refusal({0}, {9}),
+            "robot 0 has the goal cell 9 (off the floor), where no robot can stand");
+  EXPECT_EQ(refusal({0}, {}), "goal has 0 elements; one a robot, 1, was expected");
+}
+
+}  // namespace
+}  // namespace fleet::test
