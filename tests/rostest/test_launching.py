@@ -69,7 +69,7 @@ class Launching(unittest.TestCase):
             self.assertIn(f"warehouse.launch: {reason}", self.refused(*args))
 
     def test_a_broken_world_ends_without_a_traceback(self):
-        broken = WORLDS / "invalid_box_size.sdf"
+        broken = WORLDS / "invalid_no_world.sdf"
         _, said = launch("-p", str(free_port()), f"world:={broken}")
         self.assertNotIn("Traceback", said)
         self.assertIn(f"{broken}:", said)

@@ -163,8 +163,11 @@ def test_what_is_wrong_raises_with_its_reason_and_changes_nothing(world, call, e
 
 
 def test_a_world_file_that_is_wrong_names_its_line():
-    with pytest.raises(DescriptionError, match=r"invalid_.*:\d+"):
-        World(sorted((REPOSITORY / "tests" / "worlds").glob("invalid_*.sdf"))[0])
+    worlds = REPOSITORY / "tests" / "worlds"
+    with pytest.warns(UserWarning, match=r"invalid_box_size\.sdf:\d+"):
+        World(worlds / "invalid_box_size.sdf")
+    with pytest.raises(DescriptionError, match=r"invalid_no_world\.sdf: expected a <world>"):
+        World(worlds / "invalid_no_world.sdf")
 
 
 # --- views

@@ -338,7 +338,7 @@ RayHit Obstacles::cast(double x, double y, double z, double dx, double dy, doubl
       return;
     }
     const Footprint& f = entries_[handle].footprint;
-    if (z < f.z_min || z > f.z_max) return;
+    if (z < f.z_min || z > f.z_max || (group >= 0 && f.group == group)) return;
     const double t = castOne(f, x, y, z, dx, dy, range);
     if (t < hit.range) hit = {t, f.model};
   };
