@@ -366,5 +366,15 @@ TEST(Laser, ScansOfAFleetAreSpreadOverThePeriod) {
   EXPECT_LE(most, 3);
 }
 
+TEST(RayCast, PassesTheModelThatItIsToldToPass) {
+  Warehouse w;
+  w.spawn("wall", "near", 0, 0);
+  w.spawn("wall", "far", 3, 0);
+  EXPECT_LT(w.world.rayCast({-1, 0, 0.2}, 0, 10), 2);
+  const double seen = w.world.rayCast({0, 0, 0.2}, 0, 10, "near");
+  EXPECT_GT(seen, 1);
+  EXPECT_LT(seen, 3);
+}
+
 }  // namespace
 }  // namespace kiva::test

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/checkpoint/archive.h"
+#include "core/checkpoint/field_count.h"
 #include "core/checkpoint/plugin_states.h"
 #include "core/checkpoint/rebuild.h"
 #include "core/models/models.h"
@@ -12,13 +13,9 @@
 namespace kiva {
 
 // A field that is added to a struct below has to be described too, and where that changes what the
-// bytes mean, the version counted up. Each of these numbers is to remind of it.
-#if defined(__x86_64__) && defined(__GLIBCXX__)
-#define DESCRIBED(type, size) \
-  static_assert(sizeof(type) == (size), "describe what is new in it, then correct the size")
-#else
-#define DESCRIBED(type, size)
-#endif
+// bytes mean, the version counted up. The numbers of fields are to remind of it.
+#define DESCRIBED(type, fields) \
+  static_assert(fieldCount<type>() == (fields), "describe what is new in it, then correct this")
 
 // --- the last value of each enum, so that none beyond it is read
 
@@ -39,7 +36,7 @@ constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOth
 
 template <class A>
 void describe(A& a, Mesh& m) {
-  DESCRIBED(Mesh, 112);
+  DESCRIBED(Mesh, 4);
   std::vector<int> corners;
   for (const auto& triangle : m.triangles) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
@@ -53,7 +50,7 @@ void describe(A& a, Mesh& m) {
 
 template <class A>
 void describe(A& a, Shape& s) {
-  DESCRIBED(Shape, 184);
+  DESCRIBED(Shape, 10);
   FIELDS(s.kind, s.size, s.radius, s.length, s.normal, s.plane_size, s.mesh_file, s.mesh_scale);
   bool has_mesh = s.mesh != nullptr;
   FIELDS(has_mesh);
@@ -65,26 +62,26 @@ void describe(A& a, Shape& s) {
 
 template <class A>
 void describe(A& a, Collision& c) {
-  DESCRIBED(Collision, 304);
+  DESCRIBED(Collision, 5);
   FIELDS(c.name, c.pose_in_link, c.shape, c.friction, c.restitution);
 }
 
 template <class A>
 void describe(A& a, Visual& v) {
-  DESCRIBED(Visual, 320);
+  DESCRIBED(Visual, 7);
   FIELDS(v.name, v.pose_in_link, v.shape, v.rgba);
 }
 
 template <class A>
 void describe(A& a, Link& l) {
-  DESCRIBED(Link, 272);
+  DESCRIBED(Link, 8);
   FIELDS(l.name, l.pose_in_model, l.mass, l.inertial_pose_in_link, l.principal_moments, l.gravity,
          l.collisions, l.visuals);
 }
 
 template <class A>
 void describe(A& a, Joint& j) {
-  DESCRIBED(Joint, 216);
+  DESCRIBED(Joint, 12);
   FIELDS(j.name, j.kind, j.parent, j.child, j.anchor_in_model, j.axis_in_model,
          within(j.lower, -kEndless, kEndless), within(j.upper, -kEndless, kEndless),
          within(j.max_effort, -kEndless, kEndless), within(j.max_velocity, -kEndless, kEndless),
@@ -109,19 +106,19 @@ void describe(A& a, Parameters& p) {
 
 template <class A>
 void describe(A& a, PluginDescription& p) {
-  DESCRIBED(PluginDescription, 192);
+  DESCRIBED(PluginDescription, 3);
   FIELDS(p.name, p.filename, p.parameters);
 }
 
 template <class A>
 void describe(A& a, SensorDescription& s) {
-  DESCRIBED(SensorDescription, 328);
+  DESCRIBED(SensorDescription, 7);
   FIELDS(s.name, s.type, s.link, s.pose_in_link, s.update_rate, s.parameters, s.plugins);
 }
 
 template <class A>
 void describe(A& a, ModelDescription& m) {
-  DESCRIBED(ModelDescription, 128);
+  DESCRIBED(ModelDescription, 6);
   FIELDS(m.is_static, m.links, m.joints, m.plugins, m.sensors, m.nested_models);
 }
 
@@ -129,7 +126,7 @@ void describe(A& a, ModelDescription& m) {
 
 template <class A>
 void describe(A& a, DriveParameters& d) {
-  DESCRIBED(DriveParameters, 88);
+  DESCRIBED(DriveParameters, 11);
   FIELDS(d.drive, within(d.speed, 0, 10), within(d.acceleration, 0, 100),
          within(d.emergency_deceleration, 0, 100), within(d.wheel_radius, 0.005, 1),
          within(d.wheel_separation, 0.01, 10), within(d.wheel_inertia, 1e-6, 100),
@@ -139,14 +136,14 @@ void describe(A& a, DriveParameters& d) {
 
 template <class A>
 void describe(A& a, LiftParameters& l) {
-  DESCRIBED(LiftParameters, 48);
+  DESCRIBED(LiftParameters, 6);
   FIELDS(l.fitted, within(l.height, 0.001, 10), within(l.time, 0, 1000), within(l.max_load, 0, 1e6),
          within(l.max_force, 0, 1e9), within(l.proximity, 0, 10));
 }
 
 template <class A>
 void describe(A& a, LaserParameters& l) {
-  DESCRIBED(LaserParameters, 64);
+  DESCRIBED(LaserParameters, 9);
   FIELDS(l.fitted, within(l.rays, 1, 10000), within(l.min_angle, -M_PI, M_PI),
          within(l.max_angle, l.min_angle, M_PI), within(l.min_range, 0, 100),
          within(l.max_range, l.min_range, 100), within(l.rate, 0.01, 1000), within(l.x, -10, 10),
@@ -155,26 +152,26 @@ void describe(A& a, LaserParameters& l) {
 
 template <class A>
 void describe(A& a, MotionSegment& l) {
-  DESCRIBED(MotionSegment, 48);
+  DESCRIBED(MotionSegment, 8);
   FIELDS(l.kind, l.x, l.y, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
 }
 
 template <class A>
 void describe(A& a, Sighting& s) {
-  DESCRIBED(Sighting, 32);
+  DESCRIBED(Sighting, 5);
   FIELDS(s.taken, within(s.distance, 0, kEndless), s.model, s.faces, s.along);
 }
 
 template <class A>
 void describe(A& a, Task& t) {
-  DESCRIBED(Task, 264);
+  DESCRIBED(Task, 10);
   FIELDS(t.phase, t.command, t.goal, t.segments, t.overdue, t.sighting, t.last_sighting,
          t.blocked_by, t.blocked_reason, t.reported_shelf);
 }
 
 template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 368);
+  DESCRIBED(Robot, 24);
   FIELDS(r.name, within(r.id, 1, kMaxKivaId), r.model, within(r.mass, 1e-9, 1e12),
          within(r.inertia, 0, 1e15), within(r.half_length, 0, 100), within(r.half_width, 0, 100),
          within(r.height, -100, 100));
@@ -189,13 +186,14 @@ void describe(A& a, Robot& r) {
 
 template <class A>
 void describe(A& a, Stance& s) {
-  DESCRIBED(Stance, 48);
+  DESCRIBED(Stance, 6);
   FIELDS(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
 }
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 864);
+  DESCRIBED(FleetState, 19);
+  DESCRIBED(Fleet, 18);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), within(f.awake, 0, 1),
@@ -210,26 +208,26 @@ void describe(A& a, FleetState& f) {
 
 template <class A>
 void describe(A& a, CollisionGeometry& o) {
-  DESCRIBED(CollisionGeometry, 288);
+  DESCRIBED(CollisionGeometry, 6);
   FIELDS(o.link, o.pose_in_link, o.shape);
 }
 
 template <class A>
 void describe(A& a, JointSettings& s) {
-  DESCRIBED(JointSettings, 48);
+  DESCRIBED(JointSettings, 6);
   FIELDS(s.damping, s.friction, within(s.lower, -kEndless, kEndless),
          within(s.upper, -kEndless, kEndless), s.motor_speed, s.motor_effort);
 }
 
 template <class A>
 void describe(A& a, JointState& s) {
-  DESCRIBED(JointState, 64);
+  DESCRIBED(JointState, 3);
   FIELDS(s.position, s.rate, s.settings);
 }
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 472);
+  DESCRIBED(Model, 19);
   FIELDS(m.name, m.kind, m.serial, m.spawn_pose);
   if constexpr (A::kReads) m.owner = &ownerOf(m.kind);
   a.mostly(m.pose, m.spawn_pose);
@@ -239,13 +237,13 @@ void describe(A& a, Model& m) {
 
 template <class A>
 void describe(A& a, StorageUnit& u) {
-  DESCRIBED(StorageUnit, 136);
+  DESCRIBED(StorageUnit, 8);
   FIELDS(u.name, u.id, u.model, u.mass, u.carrier, u.claimed_by, u.pose_on_carrier, u.raised);
 }
 
 template <class A>
 void describe(A& a, Item& i) {
-  DESCRIBED(Item, 200);
+  DESCRIBED(Item, 7);
   FIELDS(i.id, i.model, i.unit, i.pose_in_unit, i.mass);  // its name is its model's
   a.mostly(i.spawn_pose_in_unit, i.pose_in_unit);
 }
@@ -268,7 +266,7 @@ void describe(A& a, btTransform& t) {
 
 template <class A>
 void describe(A& a, BodyState& b) {
-  DESCRIBED(BodyState, 568);
+  DESCRIBED(BodyState, 15);
   FIELDS(b.pose, b.predicted_pose, b.velocity, b.angular_velocity, b.predicted_velocity,
          b.predicted_angular_velocity, b.force, b.torque, within(b.mass, 1e-9, 1e12),
          b.inverse_inertia, within(b.activation, 1, 5), b.placed, b.resting, b.parts, b.faceted);
@@ -276,18 +274,19 @@ void describe(A& a, BodyState& b) {
 
 template <class A>
 void describe(A& a, MotorState& m) {
-  DESCRIBED(MotorState, 24);
+  DESCRIBED(MotorState, 3);
   FIELDS(m.powered, m.speed, m.effort);
 }
 
 template <class A>
 void describe(A& a, ModelInPhysics& m) {
-  DESCRIBED(ModelInPhysics, 56);
+  DESCRIBED(ModelInPhysics, 3);
   FIELDS(m.slot, m.links, m.motors);
 }
 
 template <class A>
 void describe(A& a, BodyAddress& b) {
+  DESCRIBED(BodyAddress, 3);
   FIELDS(b.model, b.link, b.is_surface);
 }
 
@@ -304,6 +303,7 @@ void describe(A& a, btManifoldPoint& p) {
 
 template <class A>
 void describe(A& a, ContactMemory& c) {
+  DESCRIBED(ContactMemory, 5);
   FIELDS(c.a, c.b, c.part_a, c.part_b, c.points);
   if (A::kReads && c.points.size() > MANIFOLD_CACHE_SIZE) {
     throw ArchiveError("Bullet keeps no more than four", "points");
@@ -312,14 +312,13 @@ void describe(A& a, ContactMemory& c) {
 
 template <class A>
 void describe(A& a, Solid& s) {
-  DESCRIBED(Solid, 136);
   FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
 }
 
 /// Of a mover: it has no body of its own, and no triangles.
 template <class A>
 void describe(A& a, Footprint& f) {
-  DESCRIBED(Footprint, 112);
+  DESCRIBED(Footprint, 14);
   std::optional<Solid> solid;
   if (f.solid) solid = *f.solid;
   FIELDS(f.kind, within(f.x, -100, 100), within(f.y, -100, 100), within(f.c, -1.001, 1.001),
@@ -330,6 +329,7 @@ void describe(A& a, Footprint& f) {
 
 template <class A>
 void describe(A& a, PhysicsState& p) {
+  DESCRIBED(PhysicsState, 3);
   FIELDS(p.models, p.contacts, p.movers);
 }
 
@@ -337,49 +337,50 @@ void describe(A& a, PhysicsState& p) {
 
 template <class A>
 void describe(A& a, Command& c) {
-  DESCRIBED(Command, 40);
+  DESCRIBED(Command, 7);
   FIELDS(c.kind, c.kiva_id, c.x, c.y, c.direction, c.lift, c.shelf_id);
 }
 
 template <class A>
 void describe(A& a, Impact& i) {
-  DESCRIBED(Impact, 80);
+  DESCRIBED(Impact, 4);
   FIELDS(i.point, i.normal, i.speed, i.impulse);
 }
 
 template <class A>
 void describe(A& a, Event& e) {
-  DESCRIBED(Event, 200);
+  DESCRIBED(Event, 7);
   FIELDS(e.time, e.kind, e.model, e.other, e.text, e.command, e.impact);
 }
 
 template <class A>
 void describe(A& a, Period& p) {
+  DESCRIBED(Period, 2);
   FIELDS(p.start, within(p.end, -kEndless, kEndless));
 }
 
 template <class A>
 void describe(A& a, Wrench& w) {
-  DESCRIBED(Wrench, 144);
+  DESCRIBED(Wrench, 5);
   FIELDS(w.model, w.link, w.force, w.torque, w.period);
 }
 
 template <class A>
 void describe(A& a, Effort& e) {
-  DESCRIBED(Effort, 88);
+  DESCRIBED(Effort, 4);
   FIELDS(e.model, e.joint, e.effort, e.period);
 }
 
 template <class A>
 void describe(A& a, Light& l) {
-  DESCRIBED(Light, 240);
+  DESCRIBED(Light, 16);
   FIELDS(l.name, l.kind, l.pose, l.diffuse, l.specular, l.attenuation_constant,
          l.attenuation_linear, l.attenuation_quadratic, l.direction, l.cast_shadows);
 }
 
 template <class A>
 void describe(A& a, OdeSettings& o) {
-  DESCRIBED(OdeSettings, 72);
+  DESCRIBED(OdeSettings, 10);
   FIELDS(o.auto_disable_bodies, o.sor_pgs_precon_iters, o.sor_pgs_iters, o.sor_pgs_w,
          o.sor_pgs_rms_error_tol, o.contact_surface_layer, o.contact_max_correcting_vel, o.cfm,
          o.erp, o.max_contacts);
@@ -387,6 +388,7 @@ void describe(A& a, OdeSettings& o) {
 
 template <class A>
 void describe(A& a, ExternalInputs& i) {
+  DESCRIBED(ExternalInputs, 4);
   std::vector<Light> lights;
   for (const auto& [name, light] : i.lights) lights.push_back(light);
   FIELDS(i.wrenches, i.efforts, lights, i.ode);
@@ -398,36 +400,37 @@ void describe(A& a, ExternalInputs& i) {
 
 template <class A>
 void describe(A& a, StatusChange& s) {
-  DESCRIBED(StatusChange, 48);
+  DESCRIBED(StatusChange, 8);
   FIELDS(s.time, s.kiva_id, s.status, s.state, s.shelf_id, s.x, s.y, s.yaw);
 }
 
 template <class A>
 void describe(A& a, TouchingPair& t) {
-  DESCRIBED(TouchingPair, 112);
+  DESCRIBED(TouchingPair, 6);
   FIELDS(t.model_a, t.model_b, t.last_step, t.impact, t.tell_at, t.tell_latest);
 }
 
 template <class A>
 void describe(A& a, Crash& c) {
-  DESCRIBED(Crash, 40);
+  DESCRIBED(Crash, 2);
   FIELDS(c.kiva_id, c.with);
 }
 
 template <class A>
 void describe(A& a, PluginState& p) {
+  DESCRIBED(PluginState, 3);
   FIELDS(p.model, p.index, p.state);
 }
 
 template <class A>
 void describe(A& a, Floor& f) {
-  DESCRIBED(Floor, 40);
+  DESCRIBED(Floor, 5);
   FIELDS(f.min_x, f.max_x, f.min_y, f.max_y, f.z);
 }
 
 template <class A>
 void describe(A& a, WorldOptions& o) {
-  DESCRIBED(WorldOptions, 48);
+  DESCRIBED(WorldOptions, 4);
   FIELDS(o.seed, o.drive, o.always_in_bullet);  // the table of plugins stays the world's own
 }
 
