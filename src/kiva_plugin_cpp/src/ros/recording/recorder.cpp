@@ -102,19 +102,6 @@ void Recorder::finish(const kiva::World& world) {
   attempt([](rosbag::Bag& bag) { bag.close(); });
 }
 
-/// Once a second of the wall clock the hash closes the chunk of the bag, which till then is in
-/// memory for the most part and of no use to `rosbag reindex`.
-void Recorder::writeHash(const kiva::World& world) {
-  const auto now = WallClock::now();
-  const bool closes = now >= saved_ + kSaveInterval;
-  if (bag_) bag_->setChunkThreshold(closes ? 0 : kChunk);
-  write(kHashTopic, hashOf(world));
-  if (!closes || !bag_) return;
-  std::fflush(nullptr);  // librosbag shows nobody its file
-  saved_ = now;
-  is_saved_ = true;
-}
-
 template <typename Act>
 void Recorder::attempt(Act act) {
   if (!bag_) return;
@@ -129,6 +116,19 @@ void Recorder::attempt(Act act) {
     // Left as it is: its destructor would try to write the rest, and throw.
     bag_.release();
   }
+}
+
+/// Once a second of the wall clock the hash closes the chunk of the bag, which till then is in
+/// memory for the most part and of no use to `rosbag reindex`.
+void Recorder::writeHash(const kiva::World& world) {
+  const auto now = WallClock::now();
+  const bool closes = now >= saved_ + kSaveInterval;
+  attempt([&](rosbag::Bag& bag) { bag.setChunkThreshold(closes ? 0 : kChunk); });  // may write
+  write(kHashTopic, hashOf(world));
+  if (!closes || !bag_) return;
+  std::fflush(nullptr);  // librosbag shows nobody its file
+  saved_ = now;
+  is_saved_ = true;
 }
 
 template <typename Message>
