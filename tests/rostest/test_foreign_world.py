@@ -41,7 +41,9 @@ class ForeignWorld(unittest.TestCase):
 
     def test_its_map_shows_what_is_in_the_way(self):
         taken = cells().points()
-        self.assertLessEqual({(4, 0), (-4, 0), (-12, -8), (-8, 4), (-7, 4), (16, 8), (-17, 0)}, taken)
+        self.assertLessEqual(
+            {(4, 0), (-4, 0), (-12, -8), (-8, 4), (-7, 4), (16, 8), (-17, 0)}, taken
+        )
         door = (17, 0)
         self.assertTrue(taken.isdisjoint({(0, 0), (10, 10), door, (30, 30)}))
 

@@ -43,8 +43,8 @@ class Refusing(unittest.TestCase):
 
     def test_worlds(self):
         self.refused("there is no world 'nowhere'", "worlds/nowhere.sdf", world="nowhere")
-        broken = str(WORLDS / "invalid_box_size.sdf")
-        self.refused(f"{broken}:", "box/size", world=broken)
+        broken = str(WORLDS / "invalid_no_world.sdf")
+        self.refused(f"{broken}:", "expected a <world>", world=broken)
         self.refused("invalid_xml.sdf:", world=str(WORLDS / "invalid_xml.sdf"))
 
 

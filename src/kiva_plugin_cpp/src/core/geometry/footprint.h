@@ -1,10 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/geometry/obstacles.h"
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+#include "core/geometry/solid.h"
 #include "kiva_plugin_cpp/description.h"
 
+class btCollisionObject;
+
 namespace kiva {
+
+/// The outline of an upright shape on the floor and the heights it spans. In world [m].
+struct Footprint {
+  enum class Kind : std::uint8_t {
+    kBox,       ///< Rectangle hx × hy, turned by (c, s).
+    kCircle,    ///< An upright cylinder of radius hx.
+    kSphere,    ///< A sphere of radius hx; narrower off its middle height.
+    kTriangle,  ///< `triangle`, within a rectangle hx × hy along the world's axes.
+    kOther      ///< Bounded by a circle of radius hx; a ray asks `solid` or `body` for the truth.
+  };
+  Kind kind = Kind::kBox;
+  double x = 0, y = 0;
+  double c = 1, s = 0;
+  double hx = 0, hy = 0;
+  double z_min = 0, z_max = 0;
+  int model = -1;  ///< Whose it is: index in the world's models.
+  int group = -1;  ///< Robot index for a robot and what it carries; rays of that robot pass.
+  std::shared_ptr<const Solid> solid;       ///< For kOther: centred on the footprint, in its frame.
+  const btCollisionObject* body = nullptr;  ///< For kOther; null: the circle is the truth.
+  const std::array<Vector3, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
+};
+
+/// Of the circle around (x, y) that holds it [m].
+inline double radiusOf(const Footprint& f) {
+  const bool round = f.kind != Footprint::Kind::kBox && f.kind != Footprint::Kind::kTriangle;
+  return round ? f.hx : std::sqrt(f.hx * f.hx + f.hy * f.hy);
+}
 
 /// A box along the axes [m].
 struct Bounds {

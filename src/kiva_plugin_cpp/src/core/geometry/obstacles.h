@@ -4,47 +4,15 @@
 // It answers two questions quickly: what is near, and what does a horizontal ray meet.
 #pragma once
 
-#include <array>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstdint>
-#include <ignition/math/Vector3.hh>
-#include <memory>
 #include <vector>
 
-#include "core/geometry/solid.h"
+#include "core/geometry/footprint.h"
 #include "kiva_plugin_cpp/fleet.h"
 
-class btCollisionObject;
-
 namespace kiva {
-
-/// The outline of an upright shape on the floor and the heights it spans. In world [m].
-struct Footprint {
-  enum class Kind : std::uint8_t {
-    kBox,       ///< Rectangle hx × hy, turned by (c, s).
-    kCircle,    ///< An upright cylinder of radius hx.
-    kSphere,    ///< A sphere of radius hx; narrower off its middle height.
-    kTriangle,  ///< `triangle`, within a rectangle hx × hy along the world's axes.
-    kOther      ///< Bounded by a circle of radius hx; a ray asks `solid` or `body` for the truth.
-  };
-  Kind kind = Kind::kBox;
-  double x = 0, y = 0;
-  double c = 1, s = 0;
-  double hx = 0, hy = 0;
-  double z_min = 0, z_max = 0;
-  int model = -1;  ///< Whose it is: index in the world's models.
-  int group = -1;  ///< Robot index for a robot and what it carries; rays of that robot pass.
-  std::shared_ptr<const Solid> solid;       ///< For kOther: centred on the footprint, in its frame.
-  const btCollisionObject* body = nullptr;  ///< For kOther; null: the circle is the truth.
-  const std::array<ignition::math::Vector3d, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
-};
-
-/// Of the circle around (x, y) that holds it [m].
-inline double radiusOf(const Footprint& f) {
-  const bool round = f.kind != Footprint::Kind::kBox && f.kind != Footprint::Kind::kTriangle;
-  return round ? f.hx : std::sqrt(f.hx * f.hx + f.hy * f.hy);
-}
 
 /// A lower bound of the distance between two outlines [m]; negative where they overlap.
 double gap(const Footprint& a, const Footprint& b);

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "core/geometry/obstacles.h"
+#include "core/geometry/footprint.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
