@@ -53,7 +53,7 @@ struct Hall : Warehouse {
     const int column = std::lround((x - map.x) / map.spacing);
     const int row = std::lround((y - map.y) / map.spacing);
     if (column < 0 || row < 0 || column >= map.columns || row >= map.rows) return true;
-    return map.taken[row * map.columns + column];
+    return map.cells[row * map.columns + column];
   }
 };
 
@@ -163,8 +163,8 @@ TEST(Floors, EndWhereNothingLies) {
 TEST(Floors, ThatAreNotThereLeaveNoCellFree) {
   Hall w(box("crate", "4 4 1", "0 0 0.5"));
   const Occupancy map = w.world.occupancy();
-  EXPECT_GT(map.taken.size(), 0u);
-  EXPECT_EQ(std::count(map.taken.begin(), map.taken.end(), 0), 0);
+  EXPECT_GT(map.cells.size(), 0u);
+  EXPECT_EQ(std::count(map.cells.begin(), map.cells.end(), Occupancy::kFree), 0);
 }
 
 TEST(Floors, ThatComeLaterLiftWhatStandsThere) {
@@ -191,6 +191,26 @@ TEST(Floors, ComeBackFromCheckpoints) {
   w.movx(1, 3);
   w.runUntilIdle(1, 20);
   w.expectAt(1, 3, 0);
+}
+
+TEST(Occupancy, TellsBeltsAndStorageUnitsFromTheBuilding) {
+  Warehouse w;
+  w.spawn("conveyor_belt", "conveyor_belt1", 3, 3);
+  w.spawn("storage_unit", "storage_unit1", -2, 1);
+  w.spawn("wall", "wall1", 6, 0);
+  w.spawn("kiva", "kiva1", -2, 1);
+  const auto at = [&](int x, int y) {
+    const Occupancy map = w.world.occupancy();
+    const int column = static_cast<int>(std::lround(x - map.x)), row = std::lround(y - map.y);
+    return map.cells.at(row * map.columns + column);
+  };
+  EXPECT_EQ(at(3, 3), Occupancy::kBelt);
+  EXPECT_EQ(at(-2, 1), Occupancy::kStorageUnit);
+  EXPECT_EQ(at(-1, 1), Occupancy::kFree);
+  EXPECT_EQ(at(6, 0), Occupancy::kTaken);
+  w.carry(1, 1);
+  w.runUntilIdle(1);
+  EXPECT_EQ(at(-2, 1), Occupancy::kFree) << "it is on the robot now";
 }
 
 }  // namespace

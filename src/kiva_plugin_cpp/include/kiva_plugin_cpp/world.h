@@ -83,7 +83,14 @@ struct Occupancy {
   double z = 0;               ///< Of the floor [m].
   double spacing = 1;         ///< Edge of a cell [m].
   int columns = 0, rows = 0;  ///< Cells along x and y.
-  std::vector<char> taken;    ///< Row by row, x first.
+  /// Row by row, x first: what is in the way there, the worst of it.
+  std::vector<std::uint8_t> cells;
+
+  // Of a cell. Like the percentages of a nav_msgs/OccupancyGrid.
+  static constexpr std::uint8_t kFree = 0;
+  static constexpr std::uint8_t kStorageUnit = 50;  ///< Robots without a load pass beneath.
+  static constexpr std::uint8_t kBelt = 99;         ///< It goes when its warehouse does.
+  static constexpr std::uint8_t kTaken = 100;       ///< By the building; no floor; or too near.
 };
 
 /// One robot's status at the moment when it changed.

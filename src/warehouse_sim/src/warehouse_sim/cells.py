@@ -19,7 +19,10 @@ class Cells:
 
     @classmethod
     def of_map(cls, grid):
-        """From a nav_msgs/OccupancyGrid with one cell a grid point. Raises RequestError."""
+        """From a nav_msgs/OccupancyGrid with one cell a grid point. Raises RequestError.
+
+        Belts (99) and storage units (50) are no obstacles here: they go with their warehouse.
+        """
         if abs(grid.info.resolution - 1) > 1e-6:
             raise RequestError(
                 f"the world's grid points are {grid.info.resolution:g} m apart;"
@@ -27,7 +30,7 @@ class Cells:
             )
         corner = grid.info.origin.position
         rows = np.array(grid.data, np.int8).reshape(grid.info.height, grid.info.width)
-        return cls(round(corner.x + 0.5), round(corner.y + 0.5), rows.T > 0)
+        return cls(round(corner.x + 0.5), round(corner.y + 0.5), rows.T >= 100)
 
     @property
     def floor(self):

@@ -18,7 +18,7 @@ class Items : public OrdinaryModels {
   void reweigh(WorldState& world, Model& model, double added) const override;
   bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
-  bool isObstacle() const override { return false; }
+  std::uint8_t occupies() const override { return Occupancy::kFree; }
   int group(const Model& /*model*/) const override { return -1; }
   bool isTracked() const override { return true; }
 };

@@ -96,8 +96,8 @@ class ModelOwner {
   virtual bool stops(const WorldState& /*world*/, const Model& /*model*/, int /*robot*/) const {
     return true;
   }
-  /// Whether it is in a robot's way wherever it stands: part of the building, say.
-  virtual bool isObstacle() const { return false; }
+  /// What it makes of a cell where it stands: of Occupancy.
+  virtual std::uint8_t occupies() const { return Occupancy::kFree; }
   /// Whether what is put into it stays there and goes where it goes.
   virtual bool holdsItems() const { return false; }
   /// Whether World::unitsRevision tells that it moved.

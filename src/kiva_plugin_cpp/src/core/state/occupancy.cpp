@@ -33,7 +33,7 @@ bool isInTheWay(const Floor& floor, const Footprint& other) {
 Floor withoutFloor(const WorldState& world) {
   Floor all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
-    if (!model || !model->owner->isObstacle()) continue;
+    if (!model || model->owner->occupies() != Occupancy::kTaken) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& f = world.obstacles[geometry.handle];
       const double reach = radiusOf(f) + world.grid_spacing;
@@ -46,7 +46,8 @@ Floor withoutFloor(const WorldState& world) {
   return all.min_x < all.max_x ? all : Floor();
 }
 
-bool reachesInto(const Footprint& other, double x, double y, double spacing) {
+/// A building leaves room for a loaded robot to turn; belts and storage units were placed so.
+bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, double spacing) {
   Footprint cell;
   cell.x = x;
   cell.y = y;
@@ -54,7 +55,7 @@ bool reachesInto(const Footprint& other, double x, double y, double spacing) {
   Footprint turn = cell;
   turn.kind = Footprint::Kind::kCircle;
   turn.hx = kTurning;
-  return gap(cell, other) < 0 || gap(turn, other) < 0;
+  return gap(cell, other) < 0 || (as == Occupancy::kTaken && gap(turn, other) < 0);
 }
 
 /// Where a footprint may reach within a strip along x: of a triangle, much less than its box.
@@ -78,7 +79,7 @@ std::pair<double, double> extentWithin(const Footprint& f, double min_y, double 
   return extent;
 }
 
-void mark(const Footprint& other, Occupancy* map) {
+void mark(const Footprint& other, std::uint8_t as, Occupancy* map) {
   const double margin = std::max(map->spacing, kTurning);
   const double reach = radiusOf(other) + margin;
   const auto index = [map](double at, double first) {
@@ -93,8 +94,8 @@ void mark(const Footprint& other, Occupancy* map) {
     const int right = std::min(map->columns - 1, index(max_x + margin, map->x));
     for (int column = left; column <= right; ++column) {
       const double x = map->x + column * map->spacing;
-      char& cell = map->taken[static_cast<std::size_t>(row) * map->columns + column];
-      if (!cell) cell = reachesInto(other, x, y, map->spacing);
+      std::uint8_t& cell = map->cells[static_cast<std::size_t>(row) * map->columns + column];
+      if (cell < as && reachesInto(other, as, x, y, map->spacing)) cell = as;
     }
   }
 }
@@ -117,15 +118,17 @@ Occupancy World::occupancy() const {
   const FloorCover cover(world);
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
-      map.taken.push_back(
-          !cover.covers(map.x + column * map.spacing, map.y + row * map.spacing, map.spacing / 2));
+      const bool is_floor =
+          cover.covers(map.x + column * map.spacing, map.y + row * map.spacing, map.spacing / 2);
+      map.cells.push_back(is_floor ? Occupancy::kFree : Occupancy::kTaken);
     }
   }
   for (const auto& model : world.models) {
-    if (!model || !model->owner->isObstacle()) continue;
+    if (!model || model->owner->occupies() == Occupancy::kFree) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
+      if (geometry.handle < 0) continue;  // it is carried
       const Footprint& footprint = world.obstacles[geometry.handle];
-      if (isInTheWay(world.floor, footprint)) mark(footprint, &map);
+      if (isInTheWay(world.floor, footprint)) mark(footprint, model->owner->occupies(), &map);
     }
   }
   return map;

@@ -20,7 +20,7 @@ bool MapService::get(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& res
   map.info.origin.position.y = found.y - found.spacing / 2;
   map.info.origin.position.z = found.z;
   map.info.origin.orientation.w = 1;
-  for (const char taken : found.taken) map.data.push_back(taken ? 100 : 0);
+  map.data.assign(found.cells.begin(), found.cells.end());
   return true;
 }
 
