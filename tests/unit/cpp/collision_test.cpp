@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "core/geometry/footprint.h"
+#include "core/geometry/obstacles.h"
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -22,8 +22,7 @@ void loadRobot(WorldState& world, int robot, int unit) {
   r.load_mass = world.units[unit].mass;
   r.load_centre[0] = centre.X();
   r.load_centre[1] = centre.Y();
-  r.load_inertia =
-      load.inertia()(2, 2) + load.mass() * (centre.X() * centre.X() + centre.Y() * centre.Y());
+  r.load_inertia = load.aboutZ();
   Bounds box;
   const Model& model = *world.models[world.units[unit].model];
   for (const Link& link : model.description->links) {

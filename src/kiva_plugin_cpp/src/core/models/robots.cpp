@@ -9,6 +9,7 @@
 #include "core/models/load.h"
 #include "core/motion/drives.h"
 #include "core/motion/jointed_body.h"
+#include "core/physics/spatial_inertia.h"
 #include "core/sensing/scans.h"
 #include "core/state/fleet_plugin.h"
 #include "core/state/footprints.h"
@@ -77,20 +78,12 @@ void reindex(WorldState& world, int from, int to) {
 }
 
 void weigh(const ModelDescription& description, Robot* robot) {
-  robot->mass = robot->inertia = robot->centre[0] = robot->centre[1] = 0;
-  for (const Link& link : description.links) {
-    const Pose centre = link.pose_in_model * link.inertial_pose_in_link;
-    const Vector3 up = centre.Rot().RotateVectorReverse(Vector3::UnitZ);
-    const double own = up.X() * up.X() * link.principal_moments.X() +
-                       up.Y() * up.Y() * link.principal_moments.Y() +
-                       up.Z() * up.Z() * link.principal_moments.Z();
-    for (int axis = 0; axis < 2; ++axis) {
-      robot->centre[axis] += link.mass * centre.Pos()[axis];
-    }
-    robot->mass += link.mass;
-    robot->inertia += own + link.mass * (centre.X() * centre.X() + centre.Y() * centre.Y());
-  }
-  for (double& moment : robot->centre) moment /= robot->mass;
+  SpatialInertia whole;
+  for (const Link& link : description.links) whole.add(link, link.pose_in_model);
+  robot->mass = whole.mass();
+  robot->inertia = whole.aboutZ();
+  robot->centre[0] = whole.centre().X();
+  robot->centre[1] = whole.centre().Y();
 }
 
 /// Of the tyres, where the model has wheels.

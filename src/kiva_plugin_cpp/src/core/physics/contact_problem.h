@@ -17,8 +17,6 @@ class ContactProblem {
 
   int rows() const { return rows_; }
   int contacts() const { return contacts_; }
-  /// The row of a contact's normal.
-  int normal(int contact) const { return first_[contact]; }
   bool hasFriction(int contact) const { return friction_[contact] > 0; }
 
   /// Appends a contact; its rows' `a` and `b` are still to be filled.

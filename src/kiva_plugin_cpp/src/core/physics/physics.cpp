@@ -488,37 +488,43 @@ double Physics::impactShare(const btPersistentManifold& pair, const btManifoldPo
   return is > was ? was / is : 1;
 }
 
-void Physics::contacts(std::vector<Contact>* out) const {
-  out->clear();
+template <typename Visit>
+void Physics::forEachTouch(Visit visit) const {
   for (const btPersistentManifold* manifold : manifolds()) {
     for (int p = 0; p < manifold->getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold->getContactPoint(p);
       if (!isTouching(point)) continue;
-      int a = modelOfPart(manifold->getBody0(), point.m_index0);
-      int b = modelOfPart(manifold->getBody1(), point.m_index1);
-      if (a == b) continue;
-      const double sign = a > b ? -1 : 1;
-      if (a > b) std::swap(a, b);
-      auto pair = std::find_if(out->begin(), out->end(), [a, b](const Contact& c) {
-        return c.model_a == a && c.model_b == b;
-      });
-      if (pair == out->end()) {
-        out->push_back({});
-        pair = out->end() - 1;
-        pair->model_a = a;
-        pair->model_b = b;
-      }
-      const double impulse = point.getAppliedImpulse();
-      pair->impulse += impulse * impactShare(*manifold, point);
-      const double speed = approach(*manifold, point, &Motion::driven);
-      pair->nearing = std::max(pair->nearing, speed);
-      if (impulse <= pair->most) continue;
-      pair->most = impulse;
-      pair->point = fromBullet(point.getPositionWorldOnB());
-      pair->normal = fromBullet(point.m_normalWorldOnB) * sign;
-      pair->speed = speed;
+      const int a = modelOfPart(manifold->getBody0(), point.m_index0);
+      const int b = modelOfPart(manifold->getBody1(), point.m_index1);
+      if (a != b) visit(*manifold, point, a, b);
     }
   }
+}
+
+void Physics::contacts(std::vector<Contact>* out) const {
+  out->clear();
+  forEachTouch([&](const btPersistentManifold& manifold, const btManifoldPoint& point, int a,
+                   int b) {
+    const double sign = a > b ? -1 : 1;
+    if (a > b) std::swap(a, b);
+    auto pair = std::find_if(out->begin(), out->end(),
+                             [a, b](const Contact& c) { return c.model_a == a && c.model_b == b; });
+    if (pair == out->end()) {
+      out->push_back({});
+      pair = out->end() - 1;
+      pair->model_a = a;
+      pair->model_b = b;
+    }
+    const double impulse = point.getAppliedImpulse();
+    pair->impulse += impulse * impactShare(manifold, point);
+    const double speed = approach(manifold, point, &Motion::driven);
+    pair->nearing = std::max(pair->nearing, speed);
+    if (impulse <= pair->most) return;
+    pair->most = impulse;
+    pair->point = fromBullet(point.getPositionWorldOnB());
+    pair->normal = fromBullet(point.m_normalWorldOnB) * sign;
+    pair->speed = speed;
+  });
 }
 
 std::vector<btPersistentManifold*> Physics::makeManifolds() {
@@ -529,33 +535,28 @@ std::vector<btPersistentManifold*> Physics::makeManifolds() {
 
 std::vector<TouchPoint> Physics::touchPoints(int model) const {
   std::vector<TouchPoint> out;
-  for (const btPersistentManifold* manifold : manifolds()) {
-    for (int p = 0; p < manifold->getNumContacts(); ++p) {
-      const btManifoldPoint& point = manifold->getContactPoint(p);
-      if (!isTouching(point)) continue;
-      const int a = modelOfPart(manifold->getBody0(), point.m_index0);
-      const int b = modelOfPart(manifold->getBody1(), point.m_index1);
-      if (a == b || (a != model && b != model)) continue;
-      const btVector3 impulse = point.m_normalWorldOnB * point.m_appliedImpulse +
-                                point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
-                                point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
-      TouchPoint touch{manifold->getBody0(),
-                       manifold->getBody1(),
-                       touchedPart(manifold->getBody0(), point.m_index0),
-                       touchedPart(manifold->getBody1(), point.m_index1),
-                       fromBullet(point.getPositionWorldOnB()),
-                       fromBullet(point.m_normalWorldOnB),
-                       std::max(0.0, -point.getDistance()),
-                       fromBullet(impulse)};
-      if (b == model) {
-        std::swap(touch.body_a, touch.body_b);
-        std::swap(touch.part_a, touch.part_b);
-        touch.normal = -touch.normal;
-        touch.impulse = -touch.impulse;
-      }
-      out.push_back(touch);
-    }
-  }
+  forEachTouch(
+      [&](const btPersistentManifold& manifold, const btManifoldPoint& point, int a, int b) {
+        if (a != model && b != model) return;
+        const btVector3 impulse = point.m_normalWorldOnB * point.m_appliedImpulse +
+                                  point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+                                  point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+        TouchPoint touch{manifold.getBody0(),
+                         manifold.getBody1(),
+                         touchedPart(manifold.getBody0(), point.m_index0),
+                         touchedPart(manifold.getBody1(), point.m_index1),
+                         fromBullet(point.getPositionWorldOnB()),
+                         fromBullet(point.m_normalWorldOnB),
+                         std::max(0.0, -point.getDistance()),
+                         fromBullet(impulse)};
+        if (b == model) {
+          std::swap(touch.body_a, touch.body_b);
+          std::swap(touch.part_a, touch.part_b);
+          touch.normal = -touch.normal;
+          touch.impulse = -touch.impulse;
+        }
+        out.push_back(touch);
+      });
   return out;
 }
 

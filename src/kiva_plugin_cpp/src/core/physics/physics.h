@@ -129,6 +129,9 @@ class Physics {
     Velocity pushed;  ///< With what forces add in it.
   };
 
+  /// Calls visit(manifold, point, model_a, model_b) wherever parts of two models touch.
+  template <typename Visit>
+  void forEachTouch(Visit visit) const;
   void noteMotions(double dt);
   double approach(const btPersistentManifold& pair, const btManifoldPoint& point,
                   Velocity Motion::*when) const;
