@@ -30,7 +30,7 @@ def fit(request, cells, seed=SEED):
         most = max(most, len(pattern.places))
     raise RequestError(
         f"{request} don't fit: of {(~cells.taken).sum()} free cells, {most} lie beside streets"
-        " that hang together"
+        f" that hang together; robots and storage units together, {most} at the most, would fit"
     )
 
 
