@@ -72,7 +72,7 @@ class LongCalls(unittest.TestCase):
                 client.wait()
             answer = call("/gazebo/step", Step, 0)  # once all others have ended
             self.assertTrue(answer.success)
-            self.assertEqual(world().sim_time, answer.stamp.to_sec())
+            self.assertAlmostEqual(world().sim_time, answer.stamp.to_sec())
 
     def test_a_connection_that_stays_open_takes_several_calls(self):
         with Node(world="paper", lockstep=True):
