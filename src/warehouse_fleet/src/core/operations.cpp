@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "operations.h"
 
+#include <algorithm>
+
 namespace fleet {
+namespace {
+
+int turnsOf(const Actions& actions) {
+  return static_cast<int>(std::count_if(actions.begin(), actions.end(),
+                                        [](Action action) { return quarters(action) != 0; }));
+}
+
+}  // namespace
 
 Operations::Operations(int depth) : depth_(depth) {
   Actions actions{};
   grow(-1, 0, 0, actions);
 }
 
-/// What is tried first stays: who turns turns early, and is ready when the way becomes free.
+/// Of what leads to the same, the fewest turns stay, and of those what is tried first: who turns
+/// turns early, and is ready when the way becomes free; who waits stands still.
 void Operations::grow(int parent, int tick, int heading, Actions& actions) {
   if (tick == depth_) return end(parent, heading, actions);
   for (const Action action :
@@ -29,7 +40,7 @@ void Operations::end(int node, int heading, const Actions& actions) {
     }
   }
   Leaf& leaf = leaves_[nodes_[node].leaf];
-  if (leaf.ends[heading]) return;
+  if (leaf.ends[heading] && turnsOf(actions) >= turnsOf(leaf.actions[heading])) return;
   leaf.ends[heading] = true;
   leaf.actions[heading] = actions;
 }
