@@ -135,13 +135,17 @@ def test_a_street_that_is_closed_is_named():
         FloorPlan.of_world(world).check()
 
 
-def test_what_stands_in_a_lane_is_refused_by_name():
+def test_what_stands_in_a_lane_is_in_the_way_and_the_lane_stays():
     world = World.preset("small")
-    station = FloorPlan.of_world(world).station("pick1")
-    x, y = FloorPlan.of_world(world).point_of(int(station.cells[2]))
-    world.spawn_model("person", "person1", x, y)
-    with pytest.raises(FloorError, match="pick1"):
-        FloorPlan.of_world(world)
+    known = FloorPlan.of_world(world)
+    cell = int(known.station("pick1").cells[2])
+    world.spawn_model("person", "person1", *known.point_of(cell))
+    found = FloorPlan.of_world(world)
+    assert same(found, known)
+    assert found.obstructed.flat[cell]
+    found.check(obstructed=False)
+    with pytest.raises(FloorError, match="something stands at"):
+        found.check()
 
 
 @pytest.mark.parametrize(
