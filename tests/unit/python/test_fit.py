@@ -75,7 +75,7 @@ def test_belts_have_stations_where_a_fleet_can_not_come_to_a_deadlock(preset):
     belts = PRESETS[preset].belts
     assert (kinds.count("PICK"), kinds.count("REPLENISH")) == (belts, belts // 2)
     assert len(layout.places) == -(-PRESETS[preset].shelves * 20 // 17)
-    taken = {floor_cell for floor_cell in floor.points()}
+    taken = floor.points()
     assert taken.isdisjoint(
         (round(x), round(y))
         for station in layout.plan.stations

@@ -160,4 +160,3 @@ def _blank(x, y, spacing, occupancy):
         exits=exits,
         stations=(),
     )
-

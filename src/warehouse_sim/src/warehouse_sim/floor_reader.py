@@ -37,7 +37,9 @@ class FloorReader:
         if scenery is None or same_things(scenery, self._scenery):
             return False
         try:
-            plan = FloorPlan.of_messages(self._ros.ServiceProxy("/warehouse/map", GetMap)().map, scenery)
+            plan = FloorPlan.of_messages(
+                self._ros.ServiceProxy("/warehouse/map", GetMap)().map, scenery
+            )
         except self._ros.ServiceException:
             return False  # the world comes or goes; there is another time
         except FloorError as error:
