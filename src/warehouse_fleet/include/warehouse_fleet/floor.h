@@ -81,4 +81,8 @@ class Floor {
   std::vector<Cell> next_[2];
 };
 
+/// Cells from one to another on the shortest way over a deck; a storage place may be its begin and
+/// its end. -1: there is none.
+int shortest(const Floor& floor, Deck deck, Cell from, Cell to);
+
 }  // namespace fleet
