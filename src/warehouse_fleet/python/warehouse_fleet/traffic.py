@@ -56,7 +56,7 @@ class Traffic:
         self.motion = motion or Motion()
         self.floor = plan.floor()
         self.planner = planner or epibt(
-            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, memory=200
+            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, crowd=10, memory=200
         )
         self.attempts, self.lag = attempts, lag
         self.tick = plan.spacing / self.motion.speed

@@ -14,7 +14,7 @@ from warehouse_fleet.traffic import NOWHERE, Mode
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
-APPROACHING = 2  # units on their way to a station beyond those that have room in its lane
+APPROACHING = 0  # units on their way to a station beyond those that have room in its lane
 
 
 class Kind(IntEnum):

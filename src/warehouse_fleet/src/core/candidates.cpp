@@ -107,9 +107,9 @@ State Candidates::commit(const Wish& wish, Path& path) const {
 
 Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   const int edge = cell * kHeadings + heading;
-  const Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
-  if (to != kNowhere || wish.home == kNowhere) return to;
-  return edges_.next[0][edge] == wish.home ? wish.home : kNowhere;
+  Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
+  if (to == kNowhere && wish.home != kNowhere && edges_.next[0][edge] == wish.home) to = wish.home;
+  return to != kNowhere && isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
 }
 
 void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {

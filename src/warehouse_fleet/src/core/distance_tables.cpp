@@ -92,7 +92,10 @@ void DistanceTables::relax(Deck deck, Cell goal, int state) {
   // A goal may be a storage place, which the aisles' deck does not lead into.
   const auto& next = edges_.next[cell == goal ? 0 : static_cast<int>(deck)];
   const int edge = from * kHeadings + heading;
-  if (next[edge] == cell) push(edge, cost + (*edges_.costs)[edge]);
+  if (next[edge] != cell || isPassingThrough(floor_, from, cell, goal)) return;
+  // Nor for a short cut to another station's lane.
+  const bool enters = floor_.isLane(cell) && !floor_.isLane(from);
+  push(edge, cost + (enters ? kMaxEdgeCost : (*edges_.costs)[edge]));
 }
 
 void DistanceTables::pack(DistanceTable& table) const {

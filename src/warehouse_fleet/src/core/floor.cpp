@@ -71,6 +71,7 @@ int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
       const Cell over = floor.next(Deck::kUnder, cell, heading);
       const Cell next = over == to ? to : floor.next(deck, cell, heading);
       if (next == kNowhere || distance[next] >= 0) continue;
+      if (isPassingThrough(floor, cell, next, to)) continue;
       distance[next] = distance[cell] + 1;
       queue.push_back(next);
     }
