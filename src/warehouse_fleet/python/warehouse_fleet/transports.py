@@ -155,8 +155,7 @@ class Transports:
                 raise ValueError(f"there is no station {station!r}")
             if not self.is_open[station]:
                 raise ValueError(f"station {station} is closed")
-            lane = self.stations[station]
-            return int(lane.cells[lane.service])
+            return self.stations[station].service_cell
         if x is None or y is None or not np.isfinite([x, y]).all():
             raise ValueError(f"neither a station nor a point: ({x}, {y})")
         cell = self.plan.cell_of(x, y)
@@ -212,6 +211,10 @@ class Transports:
     def waiting(self, station):
         """How many units are at a station or on the way to it."""
         return self._inbound[station]
+
+    def open_for(self, station):
+        """How many of its transports have no robot yet."""
+        return sum(transport.station == station for transport in self._open)
 
     def capacity(self, station):
         """How many there may be."""
@@ -442,7 +445,7 @@ class Transports:
         traffic = self.traffic
         without = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & (traffic.cell != NOWHERE)
         without[list(self._of_robot)] = False
-        storage = self.plan.storage.flat
+        aside = (self.plan.storage | self.plan.parking).ravel()
         goals = set(traffic.goal[traffic.goal != NOWHERE].tolist()) | set(traffic.cell.tolist())
         for robot in np.flatnonzero(without):
             cell = int(traffic.cell[robot])
@@ -452,7 +455,7 @@ class Transports:
                 if traffic.goal[robot] == cell:
                     traffic.send(robot, NOWHERE)
                 continue
-            if storage[cell]:
+            if aside[cell]:
                 continue
             place = self._nearest(cell, [c for c in self._unit_in if c not in goals])
             if place != NOWHERE:
