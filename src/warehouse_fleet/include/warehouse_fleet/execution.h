@@ -77,16 +77,18 @@ class Execution {
   /// Cells closed now, those of robots that are not controlled among them.
   std::vector<Cell> closed() const;
 
-  /// Where each robot stands, or stood last; kNowhere beyond the floor.
-  Cell cellOf(int robot) const { return courses_[robot].at; }
+  // Of one robot; std::out_of_range if there is none of that index.
+
+  /// Where it stands, or stood last; kNowhere beyond the floor.
+  Cell cellOf(int robot) const { return courses_.at(robot).at; }
   /// Whether it stands in a cell with nothing released beyond.
   bool stands(int robot) const;
   /// Who holds a cell; -1: nobody.
   int holder(Cell cell) const { return holder_[cell]; }
   /// Whom a robot with a plan waits for; -1: nobody.
-  int waitsFor(int robot) const { return courses_[robot].waits_for; }
+  int waitsFor(int robot) const { return courses_.at(robot).waits_for; }
   /// Since when it has stood although it has somewhere to go [s]; time of the last report if not.
-  double stillSince(int robot) const { return courses_[robot].still_since; }
+  double stillSince(int robot) const { return courses_.at(robot).still_since; }
   /// Cells that it holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
@@ -137,6 +139,7 @@ class Execution {
   void dismiss(int robot);
   void follow(int robot);
   void pass(int robot, int reached, int left);
+  bool hasTurned(int robot) const;
   void finish(int robot);
   void occupy(int robot);
   void vacate(int robot);
