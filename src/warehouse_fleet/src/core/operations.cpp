@@ -4,11 +4,11 @@
 #include <algorithm>
 
 namespace fleet {
+
 namespace {
 
-int turnsOf(const Actions& actions) {
-  return static_cast<int>(std::count_if(actions.begin(), actions.end(),
-                                        [](Action action) { return quarters(action) != 0; }));
+std::ptrdiff_t turns(const Actions& actions) {
+  return std::count_if(actions.begin(), actions.end(), [](Action a) { return quarters(a) != 0; });
 }
 
 }  // namespace
@@ -18,8 +18,8 @@ Operations::Operations(int depth) : depth_(depth) {
   grow(-1, 0, 0, actions);
 }
 
-/// Of what leads to the same, the fewest turns stay, and of those what is tried first: who turns
-/// turns early, and is ready when the way becomes free; who waits stands still.
+/// Of equals the one with the fewest turns stays, and of those what is tried first: who turns turns
+/// early, and is ready when the way becomes free.
 void Operations::grow(int parent, int tick, int heading, Actions& actions) {
   if (tick == depth_) return end(parent, heading, actions);
   for (const Action action :
@@ -40,7 +40,7 @@ void Operations::end(int node, int heading, const Actions& actions) {
     }
   }
   Leaf& leaf = leaves_[nodes_[node].leaf];
-  if (leaf.ends[heading] && turnsOf(actions) >= turnsOf(leaf.actions[heading])) return;
+  if (leaf.ends[heading] && turns(leaf.actions[heading]) <= turns(actions)) return;
   leaf.ends[heading] = true;
   leaf.actions[heading] = actions;
 }
