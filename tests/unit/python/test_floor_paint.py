@@ -3,10 +3,10 @@
 
 import numpy as np
 import pytest
-from kiva_plugin_cpp import World
 from nav_msgs.msg import OccupancyGrid
 from test_floor_plan import same
 
+from kiva_plugin_cpp import World
 from warehouse_fleet import floor_markings
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
