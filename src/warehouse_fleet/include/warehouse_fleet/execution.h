@@ -44,9 +44,10 @@ struct Releases {
 
 /// What was seen of a robot's way to its goal, to compare what was driven with what was planned.
 struct Journey {
-  double driven = 0;   ///< since it left [s]
-  double alone = 0;    ///< what the same way takes a robot without others [s]
-  double planned = 0;  ///< that, and where the plan let it wait [s]
+  double driven = 0;  ///< since it left [s]
+  double alone = 0;   ///< what the same way takes a robot without others [s]
+  /// That, and where the plan let it wait: by itself, or behind a robot that stood [s].
+  double planned = 0;
   int cells = 0;
 };
 
@@ -145,6 +146,7 @@ class Execution {
   void vacate(int robot);
   void withdraw(int robot);
   void measure(int robot, double elapsed);
+  bool waitsAsPlanned(int robot) const;
   void endRun(Course& course) const;
 
   void commit(int robot, std::uint8_t* row, int horizon) const;

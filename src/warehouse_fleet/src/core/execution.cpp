@@ -262,6 +262,13 @@ void Execution::endRun(Course& course) const {
   course.run = 0;
 }
 
+/// Whether it stands because the plan has it wait, or after one in its way that stands as well.
+bool Execution::waitsAsPlanned(int robot) const {
+  const Course& course = courses_[robot];
+  if (course.waits_by_plan || course.waits_for == kNobody) return course.waits_by_plan;
+  return speedOf(course.waits_for) < kStandstill;
+}
+
 void Execution::measure(int robot, double elapsed) {
   Course& course = courses_[robot];
   if (!course.is_member) return;
@@ -269,7 +276,7 @@ void Execution::measure(int robot, double elapsed) {
   if (!course.travels || !is_still) course.still_since = now_;
   if (!course.travels) return;
   course.journey.driven += elapsed;
-  if (!is_still || !course.waits_by_plan || toGo(robot) > kCentred) return;
+  if (!is_still || toGo(robot) > kCentred || !waitsAsPlanned(robot)) return;
   course.journey.planned += elapsed;
   endRun(course);
 }
