@@ -109,8 +109,9 @@ void planAttention(WorldState& world, int i) {
 
 void attend(WorldState& world, int i, double now) {
   FleetState& f = world.fleet;
-  if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   const bool ended = f.reference[i] == f.goal[i];
+  if (!ended && f.attend_at[i] > now) return;
+  if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) return moved(f, i);
   planAttention(world, i);
 }
