@@ -5,12 +5,16 @@ from geometry_msgs.msg import Pose2D
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import (
+    Cancel,
+    FleetFollow,
     FleetState,
+    FollowPath,
     KivaStatus,
     Lift,
     MoveAlong,
     MoveTo,
     Rotate,
+    Stop,
     UnitStates,
     WarehouseObjects,
     WarehouseState,
@@ -18,7 +22,17 @@ from warehouse_msgs.msg import (
 from warehouse_sim import identity, tracking
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 
-COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
+COMMANDS = {
+    "/mov": MoveTo,
+    "/movx": MoveAlong,
+    "/movy": MoveAlong,
+    "/rot": Rotate,
+    "/lift": Lift,
+    "/follow": FollowPath,
+    "/warehouse/follow": FleetFollow,
+    "/cancel": Cancel,
+    "/stop": Stop,
+}
 PERIOD = 1.0  # [s, simulated]
 
 
