@@ -5,13 +5,17 @@ from geometry_msgs.msg import Pose2D
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import (
+    Cancel,
+    FleetFollow,
     FleetState,
+    FollowPath,
     KivaStatus,
     Lift,
     MoveAlong,
     MoveTo,
     Rotate,
     Scenery,
+    Stop,
     UnitStates,
     WarehouseObjects,
     WarehouseState,
@@ -20,7 +24,17 @@ from warehouse_sim import identity, tracking
 from warehouse_sim.floor_reader import FloorReader
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 
-COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
+COMMANDS = {
+    "/mov": MoveTo,
+    "/movx": MoveAlong,
+    "/movy": MoveAlong,
+    "/rot": Rotate,
+    "/lift": Lift,
+    "/follow": FollowPath,
+    "/warehouse/follow": FleetFollow,
+    "/cancel": Cancel,
+    "/stop": Stop,
+}
 PERIOD = 1.0  # [s, simulated]
 
 
