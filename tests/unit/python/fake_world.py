@@ -68,7 +68,7 @@ class FakeWorld(FakeRos):
             return _answer(f"{self.refuses} is bad")
         if not self.pause:
             self.spawned_while_running += names
-        self.standing |= {n: _pose(p.findtext("pose")) for n, p in zip(names, parts)}
+        self.standing |= {n: _pose(p.findtext("pose", "0 0 0 0 0 0")) for n, p in zip(names, parts)}
         return _answer()
 
     def delete_model(self, name):

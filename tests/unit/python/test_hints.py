@@ -49,7 +49,7 @@ def test_a_unit_is_fetched(name):
 def test_without_units_a_robot_takes_a_stroll():
     layout = plan(resolve("", robots=3))
     ahead, turn, home = (fields(command) for command, _ in hints.commands(survey_of(layout)))
-    assert ahead == ("movy", {"distance": -1, "kiva_id": 1})
+    assert ahead == ("movy", {"distance": 1, "kiva_id": 1})
     assert turn[0] == "rot"
     assert (home[1]["x"], home[1]["y"]) == point(layout.robots[0])
 

@@ -35,10 +35,11 @@ def test_small_stands():
     answer = ask(world, "small", warehouse_id=7)
     assert answer.success
     assert answer.message == (
-        "small: 4 robots, 24 storage units, 96 items, 2 conveyor belts on a 12 x 10 m floor"
+        "small: 4 robots, 24 storage units, 96 items, 2 conveyor belts on a 21 x 14 m floor"
     )
     assert counts(world) == {
         None: 1,
+        "floor_markings": 1,
         "kiva": 4,
         "storage_unit": 24,
         "item": 96,
@@ -46,7 +47,7 @@ def test_small_stands():
     }
     assert world.parameters["/warehouse/name"] == "small"
     assert world.parameters["/warehouse/id"] == 7
-    assert world.parameters["/warehouse/floor"] == [-5.5, 6.5, -4.5, 5.5]
+    assert world.parameters["/warehouse/floor"] == [-10.5, 10.5, -6.5, 7.5]
 
 
 def test_items_are_spawned_within_their_units():
@@ -86,7 +87,7 @@ def test_a_warehouse_takes_the_place_of_the_last():
     others = ["person1", "kiva_statue", "item1_label"]
     world.standing |= dict.fromkeys([FLOOR, *others])
     ask(world, robots=1)
-    assert set(world.standing) == {FLOOR, "kiva1", "conveyor_belt1", *others}
+    assert set(world.standing) == {FLOOR, "floor_markings1", "kiva1", "conveyor_belt1", *others}
 
 
 @pytest.mark.parametrize("counts", [{}, {"robots": -1}, {"robots": 1, "items": 5}])
@@ -208,7 +209,7 @@ def test_long_work_tells_how_far_it_is(monkeypatch):
         warehouse_builder.WarehouseBuilder(engine, told.append, clock=lambda: next(times)).replace(
             plan(PRESETS["small"])
         )
-    assert told[0] == "built 20 of 127 models"
+    assert told[0] == "built 20 of 128 models"
     assert len(told) > 3
 
 

@@ -377,6 +377,31 @@ py::array_t<ItemRow> items(Host& host) {
   return out;
 }
 
+/// Of all links, in the model's order.
+py::list visualsOf(Host& host, const std::string& name) {
+  const auto lock = host.use();
+  checkModel(host, name);
+  py::list out;
+  for (const Link& link : host.world.description(name)->links) {
+    for (const Visual& visual : link.visuals) {
+      const Pose pose = link.pose_in_model * visual.pose_in_link;
+      const Quaternion& q = pose.Rot();
+      const Vector3& size = visual.shape.size;
+      out.append(py::make_tuple(
+          link.name, py::make_tuple(pose.X(), pose.Y(), pose.Z(), q.X(), q.Y(), q.Z(), q.W()),
+          py::make_tuple(size.X(), size.Y(), size.Z())));
+    }
+  }
+  return out;
+}
+
+py::tuple occupancyOf(Host& host) {
+  const auto lock = host.use();
+  const Occupancy map = host.world.occupancy();
+  py::array_t<std::uint8_t> cells({map.rows, map.columns}, map.cells.data());
+  return py::make_tuple(map.x, map.y, map.spacing, cells);
+}
+
 // --- events, checkpoints
 
 py::dtype eventType() {
@@ -555,6 +580,16 @@ A single one can be given a name and a place, (x, y, z, yaw) in world [m, rad]. 
             "that name.");
   world.def("pose", &poseOf, py::arg("name"),
             "x y z qx qy qz qw of a model in world [m], (7,) float64. KeyError if there is none.");
+  world.def("visuals", &visualsOf, py::arg("name"),
+            R"(What is seen of a model: a list of (link, pose in the model, size).
+
+The pose is x y z [m] qx qy qz qw, the size a box's edges [m] (0 of other shapes). KeyError if there
+is none of that name.)");
+  world.def("occupancy", &occupancyOf, R"(What is in the way on the floor: (x, y, spacing, cells).
+
+cells: (rows along y, columns along x) uint8, 0 free, 50 a storage unit, 99 a belt, 100 taken by
+anything else, or no floor; robots are not in it. (x, y) is the centre of cells[0, 0], spacing the
+edge of a cell, in world [m].)");
   world.def("set_pose", &setPose, py::arg("name"), py::arg("x"), py::arg("y"), py::arg("z") = 0.0,
             py::arg("yaw") = 0.0,
             R"(Puts a model there [m, rad], at rest; a command that it is at ends in BLOCKED.

@@ -25,7 +25,13 @@ struct LayoutFault {
 /// storage place and lane cell there must be a way to the aisles and back. Empty: nothing.
 std::vector<LayoutFault> checkLayout(const Floor& floor);
 
-/// In a sentence, with the first cells named.
-std::string describe(const LayoutFault& fault, const Floor& floor);
+/// Where cells are: (x, y) of cell (0, 0) and the edge of a cell, for messages.
+struct Raster {
+  double x = 0, y = 0;
+  double spacing = 1;
+};
+
+/// In a sentence, with the first cells named by where they are.
+std::string describe(const LayoutFault& fault, const Floor& floor, const Raster& raster = {});
 
 }  // namespace fleet

@@ -2,6 +2,7 @@
 #include "warehouse_fleet/layout_check.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace fleet {
 namespace {
@@ -134,14 +135,25 @@ class Aisles {
 
 std::vector<LayoutFault> checkLayout(const Floor& floor) { return Aisles(floor).faults(); }
 
-std::string describe(const LayoutFault& fault, const Floor& floor) {
+namespace {
+
+std::string at(Cell cell, const Floor& floor, const Raster& raster) {
+  std::ostringstream text;
+  text << "(" << raster.x + floor.x(cell) * raster.spacing << ", "
+       << raster.y + floor.y(cell) * raster.spacing << ")";
+  return text.str();
+}
+
+}  // namespace
+
+std::string describe(const LayoutFault& fault, const Floor& floor, const Raster& raster) {
   if (fault.kind == Kind::kNoAisles) return "there is no aisle for a loaded robot to drive on";
   constexpr std::size_t kNamed = 10;
   const std::size_t each = fault.kind == Kind::kDeadEnd ? 2 : 1;
   std::string cells;
   for (std::size_t i = 0; i < std::min(fault.cells.size(), kNamed * each); i += each) {
-    cells += (i > 0 ? ", " : "") + floor.name(fault.cells[i]);
-    if (each == 2) cells += " to " + floor.name(fault.cells[i + 1]);
+    cells += (i > 0 ? ", " : "") + at(fault.cells[i], floor, raster);
+    if (each == 2) cells += " to " + at(fault.cells[i + 1], floor, raster);
   }
   const std::size_t more = fault.cells.size() / each;
   if (more > kNamed) cells += " and " + std::to_string(more - kNamed) + " more";

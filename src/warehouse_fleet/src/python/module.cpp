@@ -231,12 +231,14 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
 void bindLayout(py::module_& module) {
   module.def(
       "check_layout",
-      [](const Floor& floor) {
+      [](const Floor& floor, double x, double y, double spacing) {
         std::vector<std::string> texts;
-        for (const LayoutFault& fault : checkLayout(floor)) texts.push_back(describe(fault, floor));
+        for (const LayoutFault& fault : checkLayout(floor)) {
+          texts.push_back(describe(fault, floor, {x, y, spacing}));
+        }
         return texts;
       },
-      py::arg("floor"));
+      py::arg("floor"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("spacing") = 1.0);
 }
 
 void bindPlanners(py::module_& module) {

@@ -6,11 +6,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from warehouse_fleet import floor_markings
+
 FLOOR = "ground_plane"
 
 # Of everything that a warehouse consists of, in the order in which it is taken away: what is
 # carried or lies on something goes after it.
-KINDS = ("kiva", "storage_unit", "item", "conveyor_belt")
+KINDS = ("kiva", "storage_unit", "item", "conveyor_belt", floor_markings.NAME)
 _NUMBERED = re.compile(rf"({'|'.join(KINDS)})(\d+)")
 
 _INCLUDE = "<include><uri>model://{}</uri><name>{}</name><pose>{}</pose></include>"
@@ -45,11 +47,14 @@ def kind_and_number(name):
 
 
 def of_layout(layout):
-    """The Parts of a Layout: its own floor first, items after the units on which they lie."""
+    """The Parts of a Layout: its own floor and what is painted on it first, items after the units
+    on which they lie."""
     on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
     floor = [Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size))]
+    marks = f"{floor_markings.NAME}1"
     return [
         *(floor if layout.has_own_floor else []),
+        *([Part(marks, floor_markings.sdf(layout.plan, marks))] if layout.plan else []),
         *_numbered("conveyor_belt", layout.belts[:, :2], layout.belts[:, 2]),
         *_numbered("storage_unit", layout.units),
         *_numbered("item", on_unit + layout.item_place),

@@ -17,6 +17,7 @@ class Survey:
     storage_unit: dict = field(default_factory=dict)
     item: dict = field(default_factory=dict)
     conveyor_belt: dict = field(default_factory=dict)
+    floor_markings: dict = field(default_factory=dict)
     others: dict = field(default_factory=dict)
     taken: set = None  # grid points in the way of which others are; None: not known
 

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The floor plan that a world tells: what was laid out comes back from what is painted, stations
+have lanes that work, and floors on which a fleet could come to a deadlock are refused."""
+
+import numpy as np
+import pytest
+from kiva_plugin_cpp import World
+
+from warehouse_fleet import Fleet, FloorError, Rules, epibt, floor_markings
+from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_sim import models
+from warehouse_sim.layout import plan
+from warehouse_sim.request import PRESETS, resolve
+
+STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
+REQUESTS = {name: resolve(name) for name in STATIONED} | {
+    f"{robots} robots, {shelves} units": resolve("", robots=robots, shelves=shelves)
+    for robots, shelves in ((0, 1), (1, 0), (3, 40), (130, 7), (5000, 20000))
+}
+ARRAYS = ("passable", "storage", "parking", "lane", "exits")
+
+
+@pytest.fixture(scope="module", params=REQUESTS)
+def laid_out(request):
+    return REQUESTS[request.param], plan(REQUESTS[request.param])
+
+
+def same(one, other):
+    stations = [
+        (s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in one.stations
+    ] == [(s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in other.stations]
+    return stations and all(np.array_equal(getattr(one, a), getattr(other, a)) for a in ARRAYS)
+
+
+def test_no_layout_can_come_to_a_deadlock(laid_out):
+    laid_out[1].plan.check()
+
+
+def test_a_belt_has_a_station_and_every_other_one_to_replenish(laid_out):
+    request, layout = laid_out
+    kinds = [station.kind for station in layout.plan.stations]
+    assert kinds.count("PICK") == request.belts
+    assert 1 <= kinds.count("REPLENISH") <= (request.belts + 1) // 2
+    drops = layout.plan.cell_of(*layout.drops.T).tolist()
+    assert [s.service_cell for s in layout.plan.stations if s.kind == "PICK"] == drops
+
+
+def test_storage_places_are_filled_to_a_share(laid_out):
+    request, layout = laid_out
+    assert layout.plan.storage.sum() == len(layout.places) == -(-request.shelves * 20 // 17)
+    assert layout.plan.storage.flat[layout.plan.cell_of(*layout.units.T)].all()
+    assert layout.plan.parking.flat[layout.plan.cell_of(*layout.robots[:, :2].T)].all()
+
+
+def test_lanes_are_driven_from_the_entry_to_the_exit_alone(laid_out):
+    floor = laid_out[1].plan
+    edges = floor.floor().edges()
+    for station in floor.stations:
+        assert len(station.queue) >= 5
+        inside = set(station.cells.tolist())
+        for cell, after in zip(station.cells, station.cells[1:]):
+            assert [c for c in edges[cell] if c >= 0] == [after]
+        into = [(c, t) for c in range(floor.passable.size) for t in edges[c] if t in inside]
+        assert {t for c, t in into if c not in inside} == {station.cells[0]}
+        assert inside.isdisjoint(edges[station.cells[-1]])
+        # Nobody turns where a unit is served.
+        before, at, after = station.cells[station.service - 1 : station.service + 2]
+        assert after - at == at - before
+        if len(inside) > 1 and floor.passable.size > 3000:
+            break  # one is like the other
+
+
+def test_streets_of_neighbours_are_opposed():
+    floor = plan(resolve("large")).plan
+    edges = floor.floor().edges(loaded=True)
+    streets = floor.passable & ~floor.storage & ~floor.parking & ~floor.lane
+    one_way = sum(
+        bool(a >= 0 and streets.flat[a] and c not in edges[a])
+        for c in np.flatnonzero(streets)
+        for a in edges[c]
+    )
+    ways = sum(bool(a >= 0 and streets.flat[a]) for c in np.flatnonzero(streets) for a in edges[c])
+    assert one_way == ways
+
+
+@pytest.mark.parametrize("preset", STATIONED)
+def test_a_world_tells_its_floor_plan(preset):
+    world = World.preset(preset)
+    assert same(FloorPlan.of_world(world), plan(resolve(preset)).plan)
+
+
+def test_a_restored_world_and_one_that_was_moved_tell_theirs():
+    world, other = World.preset("small"), World()
+    other.restore(world.checkpoint())
+    known = FloorPlan.of_world(world)
+    assert same(FloorPlan.of_world(other), known)
+
+    marks = floor_markings.read(other.visuals("floor_markings1"), [3, -2, 0, 0, 0, 0, 1])
+    assert {(m.x - 3, m.y + 2) for m in marks} == {
+        (m.x, m.y)
+        for m in floor_markings.read(other.visuals("floor_markings1"), [0, 0, 0, 0, 0, 0, 1])
+    }
+
+
+def test_markings_turn_with_what_they_mark():
+    known = plan(resolve("small")).plan
+    world = World()
+    world.spawn(models.document([models.Part("marks", floor_markings.sdf(known))]))
+    world.set_pose("floor_markings1", 0, 0, 0, np.pi / 2)
+    turned = FloorPlan.of_world(world)
+    assert len(turned.stations) == len(known.stations)
+    for was, now in zip(known.stations, turned.stations):
+        x, y = known.point_of(was.cells)
+        assert np.allclose(turned.point_of(now.cells), (-y, x))
+    streets = np.flatnonzero(known.exits == 1)
+    x, y = known.point_of(streets)
+    assert (turned.exits.flat[turned.cell_of(-y, x)] == 2).all()
+
+
+def test_cells_and_points():
+    floor = plan(resolve("small")).plan
+    cells = np.arange(floor.passable.size)
+    assert np.array_equal(floor.cell_of(*floor.point_of(cells)), cells)
+    assert floor.cell_of(1e3, 0) == -1
+    assert floor.cell_of(*floor.origin) == 0
+
+
+def test_a_street_that_is_closed_is_named():
+    world = World.preset("small")
+    known = FloorPlan.of_world(world)
+    known.check()
+    x, y = known.point_of(known.width * 3 + 4)  # on the street between two rows of blocks
+    world.spawn_model("wall", "wall1", x, y)
+    with pytest.raises(FloorError, match=r"no loaded robot .*\("):
+        FloorPlan.of_world(world).check()
+
+
+def test_what_stands_in_a_lane_is_refused_by_name():
+    world = World.preset("small")
+    station = FloorPlan.of_world(world).station("pick1")
+    x, y = FloorPlan.of_world(world).point_of(int(station.cells[2]))
+    world.spawn_model("person", "person1", x, y)
+    with pytest.raises(FloorError, match="pick1"):
+        FloorPlan.of_world(world)
+
+
+@pytest.mark.parametrize(
+    ("link", "size", "at", "message"),
+    [
+        ("PICK/a/queue", "1 1", "0 0", "one cell of service"),
+        ("canteen", "1 1", "0 0", "'canteen'"),
+        ("storage", "3 1", "500 0", "off the floor"),
+    ],
+)
+def test_wrong_markings_are_refused(link, size, at, message):
+    world = World()
+    world.spawn(
+        f'<sdf version="1.9"><world name="w"><model name="floor_markings"><static>1</static>'
+        f'<link name="{link}"><visual name="v"><pose>{at} 0 0 0 0</pose><geometry><box><size>{size}'
+        " 0.01</size></box></geometry></visual></link></model></world></sdf>"
+    )
+    with pytest.raises(FloorError, match=message):
+        FloorPlan.of_world(world)
+
+
+def test_a_fleet_delivers_to_every_station():
+    """Loaded robots, one a station, drive from their places through the lanes and back home."""
+    floor = plan(resolve("medium")).plan
+    places = np.flatnonzero(floor.storage)[:: 7][: len(floor.stations)].astype(np.int32)
+    services = np.array([s.service_cell for s in floor.stations], np.int32)
+    cell, heading, goal = places.copy(), np.zeros(len(places), np.uint8), services.copy()
+    planner = epibt(floor.floor(), Rules(following=False), seed=1)
+    steps = np.array([1, floor.width, -1, -floor.width], np.int32)
+    for _ in range(400):
+        fleet = Fleet(cell, heading, goal, loaded=np.ones(len(cell), np.uint8), home=places)
+        action = planner.plan(fleet)[:, 0]
+        cell = np.where(action == 1, cell + steps[heading], cell).astype(np.int32)
+        heading = ((heading + np.array([0, 0, 1, 3], np.uint8)[action]) & 3).astype(np.uint8)
+        goal = np.where(cell == services, places, goal).astype(np.int32)
+        if (goal == places).all() and (cell == places).all():
+            return
+    pytest.fail("not everybody came home")
