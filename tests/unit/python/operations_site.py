@@ -4,7 +4,7 @@
 import numpy as np
 
 from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_fleet.operations.operations import Site
+from warehouse_fleet.operations.site import Site
 from warehouse_fleet.stations import PICK, REPLENISH, Station
 
 BLOCK, LANE = 5, 5  # cells

@@ -12,5 +12,6 @@ print(ops.kpis()["item_score"])
 from warehouse_fleet.operations.operations import Operations
 from warehouse_fleet.operations.policies import Policies, PolicyError
 from warehouse_fleet.operations.shift import Settings, Shift
+from warehouse_fleet.operations.site import Site
 
-__all__ = ["Operations", "Policies", "PolicyError", "Settings", "Shift"]
+__all__ = ["Operations", "Policies", "PolicyError", "Settings", "Shift", "Site"]

@@ -16,6 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from warehouse_fleet.operations import schema
 from warehouse_fleet.operations.journal import Journal
+from warehouse_fleet.operations.orders import OrderState
 
 WAITING = 20_000  # commits at most that are not written yet; beyond, the shift waits
 TABLES = (  # in the order in which rows may refer to each other
@@ -170,7 +171,7 @@ class Database:
 class DatabaseJournal(Journal):
     """Keeps a shift in a Database."""
 
-    def __init__(self, database, *, seed, orders, policies, site):
+    def __init__(self, database, *, seed, orders, policies, site, now=0.0):
         self._database, self._rows = database, Rows()
         with database.engine.connect() as connection:
             self._next = {
@@ -195,7 +196,8 @@ class DatabaseJournal(Journal):
             seed=seed,
             orders=orders,
             policies=json.dumps(policies),
-            simulated_s=0.0,
+            began_s=now,
+            simulated_s=now,
             kpis=None,
         )
 
@@ -216,6 +218,33 @@ class DatabaseJournal(Journal):
                 quantity=0,
                 reserved=0,
                 capacity=one.capacity,
+            )
+
+    def resume(self, shift):
+        """What an earlier run left under way has ended: its visits, assignments and promises."""
+        with self._database.engine.begin() as connection:
+            connection.execute(
+                update(schema.visit)
+                .where(schema.visit.c.ended.is_(None))
+                .values(ended=schema.visit.c.requested, outcome="interrupted")
+            )
+            connection.execute(
+                update(schema.assignment)
+                .where(schema.assignment.c.ended.is_(None))
+                .where(
+                    schema.assignment.c.order_id.in_(
+                        select(schema.orders.c.id).where(
+                            schema.orders.c.state == int(OrderState.ASSIGNED)
+                        )
+                    )
+                )
+                .values(ended=schema.assignment.c.stamp)
+            )
+            connection.execute(update(schema.bin_).values(reserved=0))
+            connection.execute(
+                update(schema.orders)
+                .where(schema.orders.c.state == int(OrderState.ASSIGNED))
+                .values(state=int(OrderState.OPEN), station="")
             )
 
     def move(self, now, one, quantity, reason, line, station, visit):

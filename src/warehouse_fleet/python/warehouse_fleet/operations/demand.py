@@ -96,10 +96,10 @@ class Fill:
 class Poisson:
     """Orders come by chance, so many an hour on the average; bundles likewise."""
 
-    def __init__(self, customers, per_hour, bundles_per_hour, rng):
+    def __init__(self, customers, per_hour, bundles_per_hour, rng, now=0.0):
         self.customers, self.per_hour, self._rng = customers, per_hour, rng
         self.bundles_per_hour = bundles_per_hour
-        self._next = 0.0
+        self._next = now
         self._wait()
 
     def next_time(self):
@@ -132,10 +132,10 @@ class FromFile:
             yield self._wanted.pop()
 
 
-def make_demand(text, assortment, stations, rng):
+def make_demand(text, assortment, stations, rng, now=0.0):
     """What the orders' text of operations.launch and simulate means; raises DemandError.
 
-    stations: (picking, replenishing), how many.
+    stations: (picking, replenishing), how many. now: when it begins [s].
     """
     customers = Customers(assortment, rng)
     name, _, value = str(text).partition(":")
@@ -145,7 +145,7 @@ def make_demand(text, assortment, stations, rng):
         return Fill(customers, int(_number(text, value, FILL, whole=True)))
     if name == "poisson":
         per_hour = _number(text, value, POISSON * stations[0])
-        return Poisson(customers, per_hour, BUNDLES * stations[1], rng)
+        return Poisson(customers, per_hour, BUNDLES * stations[1], rng, now)
     if str(text).endswith(".csv"):
         return FromFile(read_csv(text, set(assortment.skus)))
     raise DemandError(

@@ -3,48 +3,14 @@
 
 import math
 import time as clock
-from dataclasses import dataclass, field
 
-import numpy as np
-
-from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.ideal import IdealFleet
 from warehouse_fleet.operations import kpis
-from warehouse_fleet.operations.assortment import stocked
-from warehouse_fleet.operations.demand import make_demand
+from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.policies import Policies
-from warehouse_fleet.operations.shift import Settings, Shift
-from warehouse_fleet.operations.whereabouts import Whereabouts
-from warehouse_fleet.travel import Kinematics
+from warehouse_fleet.operations.site import Site
 
 CYCLE = 0.1  # for so long a world is stepped before the shift is asked again [s]
-
-
-@dataclass(frozen=True)
-class Site:
-    """A warehouse before the shift: its floor and who stands where; cells by id."""
-
-    plan: FloorPlan
-    robots: dict
-    units: dict
-    items: list  # of (name, unit): the bins
-    name: str = ""
-    kinematics: Kinematics = field(default_factory=Kinematics)
-    settings: Settings = field(default_factory=Settings)
-    skus: int = None  # how many; None: by the number of bins
-
-    @classmethod
-    def of_world(cls, world, name=""):
-        """That of an in-process kiva_plugin_cpp.World."""
-        plan = FloorPlan.of_world(world)
-        fleet, units = world.fleet, world.storage_units
-        return cls(
-            plan,
-            {int(i): plan.cell_of(x, y) for i, x, y in zip(fleet.kiva_id, fleet.x, fleet.y)},
-            {int(u["shelf_id"]): plan.cell_of(u["x"], u["y"]) for u in units},
-            [(f"item{i['item_id']}", int(i["shelf_id"])) for i in world.items if i["shelf_id"]],
-            name,
-        )
 
 
 class Operations:
@@ -52,8 +18,9 @@ class Operations:
 
     world: a kiva_plugin_cpp.World, or a Site, which has no physics. orders: fill, fill:N,
     poisson:PER_HOUR, FILE.csv or none. policies: a Policies, a mapping, or the path of a YAML file.
-    database: a URL or the path of an SQLite file in which everything is kept. physics False: ideal
-    robots instead of the world's. The same seed gives the same shift, to the last event.
+    database: a URL, or the path of an SQLite file, in which everything is kept; what one has kept
+    goes on. physics False: ideal robots instead of the world's. The same seed gives the same shift,
+    to the last event. Raises as open_shift does.
     """
 
     def __init__(
@@ -67,49 +34,25 @@ class Operations:
         settings=None,
     ):
         self.site = world if isinstance(world, Site) else Site.of_world(world)
-        self.fleet = self._fleet(world, physics, seed)
         if not isinstance(policies, Policies):
             policies = Policies.read(policies) if isinstance(policies, str) else Policies(policies)
-        stock_rng, demand_rng, policy_rng = (
-            np.random.default_rng(seed).spawn(3)
-            if hasattr(np.random.Generator, "spawn")
-            else [np.random.default_rng(s) for s in np.random.SeedSequence(seed).spawn(3)]
-        )
-        assortment, stock = stocked(self.site.items, stock_rng, self.site.skus)
-        kinds = [station.kind for station in self.fleet.stations]
-        demand = make_demand(
-            orders, assortment, (kinds.count("PICK"), kinds.count("REPLENISH")), demand_rng
-        )
-        self.journal = None
+        self.fleet = self._fleet(world, physics, seed)
+        self.database = None
         if database:
-            from warehouse_fleet.operations.database import Database, DatabaseJournal
+            from warehouse_fleet.operations.database import Database
 
             self.database = Database(database)
-            self.journal = DatabaseJournal(
-                self.database,
-                seed=seed,
-                orders=str(orders),
-                policies=policies.chosen,
-                site=self.site.name,
-            )
-        floor = Whereabouts(
-            self.site.plan, self.site.robots, self.site.units, getattr(self.fleet, "travel", None)
-        )
-        self.shift = Shift(
+        self.shift = open_shift(
+            self.site,
             self.fleet.transports,
             self.fleet.stations,
-            assortment,
-            [one for one, _ in stock],
-            floor=floor,
+            orders=orders,
+            seed=seed,
             policies=policies,
-            demand=demand,
-            settings=settings or self.site.settings,
-            journal=self.journal,
-            rng=policy_rng,
+            database=self.database,
+            settings=settings,
+            travel=getattr(self.fleet, "travel", None),
         )
-        if self.journal:
-            self.journal.begin(self.shift)
-        self.shift.begin(stock)
         self.wall_s = 0.0
 
     def _fleet(self, world, physics, seed):
@@ -125,13 +68,21 @@ class Operations:
         """Simulated seconds."""
         return self.shift.now
 
+    @property
+    def ideal(self):
+        """Whether robots are ideal instead of simulated."""
+        return isinstance(self.fleet, IdealFleet)
+
     def run(self, hours=0.0, minutes=0.0, seconds=0.0, progress=None):
-        """Goes on for so long; progress(self) is called now and then, and may return True to stop."""
+        """Goes on for so long.
+
+        progress(self) is called now and then; it may return True to stop.
+        """
         self.step_until(self.time + hours * 3600 + minutes * 60 + seconds, progress)
 
     def step_until(self, end, progress=None):
-        """Goes on to a time of the shift [s]."""
-        cycle = math.inf if isinstance(self.fleet, IdealFleet) else CYCLE
+        """Goes on to a time of the shift [s]; progress as of run()."""
+        cycle = math.inf if self.ideal else CYCLE
         began, count = clock.monotonic(), 0
         if not self.time:
             self.shift.advance(0.0)
@@ -149,11 +100,11 @@ class Operations:
         return kpis.of_shift(self.shift, self.fleet, self.site.kinematics, self.wall_s)
 
     def close(self):
-        """Writes what is left to the database, with the run's figures; raises what went wrong."""
-        if self.journal:
-            self.journal.end(self.shift, self.kpis())
+        """Writes what is left to the database, with the run's figures; raises DatabaseError."""
+        if self.database:
+            self.shift.journal.end(self.shift, self.kpis())
             self.database.close()
-            self.journal = None
+            self.database = None
 
     def __enter__(self):
         return self

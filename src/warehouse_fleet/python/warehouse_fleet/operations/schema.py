@@ -47,6 +47,7 @@ run = Table(
     Column("seed", Integer, nullable=False),
     Column("orders", Text, nullable=False),
     Column("policies", Text, nullable=False),  # JSON
+    Column("began_s", Float, nullable=False),  # simulated time at its beginning and so far
     Column("simulated_s", Float, nullable=False),
     Column("kpis", Text),  # JSON
 )

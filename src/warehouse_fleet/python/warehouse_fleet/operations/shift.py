@@ -60,13 +60,14 @@ class Shift:
         settings=None,
         journal=None,
         rng=None,
+        now=0.0,
     ):
         self.transports, self.policies, self.floor = transports, policies, floor
         self.settings = settings or Settings()
         self.assortment: Assortment = assortment
         self.demand, self.rng = demand, rng or np.random.default_rng(1)
         self.journal, self.tally = journal or Journal(), Tally()
-        self.now = 0.0
+        self.now = self.began = now
         self.backlog, self.orders = Backlog(), {}
         self.inventory = Inventory(bins, self._moved)
         self.free_units = set(floor.units)
@@ -84,7 +85,7 @@ class Shift:
         self.replenishing = Replenishing(self, of_kind["REPLENISH"])
         self.on_order_event = None  # called with (order, kind, sku, quantity, station, unit, text)
         transports.hooks = _Hooks(self)
-        self.at(0.0, self._look_after_stock, None)
+        self.at(now, self._look_after_stock, None)
         self._bundles_come()
 
     def _work_station(self, gate):
@@ -104,6 +105,20 @@ class Shift:
         for one, pieces in stock:
             if pieces:
                 self.inventory.move(one, one.sku, pieces, Reason.INITIAL)
+
+    def resume(self, stored):
+        """Goes on with the orders of a Stored warehouse, whose bins this shift was given."""
+        self._order_ids = itertools.count(stored.last_order + 1)
+        self.inventory.blocked |= stored.blocked
+        self.free_units -= stored.blocked
+        for order in stored.orders:
+            self.orders[order.order_id] = order
+            if order.done:
+                order.completed = self.now
+                order.state = OrderState.COMPLETED
+                self.order_over(order, OrderEventKind.COMPLETED)
+            else:
+                self.backlog.add(order)
 
     # Time.
 
