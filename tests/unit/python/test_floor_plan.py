@@ -4,8 +4,8 @@ have lanes that work, and floors on which a fleet could come to a deadlock are r
 
 import numpy as np
 import pytest
-from kiva_plugin_cpp import World
 
+from kiva_plugin_cpp import World
 from warehouse_fleet import Fleet, FloorError, Rules, epibt, floor_markings
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_sim import models
@@ -26,9 +26,9 @@ def laid_out(request):
 
 
 def same(one, other):
-    stations = [
-        (s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in one.stations
-    ] == [(s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in other.stations]
+    stations = [(s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in one.stations] == [
+        (s.name, s.kind, s.service, s.belt, s.cells.tolist()) for s in other.stations
+    ]
     return stations and all(np.array_equal(getattr(one, a), getattr(other, a)) for a in ARRAYS)
 
 
@@ -166,7 +166,7 @@ def test_wrong_markings_are_refused(link, size, at, message):
 def test_a_fleet_delivers_to_every_station():
     """Loaded robots, one a station, drive from their places through the lanes and back home."""
     floor = plan(resolve("medium")).plan
-    places = np.flatnonzero(floor.storage)[:: 7][: len(floor.stations)].astype(np.int32)
+    places = np.flatnonzero(floor.storage)[::7][: len(floor.stations)].astype(np.int32)
     services = np.array([s.service_cell for s in floor.stations], np.int32)
     cell, heading, goal = places.copy(), np.zeros(len(places), np.uint8), services.copy()
     planner = epibt(floor.floor(), Rules(following=False), seed=1)

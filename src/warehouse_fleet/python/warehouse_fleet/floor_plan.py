@@ -150,4 +150,3 @@ def _blank(x, y, spacing, occupancy):
         exits=exits,
         stations=(),
     )
-

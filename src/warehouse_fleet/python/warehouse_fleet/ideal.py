@@ -67,6 +67,7 @@ class _Lane:
         self.queue = deque()
         self.serving = None  # the transport in the service cell, or on the last metre to it
         self.free_from = 0.0  # when the service cell has been left [s]
+        self.waited = 0.0  # by all [s]
 
 
 class IdealFleet:
@@ -82,7 +83,7 @@ class IdealFleet:
         self.stations = [Gate(one.name, one.kind) for one in plan.stations]
         self.time = 0.0
         self.distance_m = 0.0
-        self.collisions = self.blocked = self.watchdog = 0
+        self.collisions = self.blocked = self.watchdog = self.stuck = 0
         self.plan_ms = []
         self.executed_over_planned = 1.0
         self.robot_seconds = dict.fromkeys(ACTIVITIES, 0.0)
@@ -178,6 +179,14 @@ class IdealFleet:
             table = self.travel.loaded_from if outbound else self.travel.loaded_to
             np.add.at(count, table(station).cells(cell), times)
         return count.reshape(self.plan.passable.shape)
+
+    def waiting_map(self):
+        """Robot-seconds spent in lanes before a station, spread over their cells, (h, w)."""
+        seconds = np.zeros(self.plan.passable.size)
+        for lane in self._lanes.values():
+            cells = lane.station.cells[: lane.station.service]
+            seconds[cells] += lane.waited / max(len(cells), 1)
+        return seconds.reshape(self.plan.passable.shape)
 
     def activities(self):
         """Robot-seconds spent on each of ACTIVITIES up to now."""
@@ -306,6 +315,8 @@ class IdealFleet:
             self._leave(transport)
             return self._store(transport)
         transport.arrived = True
+        if transport.station:
+            transport.station.waited += self.time - transport.robot.since
         self._does(transport.robot, "service")
         self._tell(Kind.ARRIVED, transport)
         if not transport.station and transport.then == Then.STAY:

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from warehouse_fleet._core import Floor, check_layout
+from warehouse_fleet._core import check_layout
 from warehouse_fleet.stations import PICK, STEPS, Station, lane_mask, neighbour
 
 QUEUE = 5  # cells, the entry among them
@@ -73,9 +73,7 @@ def _without_dead_ends(plan):
 
 
 def _streets(plan, stations):
-    return (
-        plan.passable & ~plan.storage & ~plan.parking & ~lane_mask(stations, plan.shape)
-    )
+    return plan.passable & ~plan.storage & ~plan.parking & ~lane_mask(stations, plan.shape)
 
 
 def _services(plan, streets, at, belt_cells):

@@ -16,8 +16,8 @@ class Tally:
 
     def __init__(self):
         self.items_picked = self.lines_picked = self.orders_completed = 0
-        self.bundles_stored = self.pieces_stored = self.late_orders = self.trips = 0
-        self.pick_visits = self.put_visits = 0
+        self.bundles_stored = self.pieces_stored = self.late_orders = 0
+        self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
         self.turnover_s, self.throughput_s = [], []
         self.picked_in, self.stored_in = defaultdict(int), defaultdict(int)  # by INTERVAL
         self.completed_in = defaultdict(int)
@@ -53,13 +53,9 @@ class Tally:
             self._since.pop(event.transport_id, None)
 
     def visited(self, visit):
-        if visit.arrived is None:
-            return
-        self.trips += 1
-        if visit.station.kind == "PICK":
-            self.pick_visits += 1
-        else:
-            self.put_visits += 1
+        if visit.arrived is not None:
+            self.trips += 1
+            self.pick_visits += visit.station.kind == "PICK"
 
 
 _ACTIVITIES = {
@@ -87,20 +83,23 @@ def upper_bound(pile_on, settings, kinematics, spacing=1.0):
 
 def of_shift(shift, fleet, kinematics, wall_s):
     """What kpis.json holds, as a dict."""
-    tally, hours = shift.tally, max(shift.now, 1e-9) / 3600
+    tally, elapsed = shift.tally, shift.now - shift.began
+    hours = max(elapsed, 1e-9) / 3600
     picking, replenishing = shift.picking.stations, shift.replenishing.stations
     picks = sum(len([v for v in s.inbound.values() if v.pieces]) for s in picking)
     pile_on = tally.items_picked / max(tally.pick_visits + picks, 1)
-    bound = upper_bound(pile_on, shift.settings, kinematics, shift.floor.plan.spacing) * len(
-        picking
+    spacing = shift.floor.plan.spacing
+    bound = sum(
+        upper_bound(pile_on, shift.settings.of(station.name), kinematics, spacing)
+        for station in picking
     )
     throughput = tally.items_picked / hours
     overdue = sum(bool(order.due) and order.due < shift.now for order in shift.orders.values())
     busy = sum(station.busy_s for station in picking)
     return {
-        "simulated_s": shift.now,
+        "simulated_s": elapsed,
         "wall_s": wall_s,
-        "real_time_factor": shift.now / wall_s if wall_s else 0.0,
+        "real_time_factor": elapsed / wall_s if wall_s else 0.0,
         "robots": fleet.robots,
         "pick_stations": len(picking),
         "replenish_stations": len(replenishing),
@@ -113,7 +112,7 @@ def of_shift(shift, fleet, kinematics, wall_s):
         "item_upper_bound_per_hour": bound,
         "item_score": throughput / bound if bound else 0.0,
         "pile_on": pile_on,
-        "station_idle_fraction": 1 - busy / (shift.now * len(picking)) if busy else 1.0,
+        "station_idle_fraction": 1 - busy / (elapsed * len(picking)) if busy else 1.0,
         "order_turnover_s": quantiles(tally.turnover_s),
         "order_throughput_s": quantiles(tally.throughput_s),
         "late_orders_fraction": (tally.late_orders + overdue)

@@ -42,7 +42,12 @@ def open_shift(
 
         stored = keeping.read(database.engine, now)
         journal = DatabaseJournal(
-            database, seed=seed, orders=str(orders), policies=policies.chosen, site=site.name, now=now
+            database,
+            seed=seed,
+            orders=str(orders),
+            policies=policies.chosen,
+            site=site.name,
+            now=now,
         )
     # A run that goes on has its own chance, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
@@ -52,7 +57,7 @@ def open_shift(
         assortment, stock = stored.assortment, [(one, 0) for one in stored.bins]
         _check_site(site, stored.bins, database.url)
     else:
-        assortment, stock = stocked(site.items, stock_rng, site.skus)
+        assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
     kinds = [gate.kind for gate in gates]
     count = kinds.count("PICK"), kinds.count("REPLENISH")
     shift = Shift(

@@ -128,6 +128,8 @@ class Replenishing:
             bundle.bin, bundle.sku, bundle.quantity, station=visit.station, visit=visit
         )
         visit.pieces += bundle.quantity
+        station = visit.station
+        station.pieces += bundle.quantity
         self.shift.tally.stored(self.shift.now, bundle)
 
     def confirm(self, station, sku, quantity):

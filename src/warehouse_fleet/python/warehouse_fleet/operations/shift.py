@@ -11,7 +11,7 @@ import hashlib
 import heapq
 import itertools
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -38,6 +38,11 @@ class Settings:
     pick_s: float = 3.0  # of that, until the piece is out of its bin and the unit may leave
     bundle_s: float = 10.0
     units_per_station: int = 8  # at it or on their way to it
+    by_station: dict = field(default_factory=dict)  # what is otherwise at one, by its name
+
+    def of(self, station):
+        """Those of a station."""
+        return replace(self, **self.by_station.get(station, {}))
 
 
 class Shift:
@@ -89,16 +94,12 @@ class Shift:
         self._bundles_come()
 
     def _work_station(self, gate):
-        settings = self.settings
-        pick = gate.kind == "PICK"
-        return WorkStation(
-            gate,
-            getattr(gate, "slots", None) or settings.slots if pick else 0,
-            getattr(gate, "seconds_a_piece", None)
-            or (settings.piece_s if pick else settings.bundle_s),
-            getattr(gate, "pick_seconds", None) or min(settings.pick_s, settings.piece_s),
-            self.inventory,
-        )
+        settings = self.settings.of(gate.name)
+        if gate.kind == "PICK":
+            times = settings.slots, settings.piece_s, min(settings.pick_s, settings.piece_s)
+        else:
+            times = 0, settings.bundle_s, settings.bundle_s
+        return WorkStation(gate, *times, self.inventory)
 
     def begin(self, stock):
         """Lays the stock of the shift's beginning into the bins: pairs (bin, pieces)."""
@@ -365,6 +366,7 @@ class Shift:
         del visit.station.inbound[visit.visit_id]
         self.journal.visit(visit)
         self.tally.visited(visit)
+        visit.station.visits += visit.arrived is not None
         if event.kind == Kind.FAILED:
             self.at(self.now + HOLD, self._unit_free, visit.unit)
         else:

@@ -4,6 +4,7 @@
 from dataclasses import dataclass, field
 
 from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.operations.assortment import INITIAL_LEVEL
 from warehouse_fleet.operations.shift import Settings
 from warehouse_fleet.travel import Kinematics
 
@@ -20,6 +21,7 @@ class Site:
     kinematics: Kinematics = field(default_factory=Kinematics)
     settings: Settings = field(default_factory=Settings)
     skus: int = None  # how many; None: by the number of bins
+    level: float = INITIAL_LEVEL  # of the stock at first, over its room
 
     @classmethod
     def of_world(cls, world, name=""):

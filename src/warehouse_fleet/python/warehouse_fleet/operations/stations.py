@@ -51,7 +51,7 @@ class WorkStation:
         self.at_work = False  # on a piece or a bundle
         self.busy_s = 0.0
         self.missing = {}  # lines with pieces for which no unit comes, by (order, line)
-        self.pieces = 0
+        self.pieces = self.visits = 0  # done here
 
     @property
     def free_slots(self):

@@ -106,6 +106,7 @@ class Policies:
         for role in chosen:
             if role not in ROLES:
                 raise PolicyError(f"{source}: '{role}' is no role; expected {', '.join(ROLES)}")
+        self.given = chosen
         self.chosen = {role: chosen.get(role, DEFAULTS[role]) for role in ROLES}
         for role, what in self.chosen.items():
             setattr(self, role, _make(role, what, source))
