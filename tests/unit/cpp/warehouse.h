@@ -30,8 +30,8 @@ namespace kiva {
 
 /// What gtest prints when states differ.
 inline void PrintTo(State state, std::ostream* out) {
-  static const char* const names[] = {"IDLE",     "MOVING_X", "MOVING_Y",
-                                      "ROTATING", "LIFTING",  "BLOCKED"};
+  static const char* const names[] = {"IDLE",    "MOVING_X", "MOVING_Y", "ROTATING",
+                                      "LIFTING", "BLOCKED",  "WAITING"};
   *out << names[static_cast<int>(state)];
 }
 inline void PrintTo(Status status, std::ostream* out) {

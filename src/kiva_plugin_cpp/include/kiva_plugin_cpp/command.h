@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "kiva_plugin_cpp/description.h"
 
@@ -10,7 +11,17 @@ namespace kiva {
 
 /// What a client may ask of a robot.
 struct Command {
-  enum class Kind : std::uint8_t { kMoveTo, kMoveX, kMoveY, kRotate, kLift };
+  enum class Kind : std::uint8_t {
+    kMoveTo,
+    kMoveX,
+    kMoveY,
+    kRotate,
+    kLift,
+    kCancel,  ///< End what it does at the next grid point; a lift, when it is over.
+    kStop,    ///< Stand at once, wheels and lift, and stay; kiva_id 0: every robot.
+    kGoOn,    ///< Go on with what it did when it was stopped; kiva_id 0: every robot.
+    kFollow   ///< Stands for a FollowPath among them; not to be posted.
+  };
   Kind kind = Kind::kMoveTo;
   std::int32_t kiva_id = 0;
   double x = 0;               ///< MoveTo: goal in world [m]. MoveX: signed distance [m].
@@ -18,6 +29,20 @@ struct Command {
   int direction = 0;          ///< Rotate: +1 counterclockwise, -1 clockwise.
   int lift = 0;               ///< Lift: 1 carry, 0 drop.
   std::int32_t shelf_id = 0;  ///< Lift: the storage unit's number; drop, 0: whichever it carries.
+};
+
+/// A path that a robot drives as far as it is released, without stopping but to turn. A new
+/// `path_id` is a command like any other. The same one, while that path is under way, changes it:
+/// points from `first` on are replaced, beyond the released ones, or none are if there are none
+/// here; `released` may shrink as far as the robot can still stop.
+struct FollowPath {
+  std::int32_t kiva_id = 0;
+  std::uint32_t path_id = 0;   ///< The sender's choice, not 0.
+  std::uint32_t first = 0;     ///< Number of the point that x[0], y[0] is; 0 in a new path.
+  std::vector<double> x, y;    ///< Grid points in world [m]; neighbours differ along one axis.
+                               ///< Point 0 is where the robot stands.
+  std::uint32_t released = 0;  ///< How many points of the whole path it may come to, at least 1.
+  std::string fault;           ///< Why it makes no sense, if it was found not to: it is refused so.
 };
 
 /// How two bodies met.

@@ -21,7 +21,8 @@ enum class State : std::uint8_t {
   kMovingY = 2,
   kRotating = 3,
   kLifting = 4,
-  kBlocked = 5
+  kBlocked = 5,
+  kWaiting = 6  ///< At the last released point of its path.
 };
 
 /// How a robot's drive is modelled.
@@ -104,6 +105,11 @@ struct Stance {
   double pitch_rate = 0;  ///< and about its y axis [rad/s].
 };
 
+/// A place on the floor, in world [m].
+struct PathPoint {
+  double x = 0, y = 0;
+};
+
 /// One value a robot. Others may hold its memory and read it without a copy.
 template <typename T>
 using Column = std::vector<T, ViewableAllocator<T>>;
@@ -122,6 +128,16 @@ struct Fleet {
   /// How its last command ended, until the next is accepted: 0 = none yet, else the value of
   /// Event::Kind, kDone or kBlocked.
   Column<std::uint8_t> last_end;
+  /// The path that its last command is, if it is one; else 0, as are the two below.
+  Column<std::uint32_t> path_id;
+  /// How many leading points of the path the robot's centre has come to, within a millimetre: 1 as
+  /// it begins, since it stands on point 0, and all of them at its end.
+  Column<std::uint32_t> reached;
+  /// How many leading points' cells, squares of the grid's spacing around them, the robot and its
+  /// load have left wholly. By how far they extend along and across the way when they drive
+  /// straight: the corners of a load that turns reach some centimetres out of its cell.
+  Column<std::uint32_t> left;
+  Column<std::uint8_t> stopped;  ///< 1 = it stands until Command::Kind::kGoOn.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

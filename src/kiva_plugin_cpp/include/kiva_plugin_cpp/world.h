@@ -64,11 +64,6 @@ struct Item {
   double mass = 0;          ///< [kg]
 };
 
-/// A place on the floor, in world [m].
-struct PathPoint {
-  double x = 0, y = 0;
-};
-
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
@@ -174,6 +169,9 @@ class World {
   // --- commands
   /// Queued; answered by an ACCEPTED or REFUSED event at the next step.
   void post(const Command& command);
+  /// The same, in one row with those; a change of the path under way is only answered if it is
+  /// refused.
+  void post(FollowPath path);
 
   // --- models
   /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already
@@ -238,7 +236,8 @@ class World {
   const std::vector<Item>& items() const;
   Pose storageUnitPose(int unit) const;  ///< In world.
   Pose itemPose(int item) const;         ///< In world.
-  /// Where the robot is still to turn or to stop on its present way.
+  /// Where the robot is still to turn or to stop on its present way; on a path the end of what is
+  /// released is one, and what is not released belongs to it.
   std::vector<PathPoint> pathAhead(int robot) const;
   Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.

@@ -57,6 +57,9 @@ class Kind(IntEnum):
     MOVE_Y = 2
     ROTATE = 3
     LIFT = 4
+    CANCEL = 5
+    STOP = 6
+    GO_ON = 7
 
 
 class Status(IntEnum):
@@ -76,6 +79,7 @@ class State(IntEnum):
     ROTATING = 3
     LIFTING = 4
     BLOCKED = 5
+    WAITING = 6
 
 
 class EventKind(IntEnum):
@@ -146,6 +150,25 @@ class World(_core.World):
         world.spawn(models.document(models.of_layout(plan)))
         world.events()
         return world
+
+    def follow(self, kiva_id, path_id, first=0, points=None, x=(), y=(), released=None):
+        """Gives robots paths to drive as far as they are released, or changes those under way.
+
+        For one robot: numbers, and arrays x, y of grid points in world [m], of which the first is
+        point number `first` of the path; neighbours differ along one axis, point 0 is where the
+        robot stands. `released` counts points of the whole path; all, unless it is told. For many:
+        arrays of shape (n,), `points` says how many entries of x and y each of them has, in a row.
+
+        The path_id of a path under way changes it: points beyond the released ones are replaced
+        from `first` on, or none if there are none here; `released` may shrink as far as the robot
+        can still stop. Another one is a command like any other. What can't be granted is refused by
+        an event; a change that is granted makes none. Errors as of mov(), all or none.
+        """
+        if points is None:
+            points = len(x)
+        if released is None:
+            released = numpy.add(first, points)
+        super().follow(kiva_id, path_id, first, points, x, y, released)
 
     def spawn_model(self, model, name, x, y, z=0.0, yaw=0.0):
         """Adds a model of worlds/models ("kiva", "storage_unit" …) at a place in world [m, rad].

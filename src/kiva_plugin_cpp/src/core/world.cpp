@@ -20,6 +20,7 @@
 #include "core/sensing/scans.h"
 #include "core/state/fleet_plugin.h"
 #include "core/state/footprints.h"
+#include "core/state/path_progress.h"
 #include "core/state/poses.h"
 #include "plugins/plugin_table.h"
 
@@ -167,7 +168,26 @@ void World::reset(bool time_too) {
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.reset(*this); });
 }
 
-void World::post(const Command& command) { state_->commands.push_back(command); }
+void World::post(const Command& command) {
+  if (command.kind == Command::Kind::kFollow) {
+    throw std::invalid_argument("a path is posted as a FollowPath");
+  }
+  state_->commands.push_back(command);
+}
+
+void World::post(FollowPath path) {
+  const auto isNone = [](double value) { return !std::isfinite(value); };
+  for (std::vector<double>* column : {&path.x, &path.y}) {
+    if (std::none_of(column->begin(), column->end(), isNone)) continue;
+    path.fault = "a coordinate is not a finite number";
+    column->clear();
+  }
+  Command command;
+  command.kind = Command::Kind::kFollow;
+  command.kiva_id = path.kiva_id;
+  state_->commands.push_back(command);
+  state_->paths.push_back(std::move(path));
+}
 
 void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
 
@@ -343,8 +363,10 @@ const std::vector<Item>& World::items() const { return state_->items; }
 Pose World::storageUnitPose(int unit) const { return unitPose(*state_, unit); }
 Pose World::itemPose(int item) const { return kiva::itemPose(*state_, item); }
 std::vector<PathPoint> World::pathAhead(int robot) const {
+  const Task& task = state_->fleet.tasks[robot];
+  if (task.follows()) return pointsAhead(*state_, robot);
   std::vector<PathPoint> points;
-  for (const MotionSegment& segment : state_->fleet.tasks[robot].segments) {
+  for (const MotionSegment& segment : task.segments) {
     if (segment.kind == MotionSegment::Kind::kDrive) points.push_back({segment.x, segment.y});
   }
   return points;

@@ -79,12 +79,16 @@ View viewOf(WorldState& world, int i) {
   return view;
 }
 
+/// Where the obstacle is to be met: the other one comes on until it has seen this robot too, then
+/// brakes as this one does.
+double expectedObstacle(const View& view) {
+  return view.obstacle - 2 * view.approach * view.scan_time -
+         view.approach * view.approach / (2 * view.usual);
+}
+
 /// Where the robot has to plan its stop now, if it has to; else its goal.
 double firstStop(const WorldState& world, int robot, const View& view) {
-  // The other one comes on until it has seen this robot too, then brakes as this one does.
-  const double comes =
-      2 * view.approach * view.scan_time + view.approach * view.approach / (2 * view.usual);
-  const double expected = view.obstacle - comes;
+  const double expected = expectedObstacle(view);
   const double stop = farthestStop(world, robot, expected);
   if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
   const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
@@ -105,16 +109,31 @@ double revisedStop(const WorldState& world, int robot, const View& view) {
   return std::min(view.goal, farthestStop(world, robot, view.obstacle));
 }
 
+/// Whether a robot that brakes or stands on its path can go farther than to where it does.
+bool mayResume(WorldState& world, int i) {
+  const Task& task = world.fleet.tasks[i];
+  const View view = viewOf(world, i);
+  if (task.sighting.model < 0 || view.obstacle >= reachOfInterest(world, i)) return true;
+  return farthestStop(world, i, expectedObstacle(view)) > view.goal + kSoon;
+}
+
 void brake(WorldState& world, int i) {
   const Task& task = world.fleet.tasks[i];
-  if (!task.drives() || !task.sighting.taken || task.sighting.model < 0) return;
+  if (!task.sighting.taken) return;
+  const bool is_obstructed = task.isHeldUp() || task.phase == Phase::kBraking;
+  if (task.follows() && is_obstructed && mayResume(world, i)) return resumePath(world, i);
+  if (!task.drives() || task.sighting.model < 0) return;
   const View view = viewOf(world, i);
+  if (view.obstacle >= reachOfInterest(world, i)) return;
   const bool brakes = task.phase == Phase::kBraking;
   const double stop = brakes ? revisedStop(world, i, view) : firstStop(world, i, view);
   if (stop == view.goal) return;
   const std::string& name = world.models[task.sighting.model]->name;
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world, i, stop);
+  if (task.follows() && !brakes) {  // its path goes on: this is not told again at its end
+    world.reportCommand(Event::Kind::kBlocked, i, name, task.blocked_reason);
+  }
 }
 
 }  // namespace

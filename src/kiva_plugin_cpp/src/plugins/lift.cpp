@@ -149,8 +149,20 @@ void lowerSegment(WorldState& world, int i, int unit) {
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
+/// Stops the tower, and keeps it there.
+void holdTower(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
+  Profile profile = f.profile(i);
+  profile.brake(f.robots[i].drive.emergency_deceleration, world.dt);
+  profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
+  f.setProfile(i, profile);
+  f.tower[i] = profile.position;
+}
+
 void liftSegment(WorldState& world, int i) {
   const Task& task = world.fleet.tasks[i];
+  if (world.fleet.stopped[i]) return holdTower(world, i);
   const MotionSegment segment = task.segments.front();
   if (task.phase == Phase::kStarting) begin(world, i);
   checkUnit(world, i, segment);
@@ -182,7 +194,7 @@ void LiftPlugin::control(WorldState& world) const {
   const FleetState& f = world.fleet;
   for (int i : world.stepped_singly) {
     const MotionSegment* at = f.tasks[i].segment();
-    if (!at && f.tower[i] > 0 && f.unit[i] < 0) lowerEmptyTower(world, i);
+    if (!at && f.tower[i] > 0 && f.unit[i] < 0 && !f.stopped[i]) lowerEmptyTower(world, i);
     if (!at) continue;
     if (at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower) {
       liftSegment(world, i);

@@ -21,7 +21,7 @@ constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
 constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
 
 struct OnLine {
-  double along;   // of the segment's end, negative before it [m]
+  double along;   // seen from where the reference is measured from [m]
   double across;  // left of the line [m]
   double speed;   // along the line [m/s]
 };
@@ -36,7 +36,7 @@ void begin(WorldState& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
-  f.goal[i] = 0;
+  f.goal[i] = f.tasks[i].segments.front().goal;
   f.acceleration[i] = f.deceleration[i] = plannedAcceleration(world, i);
 }
 
@@ -60,12 +60,36 @@ bool giveUp(WorldState& world, int i, const OnLine& at) {
   return true;
 }
 
+/// The wheels that follow a reference at that speed and steer back onto the line.
+void followLine(FleetState& f, int i, const OnLine& at, double speed) {
+  const double lag = f.reference[i] - at.along;
+  const double heading = f.yaw[i] - f.tasks[i].segments.front().yaw;
+  setWheels(f, i, speed + kAlongGain * lag,
+            -kHeadingGain * heading - kLineGain * at.speed * at.across);
+}
+
+/// Stops where it can, and stays there.
+void holdDrive(WorldState& world, int i, const OnLine& at) {
+  FleetState& f = world.fleet;
+  if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
+  Profile profile = f.profile(i);
+  if (profile.speed != 0) {
+    const bool at_once = f.robots[i].drive.acceleration == 0;
+    profile.brake(at_once ? 0 : plannedBraking(world, i), world.dt);
+  }
+  followLine(f, i, at, profile.speed);
+  f.setProfile(i, profile);
+  const bool is_there = std::abs(f.reference[i] - at.along) < kThereDistance && stands(f, i);
+  if (profile.speed == 0 && is_there) setWheels(f, i, 0, 0);
+}
+
 void driveSegment(WorldState& world, int i) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
-  if (halting(world, i)) return;
+  if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
   const MotionSegment segment = f.tasks[i].segments.front();
   const OnLine at = onLine(f, i, segment);
+  if (f.stopped[i]) return holdDrive(world, i, at);
   if (f.tasks[i].phase == Phase::kStarting) {
     begin(world, i, at);
     setWheels(f, i, 0, 0);
@@ -86,9 +110,8 @@ void driveSegment(WorldState& world, int i) {
   }
   Profile profile = f.profile(i);
   profile.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
+  followLine(f, i, at, profile.speed);  // it lags behind the reference as it was
   f.setProfile(i, profile);
-  setWheels(f, i, profile.speed + kAlongGain * lag,
-            -kHeadingGain * heading - kLineGain * at.speed * at.across);
 }
 
 }  // namespace

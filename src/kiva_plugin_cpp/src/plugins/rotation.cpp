@@ -33,11 +33,26 @@ double turnSpeed(const Robot& robot, double dt) {
   return time == 0 ? 2 * M_PI / dt : M_PI / time;
 }
 
+/// Stops turning as hard as it would at the turn's end, and stays so.
+void holdTurn(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
+  const double lag = f.reference[i] - f.yaw[i];
+  Profile profile = f.profile(i);
+  if (profile.speed != 0) profile.brake(f.deceleration[i], world.dt);
+  f.setProfile(i, profile);
+  if (profile.speed == 0 && std::abs(lag) < kThereAngle && stands(f, i)) {
+    return setWheels(f, i, 0, 0);
+  }
+  setWheels(f, i, 0, profile.speed + kGain * lag);
+}
+
 void turnSegment(WorldState& world, int i) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[i];
   const Robot& r = f.robots[i];
   if (halting(world, i)) return;
+  if (f.stopped[i]) return holdTurn(world, i);
   if (task.phase == Phase::kStarting) {
     task.phase = Phase::kTurning;
     f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});

@@ -61,13 +61,16 @@ class Numbers {
   bool isOne() const { return values_.ndim() == 0 || values_.size() == 1; }
   py::ssize_t size() const { return values_.size(); }
   T operator[](py::ssize_t i) const { return values_.data()[isOne() ? 0 : i]; }
+  const T* data() const { return values_.data(); }
 
  private:
   void checkRange(const py::array& given) const {
-    if (given.dtype().itemsize() < static_cast<py::ssize_t>(sizeof(T))) return;
+    const bool is_small = given.dtype().itemsize() < static_cast<py::ssize_t>(sizeof(T));
+    if (is_small && (std::is_signed_v<T> || given.dtype().kind() == 'u')) return;
     const py::object same = values_.attr("__eq__")(given).attr("all")();
     if (!same.cast<bool>()) {
-      throw py::value_error(std::string(name_) + ": a value is too large for 32 bits");
+      throw py::value_error(std::string(name_) + ": a value is too large for 32 bits" +
+                            (std::is_signed_v<T> ? "" : ", or negative"));
     }
   }
 

@@ -117,11 +117,13 @@ void checkFinite(const char* name, double value, std::size_t i) {
 }
 
 void checkCommand(const Host& host, const Command& command, std::size_t i) {
-  if (command.kind > Command::Kind::kLift) {
+  if (command.kind >= Command::Kind::kFollow) {
     throw py::value_error("kind of command " + std::to_string(i) + " is " +
-                          std::to_string(static_cast<int>(command.kind)) + "; expected 0 to 4");
+                          std::to_string(static_cast<int>(command.kind)) + "; expected 0 to 7");
   }
-  checkRobot(host, command.kiva_id);
+  const bool may_be_all =
+      command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
+  if (!may_be_all || command.kiva_id != 0) checkRobot(host, command.kiva_id);
   checkFinite("x", command.x, i);
   checkFinite("y", command.y, i);
 }
@@ -175,6 +177,7 @@ void postColumns(Host& host, Command::Kind kind, Fill fill, const Columns&... co
 }
 
 using Ids = Numbers<std::int32_t>;
+using Counts = Numbers<std::uint32_t>;
 using Reals = Numbers<double>;
 
 void mov(Host& host, const py::object& kiva_id, const py::object& x, const py::object& y) {
@@ -214,6 +217,54 @@ void lift(Host& host, const py::object& kiva_id, const py::object& status,
   };
   postColumns(host, Command::Kind::kLift, fill, Ids("kiva_id", kiva_id), Ids("status", status),
               Ids("shelf_id", shelf_id));
+}
+
+void cancel(Host& host, const py::object& kiva_id) {
+  const auto fill = [](Command& c, int id) { c.kiva_id = id; };
+  postColumns(host, Command::Kind::kCancel, fill, Ids("kiva_id", kiva_id));
+}
+
+void stop(Host& host, const py::object& kiva_id, bool stop) {
+  const auto fill = [](Command& c, int id) { c.kiva_id = id; };
+  postColumns(host, stop ? Command::Kind::kStop : Command::Kind::kGoOn, fill,
+              Ids("kiva_id", kiva_id));
+}
+
+/// Rows of which each has `points[i]` entries of x and y, one after the other. All or none.
+void follow(Host& host, const py::object& kiva_id, const py::object& path_id,
+            const py::object& first, const py::object& points, const py::object& x,
+            const py::object& y, const py::object& released) {
+  const Ids ids("kiva_id", kiva_id);
+  const Counts paths("path_id", path_id), firsts("first", first), counts("points", points),
+      releases("released", released);
+  const Reals xs("x", x), ys("y", y);
+  const std::size_t rows = lengthOf(ids, paths, firsts, counts, releases);
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < rows; ++i) total += counts[static_cast<py::ssize_t>(i)];
+  for (const Reals* column : {&xs, &ys}) {
+    if (static_cast<std::size_t>(column->size()) == total) continue;
+    throw py::value_error(std::string(column->name()) + " has " + std::to_string(column->size()) +
+                          " entries, and points make " + std::to_string(total));
+  }
+  const auto lock = host.use();
+  for (std::size_t i = 0; i < rows; ++i) checkRobot(host, ids[static_cast<py::ssize_t>(i)]);
+  for (std::size_t k = 0; k < total; ++k) {
+    checkFinite("x", xs.data()[k], k);
+    checkFinite("y", ys.data()[k], k);
+  }
+  std::size_t at = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto i = static_cast<py::ssize_t>(row);
+    FollowPath path;
+    path.kiva_id = ids[i];
+    path.path_id = paths[i];
+    path.first = firsts[i];
+    path.released = releases[i];
+    path.x.assign(xs.data() + at, xs.data() + at + counts[i]);
+    path.y.assign(ys.data() + at, ys.data() + at + counts[i]);
+    at += counts[i];
+    host.world.post(std::move(path));
+  }
 }
 
 // --- the fleet
@@ -490,6 +541,19 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
       "last_end", [](const Fleet& f) -> auto& { return f.last_end; }, std::uint8_t(),
       "(n,) uint8: how a robot's last command ended, until the next is accepted: 0 none yet, else "
       "EventKind.DONE or BLOCKED. A view.");
+  add(
+      "path_id", [](const Fleet& f) -> auto& { return f.path_id; }, std::uint32_t(),
+      "(n,) uint32: the path that a robot's last command is; 0 if that is none. A view.");
+  add(
+      "reached", [](const Fleet& f) -> auto& { return f.reached; }, std::uint32_t(),
+      "(n,) uint32: how many points of its path a robot's centre has come to, the one where it "
+      "began among them. A view.");
+  add(
+      "left", [](const Fleet& f) -> auto& { return f.left; }, std::uint32_t(),
+      "(n,) uint32: how many leading points' cells a robot and its load have left wholly. A view.");
+  add(
+      "stopped", [](const Fleet& f) -> auto& { return f.stopped; }, std::uint8_t(),
+      "(n,) uint8: 1 while stop() holds a robot. A view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
@@ -561,6 +625,18 @@ don't match, an unknown robot, NaN or infinity. What a robot can't do is refused
   world.def("lift", &lift, py::arg("kiva_id"), py::arg("status"), py::arg("shelf_id"),
             "Carry (1) or drop (0) storage unit shelf_id; drop, 0: whichever it carries. Arguments "
             "and errors as of mov().");
+  world.def("follow", &follow, py::arg("kiva_id"), py::arg("path_id"), py::arg("first"),
+            py::arg("points"), py::arg("x"), py::arg("y"), py::arg("released"));
+  world.def("cancel", &cancel, py::arg("kiva_id"),
+            R"(End what it does in DONE, "cancelled", at the next grid point where it can stop.
+
+A lift ends when it is over. Refused by an event if the robot is idle. Arguments and errors as of
+mov().)");
+  world.def("stop", &stop, py::arg("kiva_id"), py::arg("stop") = true,
+            R"(Stop wheels and lift as hard as they can; stop=False: go on with what was stopped.
+
+Kiva_id 0 means every robot. What is commanded meanwhile begins when they go on. Arguments and
+errors as of mov().)");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
       R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].

@@ -13,7 +13,10 @@
 namespace fleet {
 
 struct EpibtOptions {
-  int depth = 4;       ///< ticks of an operation, 1 to 5
+  int depth = 4;    ///< ticks of an operation, 1 to 5
+  int horizon = 0;  ///< ticks of a plan, up to 7: what is committed, and an operation; 0: depth
+  int turn_ticks =
+      1;  ///< what a quarter turn costs on the way to a goal: with braking, more than a tick
   int revisits = 10;   ///< how often one robot may be moved aside for another
   int pushes = 400;    ///< how many robots may be moved aside to find one robot's operation
   int exchanges = 40;  ///< the same in the search for something better

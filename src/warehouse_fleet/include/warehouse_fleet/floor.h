@@ -81,4 +81,14 @@ class Floor {
   std::vector<Cell> next_[2];
 };
 
+/// Whether one on its way to `goal` would enter a station's lane there without having to: nobody
+/// takes lanes for short cuts.
+inline bool isPassingThrough(const Floor& floor, Cell from, Cell to, Cell goal) {
+  return floor.isLane(to) && !floor.isLane(from) && (goal == kNowhere || !floor.isLane(goal));
+}
+
+/// Cells from one to another on the shortest way over a deck; a storage place may be its begin and
+/// its end. -1: there is none.
+int shortest(const Floor& floor, Deck deck, Cell from, Cell to);
+
 }  // namespace fleet

@@ -16,6 +16,7 @@ time of one cell at top speed, or of a quarter turn.
 from enum import IntEnum
 
 from warehouse_fleet._core import (
+    Execution,
     Fleet,
     Floor,
     FloorError,
@@ -30,6 +31,7 @@ from warehouse_fleet._core import (
 
 __all__ = [
     "Action",
+    "Execution",
     "Fleet",
     "Floor",
     "FloorError",

@@ -12,8 +12,8 @@ constexpr int kFine = 16;
 
 }  // namespace
 
-Candidates::Candidates(const Floor& floor, const Edges& edges, int depth)
-    : floor_(floor), edges_(edges), depth_(depth) {
+Candidates::Candidates(const Floor& floor, const Edges& edges, int depth, int horizon)
+    : floor_(floor), edges_(edges), depth_(depth), horizon_(horizon) {
   operations_.emplace_back();
   for (int free = 1; free <= depth; ++free) {
     operations_.push_back(std::make_unique<Operations>(free));
@@ -30,7 +30,7 @@ const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
   if (is_known_[robot]) return paths;
   is_known_[robot] = 1;
   paths.clear();
-  if (wish.stopped || wish.committed == depth_) {
+  if (wish.stopped || wish.committed == horizon_) {
     paths.push_back(standing(wish));
     return paths;
   }
@@ -43,7 +43,7 @@ const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
 Path Candidates::standing(const Wish& wish) const {
   Path path;
   const State state = commit(wish, path);
-  for (int tick = wish.committed; tick < depth_; ++tick) {
+  for (int tick = wish.committed; tick < horizon_; ++tick) {
     path.actions[tick] = Action::kWait;
     path.cells[tick + 1] = state.cell;
   }
@@ -51,23 +51,32 @@ Path Candidates::standing(const Wish& wish) const {
   return path;
 }
 
-Path Candidates::rest(const Path& path, const Wish& wish) const {
+Path Candidates::rest(const Path& path, const State& begin, const Wish& wish,
+                      bool& is_punctual) const {
   Path rest;
-  int heading = wish.state.heading;
-  for (int tick = 0; tick < depth_; ++tick) {
-    const bool is_last = tick + 1 == depth_;
-    rest.cells[tick] = path.cells[tick + 1];
-    rest.actions[tick] = is_last ? Action::kWait : path.actions[tick + 1];
-    heading += quarters(rest.actions[tick]);
+  State state = commit(wish, rest);
+  // Where the path comes by there: best after a tick, as was planned; else as early as it does.
+  std::array<State, kMaxHorizon + 1> states{begin};
+  for (int tick = 0; tick < horizon_; ++tick) {
+    const int heading = turned(states[tick].heading, quarters(path.actions[tick]));
+    states[tick + 1] = {path.cells[tick + 1], static_cast<Heading>(heading)};
   }
-  rest.cells[depth_] = path.cells[depth_];
-  rest.cost = cost(wish, rest, heading & 3);
+  const int due = std::min(wish.committed + 1, horizon_);
+  int from = states[due] == state ? due : 0;
+  while (from <= horizon_ && !(states[from] == state)) ++from;
+  is_punctual = from == due;
+  for (int tick = wish.committed; tick < horizon_; ++tick, ++from) {
+    rest.actions[tick] = from < horizon_ ? path.actions[from] : Action::kWait;
+    if (from < horizon_) state = states[from + 1];
+    rest.cells[tick + 1] = state.cell;
+  }
+  rest.cost = cost(wish, rest, state.heading);
   return rest;
 }
 
 bool Candidates::canDrive(const Path& path, const Wish& wish) const {
   State state = wish.state;
-  for (int tick = 0; tick < depth_; ++tick) {
+  for (int tick = 0; tick < horizon_; ++tick) {
     const Action action = path.actions[tick];
     if (wish.stopped ? action != Action::kWait
                      : tick < wish.committed && action != wish.commitment[tick]) {
@@ -98,15 +107,17 @@ State Candidates::commit(const Wish& wish, Path& path) const {
 
 Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   const int edge = cell * kHeadings + heading;
-  const Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
-  if (to != kNowhere || wish.home == kNowhere) return to;
-  return edges_.next[0][edge] == wish.home ? wish.home : kNowhere;
+  Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
+  if (to == kNowhere && wish.home != kNowhere && edges_.next[0][edge] == wish.home) to = wish.home;
+  return to != kNowhere && isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
 }
 
 void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
   Path path;
   const State start = commit(wish, path);
-  const Operations& operations = *operations_[depth_ - wish.committed];
+  const int free = std::min(depth_, horizon_ - wish.committed);
+  const int end = wish.committed + free;
+  const Operations& operations = *operations_[free];
   reached_.resize(operations.nodes().size());
   for (std::size_t i = 0; i < operations.nodes().size(); ++i) {
     const auto& node = operations.nodes()[i];
@@ -117,9 +128,10 @@ void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
   }
   for (const auto& leaf : operations.leaves()) {
     if (reached_[leaf.node] == kNowhere) continue;
-    for (int at = leaf.node, tick = depth_; at >= 0; at = operations.nodes()[at].parent, --tick) {
+    for (int at = leaf.node, tick = end; at >= 0; at = operations.nodes()[at].parent, --tick) {
       path.cells[tick] = reached_[at];
     }
+    std::fill(path.cells.begin() + end + 1, path.cells.begin() + horizon_ + 1, path.cells[end]);
     int best = -1;
     for (int turn = 0; turn < kHeadings; ++turn) {
       if (!leaf.ends[turn]) continue;
@@ -129,14 +141,14 @@ void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
       path.cost = cost;
     }
     path.cost += leaf.late;
-    std::copy_n(leaf.actions[best].begin(), depth_ - wish.committed,
-                path.actions.begin() + wish.committed);
+    std::copy_n(leaf.actions[best].begin(), free, path.actions.begin() + wish.committed);
+    std::fill(path.actions.begin() + end, path.actions.begin() + horizon_, Action::kWait);
     paths.push_back(path);
   }
 }
 
 int Candidates::cost(const Wish& wish, const Path& path, int heading) const {
-  const Cell end = path.cells[depth_];
+  const Cell end = path.cells[horizon_];
   if (wish.goal == kNowhere) {
     // Nothing to do: to be where it is, or back there soon.
     return kFine * kTickCost *
@@ -144,9 +156,9 @@ int Candidates::cost(const Wish& wish, const Path& path, int heading) const {
             std::abs(floor_.y(end) - floor_.y(path.cells[0])));
   }
   if (!wish.stops_at_goal || end == wish.goal) {
-    for (int tick = 0; tick <= depth_; ++tick) {
+    for (int tick = 0; tick <= horizon_; ++tick) {
       if (path.cells[tick] != wish.goal) continue;
-      return kFine * kTickCost * (tick - depth_);
+      return kFine * kTickCost * (tick - horizon_);
     }
   }
   return kFine * distance(wish, {end, static_cast<Heading>(heading)});

@@ -26,7 +26,8 @@ struct Wish {
 
 class Candidates {
  public:
-  Candidates(const Floor& floor, const Edges& edges, int depth);
+  /// Operations of `depth` ticks, in plans of `horizon` ticks.
+  Candidates(const Floor& floor, const Edges& edges, int depth, int horizon);
 
   /// A new step, nobody's candidates are known.
   void begin(int robots);
@@ -36,8 +37,10 @@ class Candidates {
 
   /// Keeps to what is committed, and stands from then on. Allowed if nobody else does otherwise.
   Path standing(const Wish& wish) const;
-  /// What is left of a path after a tick, and standing from then on.
-  Path rest(const Path& path, const Wish& wish) const;
+  /// What is left of a path that was planned from `begin`, a tick ago or longer: keeps to what is
+  /// committed, goes on from there as planned, and stands from then on, or at once if the path does
+  /// not lead there. `is_punctual` if the robot is as far as was planned.
+  Path rest(const Path& path, const State& begin, const Wish& wish, bool& is_punctual) const;
   /// Whether a path from where it stands leads along edges that there are, as it is committed to.
   bool canDrive(const Path& path, const Wish& wish) const;
 
@@ -53,7 +56,7 @@ class Candidates {
 
   const Floor& floor_;
   const Edges& edges_;
-  const int depth_;
+  const int depth_, horizon_;
   std::vector<std::unique_ptr<Operations>> operations_;  ///< by ticks that are free
   std::vector<std::vector<Path>> paths_;
   std::vector<std::uint8_t> is_known_;

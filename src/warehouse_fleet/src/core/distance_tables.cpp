@@ -9,13 +9,15 @@ namespace {
 
 constexpr int kQueues = 64;
 static_assert(kMaxEdgeCost < kQueues && (kQueues & (kQueues - 1)) == 0);
-static_assert(2 * kTickCost <= 0xf, "half a turn must fit into four bits");
+static_assert(kMaxTurnTicks * kTickCost <= 0xf, "a quarter turn must fit into four bits");
 
 }  // namespace
 
-DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, std::size_t bytes)
+DistanceTables::DistanceTables(const Floor& floor, const Edges& edges, int turn_ticks,
+                               std::size_t bytes)
     : floor_(floor),
       edges_(edges),
+      turn_cost_(turn_ticks * kTickCost),
       capacity_(std::max<std::size_t>(1, bytes / tableBytes())),
       cost_(floor.size() * kHeadings),
       queues_(kQueues) {}
@@ -83,14 +85,17 @@ void DistanceTables::relax(Deck deck, Cell goal, int state) {
   const int cost = cost_[state];
   const Cell cell = state / kHeadings;
   const int heading = state % kHeadings;
-  push(cell * kHeadings + turned(heading, 1), cost + kTickCost);
-  push(cell * kHeadings + turned(heading, -1), cost + kTickCost);
+  push(cell * kHeadings + turned(heading, 1), cost + turn_cost_);
+  push(cell * kHeadings + turned(heading, -1), cost + turn_cost_);
   const Cell from = floor_.beside(cell, heading + 2);
   if (from == kNowhere) return;
   // A goal may be a storage place, which the aisles' deck does not lead into.
   const auto& next = edges_.next[cell == goal ? 0 : static_cast<int>(deck)];
   const int edge = from * kHeadings + heading;
-  if (next[edge] == cell) push(edge, cost + (*edges_.costs)[edge]);
+  if (next[edge] != cell || isPassingThrough(floor_, from, cell, goal)) return;
+  // Nor for a short cut to another station's lane.
+  const bool enters = floor_.isLane(cell) && !floor_.isLane(from);
+  push(edge, cost + (enters ? kMaxEdgeCost : (*edges_.costs)[edge]));
 }
 
 void DistanceTables::pack(DistanceTable& table) const {
@@ -100,7 +105,7 @@ void DistanceTables::pack(DistanceTable& table) const {
     const std::uint32_t least = std::min(std::min(cost[0], cost[1]), std::min(cost[2], cost[3]));
     std::uint32_t word = least << 16;
     for (int heading = 0; heading < kHeadings; ++heading) {
-      word |= (cost[heading] - least) << (4 * heading);
+      word |= std::min<std::uint32_t>(cost[heading] - least, 0xf) << (4 * heading);
     }
     table.words_[cell] = word;
   }

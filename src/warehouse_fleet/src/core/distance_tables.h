@@ -16,9 +16,11 @@
 namespace fleet {
 
 constexpr int kUnreachable = 0xffff;
+constexpr int kMaxTurnTicks = 2;
 
 /// Costs to one goal. 32 bits a cell: 16 for the heading from which it is nearest, four for what
-/// each of the others is farther, since a turn in place is never worse than half a circle.
+/// each of the others is farther, at most 15: a turn in place is never worse than half a circle,
+/// which takes 12 if a quarter costs a tick.
 class DistanceTable {
  public:
   int at(Cell cell, int heading) const {
@@ -42,8 +44,9 @@ struct Edges {
 
 class DistanceTables {
  public:
-  /// Keeps at most `bytes` of tables, but for one.
-  DistanceTables(const Floor& floor, const Edges& edges, std::size_t bytes);
+  /// A quarter turn costs `turn_ticks`, up to kMaxTurnTicks. Keeps at most `bytes` of tables, but
+  /// for one.
+  DistanceTables(const Floor& floor, const Edges& edges, int turn_ticks, std::size_t bytes);
 
   /// A step begins: at that time, with edges of that version. So many tables may be made in it.
   void begin(int now, int version, int builds);
@@ -70,6 +73,7 @@ class DistanceTables {
 
   const Floor& floor_;
   const Edges& edges_;
+  const int turn_cost_;
   const std::size_t capacity_;
   std::list<Entry> tables_;  ///< what was asked for last comes first
   std::unordered_map<std::int64_t, std::list<Entry>::iterator> index_;

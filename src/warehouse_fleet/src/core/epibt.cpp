@@ -25,22 +25,27 @@ double threadSeconds() {
   return now.tv_sec + 1e-9 * now.tv_nsec;
 }
 
+void inRange(const char* name, int value, int least, int most) {
+  if (value >= least && value <= most) return;
+  throw FloorError(std::string(name) + " " + std::to_string(value) + "; " + std::to_string(least) +
+                   " to " + std::to_string(most) + " was expected");
+}
+
 /// What is remembered of a robot from step to step.
 struct Memory {
   Cell goal = kNowhere;
   int waiting = 0;  ///< ticks since it was given its goal, or reached it
   State planned;    ///< where its path begins
-  State expected;   ///< where it leads in one tick
   Deck deck = Deck::kUnder;
 };
 
 class Epibt : public Planner {
  public:
   explicit Epibt(const EpibtOptions& options) : options_(options) {
-    if (options.depth < 1 || options.depth > kMaxDepth) {
-      throw FloorError("depth " + std::to_string(options.depth) + "; 1 to " +
-                       std::to_string(kMaxDepth) + " was expected");
-    }
+    if (options_.horizon == 0) options_.horizon = options_.depth;
+    inRange("depth", options_.depth, 1, kMaxDepth);
+    inRange("horizon", options_.horizon, options_.depth, kMaxHorizon);
+    inRange("turn_ticks", options_.turn_ticks, 1, kMaxTurnTicks);
   }
 
   void start(const Floor& floor, const Rules& rules, std::uint64_t seed) override;
@@ -70,7 +75,7 @@ class Epibt : public Planner {
   bool replan(int robot, Search search);
   void visit(int robot);
 
-  const EpibtOptions options_;
+  EpibtOptions options_;
   std::unique_ptr<Edges> edges_;
   std::unique_ptr<Guidance> guidance_;
   std::unique_ptr<DistanceTables> tables_;
@@ -102,10 +107,11 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   edges_->next[0] = floor.edges(Deck::kUnder);
   edges_->next[1] = floor.edges(Deck::kAisles);
   edges_->costs = &guidance_->costs();
-  tables_ = std::make_unique<DistanceTables>(floor, *edges_, options_.table_bytes);
-  candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth);
-  reserved_ = std::make_unique<Reservations>(floor, rules, options_.depth);
-  spacing_ = std::make_unique<Spacing>(options_.depth);
+  tables_ =
+      std::make_unique<DistanceTables>(floor, *edges_, options_.turn_ticks, options_.table_bytes);
+  candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth, options_.horizon);
+  reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
+  spacing_ = std::make_unique<Spacing>(options_.horizon);
   way_ = std::make_unique<MakingWay>(floor);
   rules_ = rules;
 }
@@ -193,7 +199,7 @@ void Epibt::wish(const Fleet& fleet) {
     wish.home = fleet.isLoaded(robot) ? fleet.homeOf(robot) : kNowhere;
     wish.stopped = fleet.isStopped(robot);
     wish.stops_at_goal = options_.goals_are_stops;
-    wish.committed = wish.stopped ? 0 : std::min(fleet.commitments(robot), options_.depth);
+    wish.committed = wish.stopped ? 0 : std::min(fleet.commitments(robot), options_.horizon);
     for (int tick = 0; tick < wish.committed; ++tick) {
       wish.commitment[tick] = fleet.commitment(robot, tick);
     }
@@ -212,12 +218,11 @@ void Epibt::inherit(const Fleet& fleet) {
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Wish& wish = wishes_[robot];
     const Memory& memory = memory_[robot];
-    const bool is_as_planned = memory.expected == wish.state;
-    bool is_known = false;
-    if (is_as_planned || memory.planned == wish.state) {
+    bool is_as_planned = false, is_known = false;
+    if (memory.planned.cell != kNowhere && memory.deck == wish.deck) {
       const Path& path = reserved_->path(robot);
-      rests[robot] = is_as_planned ? candidates_->rest(path, wish) : path;
-      is_known = memory.deck == wish.deck && candidates_->canDrive(rests[robot], wish);
+      rests[robot] = candidates_->rest(path, memory.planned, wish, is_as_planned);
+      is_known = candidates_->canDrive(rests[robot], wish);
     }
     if (!is_known) rests[robot] = candidates_->standing(wish);
     if (!is_known || !is_as_planned) all_as_planned = false;
@@ -355,15 +360,13 @@ void Epibt::improve(const Budget& budget, double deadline) {
 }
 
 void Epibt::answer(const Fleet& fleet, Plan& plan) {
-  plan.horizon = options_.depth;
+  plan.horizon = options_.horizon;
   plan.actions.resize(fleet.size() * plan.horizon);
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Path& path = reserved_->path(robot);
     std::copy_n(path.actions.begin(), plan.horizon, plan.actions.begin() + robot * plan.horizon);
-    const Heading heading = wishes_[robot].state.heading;
     memory_[robot].planned = wishes_[robot].state;
     memory_[robot].deck = wishes_[robot].deck;
-    memory_[robot].expected = {path.cells[1], turned(heading, quarters(path.actions[0]))};
   }
   if (!rules_.following) plan.actions = spacing_->space(fleet, *floor_, *reserved_);
 }

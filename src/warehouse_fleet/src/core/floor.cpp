@@ -61,6 +61,24 @@ Cell Floor::beside(Cell cell, int heading) const {
   }
 }
 
+int shortest(const Floor& floor, Deck deck, Cell from, Cell to) {
+  std::vector<int> distance(floor.size(), -1);
+  std::vector<Cell> queue{from};
+  distance[from] = 0;
+  for (std::size_t i = 0; i < queue.size() && distance[to] < 0; ++i) {
+    const Cell cell = queue[i];
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const Cell over = floor.next(Deck::kUnder, cell, heading);
+      const Cell next = over == to ? to : floor.next(deck, cell, heading);
+      if (next == kNowhere || distance[next] >= 0) continue;
+      if (isPassingThrough(floor, cell, next, to)) continue;
+      distance[next] = distance[cell] + 1;
+      queue.push_back(next);
+    }
+  }
+  return distance[to];
+}
+
 std::string Floor::name(Cell cell) const {
   if (!has(cell)) return "cell " + std::to_string(cell) + " (off the floor)";
   return "(" + std::to_string(x(cell)) + ", " + std::to_string(y(cell)) + ")";

@@ -1,14 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "operations.h"
 
+#include <algorithm>
+
 namespace fleet {
+
+namespace {
+
+std::ptrdiff_t turns(const Actions& actions) {
+  return std::count_if(actions.begin(), actions.end(), [](Action a) { return quarters(a) != 0; });
+}
+
+}  // namespace
 
 Operations::Operations(int depth) : depth_(depth) {
   Actions actions{};
   grow(-1, 0, 0, actions);
 }
 
-/// What is tried first stays: who turns turns early, and is ready when the way becomes free.
+/// Of equals the one with the fewest turns stays, and of those what is tried first: who turns turns
+/// early, and is ready when the way becomes free.
 void Operations::grow(int parent, int tick, int heading, Actions& actions) {
   if (tick == depth_) return end(parent, heading, actions);
   for (const Action action :
@@ -29,7 +40,7 @@ void Operations::end(int node, int heading, const Actions& actions) {
     }
   }
   Leaf& leaf = leaves_[nodes_[node].leaf];
-  if (leaf.ends[heading]) return;
+  if (leaf.ends[heading] && turns(leaf.actions[heading]) <= turns(actions)) return;
   leaf.ends[heading] = true;
   leaf.actions[heading] = actions;
 }

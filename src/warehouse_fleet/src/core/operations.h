@@ -13,8 +13,9 @@
 
 namespace fleet {
 
-constexpr int kMaxDepth = 5;
-using Actions = std::array<Action, kMaxDepth>;
+constexpr int kMaxDepth = 5;    ///< ticks of an operation
+constexpr int kMaxHorizon = 7;  ///< ticks of a plan: what is committed, and an operation
+using Actions = std::array<Action, kMaxHorizon>;
 
 /// The cells that one passes, relative to how it stands: a tree whose leaves are operations.
 class Operations {

@@ -12,8 +12,8 @@ int merged(int one, int other) {
 
 }  // namespace
 
-Reservations::Reservations(const Floor& floor, const Rules& rules, int depth)
-    : floor_(floor), rules_(rules), depth_(depth), table_(floor.size() * kStride, kNobody) {}
+Reservations::Reservations(const Floor& floor, const Rules& rules, int horizon)
+    : floor_(floor), rules_(rules), horizon_(horizon), table_(floor.size() * kStride, kNobody) {}
 
 void Reservations::begin(const Fleet& fleet) {
   for (int robot = 0; robot < static_cast<int>(standing_.size()); ++robot) {
@@ -35,13 +35,13 @@ void Reservations::begin(const Fleet& fleet) {
 void Reservations::place(int robot, const Path& path) {
   paths_[robot] = path;
   is_placed_[robot] = 1;
-  for (int tick = 1; tick <= depth_; ++tick) at(path.cells[tick], tick) = robot;
+  for (int tick = 1; tick <= horizon_; ++tick) at(path.cells[tick], tick) = robot;
 }
 
 void Reservations::remove(int robot) {
   if (!is_placed_[robot]) return;
   is_placed_[robot] = 0;
-  for (int tick = 1; tick <= depth_; ++tick) {
+  for (int tick = 1; tick <= horizon_; ++tick) {
     auto& who = at(paths_[robot].cells[tick], tick);
     if (who == robot) who = kNobody;
   }
@@ -49,7 +49,7 @@ void Reservations::remove(int robot) {
 
 int Reservations::conflict(int robot, const Path& path) const {
   int who = kNobody;
-  for (int tick = 1; tick <= depth_ && who != kSeveral; ++tick) {
+  for (int tick = 1; tick <= horizon_ && who != kSeveral; ++tick) {
     const Cell from = path.cells[tick - 1], to = path.cells[tick];
     who = merged(who, at(to, tick));
     if (from != to) {

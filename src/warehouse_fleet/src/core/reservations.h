@@ -12,7 +12,7 @@ namespace fleet {
 
 class Reservations {
  public:
-  Reservations(const Floor& floor, const Rules& rules, int depth);
+  Reservations(const Floor& floor, const Rules& rules, int horizon);
 
   static constexpr int kNobody = -1;
   static constexpr int kSeveral = -2;
@@ -34,7 +34,7 @@ class Reservations {
 
  private:
   static constexpr int kStride = 8;  ///< ticks of a cell lie in one cache line
-  static_assert(kMaxDepth < kStride);
+  static_assert(kMaxHorizon < kStride);
 
   std::int32_t& at(Cell cell, int tick) { return table_[cell * kStride + tick]; }
   std::int32_t at(Cell cell, int tick) const { return table_[cell * kStride + tick]; }
@@ -47,7 +47,7 @@ class Reservations {
 
   const Floor& floor_;
   const Rules rules_;
-  const int depth_;
+  const int horizon_;
   std::vector<std::int32_t> table_;
   std::vector<Path> paths_;
   std::vector<std::uint8_t> is_placed_, is_loaded_;

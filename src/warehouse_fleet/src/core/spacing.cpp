@@ -6,14 +6,14 @@ namespace fleet {
 const std::vector<Action>& Spacing::space(const Fleet& fleet, const Floor& floor,
                                           const Reservations& reserved) {
   done_.assign(fleet.size(), 0);
-  actions_.assign(fleet.size() * depth_, Action::kWait);
-  for (int tick = 0; tick < depth_; ++tick) {
+  actions_.assign(fleet.size() * horizon_, Action::kWait);
+  for (int tick = 0; tick < horizon_; ++tick) {
     begun_ = done_;
     acts_.assign(fleet.size(), 0);
     for (int robot = 0; robot < fleet.size(); ++robot) {
-      if (begun_[robot] == depth_ || !mayAct(robot, fleet, floor, reserved)) continue;
+      if (begun_[robot] == horizon_ || !mayAct(robot, fleet, floor, reserved)) continue;
       acts_[robot] = 1;
-      actions_[robot * depth_ + tick] = reserved.path(robot).actions[done_[robot]++];
+      actions_[robot * horizon_ + tick] = reserved.path(robot).actions[done_[robot]++];
     }
   }
   return actions_;

@@ -13,7 +13,7 @@ namespace fleet {
 
 class Spacing {
  public:
-  explicit Spacing(int depth) : depth_(depth) {}
+  explicit Spacing(int horizon) : horizon_(horizon) {}
 
   /// What each does with waiting put in, so many actions a robot as the paths have.
   const std::vector<Action>& space(const Fleet& fleet, const Floor& floor,
@@ -26,7 +26,7 @@ class Spacing {
   bool mayTurn(int robot, const Fleet& fleet, const Floor& floor,
                const Reservations& reserved) const;
 
-  const int depth_;
+  const int horizon_;
   std::vector<int> done_;           ///< actions of its path that a robot has done
   std::vector<int> begun_;          ///< the same when the tick began
   std::vector<std::uint8_t> acts_;  ///< does its next action in this tick

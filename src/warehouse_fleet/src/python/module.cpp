@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "arrays.h"
+#include "execution.h"
 #include "warehouse_fleet/epibt.h"
 #include "warehouse_fleet/layout_check.h"
 #include "warehouse_fleet/validator.h"
@@ -19,25 +21,6 @@ namespace py = pybind11;
 
 namespace fleet::python {
 namespace {
-
-template <typename T>
-using Array = py::array_t<T, py::array::c_style | py::array::forcecast>;
-
-template <typename T>
-std::vector<T> copied(const std::optional<Array<T>>& array) {
-  if (!array) return {};
-  return std::vector<T>(array->data(), array->data() + array->size());
-}
-
-/// A vector of C++ as an array that can be read and lives as long as its owner.
-template <typename T>
-py::array view(const std::vector<T>& vector, const py::object& owner,
-               std::vector<py::ssize_t> shape = {}) {
-  if (shape.empty()) shape = {static_cast<py::ssize_t>(vector.size())};
-  py::array_t<T> array(shape, vector.data(), owner);
-  array.attr("setflags")(py::arg("write") = false);
-  return array;
-}
 
 using Flags = std::optional<Array<std::uint8_t>>;
 
@@ -80,20 +63,6 @@ py::array actionsOf(const Plan& plan) {
       reinterpret_cast<const std::uint8_t*>(plan.actions.data()));
 }
 
-Plan makePlan(const Array<std::uint8_t>& actions) {
-  if (actions.ndim() != 2) throw py::value_error("actions must be (robots, ticks)");
-  Plan plan;
-  plan.horizon = static_cast<int>(actions.shape(1));
-  for (py::ssize_t i = 0; i < actions.size(); ++i) {
-    if (actions.data()[i] > 3) {
-      throw py::value_error("action " + std::to_string(actions.data()[i]) +
-                            "; 0 (wait), 1 (forward), 2 or 3 (turn) was expected");
-    }
-    plan.actions.push_back(static_cast<Action>(actions.data()[i]));
-  }
-  return plan;
-}
-
 /// A planner with the floor that it drives on.
 struct Started {
   Started(std::shared_ptr<Planner> planner, std::shared_ptr<Floor> floor, const Rules& rules,
@@ -123,6 +92,13 @@ void bindFloor(py::module_& module) {
       .def_property_readonly("height", &Floor::height)
       .def_property_readonly("size", &Floor::size)
       .def("name", &Floor::name)
+      .def(
+          "shortest",
+          [](const Floor& floor, Cell begin, Cell end, bool loaded) {
+            if (!floor.has(begin) || !floor.has(end)) throw FloorError("a cell off the floor");
+            return shortest(floor, loaded ? Deck::kAisles : Deck::kUnder, begin, end);
+          },
+          py::arg("begin"), py::arg("end"), py::arg("loaded") = false)
       .def(
           "edges",
           [](const py::object& self, bool loaded) {
@@ -211,6 +187,8 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
     given.attr("pop")(name);
   };
   set("depth", options.depth);
+  set("horizon", options.horizon);
+  set("turn_ticks", options.turn_ticks);
   set("revisits", options.revisits);
   set("pushes", options.pushes);
   set("exchanges", options.exchanges);
@@ -269,4 +247,5 @@ PYBIND11_MODULE(_core, module) {
   bindValidator(module);
   bindLayout(module);
   bindPlanners(module);
+  bindExecution(module);
 }

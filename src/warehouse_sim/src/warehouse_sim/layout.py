@@ -7,7 +7,7 @@ Seen from above, x to the right:
          x   q                      s  its service cell, passed without turning
          x   q                      x  and the way back from there to the street
     ←─────────────────────────────
-    ──────────────────────────────→ two streets along the stations' edges, one each way
+    ──────────────────────────────→ two streets or more along the stations, neighbours opposed
     │ pp │ uuuu │ uuuu │ uuuu │ │ x x x x
     │ pp │ uuuu │ uuuu │ uuuu │ │       s ==  PICK station before a conveyor belt
     ──────────────────────────────→ q q q q
@@ -33,7 +33,12 @@ from warehouse_sim import items as shelves
 BLOCK_DEPTH = 2
 BLOCK_LENGTH = 8  # at most
 EMPTY_FLOOR = 101  # cells along x and y
-QUEUE = 6  # cells of a lane before its service cell: the entry, four to wait in, the corner
+
+# Cells of a lane before its service cell: the entry, four to wait in and the corner at the least.
+# As many more as it takes to keep the station busy on a long way: at top speed one drives so many
+# cells while two units are exchanged, one every 20 s.
+QUEUE, WAIT, FETCH = 6, 4, 60
+CROWDED = 20  # so many picking stations need a third street beside them
 
 FILLED = 0.85  # share of the storage places on which a unit stands
 PICKS_TO_REPLENISH = 2  # stations of the one kind for each of the other
@@ -110,21 +115,26 @@ class _Shape:
     parking: tuple
     storage: tuple
     picks: int  # stations
-    queue: int  # cells of a lane before its service cell
 
     @property
     def street_x(self):
-        """Cells' x of the streets along y; the last, at the stations, is right beside another."""
-        return np.cumsum([0] + [n + 1 for n in self.parking + self.storage] + [1])
+        """Cells' x of the streets along y; the last, at the stations, are side by side."""
+        beside = [1] * (2 if self.picks >= CROWDED else 1)
+        return np.cumsum([0] + [n + 1 for n in self.parking + self.storage] + beside)
 
     @property
     def street_y(self):
-        """Cells' y of the streets along x; likewise."""
+        """Cells' y of the streets along x; the last two likewise."""
         return np.append(np.arange(self.rows + 1) * (BLOCK_DEPTH + 1), self._top)
 
     @property
     def _top(self):
         return self.rows * (BLOCK_DEPTH + 1) + 1
+
+    @property
+    def queue(self):
+        """Cells of a lane before its service cell."""
+        return max(QUEUE, WAIT + math.ceil((self.street_x[-1] + self._top) / FETCH))
 
     @property
     def block_y(self):
@@ -151,7 +161,7 @@ def _shapes(request):
         parking, storage = (
             _split(math.ceil(n / (rows * BLOCK_DEPTH))) for n in (request.robots, places)
         )
-        yield _Shape(rows, parking, storage, request.belts, QUEUE)
+        yield _Shape(rows, parking, storage, request.belts)
 
 
 def places_for(units):

@@ -15,7 +15,7 @@ namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -91,7 +91,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  FIELDS(world.last_command, world.commands, world.events, world.status_changes);
+  FIELDS(world.last_command, world.commands, world.paths, world.events, world.status_changes);
 }
 
 void indexModels(WorldState& world) {

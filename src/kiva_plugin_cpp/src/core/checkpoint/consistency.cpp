@@ -239,6 +239,9 @@ class ColumnCheck {
 
 bool fits(const Task& task, std::size_t units) {
   const MotionSegment* at = task.segment();
+  if (task.phase == Phase::kWaiting) {
+    return task.follows() && (!at || at->kind == MotionSegment::Kind::kDrive);
+  }
   if ((task.phase == Phase::kIdle) != (at == nullptr)) return false;
   for (const MotionSegment& segment : task.segments) {
     if (!isInOrNone(segment.unit, units)) return false;
@@ -262,6 +265,16 @@ bool fits(const Task& task, std::size_t units) {
   }
 }
 
+/// Whether every point that its numbers lead to is one of the path's.
+bool fits(const ReleasedPath& path, std::uint32_t reached, std::uint32_t left) {
+  if (!path.isUnderWay()) return path.points.empty();
+  constexpr std::size_t kMost = 0xffffffffu;
+  return path.points.size() < kMost - path.first && path.first <= path.origin &&
+         path.first <= left && path.origin <= path.end && path.end < path.released &&
+         path.released <= path.size() && left <= reached && path.origin < reached &&
+         reached <= path.end + 1;
+}
+
 void checkRobot(const WorldState& world, int i) {
   const FleetState& f = world.fleet;
   const Robot& robot = f.robots[i];
@@ -281,6 +294,8 @@ void checkRobot(const WorldState& world, int i) {
   require(!carries || (isIn(f.unit[i], world.units.size()) && world.units[f.unit[i]].carrier == i),
           "fleet.unit", i, "", "it is not carried by this robot");
   require(fits(task, world.units.size()), "fleet.tasks", i, "segments", "they don't fit its phase");
+  require(fits(task.path, f.reached[i], f.left[i]), "fleet.tasks", i, "path",
+          "it has no such points");
   for (const Sighting* sighting : {&task.sighting, &task.last_sighting}) {
     require(sighting->model == -1 || modelAt(world, sighting->model), "fleet.tasks", i,
             "sighting.model", "there is no such model");
@@ -340,6 +355,11 @@ void checkLists(const WorldState& world) {
     require(modelAt(world, pair.model_a) && modelAt(world, pair.model_b), "touching", i, "model_a",
             "there is no such model");
   }
+  const auto follow =
+      std::count_if(world.commands.begin(), world.commands.end(),
+                    [](const Command& command) { return command.kind == Command::Kind::kFollow; });
+  require(follow == static_cast<std::ptrdiff_t>(world.paths.size()), "paths", world.paths.size(),
+          "", "there is one for every command that follows one");
   const std::size_t robots = world.fleet.robots.size();
   for (std::size_t i = 0; i < world.scans_due.size(); ++i) {
     require(isIn(world.scans_due[i], robots), "scans_due", i, "", "there is no such robot");

@@ -22,11 +22,11 @@ namespace kiva {
 constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
 constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
-constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kLift; }
+constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
 constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kDeleted; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
-constexpr State lastOf(State) { return State::kBlocked; }
+constexpr State lastOf(State) { return State::kWaiting; }
 constexpr Drive lastOf(Drive) { return Drive::kJointed; }
 constexpr MotionSegment::Kind lastOf(MotionSegment::Kind) { return MotionSegment::Kind::kLower; }
 constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
@@ -152,8 +152,8 @@ void describe(A& a, LaserParameters& l) {
 
 template <class A>
 void describe(A& a, MotionSegment& l) {
-  DESCRIBED(MotionSegment, 8);
-  FIELDS(l.kind, l.x, l.y, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
+  DESCRIBED(MotionSegment, 9);
+  FIELDS(l.kind, l.x, l.y, l.goal, l.yaw, l.reverse, l.on_grid, l.unit, l.state);
 }
 
 template <class A>
@@ -163,10 +163,22 @@ void describe(A& a, Sighting& s) {
 }
 
 template <class A>
+void describe(A& a, PathPoint& p) {
+  DESCRIBED(PathPoint, 2);
+  FIELDS(p.x, p.y);
+}
+
+template <class A>
+void describe(A& a, ReleasedPath& p) {
+  DESCRIBED(ReleasedPath, 5);
+  FIELDS(p.first, p.points, p.released, p.origin, p.end);
+}
+
+template <class A>
 void describe(A& a, Task& t) {
-  DESCRIBED(Task, 10);
-  FIELDS(t.phase, t.command, t.goal, t.segments, t.overdue, t.sighting, t.last_sighting,
-         t.blocked_by, t.blocked_reason, t.reported_shelf);
+  DESCRIBED(Task, 12);
+  FIELDS(t.phase, t.command, t.goal, t.segments, t.path, t.cancelled, t.overdue, t.sighting,
+         t.last_sighting, t.blocked_by, t.blocked_reason, t.reported_shelf);
 }
 
 template <class A>
@@ -192,12 +204,13 @@ void describe(A& a, Stance& s) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 19);
-  DESCRIBED(Fleet, 18);
+  DESCRIBED(FleetState, 20);
+  DESCRIBED(Fleet, 22);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
-         within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), within(f.awake, 0, 1),
-         within(f.activated, 0, 1), within(f.clear_until, -kEndless, kEndless));
+         within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,
+         f.left, within(f.stopped, 0, 1), within(f.awake, 0, 1), within(f.activated, 0, 1),
+         within(f.clear_until, -kEndless, kEndless), within(f.attend_at, -kEndless, kEndless));
   FIELDS(f.reference, f.reference_speed, f.goal, f.deceleration);
   FIELDS(within(f.cruising, -1, 0), f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed,
          f.acceleration);
@@ -339,6 +352,13 @@ template <class A>
 void describe(A& a, Command& c) {
   DESCRIBED(Command, 7);
   FIELDS(c.kind, c.kiva_id, c.x, c.y, c.direction, c.lift, c.shelf_id);
+}
+
+template <class A>
+void describe(A& a, FollowPath& p) {
+  DESCRIBED(FollowPath, 7);
+  FIELDS(p.kiva_id, p.path_id, p.first, within(p.x, -1e308, 1e308), within(p.y, -1e308, 1e308),
+         p.released, p.fault);
 }
 
 template <class A>

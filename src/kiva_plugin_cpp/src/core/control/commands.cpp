@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/control/interruptions.h"
+#include "core/control/paths.h"
 #include "core/control/route.h"
 #include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
@@ -17,30 +19,6 @@ struct Plan {
   std::string other;
 };
 
-template <typename... Args>
-std::string format(const char* pattern, Args... args) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, args...);
-  return text;
-}
-
-void checkGoal(const WorldState& world, const Point& goal) {
-  if (isOnFloor(world, goal)) return;
-  const Floor& f = world.floor;
-  if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
-  throw Refusal(format("goal (%g, %g) is outside the floor, which spans x %g…%g m, y %g…%g m",
-                       goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
-}
-
-double checkedGoal(const WorldState& world, double coordinate, char axis) {
-  if (!std::isfinite(coordinate)) {
-    throw Refusal(format("%c = %g: a finite number of metres was expected", axis, coordinate));
-  }
-  const double grid = nearestGrid(world, coordinate);
-  if (std::abs(grid - coordinate) <= kGoalTolerance) return grid;
-  throw Refusal(format("%c = %g m is off the grid of %g m", axis, coordinate, world.grid_spacing));
-}
-
 double checkedDistance(const WorldState& world, double distance) {
   if (!std::isfinite(distance)) {
     throw Refusal(format("distance %g: a finite number of metres was expected", distance));
@@ -49,10 +27,6 @@ double checkedDistance(const WorldState& world, double distance) {
   if (std::abs(whole - distance) <= kGoalTolerance) return whole;
   throw Refusal(
       format("distance %g m is no whole number of %g m cells", distance, world.grid_spacing));
-}
-
-void checkMotion(const WorldState& world, int robot) {
-  if (!world.fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
 }
 
 Plan planMoveTo(const WorldState& world, int robot, const Command& command) {
@@ -150,14 +124,21 @@ Plan plan(const WorldState& world, int robot, const Command& command) {
       return planRotate(world, robot, command.direction);
     case Command::Kind::kLift:
       return planLift(world, robot, command);
+    default:
+      break;
   }
   throw Refusal("unknown command");
 }
 
 const char* stateName(State state) {
-  static const char* const names[] = {"IDLE",     "MOVING_X", "MOVING_Y",
-                                      "ROTATING", "LIFTING",  "BLOCKED"};
+  static const char* const names[] = {"IDLE",    "MOVING_X", "MOVING_Y", "ROTATING",
+                                      "LIFTING", "BLOCKED",  "WAITING"};
   return names[static_cast<int>(state)];
+}
+
+void checkIdle(const WorldState& world, int robot) {
+  if (world.fleet.status[robot] == Status::kIdle) return;
+  throw Refusal(std::string("it is not idle but ") + stateName(world.fleet.state[robot]));
 }
 
 void start(WorldState& world, int robot, std::uint32_t number, Plan plan) {
@@ -168,27 +149,81 @@ void start(WorldState& world, int robot, std::uint32_t number, Plan plan) {
   beginTask(world, robot, std::move(plan.segments));
 }
 
-void answer(WorldState& world, const Command& command) {
-  const int robot = world.fleet.find(command.kiva_id);
-  const std::string name = "kiva" + std::to_string(command.kiva_id);
-  const std::uint32_t number = ++world.last_command;
-  try {
-    if (robot < 0) throw Refusal("there is no robot " + name);
-    if (world.fleet.status[robot] != Status::kIdle) {
-      throw Refusal(std::string("it is not idle but ") + stateName(world.fleet.state[robot]));
-    }
-    start(world, robot, number, plan(world, robot, command));
-  } catch (const Refusal& refusal) {
-    world.events.push_back(
-        {world.time(), Event::Kind::kRefused, name, "", refusal.what(), number, {}});
+using Order = void (*)(WorldState&, int robot);
+
+/// Of the command kinds that are obeyed whatever a robot is at.
+Order orderOf(Command::Kind kind) {
+  switch (kind) {
+    case Command::Kind::kCancel:
+      return cancel;
+    case Command::Kind::kStop:
+      return stop;
+    case Command::Kind::kGoOn:
+      return goOn;
+    default:
+      return nullptr;
   }
+}
+
+void obeyAll(WorldState& world, Order order) {
+  for (int robot = 0; robot < world.fleet.size(); ++robot) order(world, robot);
+}
+
+int findRobot(const WorldState& world, int id) {
+  const int robot = world.fleet.find(id);
+  if (robot < 0) throw Refusal("there is no robot kiva" + std::to_string(id));
+  return robot;
+}
+
+/// Gives the command to its robot; `path` is what it stands for, if it is to follow one. Counts it,
+/// unless it only changes what the robot is at. Throws Refusal.
+void obey(WorldState& world, const Command& command, const FollowPath& path) {
+  const bool is_stop = command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
+  const Order order = orderOf(command.kind);
+  if (is_stop && command.kiva_id == 0) return obeyAll(world, order);
+  const int robot = findRobot(world, command.kiva_id);
+  if (order) return order(world, robot);
+  const bool follows = command.kind == Command::Kind::kFollow;
+  if (follows && changesPath(world, robot, path)) return changePath(world, robot, path);
+  checkIdle(world, robot);
+  const std::uint32_t number = world.last_command + 1;
+  if (follows) {
+    startPath(world, robot, number, path);
+  } else {
+    start(world, robot, number, plan(world, robot, command));
+  }
+  world.last_command = number;
+}
+
+void answer(WorldState& world, const Command& command, const FollowPath& path) {
+  try {
+    obey(world, command, path);
+  } catch (const Refusal& refusal) {
+    world.events.push_back({world.time(),
+                            Event::Kind::kRefused,
+                            "kiva" + std::to_string(command.kiva_id),
+                            "",
+                            refusal.what(),
+                            ++world.last_command,
+                            {}});
+  }
+}
+
+/// The first of the queued paths, which the command stands for; empty if it stands for none.
+FollowPath takePath(WorldState& world, const Command& command) {
+  FollowPath path;
+  if (command.kind != Command::Kind::kFollow) return path;
+  path = std::move(world.paths.front());
+  world.paths.pop_front();
+  return path;
 }
 
 }  // namespace
 
 void acceptCommands(WorldState& world) {
   while (!world.commands.empty()) {
-    answer(world, world.commands.front());
+    const Command& command = world.commands.front();
+    answer(world, command, takePath(world, command));
     world.commands.pop_front();
   }
 }

@@ -16,12 +16,6 @@ constexpr int kRecoverCells = 2;               // around a robot that looks for 
 constexpr double kRoomStep = 0.1;              // [m]: in which it looks for room to turn
 constexpr double kRoomReach = 1.5;             // [m]
 
-/// The heading nearest to `near` that points along `angle`; of two opposite ones the left turn.
-double headingNear(double near, double angle) {
-  const double turn = wrapAngle(angle - near);
-  return near + (turn < -M_PI + 1e-6 ? turn + 2 * M_PI : turn);
-}
-
 /// The free grid point nearest to a place. Throws Refusal if there is none near.
 Point nearestFree(const WorldState& world, int robot, const Point& from) {
   Point best;
@@ -59,6 +53,27 @@ Point roomToTurn(const WorldState& world, int robot) {
 
 double nearestGrid(const WorldState& world, double coordinate) {
   return std::round(coordinate / world.grid_spacing) * world.grid_spacing;
+}
+
+void checkGoal(const WorldState& world, const Point& goal) {
+  if (isOnFloor(world, goal)) return;
+  const Floor& f = world.floor;
+  if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
+  throw Refusal(format("goal (%g, %g) is outside the floor, which spans x %g…%g m, y %g…%g m",
+                       goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
+}
+
+double checkedGoal(const WorldState& world, double coordinate, char axis) {
+  if (!std::isfinite(coordinate)) {
+    throw Refusal(format("%c = %g: a finite number of metres was expected", axis, coordinate));
+  }
+  const double grid = nearestGrid(world, coordinate);
+  if (std::abs(grid - coordinate) <= kGoalTolerance) return grid;
+  throw Refusal(format("%c = %g m is off the grid of %g m", axis, coordinate, world.grid_spacing));
+}
+
+void checkMotion(const WorldState& world, int robot) {
+  if (!world.fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
 }
 
 bool isOnFloor(const WorldState& world, const Point& p) {

@@ -27,7 +27,19 @@ struct Point {
 /// How near is there, for numbers that clients computed [m].
 constexpr double kGoalTolerance = 0.001;
 
+template <typename... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
 double nearestGrid(const WorldState& world, double coordinate);
+/// These throw Refusal: the grid's coordinate, where `axis` is x or y [m]; that a goal is on the
+/// floor; that the robot can drive.
+double checkedGoal(const WorldState& world, double coordinate, char axis);
+void checkGoal(const WorldState& world, const Point& goal);
+void checkMotion(const WorldState& world, int robot);
 /// Whether the cell around the grid point lies on the floor as a whole.
 bool isOnFloor(const WorldState& world, const Point& p);
 

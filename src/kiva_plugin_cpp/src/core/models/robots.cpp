@@ -162,6 +162,7 @@ void Robots::reset(WorldState& world, Model& model) const {
   if (fleet.unit[robot] >= 0) putDown(world, robot);
   fleet.tower[robot] = 0;
   fleet.stance[robot] = Stance();
+  fleet.stopped[robot] = 0;
   place(world, model, {model.spawn_pose, {}});
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;

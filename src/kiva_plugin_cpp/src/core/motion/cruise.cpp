@@ -6,6 +6,7 @@
 
 #include "core/motion/clearance.h"
 #include "core/motion/drives.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
@@ -33,7 +34,7 @@ bool hasForce(const Robot& robot, const ReferenceMotion& per, double deceleratio
 constexpr int kBlock = 16;  // robots that are stepped together
 
 /// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
-/// reference has ended, or its time is over at step `now`.
+/// reference has ended, or step `now` is the one that it waits for.
 __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
                                                                double dt, double now) {
   const std::int64_t* __restrict mask = f.cruising.data();
@@ -41,7 +42,7 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
   const double* __restrict top = f.top_speed.data();
   const double* __restrict acceleration = f.acceleration.data();
   const double* __restrict deceleration = f.deceleration.data();
-  const double* __restrict until = f.clear_until.data();
+  const double* __restrict until = f.attend_at.data();
   const double* __restrict per_x = f.per_x.data();
   const double* __restrict per_y = f.per_y.data();
   const double* __restrict per_yaw = f.per_yaw.data();
@@ -89,10 +90,29 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
   return attention != 0;
 }
 
+/// In how many steps the robot's reference may be at `place`, at the soonest.
+double stepsTo(const FleetState& f, int i, double place, double dt) {
+  const double way = std::max(0.0, place - f.reference[i]);
+  const double v = f.reference_speed[i], a = f.acceleration[i];
+  const double at_top_speed = way / f.top_speed[i];
+  const double speeding_up = a > 0 ? (std::sqrt(v * v + 2 * a * way) - v) / a : 0;
+  return std::floor(std::max(at_top_speed, speeding_up) / dt) - 1;  // a step goes before its speed
+}
+
+void planAttention(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  f.attend_at[i] = f.clear_until[i];
+  if (!f.tasks[i].follows()) return;
+  const double steps = std::max(1.0, stepsTo(f, i, nextCount(world, i), world.dt));
+  f.attend_at[i] = std::min(f.attend_at[i], static_cast<double>(world.total_steps) + steps);
+}
+
 void attend(WorldState& world, int i, double now) {
   FleetState& f = world.fleet;
+  if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   const bool ended = f.reference[i] == f.goal[i];
-  if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) moved(f, i);
+  if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) return moved(f, i);
+  planAttention(world, i);
 }
 
 }  // namespace
@@ -116,9 +136,24 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (findClearance(world, i)) return true;
+  if (findClearance(world, i)) {
+    planAttention(world, i);
+    return true;
+  }
   f.cruising[i] = 0;
   return false;
+}
+
+void setGoal(WorldState& world, int i, double goal) {
+  FleetState& f = world.fleet;
+  const double left = f.clear_until[i] - static_cast<double>(world.total_steps) + 1;
+  const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.dt;
+  const bool goes_farther = goal > f.goal[i];
+  f.goal[i] = goal;
+  if (f.cruising[i] == 0) return;
+  // Its way was found free up to the old goal only.
+  if (saw_the_end && goes_farther && !findClearance(world, i)) return moved(f, i);
+  planAttention(world, i);
 }
 
 void cruise(WorldState& world) {

@@ -27,6 +27,9 @@ inline bool isExact(double error) { return std::abs(error) < 2e-11; }
 /// free. It does until something else moves it, see moved().
 bool tryCruise(WorldState& world, int robot, const ReferenceMotion& per);
 
+/// Where the robot's reference is to end from now on; it goes on as it does, without a dip.
+void setGoal(WorldState& world, int robot, double goal);
+
 /// One step of all who cruise. Those whose reference ends, or who may have somebody near, stop.
 void cruise(WorldState& world);
 

@@ -10,7 +10,9 @@
 #include "core/motion/jointed.h"
 #include "core/motion/joints.h"
 #include "core/motion/traction.h"
+#include "core/sensing/look_ahead.h"
 #include "core/state/footprints.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
@@ -49,13 +51,23 @@ void readBody(WorldState& world, int robot) {
   }
 }
 
-/// A robot that stands without a command is left alone until it gets one, or is hit.
+/// Nothing is to move on it before somebody else does something.
+bool hasNothingToDo(const FleetState& f, int robot) {
+  const Phase phase = f.tasks[robot].phase;
+  if (phase == Phase::kIdle || phase == Phase::kWaiting) return true;
+  return f.stopped[robot] && (phase == Phase::kStarting || f.reference_speed[robot] == 0);
+}
+
+/// A robot that stands without a command, or waits or is stopped at one, is left alone until it is
+/// to go on, or is hit.
 void letRest(FleetState& f, int robot) {
-  if (f.tasks[robot].phase != Phase::kIdle || f.activated[robot] || !atRest(f, robot)) return;
+  if (!hasNothingToDo(f, robot) || f.activated[robot] || !atRest(f, robot)) return;
   if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
-  f.awake[robot] = f.tower[robot] > 0 && f.unit[robot] < 0;  // an empty tower still comes down
+  // An empty tower still comes down.
+  f.awake[robot] = f.tasks[robot].phase == Phase::kIdle && f.tower[robot] > 0 &&
+                   f.unit[robot] < 0 && !f.stopped[robot];
 }
 
 void integrateRobots(WorldState& world) {
@@ -69,6 +81,7 @@ void integrateRobots(WorldState& world) {
     }
     if (isJointed(f.robots[i])) settleJointed(world, i);
     followRobot(world, i);
+    if (f.tasks[i].follows() && f.tasks[i].drives()) countPoints(world, i, alongSegment(f, i));
     letRest(f, i);
   }
   cruise(world);

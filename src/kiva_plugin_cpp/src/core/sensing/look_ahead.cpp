@@ -14,7 +14,10 @@ namespace {
 // What the corridor is wider than the robot, a side. A loaded robot that turns in the next lane
 // reaches to 1 − 0.566 m, which must stay outside.
 constexpr double kSideMargin = 0.03;  // [m]
-constexpr double kFlat = 0.02;        // [m] by which two rays beside each other differ on a face
+// Kept to what stands or turns beyond a path's released end; a loaded robot that turns in the next
+// cell comes as near as 1 − 0.566 − 0.4 m.
+constexpr double kEndMargin = 0.02;  // [m]
+constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
 
 bool stops(const WorldState& world, int model, int robot) {
   const Model& other = *world.models[model];
@@ -28,13 +31,15 @@ Sighting look(const WorldState& world, int robot) {
   const double half = halfWidth(r) + kSideMargin;
   static thread_local std::vector<RayHit> hits;
   // A ray is of interest until it leaves the corridor.
-  const auto limit = [&](int ray) {
-    return std::min(r.laser.max_range, half / std::max(1e-9, std::abs(fan.s[ray])));
-  };
-  castRays(world, robot, limit, &hits);
   Sighting seen;
   seen.taken = true;
   seen.along = alongSegment(world.fleet, robot);
+  const double reach = reachOfInterest(world, robot) - seen.along - r.laser.x;
+  const auto limit = [&](int ray) {
+    const double ahead = fan.c[ray] > 1e-3 ? std::max(0.0, reach) / fan.c[ray] : r.laser.max_range;
+    return std::min({r.laser.max_range, half / std::max(1e-9, std::abs(fan.s[ray])), ahead});
+  };
+  castRays(world, robot, limit, &hits);
   seen.distance = std::numeric_limits<double>::infinity();
   int before = -1;  // what the ray before this one met
   double before_distance = 0;
@@ -58,7 +63,8 @@ Sighting look(const WorldState& world, int robot) {
 
 bool isOnGuard(const FleetState& f, int robot) {
   const Task& task = f.tasks[robot];
-  return f.robots[robot].laser.fitted && task.drives() && !task.segments.front().reverse;
+  return f.robots[robot].laser.fitted && (task.drives() || task.isHeldUp()) &&
+         !task.segments.front().reverse;
 }
 
 void watch(WorldState& world, int robot) {
@@ -74,7 +80,7 @@ void lookAhead(WorldState& world) {
   const FleetState& f = world.fleet;
   world.sighted.clear();
   for (int i : world.scans_due) {
-    if (f.awake[i] && isOnGuard(f, i)) watch(world, i);
+    if (isOnGuard(f, i)) watch(world, i);
   }
   for (int i : world.stepped_singly) {
     if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) watch(world, i);
@@ -85,6 +91,13 @@ double alongSegment(const FleetState& f, int i) {
   const MotionSegment& segment = f.tasks[i].segments.front();
   return std::cos(segment.yaw) * (f.x[i] - segment.x) +
          std::sin(segment.yaw) * (f.y[i] - segment.y);
+}
+
+double reachOfInterest(const WorldState& world, int robot) {
+  const Task& task = world.fleet.tasks[robot];
+  const MotionSegment& segment = task.segments.front();
+  if (!task.follows() || !segment.on_grid) return std::numeric_limits<double>::infinity();
+  return segment.goal + halfLength(world.fleet.robots[robot]) + kEndMargin;
 }
 
 bool isFree(const WorldState& world, int robot, double x, double y) {

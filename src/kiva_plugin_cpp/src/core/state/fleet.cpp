@@ -19,6 +19,10 @@ void forEachArray(Fleet& f, Visit visit) {
   visit(f.status);
   visit(f.state);
   visit(f.last_end);
+  visit(f.path_id);
+  visit(f.reached);
+  visit(f.left);
+  visit(f.stopped);
 }
 
 }  // namespace

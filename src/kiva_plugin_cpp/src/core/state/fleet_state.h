@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/state/profile.h"
+#include "core/state/released_path.h"
 #include "kiva_plugin_cpp/fleet.h"
 
 namespace kiva {
@@ -17,8 +18,9 @@ namespace kiva {
 struct MotionSegment {
   enum class Kind : std::uint8_t { kTurn, kDrive, kRaise, kLower };
   Kind kind = Kind::kTurn;
-  double x = 0;                    ///< Drive: where it ends, in world [m].
-  double y = 0;                    ///< Drive [m].
+  double x = 0;                    ///< Drive: a point of its line, in world [m],
+  double y = 0;                    ///< from which the reference is measured.
+  double goal = 0;                 ///< Drive: where on the line it ends, seen from there [m].
   double yaw = 0;                  ///< Turn, drive: heading in world, unwrapped [rad].
   bool reverse = false;            ///< Drive: backwards, against the heading.
   bool on_grid = true;             ///< Drive: along a grid line.
@@ -33,6 +35,7 @@ enum class Phase : std::uint8_t {
   kTurning,    ///< Ends at the segment's heading.
   kDriving,    ///< Ends at the segment's goal.
   kLifting,    ///< The tower raises or lowers the unit. Ends when it has.
+  kWaiting,    ///< Stands on its path. Ends with a release, or, with a segment, when that is free.
   kBraking,    ///< Drives on to a stop before an obstacle. Ends standing: BLOCKED.
   kHalting,    ///< With locked wheels. Ends standing: BLOCKED.
   kAbandoning  ///< Gives up a lift: the tower comes down. Ends with it down: BLOCKED.
@@ -53,6 +56,8 @@ struct Task {
   std::uint32_t command = 0;           ///< The number of the last command; 0 = none yet.
   std::string goal;                    ///< What it asked for, for a person.
   std::deque<MotionSegment> segments;  ///< Of the command, the first under way.
+  ReleasedPath path;                   ///< What its segments are made of, one by one, if it is one.
+  bool cancelled = false;              ///< It ends with the present segments.
   double overdue = 0;                  ///< Since its reference ended without it being there [s].
   Sighting sighting, last_sighting;    ///< The newest, and the one before.
   std::string blocked_by;              ///< A model's name, or empty.
@@ -60,6 +65,14 @@ struct Task {
   int reported_shelf = -1;  ///< The unit's number in the last status; -1 = none was made yet.
 
   bool drives() const { return phase == Phase::kDriving || phase == Phase::kBraking; }
+  /// Stands on its path before something that is in the way.
+  bool isHeldUp() const { return phase == Phase::kWaiting && !segments.empty(); }
+  bool follows() const { return path.isUnderWay(); }
+  /// Its segment is a run of its path.
+  bool isOnRun() const {
+    return follows() && !segments.empty() && segments.front().on_grid &&
+           segments.front().kind == MotionSegment::Kind::kDrive;
+  }
   /// Its command is to end in BLOCKED.
   bool isStopping() const { return phase >= Phase::kBraking; }
   const MotionSegment* segment() const { return segments.empty() ? nullptr : &segments.front(); }
@@ -79,6 +92,9 @@ struct FleetState : Fleet {
   /// Step up to which nothing can come near the robot, as long as it moves as it does. As a number
   /// that is compared with others several at a time.
   Column<double> clear_until;
+  /// Step at which a robot that cruises needs a look again: that one, or when it may have come to
+  /// or left the next point of a path.
+  Column<double> attend_at;
 
   // Of robots that follow their references exactly, see core/motion/cruise.h.
   Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.

@@ -131,7 +131,9 @@ void hideFootprints(WorldState& world, Model& model) {
 }
 
 void alarm(WorldState& world) {
-  std::fill(world.fleet.clear_until.begin(), world.fleet.clear_until.end(), 0);
+  for (auto* column : {&world.fleet.clear_until, &world.fleet.attend_at}) {
+    std::fill(column->begin(), column->end(), 0);
+  }
 }
 
 }  // namespace kiva

@@ -34,7 +34,23 @@ struct Profile {
     position = distance - next * dt <= kThere ? target : moved;
   }
 
+  /// One step of `dt` towards a stop, wherever that is; deceleration 0: at rest at once.
+  void brake(double deceleration, double dt) {
+    const double loss = deceleration > 0 ? deceleration * dt : std::abs(speed);
+    speed = std::copysign(std::max(0.0, std::abs(speed) - loss), speed);
+    position += speed * dt;
+  }
+
   bool reached(double target) const { return position == target; }
+
+  /// Whether it can still stop at `target`, ahead of it along the axis, at that deceleration; 0: at
+  /// once.
+  bool canStopAt(double target, double deceleration, double dt) const {
+    const double distance = target - position;
+    if (distance < -kThere) return false;
+    if (deceleration == 0 || speed <= 0) return true;
+    return speed - deceleration * dt <= stoppingSpeed(std::max(0.0, distance), deceleration, dt);
+  }
 
   /// The highest speed now from which steps of constant deceleration end on `distance`:
   /// v²/(2a) + v·dt/2 = distance, the sum of the steps' lengths.

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/state/tasks.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
 
-void enter(WorldState& world, int robot, Phase phase, Status status, State state) {
-  world.fleet.tasks[robot].phase = phase;
-  moved(world.fleet, robot);
-  world.setStatus(robot, status, state);
-}
+constexpr std::uint32_t kPointsToKeep = 64;  // of a path that were left, before they are forgotten
 
 void becomeIdle(WorldState& world, int robot) {
   FleetState& f = world.fleet;
@@ -22,7 +21,9 @@ void becomeIdle(WorldState& world, int robot) {
   }
   task.segments.clear();
   task.blocked_by = task.blocked_reason = "";
-  enter(world, robot, Phase::kIdle, Status::kIdle, State::kIdle);
+  task.path = ReleasedPath();
+  task.cancelled = false;
+  enterPhase(world, robot, Phase::kIdle, Status::kIdle, State::kIdle);
   f.wheel_target[0][robot] = f.wheel_target[1][robot] = 0;
 }
 
@@ -33,32 +34,92 @@ void end(WorldState& world, int robot, Event::Kind kind, const std::string& othe
   world.reportCommand(kind, robot, other, text);
 }
 
-void startNext(WorldState& world, int robot) {
+}  // namespace
+
+void enterPhase(WorldState& world, int robot, Phase phase, Status status, State state) {
+  world.fleet.tasks[robot].phase = phase;
+  moved(world.fleet, robot);
+  world.setStatus(robot, status, state);
+}
+
+void startSegment(WorldState& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
-  enter(world, robot, Phase::kStarting, Status::kBusy, task.segments.front().state);
+  enterPhase(world, robot, Phase::kStarting, Status::kBusy, task.segments.front().state);
 }
-
-}  // namespace
 
 void beginTask(WorldState& world, int robot, std::deque<MotionSegment> segments) {
   Task& task = world.fleet.tasks[robot];
   task.segments = std::move(segments);
-  world.fleet.last_end[robot] = 0;
+  FleetState& f = world.fleet;
+  f.last_end[robot] = 0;
+  f.path_id[robot] = f.reached[robot] = f.left[robot] = 0;
   if (task.segments.empty()) return end(world, robot, Event::Kind::kDone, "", "is there already");
   for (const MotionSegment& segment : task.segments) {
     if (segment.kind == MotionSegment::Kind::kRaise) world.units[segment.unit].claimed_by = robot;
   }
-  startNext(world, robot);
+  startSegment(world, robot);
+}
+
+void beginPath(WorldState& world, int robot, std::uint32_t id, ReleasedPath path,
+               std::deque<MotionSegment> segments) {
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[robot];
+  task.path = std::move(path);
+  task.segments = std::move(segments);
+  f.path_id[robot] = id;
+  f.reached[robot] = 1;
+  f.left[robot] = 0;
+  f.last_end[robot] = 0;
+  if (task.segments.empty()) return continuePath(world, robot);
+  startSegment(world, robot);
+}
+
+void continuePath(WorldState& world, int robot) {
+  Task& task = world.fleet.tasks[robot];
+  ReleasedPath& path = task.path;
+  path.origin = path.end;
+  if (path.origin > path.first + kPointsToKeep) {
+    path.forgetBefore(std::min(path.origin, world.fleet.left[robot]));
+  }
+  if (path.origin + 1 == path.size()) return endDone(world, robot);
+  if (path.origin + 1 >= path.released) {
+    return enterPhase(world, robot, Phase::kWaiting, Status::kBusy, State::kWaiting);
+  }
+  path.extendRun();
+  task.segments.push_back(nextSegment(world, robot));
+  if (task.segments.front().kind == MotionSegment::Kind::kTurn) path.end = path.origin;
+  startSegment(world, robot);
+}
+
+void resumePath(WorldState& world, int robot) {
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[robot];
+  task.blocked_by = task.blocked_reason = "";
+  if (task.phase != Phase::kBraking) return startSegment(world, robot);
+  const MotionSegment& run = task.segments.front();
+  f.goal[robot] = run.goal;
+  f.deceleration[robot] = f.acceleration[robot];
+  enterPhase(world, robot, Phase::kDriving, Status::kBusy, run.state);
 }
 
 void finishSegment(WorldState& world, int robot) {
   Task& task = world.fleet.tasks[robot];
-  if (task.isStopping()) return endStop(world, robot);
+  const bool is_held_up = task.phase == Phase::kBraking && task.follows();
+  if (is_held_up && !task.cancelled) {
+    return enterPhase(world, robot, Phase::kWaiting, Status::kBlocked, State::kBlocked);
+  }
+  if (task.isStopping() && !is_held_up) return endStop(world, robot);
   task.segments.pop_front();
-  if (!task.segments.empty()) return startNext(world, robot);
-  end(world, robot, Event::Kind::kDone, "", "done: " + task.goal);
+  if (!task.segments.empty()) return startSegment(world, robot);
+  if (task.follows() && !task.cancelled) return continuePath(world, robot);
+  endDone(world, robot);
+}
+
+void endDone(WorldState& world, int robot) {
+  const Task& task = world.fleet.tasks[robot];
+  end(world, robot, Event::Kind::kDone, "", task.cancelled ? "cancelled" : "done: " + task.goal);
 }
 
 void stopTask(WorldState& world, int robot, Phase phase, const std::string& by,
@@ -69,7 +130,7 @@ void stopTask(WorldState& world, int robot, Phase phase, const std::string& by,
     task.blocked_by = by;
     task.blocked_reason = reason;
   }
-  enter(world, robot, phase, Status::kBlocked, State::kBlocked);
+  enterPhase(world, robot, phase, Status::kBlocked, State::kBlocked);
 }
 
 void endStop(WorldState& world, int robot) {
@@ -85,7 +146,9 @@ void endBlocked(WorldState& world, int robot, const std::string& by, const std::
 }
 
 void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason) {
-  const MotionSegment* at = world.fleet.tasks[robot].segment();
+  const Task& task = world.fleet.tasks[robot];
+  if (task.phase == Phase::kWaiting) return endBlocked(world, robot, by, reason);
+  const MotionSegment* at = task.segment();
   if (!at) return;
   const bool moves =
       at->kind == MotionSegment::Kind::kTurn || at->kind == MotionSegment::Kind::kDrive;

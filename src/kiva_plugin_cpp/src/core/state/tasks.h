@@ -13,6 +13,16 @@ namespace kiva {
 
 /// The robot, whose task names the command, is at these from now on. None: it is done already.
 void beginTask(WorldState& world, int robot, std::deque<MotionSegment> segments);
+/// The same with a path; `segments` bring the robot to its point 0.
+void beginPath(WorldState& world, int robot, std::uint32_t id, ReleasedPath path,
+               std::deque<MotionSegment> segments);
+/// The robot stands on a point of its path, at the end of a run or of a turn: it turns, drives,
+/// waits for a release, or is done.
+void continuePath(WorldState& world, int robot);
+/// The way is free again before a robot that brakes or stands on its path: it goes on.
+void resumePath(WorldState& world, int robot);
+/// It begins the first of its segments at the next step, unless it is stopped.
+void startSegment(WorldState& world, int robot);
 /// The current segment is over: the next one, or DONE; BLOCKED if the command was stopping.
 void finishSegment(WorldState& world, int robot);
 /// The command is to end in BLOCKED as soon as the robot has done what `phase` says: kBraking,
@@ -21,9 +31,14 @@ void stopTask(WorldState& world, int robot, Phase phase, const std::string& by,
               const std::string& reason);
 /// The stop is over: BLOCKED, then idle.
 void endStop(WorldState& world, int robot);
+/// The command is done; or cancelled, if it was.
+void endDone(WorldState& world, int robot);
 /// The command ends in BLOCKED now, whatever the robot is at.
 void endBlocked(WorldState& world, int robot, const std::string& by, const std::string& reason);
-/// Locks the wheels of a robot that turns or drives, at once; one that lifts stands anyway.
+/// Locks the wheels of a robot that turns or drives, at once; one that lifts stands anyway, and a
+/// path on which it stands is over.
 void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason);
+/// The robot is in that phase from now on, and reports so.
+void enterPhase(WorldState& world, int robot, Phase phase, Status status, State state);
 
 }  // namespace kiva

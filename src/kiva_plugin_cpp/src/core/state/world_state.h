@@ -103,6 +103,7 @@ struct WorldState {
   std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
   std::deque<Command> commands;
+  std::deque<FollowPath> paths;  // of those that are kFollow, in the same order
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/interruptions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/control/route.h"
+#include "core/motion/cruise.h"
+#include "core/state/tasks.h"
+
+namespace kiva {
+namespace {
+
+/// Whether a robot that goes on is back on the grid after that segment: it has none off the grid
+/// before it.
+std::size_t segmentsToGrid(const Task& task) {
+  for (std::size_t k = task.segments.size(); k > 1; --k) {
+    if (!task.segments[k - 1].on_grid) return k;
+  }
+  return 1;
+}
+
+bool lifts(const MotionSegment& segment) {
+  return segment.kind == MotionSegment::Kind::kRaise || segment.kind == MotionSegment::Kind::kLower;
+}
+
+/// Lets a drive end on the next grid point where the robot can stop.
+void shortenDrive(WorldState& world, int robot) {
+  const FleetState& f = world.fleet;
+  const double cell = world.grid_spacing;
+  double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
+  while (!f.profile(robot).canStopAt(stop, f.deceleration[robot], world.dt)) stop += cell;
+  if (stop >= f.goal[robot]) return;
+  world.fleet.tasks[robot].segments.front().goal = stop;
+  setGoal(world, robot, stop);
+}
+
+}  // namespace
+
+void cancel(WorldState& world, int robot) {
+  Task& task = world.fleet.tasks[robot];
+  if (task.phase == Phase::kIdle) throw Refusal("it is idle: there is nothing to cancel");
+  if (task.phase == Phase::kHalting || task.phase == Phase::kAbandoning) {
+    throw Refusal("its command ends already, blocked");
+  }
+  task.cancelled = true;
+  const std::size_t rest = segmentsToGrid(task);
+  if (task.phase == Phase::kWaiting) return endDone(world, robot);
+  const MotionSegment& now = task.segments.front();
+  if (task.phase == Phase::kStarting && rest == 1 && now.on_grid && !lifts(now)) {
+    return endDone(world, robot);
+  }
+  task.segments.erase(task.segments.begin() + static_cast<std::ptrdiff_t>(rest),
+                      task.segments.end());
+  if (task.phase == Phase::kDriving && now.on_grid) shortenDrive(world, robot);
+}
+
+void stop(WorldState& world, int robot) {
+  FleetState& f = world.fleet;
+  if (f.stopped[robot]) return;
+  f.stopped[robot] = 1;
+  if (f.awake[robot]) moved(f, robot);
+}
+
+void goOn(WorldState& world, int robot) {
+  FleetState& f = world.fleet;
+  if (!f.stopped[robot]) return;
+  f.stopped[robot] = 0;
+  Task& task = f.tasks[robot];
+  moved(f, robot);
+  const bool resumes = task.phase == Phase::kDriving || task.phase == Phase::kTurning ||
+                       task.phase == Phase::kLifting;
+  if (resumes) task.phase = Phase::kStarting;  // planned anew, from where it stands
+  task.sighting = task.last_sighting = Sighting();
+  task.overdue = 0;
+}
+
+}  // namespace kiva

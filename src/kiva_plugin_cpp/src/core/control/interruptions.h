@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What comes between a robot and the end of its command, by a client's wish.
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// The robot's command ends in DONE at the next grid point where it can stop, or, a lift, when it
+/// is over. Throws Refusal if there is nothing to cancel.
+void cancel(WorldState& world, int robot);
+/// Wheels and tower stop as hard as they can, and stand until it may go on.
+void stop(WorldState& world, int robot);
+/// It goes on with what it did, from where it is now.
+void goOn(WorldState& world, int robot);
+
+}  // namespace kiva

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/control/route.h"
+#include "core/geometry/solid.h"
+#include "core/motion/cruise.h"
+#include "core/sensing/look_ahead.h"
+#include "core/state/footprints.h"
+#include "core/state/path_progress.h"
+#include "core/state/tasks.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch what it passes
+constexpr double kCentred = 0.001;  // [m]: a robot within stands on its point
+constexpr std::uint64_t kMostPoints = 100000;
+
+/// The path as it would be: points up to `shared` as they are, then those of the message.
+struct Change {
+  const FollowPath& message;
+  std::vector<PathPoint> points;  ///< Of the message, on the grid.
+  std::uint64_t size;             ///< Of the whole path.
+};
+
+void checkNumbers(const FollowPath& m, std::uint64_t known) {
+  if (!m.fault.empty()) throw Refusal(m.fault);
+  if (m.path_id == 0) throw Refusal("path_id 0: another number was expected");
+  if (m.x.size() != m.y.size()) {
+    throw Refusal(format("%zu x and %zu y: as many of both were expected", m.x.size(), m.y.size()));
+  }
+  if (m.first > known) {
+    throw Refusal(format("first %u: the path has %u points so far, so that some are missing",
+                         m.first, static_cast<unsigned>(known)));
+  }
+  if (m.first + m.x.size() > kMostPoints) {
+    throw Refusal(format("a path of %zu points: at most %u were expected", m.first + m.x.size(),
+                         static_cast<unsigned>(kMostPoints)));
+  }
+  if (m.released == 0) throw Refusal("released 0: it stands on point 0, so at least 1 is");
+}
+
+PathPoint checkedPoint(const WorldState& world, const FollowPath& m, std::size_t k) {
+  const Point p{checkedGoal(world, m.x[k], 'x'), checkedGoal(world, m.y[k], 'y')};
+  checkGoal(world, p);
+  return {p.x, p.y};
+}
+
+bool isSame(const PathPoint& a, const PathPoint& b) {
+  return std::abs(a.x - b.x) < kGoalTolerance && std::abs(a.y - b.y) < kGoalTolerance;
+}
+
+/// Whether a model is a part of the building, or one of its belts: it will not go. What is not
+/// as long as a cell and stands for itself, as a person does, may.
+bool isBuilding(const WorldState& world, const Model& model) {
+  const std::uint8_t as = model.owner->occupies();
+  if (as == Occupancy::kBelt) return true;
+  if (as != Occupancy::kTaken || !model.isStatic()) return false;
+  const Vector3 size = bounds(*model.description).max - bounds(*model.description).min;
+  return std::max(size.X(), size.Y()) > world.grid_spacing - kGoalTolerance;
+}
+
+/// Throws Refusal if a robot would drive into the building between two neighbours.
+void checkClear(const WorldState& world, int robot, const PathPoint& from, const PathPoint& to) {
+  const Robot& r = world.fleet.robots[robot];
+  Footprint swept;
+  swept.x = (from.x + to.x) / 2;
+  swept.y = (from.y + to.y) / 2;
+  const bool along_x = std::abs(to.x - from.x) > std::abs(to.y - from.y);
+  const double way = std::abs(to.x - from.x) + std::abs(to.y - from.y);
+  swept.hx = along_x ? way / 2 + halfLength(r) : halfWidth(r);
+  swept.hy = along_x ? halfWidth(r) : way / 2 + halfLength(r);
+  swept.hx -= kKeepOff;
+  swept.hy -= kKeepOff;
+  swept.z_min = world.floor.z;
+  swept.z_max = world.floor.z + (world.fleet.unit[robot] < 0 ? r.height : 1e9);
+  const Model* hit = nullptr;
+  world.obstacles.near(swept.x, swept.y, std::max(swept.hx, swept.hy), [&](const Footprint& other) {
+    if (hit || !shareHeight(other, swept) || gap(swept, other) >= 0) return;
+    const Model& model = *world.models[other.model];
+    if (isBuilding(world, model)) hit = &model;
+  });
+  if (!hit) return;
+  throw Refusal(
+      format("%s is between (%g, %g) and (%g, %g)", hit->name.c_str(), from.x, from.y, to.x, to.y));
+}
+
+/// Throws Refusal if a robot can't go straight from one to the other.
+void checkLink(const WorldState& world, int robot, const PathPoint& from, const PathPoint& to,
+               std::uint64_t number) {
+  const bool moves_x = std::abs(to.x - from.x) > kGoalTolerance;
+  const bool moves_y = std::abs(to.y - from.y) > kGoalTolerance;
+  if (moves_x == moves_y) {
+    throw Refusal(
+        format("point %u at (%g, %g) does not differ from (%g, %g), the one before, "
+               "along one axis",
+               static_cast<unsigned>(number), to.x, to.y, from.x, from.y));
+  }
+  checkClear(world, robot, from, to);
+}
+
+void checkReleased(const FollowPath& m, std::uint64_t size) {
+  if (m.released <= size) return;
+  throw Refusal(
+      format("released %u: the path has %u points", m.released, static_cast<unsigned>(size)));
+}
+
+bool hasTurns(const WorldState& world, int robot, const std::vector<PathPoint>& points) {
+  double angle = world.fleet.yaw[robot];
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const double next = std::atan2(points[k].y - points[k - 1].y, points[k].x - points[k - 1].x);
+    if (std::abs(std::remainder(next - angle, 2 * M_PI)) > M_PI / 4) return true;
+    angle = next;
+  }
+  return false;
+}
+
+void checkTurns(const WorldState& world, int robot, const std::vector<PathPoint>& points) {
+  if (world.fleet.robots[robot].has_rotation || !hasTurns(world, robot, points)) return;
+  throw Refusal("it has no rotation plugin");
+}
+
+// --- a change of the path under way
+
+/// The message's points that are new. Throws Refusal if a released one is to become another, or a
+/// new one can't be driven to.
+std::vector<PathPoint> checkedChange(const WorldState& world, int robot, const FollowPath& m) {
+  const ReleasedPath& path = world.fleet.tasks[robot].path;
+  const std::uint32_t committed = std::min(path.released, m.released);
+  std::vector<PathPoint> points(m.x.size());
+  bool is_new = false;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto number = static_cast<std::uint32_t>(m.first + k);
+    points[k] = {m.x[k], m.y[k]};
+    if (number < path.first) continue;  // left and forgotten
+    const bool was_new = is_new;
+    is_new = number >= path.size() || !isSame(points[k], path[number]);
+    if (is_new && number < committed) {
+      throw Refusal(
+          format("point %u is released and can't become (%g, %g)", number, m.x[k], m.y[k]));
+    }
+    points[k] = is_new ? checkedPoint(world, m, k) : path[number];
+    if (!is_new && !was_new) continue;
+    checkLink(world, robot, k > 0 ? points[k - 1] : path[number - 1], points[k], number);
+  }
+  return points;
+}
+
+/// Where the present run would end, and how far along it.
+struct RunEnd {
+  std::uint32_t point;
+  double along;
+};
+
+/// How far the run reaches if that much of the path is released; the robot can stop there, or it
+/// throws Refusal.
+RunEnd checkedRunEnd(const WorldState& world, int robot, std::uint32_t released) {
+  const FleetState& f = world.fleet;
+  const Task& task = f.tasks[robot];
+  const auto tooLate = [&] {
+    return Refusal(format("released %u: it can no longer stop there; it has come to %u points",
+                          released, f.reached[robot]));
+  };
+  if (released <= task.path.origin) throw tooLate();
+  const std::uint32_t end = std::min(task.path.end, released - 1);
+  if (!task.isOnRun()) return {end, 0};  // it stands, turns, or is on its way to the path
+  const double along = alongRun(task, end);
+  if (end == task.path.end) return {end, along};
+  if (task.drives()) {
+    if (!f.profile(robot).canStopAt(along, f.deceleration[robot], world.dt)) throw tooLate();
+  } else if (alongSegment(f, robot) > along + kCentred) {
+    throw tooLate();
+  }
+  return {end, along};
+}
+
+void setRunEnd(WorldState& world, int robot, double goal) {
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[robot];
+  if (task.segments.front().goal == goal) return;
+  task.segments.front().goal = goal;
+  if (task.phase == Phase::kDriving) setGoal(world, robot, goal);
+  if (task.phase == Phase::kBraking) setGoal(world, robot, std::min(f.goal[robot], goal));
+}
+
+}  // namespace
+
+bool changesPath(const WorldState& world, int robot, const FollowPath& m) {
+  return world.fleet.tasks[robot].follows() && world.fleet.path_id[robot] == m.path_id;
+}
+
+void startPath(WorldState& world, int robot, std::uint32_t number, const FollowPath& m) {
+  const FleetState& f = world.fleet;
+  checkMotion(world, robot);
+  if (m.path_id != 0 && m.path_id == f.path_id[robot]) {
+    throw Refusal(format("path %u is over", m.path_id));
+  }
+  checkNumbers(m, 0);
+  checkReleased(m, m.x.size());
+  ReleasedPath path;
+  for (std::size_t k = 0; k < m.x.size(); ++k) {
+    path.points.push_back(checkedPoint(world, m, k));
+    if (k > 0) checkLink(world, robot, path.points[k - 1], path.points[k], k);
+  }
+  path.released = m.released;
+  checkTurns(world, robot, path.points);
+  Route route(world, robot);
+  const PathPoint here{route.at().x, route.at().y};
+  if (!isSame(here, path.points[0])) {
+    throw Refusal(
+        format("point 0 is (%g, %g), and it stands on (%g, %g)", m.x[0], m.y[0], here.x, here.y));
+  }
+  Task& task = world.fleet.tasks[robot];
+  task.command = number;
+  task.goal = format("follow path %u", m.path_id);
+  world.reportCommand(Event::Kind::kAccepted, robot, "", task.goal);
+  beginPath(world, robot, m.path_id, std::move(path), route.takeSegments());
+}
+
+void changePath(WorldState& world, int robot, const FollowPath& m) {
+  Task& task = world.fleet.tasks[robot];
+  if (task.cancelled) throw Refusal(format("path %u is being cancelled", m.path_id));
+  if (task.phase == Phase::kHalting) throw Refusal(format("path %u ends here", m.path_id));
+  ReleasedPath& path = task.path;
+  checkNumbers(m, path.size());
+  const std::uint64_t size = m.x.empty() ? path.size() : m.first + m.x.size();
+  checkReleased(m, size);
+  const RunEnd end = checkedRunEnd(world, robot, m.released);
+  const std::vector<PathPoint> points = checkedChange(world, robot, m);
+  checkTurns(world, robot, points);
+
+  const std::uint32_t kept = std::max(path.first, m.first);
+  if (!points.empty()) {
+    path.points.resize(kept - path.first);
+    path.points.insert(path.points.end(), points.begin() + (kept - m.first), points.end());
+  }
+  path.released = m.released;
+  path.end = end.point;
+  if (task.phase == Phase::kWaiting && task.segments.empty()) {
+    const std::uint32_t next = path.origin + 1;
+    if (next < path.released || next == path.size()) continuePath(world, robot);
+  } else if (task.isOnRun()) {
+    if (path.end > path.origin) path.extendRun();
+    setRunEnd(world, robot, alongRun(task, path.end));
+  }
+}
+
+}  // namespace kiva

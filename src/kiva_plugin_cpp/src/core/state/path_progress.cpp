@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/state/path_progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/angle.h"
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kHalfPi = M_PI / 2;
+constexpr double kCentred = 0.001;  // [m] from a point: the robot has come to it
+constexpr double kRounding = 1e-9;  // [m]
+
+/// A place seen from the origin of the present run [m].
+struct OnRun {
+  double along, beside;
+};
+
+OnRun onRun(const Task& task, std::uint32_t point) {
+  const MotionSegment& run = task.segments.front();
+  const double c = std::round(std::cos(run.yaw)), s = std::round(std::sin(run.yaw));
+  const double dx = task.path[point].x - run.x, dy = task.path[point].y - run.y;
+  return {c * dx + s * dy, c * dy - s * dx};
+}
+
+/// How far the middle of a robot must be from that of a cell to be out of it, ahead and aside [m].
+OnRun outOfCell(const WorldState& world, int robot) {
+  const Robot& r = world.fleet.robots[robot];
+  const double half = world.grid_spacing / 2 - kRounding;
+  return {half + halfLength(r), half + halfWidth(r)};
+}
+
+double headingOf(const PathPoint& from, const PathPoint& to) {
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
+
+MotionSegment turnTo(double heading) {
+  MotionSegment turn;
+  turn.yaw = heading;
+  return turn;
+}
+
+/// The run from its origin along a heading.
+MotionSegment driveAlong(const WorldState& world, const ReleasedPath& path, double heading) {
+  const PathPoint &from = path[path.origin], &to = path[path.end];
+  MotionSegment run;
+  run.kind = MotionSegment::Kind::kDrive;
+  run.x = from.x;
+  run.y = from.y;
+  run.yaw = heading;
+  run.goal = std::abs(to.x - from.x) + std::abs(to.y - from.y);
+  run.state = std::abs(to.x - from.x) > world.grid_spacing / 2 ? State::kMovingX : State::kMovingY;
+  return run;
+}
+
+}  // namespace
+
+MotionSegment nextSegment(const WorldState& world, int robot) {
+  const Task& task = world.fleet.tasks[robot];
+  const ReleasedPath& path = task.path;
+  const double square = std::round(world.fleet.yaw[robot] / kHalfPi) * kHalfPi;
+  const double ahead = headingOf(path[path.origin], path[path.origin + 1]);
+  const double heading = headingNear(square, ahead);
+  return std::abs(heading - square) > kHalfPi / 2 ? turnTo(heading)
+                                                  : driveAlong(world, path, heading);
+}
+
+double alongRun(const Task& task, std::uint32_t point) { return onRun(task, point).along; }
+
+void countPoints(WorldState& world, int robot, double along) {
+  FleetState& f = world.fleet;
+  const Task& task = f.tasks[robot];
+  if (!task.isOnRun()) return;
+  std::uint32_t& reached = f.reached[robot];
+  std::uint32_t& left = f.left[robot];
+  while (reached <= task.path.end && along >= alongRun(task, reached) - kCentred) ++reached;
+  const OnRun out = outOfCell(world, robot);
+  const auto isLeft = [&](std::uint32_t point) {
+    const OnRun at = onRun(task, point);
+    return along - at.along >= out.along || std::abs(at.beside) >= out.beside;
+  };
+  while (left < reached && isLeft(left)) ++left;
+}
+
+double nextCount(const WorldState& world, int robot) {
+  const FleetState& f = world.fleet;
+  const Task& task = f.tasks[robot];
+  double next = std::numeric_limits<double>::infinity();
+  if (!task.isOnRun()) return next;
+  const std::uint32_t reached = f.reached[robot], left = f.left[robot];
+  if (reached <= task.path.end) next = alongRun(task, reached) - kCentred;
+  if (left < reached) next = std::min(next, alongRun(task, left) + outOfCell(world, robot).along);
+  return next;
+}
+
+std::vector<PathPoint> pointsAhead(const WorldState& world, int robot) {
+  const ReleasedPath& path = world.fleet.tasks[robot].path;
+  std::vector<PathPoint> points;
+  for (std::uint32_t k = world.fleet.reached[robot]; k < path.size(); ++k) {
+    const bool ends = k + 1 == path.size() || k + 1 == path.released;
+    if (ends || !path.isStraight(k - 1, k, k + 1)) points.push_back(path[k]);
+  }
+  return points;
+}
+
+}  // namespace kiva

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A whole warehouse at work in one process: the world, and the fleet that moves its units.
+
+    driver = FleetDriver(World.preset("huge"))
+    driver.transports.submit(17, "pick3")
+    driver.step_until(3600)
+"""
+
+import numpy as np
+
+from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.traffic import Traffic
+from warehouse_fleet.transports import Transports
+
+UPDATE = 0.1  # between two releases [s]
+REFUSED, COLLISION = 1, 6  # EventKind
+
+
+class FleetDriver:
+    """Drives all robots of a kiva_plugin_cpp.World. `transports` is what it is told to do.
+
+    The same world, seed and requests give the same run. Events of the world that are about
+    something else than driving go to `events`, if that is a list.
+    """
+
+    def __init__(self, world, seed=1, planner=None, choose_robot=None, choose_place=None):
+        self.world = world
+        self.plan = FloorPlan.of_world(world)
+        self.plan.check()
+        self.traffic = Traffic(self.plan, world.fleet.kiva_id, seed=seed, planner=planner)
+        units = world.storage_units
+        cells = self.plan.cell_of(units["x"], units["y"])
+        self.transports = Transports(
+            self.plan,
+            self.traffic,
+            dict(zip(units["shelf_id"].tolist(), cells.tolist())),
+            self._lift,
+            choose_robot,
+            choose_place,
+        )
+        self.traffic.loaded[:] = world.fleet.shelf_id != 0
+        self.events = None
+        self.collisions = 0
+        self.refusals = []  # texts
+        self._index = {int(kiva): i for i, kiva in enumerate(world.fleet.kiva_id)}
+        self._steps = max(1, round(UPDATE / world.step_size))
+
+    def close(self):
+        """Ends the planner's thread."""
+        self.traffic.close()
+
+    def _lift(self, kiva_id, shelf_id, up):
+        if up:
+            self.world.carry(kiva_id, shelf_id)
+        else:
+            self.world.drop(kiva_id, shelf_id)
+
+    @property
+    def time(self):
+        """Simulated [s]."""
+        return self.world.time
+
+    @property
+    def stations(self):
+        """The floor's Stations."""
+        return self.plan.stations
+
+    def step(self):
+        """Goes on by 0.1 s."""
+        self._hear()
+        report = self.world.fleet
+        self.traffic.observe(self.world.time, report)
+        self.transports.advance(report)
+        releases = self.traffic.releases()
+        if len(releases[0]):
+            self.world.follow(*releases)
+        self.world.step(self._steps)
+
+    def step_until(self, time):
+        """Goes on until that simulated time [s]."""
+        while self.world.time < time - 1e-9:
+            self.step()
+
+    def _hear(self):
+        events = self.world.events()
+        if self.events is not None:
+            self.events.append(events)
+        kinds = events["kind"]
+        self.collisions += int(np.count_nonzero(kinds == COLLISION))
+        for event in events[kinds == REFUSED]:
+            self.refusals.append(f"{event['model']}: {event['text']}")
+            robot = self._index.get(int(event["model"].removeprefix("kiva")))
+            if robot is not None:
+                self.traffic.refused(robot)
+
+    @property
+    def blocked(self):
+        """How often a robot was BLOCKED."""
+        return self.traffic.blocked
+
+    @property
+    def distance_m(self):
+        """Driven with a plan by all robots, in whole journeys [m]."""
+        return self.transports.totals.cells * self.plan.spacing
+
+    @property
+    def executed_over_planned(self):
+        """Seconds that robots drove over those of their plans; 1 before anybody has arrived."""
+        totals = self.transports.totals
+        return totals.driven / totals.planned if totals.planned else 1.0
+
+    @property
+    def plan_ms(self):
+        """Computing time of each plan [ms]."""
+        return [1e3 * seconds for seconds in self.traffic.plan_seconds]

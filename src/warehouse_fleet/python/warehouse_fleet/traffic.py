@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Drives a fleet over the floor: from where each robot is to go, to paths that are released to it
+cell by cell. Neither ROS nor physics; whoever has robots tells what they report, and sends what is
+released.
+
+    traffic = Traffic(plan, kiva_ids)
+    every 0.1 s of simulated time:
+        traffic.observe(time, reports)            # x, y, yaw, …: the arrays of FleetState
+        traffic.send(robot, cell)                 # robots are indices into kiva_ids
+        world.follow(*traffic.releases())         # the arrays of FleetFollow
+"""
+
+import concurrent.futures
+import time as clock
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from warehouse_fleet import Execution, epibt
+
+NOWHERE = -1
+IDLE = 0  # KivaStatus.STATUS_IDLE
+HORIZON = 7  # ticks
+PUZZLED = 5.0  # a robot that has cells before it and does not move is broken after so long [s]
+
+
+class Mode(IntEnum):
+    """Who commands a robot."""
+
+    AUTOMATIC = 0
+    MANUAL = 1
+    OUT_OF_SERVICE = 2
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What robots can do. The defaults are those of the Kiva."""
+
+    speed: float = 1.5  # [m/s]
+    acceleration: float = 1.0  # [m/s²]
+    quarter: float = 0.625  # of a turn [s]
+    latency: float = 0.25  # from a report to what is released for it [s]
+
+
+class Traffic:
+    """Who is where, who goes where, and by which plan.
+
+    Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
+    work: it stays), `mode`. A plan is begun every tick on a thread of its own, and taken up `lag`
+    seconds later, whenever it is ready: so a run does not depend on the machine.
+    """
+
+    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.2):
+        self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
+        self.motion = motion or Motion()
+        self.floor = plan.floor()
+        self.planner = planner or epibt(
+            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, crowd=10, memory=200
+        )
+        self.attempts, self.lag = attempts, lag
+        self.tick = plan.spacing / self.motion.speed
+        count = len(self.kiva_ids)
+        self.goal = np.full(count, NOWHERE, np.int32)
+        self.home = np.full(count, NOWHERE, np.int32)
+        self.loaded = np.zeros(count, bool)
+        self.busy = np.zeros(count, bool)
+        self.mode = np.zeros(count, np.uint8)
+        self.cell = np.full(count, NOWHERE, np.int32)  # where each stands, or stood last
+        self.stands = np.zeros(count, bool)  # with nothing before it
+        self.waits_for = np.full(count, NOWHERE, np.int32)  # a robot
+        self.still_since = np.zeros(count)
+        self.plan_seconds = []  # computing time of each plan
+        self.plans = 0
+        self.time = 0.0
+        self._execution = Execution(
+            self.floor,
+            origin=plan.origin,
+            spacing=plan.spacing,
+            speed=self.motion.speed,
+            acceleration=self.motion.acceleration,
+            quarter=self.motion.quarter,
+            latency=self.motion.latency,
+        )
+        self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")
+        self._plan, self._due, self._next = None, 0.0, 0.0
+
+    def close(self):
+        """Ends the planner's thread."""
+        self._thread.shutdown()
+
+    def observe(self, time, report):
+        """Takes in what all robots report: an object with the arrays of FleetState."""
+        self.time = time
+        self._execution.observe(
+            time,
+            report.x,
+            report.y,
+            report.yaw,
+            report.vx,
+            report.vy,
+            report.status,
+            report.state,
+            report.path_id,
+            report.reached,
+            report.left,
+            self.mode == Mode.AUTOMATIC,
+            self.busy,
+            self.loaded,
+        )
+        self.cell = self._execution.cell()
+        self.stands = self._execution.stands()
+        self.still_since = self._execution.still_since()
+
+    @property
+    def arrived(self):
+        """Which robots stand where they were sent."""
+        return np.flatnonzero(self.stands & ~self.busy & (self.cell == self.goal))
+
+    def send(self, robot, cell, home=NOWHERE):
+        """A robot is to go there; `home` is a storage place that it may enter with a load."""
+        self.goal[robot], self.home[robot] = cell, home
+
+    def refused(self, robot):
+        """A robot has refused its path."""
+        self._execution.refused(robot)
+
+    def shut(self, cell, until):
+        """Nobody may enter a cell for so long."""
+        self._execution.close(cell, until)
+
+    def journey(self, robot):
+        """(seconds driven, seconds planned, cells) since the last call."""
+        return self._execution.take_journey(robot)
+
+    @property
+    def blocked(self):
+        """How often a robot was BLOCKED before a cell of its own."""
+        return self._execution.blocked
+
+    def releases(self):
+        """What is to be sent now, as the arrays of FleetFollow: kiva_id, path_id, first, points, x,
+        y, released. Plans as well, when it is time."""
+        if self._plan is not None and self.time >= self._due - 1e-9:
+            self._execution.adopt(self._take_plan())
+        robots, path_id, first, points, cells, released = self._execution.release()
+        self.waits_for = self._execution.waits_for()
+        if self._plan is None and self.time >= self._next - 1e-9:
+            self._begin_plan()
+        x, y = self.plan.point_of(cells)
+        return self.kiva_ids[robots], path_id, first, points, x, y, released
+
+    def _begin_plan(self):
+        fleet = self._execution.fleet(self.goal, self.home, HORIZON)
+        self._next = max(self._next + self.tick, self.time)
+        if len(fleet):
+            self._plan = self._thread.submit(self._think, fleet)
+            self._due = self.time + self.lag
+
+    def _think(self, fleet):
+        begin = clock.thread_time()
+        actions = self.planner.plan(fleet, attempts=self.attempts)
+        self.plan_seconds.append(clock.thread_time() - begin)
+        return actions
+
+    def _take_plan(self):
+        plan, self._plan = self._plan, None
+        self.plans += 1
+        return plan.result()
+
+    def paths(self, robot):
+        """(cells that it holds, cells planned beyond)."""
+        return self._execution.released(robot), self._execution.planned(robot)

@@ -1,0 +1,495 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transports: a storage unit is fetched, brought to a station or a cell, waits there until it is let
+go, and is stored again. Neither ROS nor physics: `fleet` lifts, `traffic` drives."""
+
+import collections
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from warehouse_fleet.traffic import NOWHERE, Mode
+
+STORE, STAY = 0, 1  # what becomes of the unit afterwards
+LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
+LIFT_ATTEMPTS = 3
+APPROACHING = 0  # units on their way to a station beyond those that have room in its lane
+
+
+class Kind(IntEnum):
+    """What happened to a transport."""
+
+    RECEIVED = 0
+    ASSIGNED = 1
+    LIFTED = 2
+    ARRIVED = 3
+    RELEASED = 4
+    STORED = 5
+    FAILED = 6
+    CANCELLED = 7
+
+
+class TransportEvent(NamedTuple):
+    """As the message of this name."""
+
+    stamp: float
+    transport_id: int
+    kind: Kind
+    kiva_id: int
+    shelf_id: int
+    station: str
+    text: str
+
+
+class Answer(NamedTuple):
+    """To a request; `transport_id` is 0 if it was refused."""
+
+    transport_id: int
+    accepted: bool
+    message: str
+
+
+class Step(IntEnum):
+    """How far a transport is."""
+
+    OPEN = 0  # no robot yet
+    FETCHING = 1  # the robot drives beneath the unit
+    LIFTING = 2
+    BRINGING = 3
+    WAITING = 4  # at its destination, until it is let go
+    STORING = 5  # on the way to a storage place
+    DROPPING = 6
+
+
+@dataclass
+class Transport:
+    """One transport; cells are the floor's, times simulated [s]."""
+
+    number: int
+    shelf: int
+    station: str
+    cell: int  # where it is to be brought
+    then: int
+    priority: int
+    received: float
+    step: Step = Step.OPEN
+    robot: int = NOWHERE  # an index
+    let_go: bool = False
+    since: float = 0.0  # the step began
+    attempts: int = 0  # at lifting
+    place: int = NOWHERE  # the storage cell that is kept for it while it is under way
+
+
+@dataclass
+class Totals:
+    """What all robots have done so far."""
+
+    delivered: int = 0  # units that came to their destination
+    stored: int = 0
+    failed: int = 0
+    lifts: int = 0
+    cells: int = 0
+    shortest: int = 0  # cells of the same journeys on the shortest ways
+    driven: float = 0.0  # [s]
+    planned: float = 0.0  # [s]
+    delivered_to: collections.Counter = field(default_factory=collections.Counter)
+
+
+class Transports:
+    """All transports and who does them.
+
+    `units` maps a unit's number to the storage cell where it stands. `lift(kiva_id, shelf_id,
+    up)` sends the command. Two decisions can be made by others: `choose_robot(cell, free)` of the
+    indices `free` for a unit in `cell`, and `choose_place(shelf_id, cell, free)` of the cells
+    `free` for a unit that is in `cell`.
+    """
+
+    def __init__(self, plan, traffic, units, lift, choose_robot=None, choose_place=None):
+        self.plan, self.traffic, self._lift = plan, traffic, lift
+        self.choose_robot = choose_robot or self._nearest_robot
+        self.choose_place = choose_place or self._nearest_place
+        self.stations = {station.name: station for station in plan.stations}
+        self.is_open = dict.fromkeys(self.stations, True)
+        self.totals = Totals()
+        self.cell_of_unit = dict(units)  # of those that stand; NOWHERE: not on a storage place
+        self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items()}
+        self._taken = set(self._unit_in)  # places with a unit, or reserved for one
+        self._places = np.flatnonzero(plan.storage)
+        self._open = []  # transports without a robot, the most urgent first
+        self._transports = {}
+        self._of_robot = {}
+        self._of_unit = {}
+        self._inbound = collections.Counter()  # units on their way to a station or there
+        self._events = []
+        self._last = 0
+        self._shortest = {}  # of the journey that a robot is on, in cells
+
+    # What is asked of it.
+
+    def submit(self, shelf_id, station="", x=None, y=None, then=STORE, priority=0):
+        """Asks for a unit to be brought to a station, or to the cell at (x, y) [m]. An Answer."""
+        if shelf_id not in self.cell_of_unit:
+            return Answer(0, False, f"there is no storage unit {shelf_id}")
+        if shelf_id in self._of_unit:
+            number = self._of_unit[shelf_id].number
+            return Answer(0, False, f"storage unit {shelf_id} has transport {number} already")
+        if then not in (STORE, STAY):
+            return Answer(0, False, f"then is {then}; 0 (STORE) or 1 (STAY) was expected")
+        try:
+            cell = self._destination(shelf_id, station, x, y)
+        except ValueError as error:
+            return Answer(0, False, str(error))
+        self._last += 1
+        transport = Transport(
+            self._last, shelf_id, station, cell, then, priority, self.traffic.time
+        )
+        self._transports[self._last] = self._of_unit[shelf_id] = transport
+        self._enqueue(transport)
+        self._tell(transport, Kind.RECEIVED)
+        return Answer(self._last, True, "")
+
+    def _destination(self, shelf_id, station, x, y):
+        if station:
+            if station not in self.stations:
+                raise ValueError(f"there is no station {station!r}")
+            if not self.is_open[station]:
+                raise ValueError(f"station {station} is closed")
+            return self.stations[station].service_cell
+        if x is None or y is None or not np.isfinite([x, y]).all():
+            raise ValueError(f"neither a station nor a point: ({x}, {y})")
+        cell = self.plan.cell_of(x, y)
+        if cell == NOWHERE or not self.plan.passable.flat[cell]:
+            raise ValueError(f"no robot can stand at ({x:g}, {y:g})")
+        if self.plan.lane.flat[cell]:
+            raise ValueError(f"({x:g}, {y:g}) is in the lane of a station; name the station")
+        if cell in self._taken and self._unit_in.get(cell) != shelf_id:
+            raise ValueError(f"({x:g}, {y:g}) is taken")
+        return cell
+
+    def release(self, transport_id):
+        """The station is done with the unit. (success, message)."""
+        transport = self._transports.get(transport_id)
+        if transport is None:
+            return False, f"there is no transport {transport_id} under way"
+        if transport.step != Step.WAITING:
+            return False, f"transport {transport_id} has not arrived yet"
+        if transport.let_go:
+            return False, f"transport {transport_id} has been released already"
+        transport.let_go = True
+        return True, ""
+
+    def cancel(self, transport_id):
+        """Ends a transport; a unit that is lifted already is stored again. (success, message)."""
+        transport = self._transports.get(transport_id)
+        if transport is None:
+            return False, f"there is no transport {transport_id} under way"
+        if transport.step <= Step.FETCHING:
+            self._tell(transport, Kind.CANCELLED)
+            self._end(transport)
+        elif transport.step in (Step.LIFTING, Step.BRINGING, Step.WAITING):
+            self._tell(transport, Kind.CANCELLED)
+            transport.then, transport.let_go = STORE, True
+            if transport.step == Step.BRINGING:
+                self._store(transport)
+        return True, ""
+
+    def set_open(self, station, is_open):
+        """A closed station gets no more units; those on the way there are stored again."""
+        self.is_open[station] = is_open
+        if is_open:
+            return
+        for transport in list(self._transports.values()):
+            if transport.station == station and transport.step < Step.WAITING:
+                self.cancel(transport.number)
+
+    def take_events(self):
+        """All TransportEvents since the last call."""
+        events, self._events = self._events, []
+        return events
+
+    def waiting(self, station):
+        """How many units are at a station or on the way to it."""
+        return self._inbound[station]
+
+    def open_for(self, station):
+        """How many of its transports have no robot yet."""
+        return sum(transport.station == station for transport in self._open)
+
+    def capacity(self, station):
+        """How many there may be."""
+        return self.stations[station].service + 1 + APPROACHING
+
+    def get(self, transport_id):
+        """A Transport under way, or None."""
+        return self._transports.get(transport_id)
+
+    def __iter__(self):
+        return iter(self._transports.values())
+
+    # What it does.
+
+    def advance(self, report):
+        """Goes on with all of them, by what robots report: the arrays of FleetState."""
+        self._drop_lost()
+        busy = np.flatnonzero(self.traffic.busy)
+        for robot in busy:
+            self._watch_lift(int(robot), report)
+        for robot in self.traffic.arrived:
+            self._arrive(int(robot))
+        for transport in list(self._of_robot.values()):
+            if transport.step == Step.WAITING and transport.let_go:
+                self._leave(transport)
+        self._assign()
+        self._park()
+
+    def _drop_lost(self):
+        """Robots that somebody else commands now have lost their transports."""
+        for robot in np.flatnonzero(self.traffic.mode != Mode.AUTOMATIC):
+            transport = self._of_robot.get(int(robot))
+            if transport is None:
+                continue
+            if transport.step <= Step.FETCHING:
+                self._unassign(transport)
+                continue
+            mode = Mode(self.traffic.mode[robot]).name
+            self._fail(transport, f"its robot is {mode} now")
+
+    def _watch_lift(self, robot, report):
+        transport = self._of_robot.get(robot)
+        if transport is None or transport.step not in (Step.LIFTING, Step.DROPPING):
+            return
+        is_up = transport.step == Step.LIFTING
+        if report.status[robot] != 0:
+            return
+        if report.shelf_id[robot] == (transport.shelf if is_up else 0):
+            self.totals.lifts += 1
+            self.traffic.busy[robot] = False
+            self._bring(transport) if is_up else self._stored(transport)
+        elif self.traffic.time - transport.since > LIFT_PATIENCE:
+            if transport.attempts < LIFT_ATTEMPTS:
+                self._begin_lift(transport, transport.step)
+            else:
+                self.traffic.busy[robot] = False
+                self._fail(transport, "its robot does not lift" if is_up else "it can't be dropped")
+
+    def _begin_lift(self, transport, step):
+        robot = transport.robot
+        transport.step, transport.since = step, self.traffic.time
+        transport.attempts += 1
+        self.traffic.busy[robot] = True
+        self._lift(int(self.traffic.kiva_ids[robot]), transport.shelf, step == Step.LIFTING)
+
+    def _arrive(self, robot):
+        transport = self._of_robot.get(robot)
+        if transport is None:
+            return
+        if transport.step in (Step.FETCHING, Step.BRINGING, Step.STORING):
+            self._count(robot)
+        if transport.step == Step.FETCHING:
+            transport.attempts = 0
+            self._begin_lift(transport, Step.LIFTING)
+        elif transport.step == Step.BRINGING:
+            transport.step, transport.since = Step.WAITING, self.traffic.time
+            self.traffic.busy[robot] = True
+            self.totals.delivered += 1
+            self.totals.delivered_to[transport.station] += 1
+            self._tell(transport, Kind.ARRIVED)
+            if not transport.station:
+                transport.let_go = True
+        elif transport.step == Step.STORING:
+            transport.attempts = 0
+            self._begin_lift(transport, Step.DROPPING)
+
+    def _count(self, robot):
+        driven, planned, cells = self.traffic.journey(robot)
+        self.totals.driven += driven
+        self.totals.planned += planned
+        self.totals.cells += cells
+        self.totals.shortest += self._shortest.pop(robot, cells)
+
+    def _send(self, transport, cell, home=NOWHERE):
+        traffic, robot = self.traffic, transport.robot
+        traffic.journey(robot)
+        loaded = home != NOWHERE
+        begin = int(traffic.cell[robot])
+        self._shortest[robot] = traffic.floor.shortest(begin, int(cell), loaded=loaded)
+        traffic.send(robot, cell, home)
+
+    def _bring(self, transport):
+        """The unit is lifted."""
+        place = self.cell_of_unit[transport.shelf]
+        self._unit_in.pop(place, None)
+        self.cell_of_unit[transport.shelf] = NOWHERE
+        self.traffic.loaded[transport.robot] = True
+        self._tell(transport, Kind.LIFTED)
+        if transport.let_go:  # was cancelled meanwhile
+            self._taken.discard(place)
+            self._store(transport)
+            return
+        transport.step, transport.since = Step.BRINGING, self.traffic.time
+        # The place stays reserved: there is always one to return to.
+        transport.place = place
+        self._send(transport, transport.cell, self._home(transport, place))
+
+    def _home(self, transport, place):
+        """What it may enter with its load: one storage place, that it leaves or goes to."""
+        if self.plan.storage.flat[transport.cell]:
+            return transport.cell
+        return place
+
+    def _leave(self, transport):
+        """The unit is let go."""
+        self.traffic.busy[transport.robot] = False
+        self._tell(transport, Kind.RELEASED)
+        if transport.station:
+            self._inbound[transport.station] -= 1
+        if transport.then == STAY:
+            if self.plan.storage.flat[transport.cell]:
+                self._taken.discard(transport.place)
+                transport.place = transport.cell
+                self._taken.add(transport.cell)
+            transport.attempts = 0
+            self._begin_lift(transport, Step.DROPPING)
+        else:
+            self._store(transport, is_inbound=False)
+
+    def _store(self, transport, is_inbound=True):
+        if is_inbound and transport.station:
+            self._inbound[transport.station] -= 1
+        robot = transport.robot
+        self._taken.discard(transport.place)
+        free = np.array([cell for cell in self._places.tolist() if cell not in self._taken])
+        place = int(self.choose_place(transport.shelf, int(self.traffic.cell[robot]), free))
+        transport.place = place
+        self._taken.add(place)
+        transport.step, transport.since = Step.STORING, self.traffic.time
+        self._send(transport, place, place)
+
+    def _stored(self, transport):
+        robot = transport.robot
+        cell = int(self.traffic.cell[robot])
+        self.traffic.loaded[robot] = False
+        self.cell_of_unit[transport.shelf] = cell
+        self._unit_in[cell] = transport.shelf
+        self._taken.discard(transport.place)
+        self._taken.add(cell)
+        self.totals.stored += 1
+        self._tell(transport, Kind.STORED)
+        transport.step = Step.DROPPING
+        self._end(transport)
+
+    def _fail(self, transport, text):
+        self.totals.failed += 1
+        self._tell(transport, Kind.FAILED, text)
+        if Step.FETCHING < transport.step < Step.STORING and transport.station:
+            self._inbound[transport.station] -= 1
+            transport.station = ""
+        self._taken.discard(transport.place)
+        self._end(transport)
+
+    def _end(self, transport):
+        if transport.step <= Step.FETCHING and transport.step != Step.OPEN and transport.station:
+            self._inbound[transport.station] -= 1
+        if transport in self._open:
+            self._open.remove(transport)
+        if transport.robot != NOWHERE:
+            self._of_robot.pop(transport.robot, None)
+            self.traffic.goal[transport.robot] = NOWHERE
+            self.traffic.home[transport.robot] = NOWHERE
+        self._of_unit.pop(transport.shelf, None)
+        self._transports.pop(transport.number, None)
+
+    def _unassign(self, transport):
+        """Another robot will fetch it."""
+        if transport.station:
+            self._inbound[transport.station] -= 1
+        self._of_robot.pop(transport.robot, None)
+        transport.robot, transport.step = NOWHERE, Step.OPEN
+        self._enqueue(transport)
+
+    def _enqueue(self, transport):
+        self._open.append(transport)
+        self._open.sort(key=lambda one: (-one.priority, one.number))
+
+    def _assign(self):
+        """Robots for what waits, as far as stations have room."""
+        traffic = self.traffic
+        if not self._open:
+            return
+        is_free = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
+        is_free &= traffic.cell != NOWHERE
+        is_free[list(self._of_robot)] = False
+        for transport in list(self._open):
+            if not is_free.any():
+                return
+            station = transport.station
+            if station and self._inbound[station] >= self.capacity(station):
+                continue
+            cell = self.cell_of_unit[transport.shelf]
+            if cell == NOWHERE:
+                continue
+            robot = int(self.choose_robot(cell, np.flatnonzero(is_free)))
+            is_free[robot] = False
+            self._open.remove(transport)
+            transport.robot, transport.step = robot, Step.FETCHING
+            transport.since = traffic.time
+            self._of_robot[robot] = transport
+            if station:
+                self._inbound[station] += 1
+            self._tell(transport, Kind.ASSIGNED)
+            self._send(transport, cell)
+
+    def _park(self):
+        """Robots without work that stand in a street or a lane go beneath a stored unit."""
+        traffic = self.traffic
+        without = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & (traffic.cell != NOWHERE)
+        without[list(self._of_robot)] = False
+        aside = (self.plan.storage | self.plan.parking).ravel()
+        goals = set(traffic.goal[traffic.goal != NOWHERE].tolist()) | set(traffic.cell.tolist())
+        for robot in np.flatnonzero(without):
+            cell = int(traffic.cell[robot])
+            if traffic.loaded[robot]:
+                continue
+            if traffic.goal[robot] != NOWHERE:
+                if traffic.goal[robot] == cell:
+                    traffic.send(robot, NOWHERE)
+                continue
+            if aside[cell]:
+                continue
+            place = self._nearest(cell, [c for c in self._unit_in if c not in goals])
+            if place != NOWHERE:
+                goals.add(place)
+                traffic.send(robot, place)
+
+    def _nearest(self, cell, cells):
+        if not len(cells):
+            return NOWHERE
+        cells = np.asarray(cells)
+        return int(cells[self._far(cell, cells).argmin()])
+
+    def _far(self, cell, cells):
+        width = self.plan.passable.shape[1]
+        (y, x), (ys, xs) = divmod(cell, width), np.divmod(cells, width)
+        return np.abs(xs - x) + np.abs(ys - y)
+
+    def _nearest_robot(self, cell, free):
+        return free[self._far(cell, self.traffic.cell[free]).argmin()]
+
+    def _nearest_place(self, _shelf_id, cell, free):
+        return self._nearest(cell, free)
+
+    def _tell(self, transport, kind, text=""):
+        robot = transport.robot
+        kiva_id = int(self.traffic.kiva_ids[robot]) if robot != NOWHERE else 0
+        self._events.append(
+            TransportEvent(
+                self.traffic.time,
+                transport.number,
+                kind,
+                kiva_id,
+                transport.shelf,
+                transport.station,
+                text,
+            )
+        )

@@ -1,0 +1,571 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "warehouse_fleet/execution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fleet {
+namespace {
+
+// KivaStatus.
+constexpr std::uint8_t kStatusIdle = 0;
+constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
+
+constexpr double kCentred = 0.02;     // from a grid point [m]
+constexpr double kReach = 0.43;       // of a robot with its load, from its centre along x and y [m]
+constexpr double kTurnsSoon = 0.35;   // from a corner, where what comes after it is released [m]
+constexpr double kUnanswered = 0.5;   // after which something is sent again [s]
+constexpr double kBlockedFor = 1;     // after which a robot is sent another way [s]
+constexpr double kClosedFor = 10;     // that what was in its way is taken to stay [s]
+constexpr double kStandstill = 0.01;  // [m/s]
+constexpr int kNobody = -1;
+
+/// How long a run from rest to rest takes [s].
+double runTime(double metres, const Motion& motion) {
+  const double ramps = motion.speed * motion.speed / motion.acceleration;
+  if (metres >= ramps) return metres / motion.speed + motion.speed / motion.acceleration;
+  return 2 * std::sqrt(metres / motion.acceleration);
+}
+
+/// When a robot that accelerates from `speed` has come so far [s]; `speed` becomes what it has
+/// then.
+double timeUntil(double metres, const Motion& motion, double& speed) {
+  const double begin = speed;
+  const double end = std::sqrt(begin * begin + 2 * motion.acceleration * metres);
+  if (end <= motion.speed) {
+    speed = end;
+    return (end - begin) / motion.acceleration;
+  }
+  speed = motion.speed;
+  const double ramp = (speed * speed - begin * begin) / (2 * motion.acceleration);
+  return std::max(0.0, speed - begin) / motion.acceleration + (metres - ramp) / speed;
+}
+
+}  // namespace
+
+Execution::Execution(const Floor& floor, const Motion& motion)
+    : floor_(floor),
+      motion_(motion),
+      holder_(floor.size(), kNobody),
+      next_claim_(floor.size(), -1),
+      closed_until_(floor.size(), -1) {}
+
+void Execution::observe(double time, const std::vector<Report>& reports) {
+  const double elapsed = std::max(0.0, time - now_);
+  now_ = time;
+  if (reports.size() != courses_.size()) {
+    std::fill(holder_.begin(), holder_.end(), kNobody);
+    courses_.assign(reports.size(), {});
+    claims_.clear();
+    std::fill(next_claim_.begin(), next_claim_.end(), -1);
+    members_.clear();
+  }
+  reports_ = reports;
+  const int robots = static_cast<int>(reports.size());
+  // Who drives as told first: others get only what those have not got.
+  for (int robot = 0; robot < robots; ++robot) {
+    Course& course = courses_[robot];
+    if (course.is_member && !reports[robot].is_controlled) dismiss(robot);
+    if (!course.is_member) continue;
+    follow(robot);
+    measure(robot, elapsed);
+  }
+  for (int robot = 0; robot < robots; ++robot) {
+    if (courses_[robot].is_member) continue;
+    vacate(robot);
+    if (reports[robot].is_controlled) admit(robot);
+    if (!courses_[robot].is_member) occupy(robot);
+  }
+}
+
+/// It drives as it is told from now on, if it stands in a cell that nobody else has.
+void Execution::admit(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  const Cell at = cellAt(report.x, report.y);
+  if (report.status != kStatusIdle || at == kNowhere || !floor_.isPassable(at)) return;
+  if (holder_[at] != kNobody) return;
+  const std::uint32_t id = std::max(course.id, report.path_id);
+  course = {};
+  course.id = id;
+  course.is_member = true;
+  course.at = at;
+  course.cells = {at};
+  course.is_off = true;
+  course.still_since = now_;
+  hold(at, robot);
+}
+
+void Execution::dismiss(int robot) {
+  Course& course = courses_[robot];
+  for (const Cell cell : course.cells) free(cell, robot);
+  const std::uint32_t id = course.id;
+  course = {};
+  course.id = id;
+}
+
+/// What an obstacle stands on, and what it drives onto next.
+void Execution::occupy(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  course.at = cellAt(report.x, report.y);
+  const double reach = kReach * motion_.spacing, ahead = 0.7 * motion_.spacing;
+  const double speed = std::hypot(report.vx, report.vy);
+  const double dx = speed > kStandstill ? ahead * report.vx / speed : 0;
+  const double dy = speed > kStandstill ? ahead * report.vy / speed : 0;
+  for (const double x : {std::min(0.0, dx) - reach, std::max(0.0, dx) + reach}) {
+    for (const double y : {std::min(0.0, dy) - reach, std::max(0.0, dy) + reach}) {
+      const Cell cell = cellAt(report.x + x, report.y + y);
+      if (cell == kNowhere || holder_[cell] != kNobody) continue;
+      hold(cell, robot);
+      course.occupied.push_back(cell);
+    }
+  }
+}
+
+void Execution::vacate(int robot) {
+  for (const Cell cell : courses_[robot].occupied) free(cell, robot);
+  courses_[robot].occupied.clear();
+}
+
+void Execution::free(Cell cell, int robot) {
+  if (holder_[cell] == robot) holder_[cell] = kNobody;
+}
+
+/// Takes in how far it has come.
+void Execution::follow(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  if (course.turning != kNowhere && report.state != kStateRotating &&
+      (course.at != course.turning || (course.is_accepted && speedOf(robot) > kStandstill))) {
+    course.turning = kNowhere;
+  }
+  if (!course.is_active) {
+    // Somebody else has moved it.
+    const Cell at = cellAt(report.x, report.y);
+    if (at != course.at && !report.is_busy) {
+      dismiss(robot);
+      admit(robot);
+    }
+    return;
+  }
+  const bool is_reported = report.path_id == course.id;
+  if (report.status == kStatusIdle) {
+    if (course.is_accepted) finish(robot);
+    if (!course.is_accepted && is_reported) finish(robot);
+    return;
+  }
+  if (!is_reported) return;
+  course.is_accepted = true;
+  pass(robot, static_cast<int>(report.reached), static_cast<int>(report.left));
+  if (report.state == kStateBlocked) {
+    if (course.blocked_since < 0) {
+      course.blocked_since = now_;
+      ++blocked_;
+    }
+    if (now_ - course.blocked_since >= kBlockedFor) withdraw(robot);
+  } else {
+    course.blocked_since = -1;
+    course.is_withdrawn = false;
+  }
+}
+
+void Execution::pass(int robot, int reached, int left) {
+  Course& course = courses_[robot];
+  const int points = static_cast<int>(course.cells.size());
+  reached = std::clamp(reached, course.reached, points);
+  for (int point = course.reached; point < reached; ++point) {
+    const int heading = headingTo(course.cells[point - 1], course.cells[point]);
+    if (heading != course.run_heading) {
+      const int quarters = course.run_heading < 0 ? 0 : (heading - course.run_heading) & 3;
+      endRun(course);
+      course.journey.alone += motion_.quarter * (quarters == 3 ? 1 : quarters);
+      course.run_heading = heading;
+    }
+    ++course.run;
+    ++course.journey.cells;
+  }
+  course.reached = reached;
+  course.at = course.cells[reached - 1];
+  left = std::clamp(left, course.left, reached - 1);
+  for (int point = course.left; point < left; ++point) {
+    const auto rest = course.cells.begin() + left;
+    if (std::find(rest, course.cells.end(), course.cells[point]) == course.cells.end()) {
+      free(course.cells[point], robot);
+    }
+  }
+  course.left = left;
+}
+
+/// Its path is over, wherever that is: it holds only where it stands.
+void Execution::finish(int robot) {
+  Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  const Cell at = cellAt(report.x, report.y);
+  if (at == course.cells.back()) pass(robot, static_cast<int>(course.cells.size()), 0);
+  const bool was_withdrawn = course.is_withdrawn;
+  for (const Cell cell : course.cells) free(cell, robot);
+  if (at == kNowhere || (holder_[at] != kNobody && holder_[at] != robot)) return dismiss(robot);
+  if (at != course.cells.back() || was_withdrawn) {
+    course.is_off = true;
+    course.plan.clear();
+  }
+  hold(at, robot);
+  course.at = at;
+  course.cells = {at};
+  course.reached = 1;
+  course.left = 0;
+  course.is_active = course.is_accepted = course.is_withdrawn = false;
+  course.turning = kNowhere;
+  course.blocked_since = -1;
+}
+
+void Execution::refused(int robot) {
+  if (robot < 0 || robot >= static_cast<int>(courses_.size())) return;
+  Course& course = courses_[robot];
+  if (course.is_member && course.is_active && !course.is_accepted) finish(robot);
+}
+
+/// Something stands in its way: the path is to end where it can still stop. It keeps its cells
+/// until it says that it has.
+void Execution::withdraw(int robot) {
+  Course& course = courses_[robot];
+  const int keep = std::min<int>(course.cells.size(), course.reached + (isCentred(robot) ? 0 : 1));
+  const int points = static_cast<int>(course.cells.size());
+  if (keep < points) close(course.cells[keep], now_ + kClosedFor);
+  if (course.is_withdrawn && now_ - course.sent < kUnanswered) return;
+  course.is_withdrawn = true;
+  course.plan.clear();
+  course.is_off = true;
+  course.sent = now_;
+  releases_.robot.push_back(robot);
+  releases_.path_id.push_back(course.id);
+  releases_.first.push_back(keep);
+  releases_.points.push_back(0);
+  releases_.released.push_back(keep);
+}
+
+/// Sums up what it has driven straight on.
+void Execution::endRun(Course& course) const {
+  if (course.run > 0) course.journey.alone += runTime(course.run * motion_.spacing, motion_);
+  course.run = 0;
+}
+
+void Execution::measure(int robot, double elapsed) {
+  Course& course = courses_[robot];
+  if (!course.is_member) return;
+  const bool is_still = speedOf(robot) < kStandstill && reports_[robot].state != kStateRotating;
+  if (!course.travels || !is_still) course.still_since = now_;
+  if (!course.travels) return;
+  course.journey.driven += elapsed;
+  if (!is_still || !course.waits_by_plan || toGo(robot) > kCentred) return;
+  course.journey.planned += elapsed;
+  endRun(course);
+}
+
+Journey Execution::takeJourney(int robot) {
+  Course& course = courses_[robot];
+  endRun(course);
+  course.run_heading = -1;
+  Journey journey = course.journey;
+  journey.planned += journey.alone;
+  course.journey = {};
+  return journey;
+}
+
+Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& home, int horizon) {
+  members_.clear();
+  asked_ = {};
+  asked_.committed_ticks = horizon;
+  const int robots = static_cast<int>(courses_.size());
+  for (int robot = 0; robot < robots; ++robot) {
+    Course& course = courses_[robot];
+    if (!course.is_member) continue;
+    members_.push_back(robot);
+    asked_.cell.push_back(course.at);
+    asked_.heading.push_back(headingOf(robot));
+    asked_.goal.push_back(goal[robot]);
+    asked_.home.push_back(home[robot]);
+    asked_.loaded.push_back(reports_[robot].is_loaded);
+    asked_.committed.resize(asked_.committed.size() + horizon, Fleet::kFree);
+    commit(robot, &asked_.committed[asked_.committed.size() - horizon], horizon);
+    course.travels = goal[robot] != kNowhere && goal[robot] != course.at;
+    course.committed = static_cast<int>(course.cells.size()) - course.reached;
+    course.granted.clear();
+    course.is_off = false;
+  }
+  asked_.closed = closed();
+  return asked_;
+}
+
+std::vector<Cell> Execution::closed() const {
+  std::vector<Cell> closed;
+  for (const Cell cell : closing_) {
+    if (closed_until_[cell] > now_) closed.push_back(cell);
+  }
+  for (const Course& course : courses_) {
+    closed.insert(closed.end(), course.occupied.begin(), course.occupied.end());
+  }
+  std::sort(closed.begin(), closed.end());
+  closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
+  return closed;
+}
+
+void Execution::close(Cell cell, double until) {
+  if (!floor_.has(cell)) return;
+  if (std::find(closing_.begin(), closing_.end(), cell) == closing_.end()) closing_.push_back(cell);
+  closed_until_[cell] = std::max(closed_until_[cell], until);
+}
+
+/// What it has been released, as actions: turns, drives, and waiting where it takes longer.
+void Execution::commit(int robot, std::uint8_t* row, int horizon) const {
+  const Course& course = courses_[robot];
+  int tick = 0;
+  const auto add = [&](Action action) {
+    if (tick < horizon) row[tick++] = static_cast<std::uint8_t>(action);
+  };
+  if (reports_[robot].is_busy) {
+    while (tick < horizon) add(Action::kWait);
+    return;
+  }
+  int heading = headingOf(robot);
+  double time = 0, speed = speedOf(robot);
+  for (int point = course.reached; point < static_cast<int>(course.cells.size()); ++point) {
+    const Cell from = course.cells[point - 1], to = course.cells[point];
+    const int towards = headingTo(from, to);
+    const int quarters = (towards - heading) & 3;
+    for (int turn = 0; turn < (quarters == 3 ? 1 : quarters); ++turn) {
+      add(quarters == 3 ? Action::kTurnNegative : Action::kTurnPositive);
+      time += motion_.quarter;
+      speed = 0;
+    }
+    heading = towards;
+    const Report& report = reports_[robot];
+    const double metres = point > course.reached
+                              ? motion_.spacing
+                              : std::abs(xOf(to) - report.x) + std::abs(yOf(to) - report.y);
+    time += timeUntil(metres, motion_, speed);
+    while (tick + 1 < std::lround(time / motion_.tick()) && tick < horizon) add(Action::kWait);
+    add(Action::kForward);
+  }
+}
+
+void Execution::adopt(const Plan& plan) {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (courses_[members_[i]].is_member) take(members_[i], plan, static_cast<int>(i));
+  }
+  queueUp();
+}
+
+/// What the plan has for it beyond what it is released by now.
+void Execution::take(int robot, const Plan& plan, int index) {
+  Course& course = courses_[robot];
+  course.plan.clear();
+  course.waits_by_plan = false;
+  if (course.is_off || course.is_withdrawn) return;
+  State state{asked_.cell[index], asked_.heading[index]};
+  std::vector<Step> steps;
+  int first = plan.horizon;  // when it moves or turns by its own will
+  for (int tick = 0; tick < plan.horizon; ++tick) {
+    const Action action = plan.at(index, tick);
+    if (asked_.commitments(index) <= tick && action != Action::kWait) first = std::min(first, tick);
+    state = after(floor_, state, action);
+    if (action == Action::kForward && state.cell != kNowhere) steps.push_back({state.cell, tick});
+  }
+  const std::size_t known = course.committed + course.granted.size();
+  for (std::size_t i = course.committed; i < known; ++i) {
+    if (i >= steps.size() || steps[i].cell != course.granted[i - course.committed]) return;
+  }
+  if (steps.size() > known) course.plan.assign(steps.begin() + known, steps.end());
+  course.waits_by_plan = first > asked_.commitments(index) && course.granted.empty();
+}
+
+/// For each cell, who passes it first.
+void Execution::queueUp() {
+  for (const Claim& claim : claims_) next_claim_[claim.cell] = -1;
+  claims_.clear();
+  for (const int robot : members_) {
+    for (const Step& step : courses_[robot].plan) claims_.push_back({step.cell, step.tick, robot});
+  }
+  std::sort(claims_.begin(), claims_.end(), [](const Claim& one, const Claim& other) {
+    if (one.cell != other.cell) return one.cell < other.cell;
+    return one.tick != other.tick ? one.tick < other.tick : one.robot < other.robot;
+  });
+  for (std::size_t i = claims_.size(); i-- > 0;) next_claim_[claims_[i].cell] = static_cast<int>(i);
+}
+
+/// Who comes next by the plan; kNobody.
+int Execution::firstClaimant(Cell cell) {
+  int& next = next_claim_[cell];
+  while (next >= 0) {
+    const Claim& claim = claims_[next];
+    const Course& course = courses_[claim.robot];
+    // Its plan's first step to this cell, if it has that step still before it.
+    const auto has = [&](const Step& step) { return step.cell == cell && step.tick == claim.tick; };
+    if (std::any_of(course.plan.begin(), course.plan.end(), has)) return claim.robot;
+    const std::size_t following = next + 1;
+    next = following < claims_.size() && claims_[following].cell == cell
+               ? static_cast<int>(following)
+               : -1;
+  }
+  return kNobody;
+}
+
+Releases Execution::release() {
+  for (const int robot : members_) {
+    if (courses_[robot].is_member) extend(robot);
+  }
+  return std::exchange(releases_, {});
+}
+
+void Execution::extend(int robot) {
+  Course& course = courses_[robot];
+  course.waits_for = kNobody;
+  if (reports_[robot].is_busy || course.is_withdrawn) return;
+  const int before = static_cast<int>(course.cells.size());
+  while (!course.plan.empty() && needs(robot)) {
+    const Cell cell = course.plan.front().cell;
+    const Cell tip = course.cells.back();
+    const int arrival =
+        course.cells.size() > 1 && course.reached < static_cast<int>(course.cells.size())
+            ? headingTo(course.cells[course.cells.size() - 2], tip)
+            : headingOf(robot);
+    const bool turns = headingTo(tip, cell) != arrival;
+    if (turns && !mayTurn(robot)) break;
+    if (!mayHave(robot, cell)) break;
+    if (turns) course.turning = tip;
+    hold(cell, robot);
+    course.cells.push_back(cell);
+    course.granted.push_back(cell);
+    course.plan.erase(course.plan.begin());
+  }
+  const bool is_new = static_cast<int>(course.cells.size()) > before;
+  if (is_new && !course.is_active) {
+    ++course.id;
+    course.is_active = true;
+    course.is_accepted = false;
+    send(robot, 0);
+  } else if (is_new) {
+    send(robot, course.is_accepted ? before : 0);
+  } else if (course.is_active && now_ - course.sent > kUnanswered) {
+    const bool is_waiting = course.is_accepted && reports_[robot].state == kStateWaiting &&
+                            course.reached < static_cast<int>(course.cells.size());
+    if (is_waiting) send(robot, course.reached);
+    if (!course.is_accepted) send(robot, 0);
+  }
+}
+
+bool Execution::mayHave(int robot, Cell cell) {
+  const int holder = holder_[cell];
+  if (holder != kNobody && holder != robot) {
+    courses_[robot].waits_for = holder;
+    return false;
+  }
+  const int first = firstClaimant(cell);
+  if (first == robot) return true;
+  courses_[robot].waits_for = first;
+  return false;
+}
+
+/// Whether it would have to brake before the next release.
+bool Execution::needs(int robot) const {
+  const double latency = motion_.latency;
+  const double soon = std::min(motion_.speed, speedOf(robot) + motion_.acceleration * latency);
+  const double way = soon * latency + soon * soon / (2 * motion_.acceleration);
+  return toGo(robot) < way;
+}
+
+/// Two loaded robots side by side must not turn at once, and nobody is released around a corner
+/// before it comes to it.
+bool Execution::mayTurn(int robot) const {
+  const Course& course = courses_[robot];
+  if (toGo(robot) > kTurnsSoon) return false;
+  if (!reports_[robot].is_loaded) return true;
+  for (int heading = 0; heading < kHeadings; ++heading) {
+    const Cell beside = floor_.beside(course.cells.back(), heading);
+    const int other = beside == kNowhere ? kNobody : holder_[beside];
+    if (other == kNobody || other == robot || !reports_[other].is_loaded) continue;
+    if (courses_[other].turning == beside) return false;
+  }
+  return true;
+}
+
+/// Points from `first` on, and what comes next by the plan.
+void Execution::send(int robot, int first) {
+  Course& course = courses_[robot];
+  const int released = static_cast<int>(course.cells.size());
+  releases_.robot.push_back(robot);
+  releases_.path_id.push_back(course.id);
+  releases_.first.push_back(first);
+  releases_.released.push_back(released);
+  releases_.cells.insert(releases_.cells.end(), course.cells.begin() + first, course.cells.end());
+  std::uint32_t points = released - first;
+  for (const Step& step : course.plan) {
+    releases_.cells.push_back(step.cell);
+    ++points;
+  }
+  releases_.points.push_back(points);
+  course.sent = now_;
+}
+
+bool Execution::stands(int robot) const {
+  const Course& course = courses_[robot];
+  return course.is_member && !course.is_active;
+}
+
+std::vector<Cell> Execution::released(int robot) const {
+  const Course& course = courses_[robot];
+  if (!course.is_member) return course.occupied;
+  return {course.cells.begin() + course.left, course.cells.end()};
+}
+
+std::vector<Cell> Execution::planned(int robot) const {
+  std::vector<Cell> cells;
+  for (const Step& step : courses_[robot].plan) cells.push_back(step.cell);
+  return cells;
+}
+
+Cell Execution::cellAt(double x, double y) const {
+  const double column = std::round((x - motion_.origin_x) / motion_.spacing);
+  const double row = std::round((y - motion_.origin_y) / motion_.spacing);
+  const bool is_inside =
+      column >= 0 && column < floor_.width() && row >= 0 && row < floor_.height();
+  return is_inside ? static_cast<Cell>(row) * floor_.width() + static_cast<Cell>(column) : kNowhere;
+}
+
+Heading Execution::headingOf(int robot) const {
+  constexpr double kQuarter = 1.5707963267948966;
+  return turned(static_cast<int>(std::lround(reports_[robot].yaw / kQuarter)), 0);
+}
+
+/// From a cell to one beside it.
+int Execution::headingTo(Cell from, Cell to) const {
+  const int step = to - from;
+  if (step == floor_.width()) return 1;
+  if (step == -floor_.width()) return 3;
+  return step > 0 ? 0 : 2;
+}
+
+double Execution::speedOf(int robot) const {
+  return std::hypot(reports_[robot].vx, reports_[robot].vy);
+}
+
+/// To the last cell that it is released [m].
+double Execution::toGo(int robot) const {
+  const Course& course = courses_[robot];
+  const int points = static_cast<int>(course.cells.size());
+  if (course.reached >= points) return 0;
+  const Cell next = course.cells[course.reached];
+  const Report& report = reports_[robot];
+  return std::abs(xOf(next) - report.x) + std::abs(yOf(next) - report.y) +
+         (points - course.reached - 1) * motion_.spacing;
+}
+
+bool Execution::isCentred(int robot) const {
+  const Report& report = reports_[robot];
+  const Cell at = courses_[robot].at;
+  return std::hypot(xOf(at) - report.x, yOf(at) - report.y) < kCentred;
+}
+
+}  // namespace fleet
