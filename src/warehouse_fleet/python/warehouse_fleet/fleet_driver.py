@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A whole warehouse at work in one process: the world, and the fleet that moves its units.
 
-    driver = FleetDriver(World.preset("huge"))
-    driver.transports.submit(17, "pick3")
-    driver.step_until(3600)
+driver = FleetDriver(World.preset("huge"))
+driver.transports.submit(17, "pick3")
+driver.step_until(3600)
 """
 
 import numpy as np

@@ -17,7 +17,8 @@ from collections import Counter, deque
 
 import numpy as np
 
-from warehouse_fleet.transport import Answer, Gate, Kind, Task, Then, TransportEvent
+from warehouse_fleet.transport import Task
+from warehouse_fleet.transports import STAY, STORE, Answer, Kind, TransportEvent
 from warehouse_fleet.travel import Kinematics, Travel
 
 ACTIVITIES = ("to unit", "lift", "to station", "queue", "service", "back", "idle")
@@ -63,7 +64,7 @@ class _Lane:
     def __init__(self, station):
         self.station = station
         self.cell = int(station.cells[station.service])
-        self.inbound = 0
+        self.is_open, self.inbound = True, 0
         self.queue = deque()
         self.serving = None  # the transport in the service cell, or on the last metre to it
         self.free_from = 0.0  # when the service cell has been left [s]
@@ -71,7 +72,7 @@ class _Lane:
 
 
 class IdealFleet:
-    """Robots, units and stations of a FloorPlan; offers what transport.Transports says.
+    """Robots, units and stations of a FloorPlan; offers what transport.Requests says.
 
     robots, units: the cell of each, by id. Cells of units must be storage places.
     """
@@ -80,7 +81,6 @@ class IdealFleet:
         self.plan, self.kinematics = plan, kinematics or Kinematics()
         self.travel = Travel(plan, self.kinematics)
         self.hooks = NearestHooks()
-        self.stations = [Gate(one.name, one.kind) for one in plan.stations]
         self.time = 0.0
         self.distance_m = 0.0
         self.collisions = self.blocked = self.watchdog = self.stuck = 0
@@ -112,9 +112,9 @@ class IdealFleet:
         """How many."""
         return len(self._robots)
 
-    # What Transports offers.
+    # What it is asked for.
 
-    def submit(self, shelf_id, station="", x=None, y=None, then=Then.STORE, priority=0):
+    def submit(self, shelf_id, station="", x=None, y=None, then=STORE, priority=0):
         reason, lane, cell = self._target(shelf_id, station, x, y)
         if reason:
             return Answer(0, False, reason)
@@ -123,7 +123,7 @@ class IdealFleet:
         self._busy_units.add(shelf_id)
         if lane:
             lane.inbound += 1
-        elif then == Then.STAY:
+        elif then == STAY:
             self._free[cell] = False
         self._tell(Kind.RECEIVED, transport)
         return Answer(transport.transport_id, True, "")
@@ -143,15 +143,24 @@ class IdealFleet:
             return False, f"transport {transport_id} is not under way"
         if transport.arrived:
             return False, f"transport {transport_id} has arrived; release it"
+        self._tell(Kind.CANCELLED, transport)
         transport.cancelled = True
         if transport.station:
             transport.station.inbound -= 1
-        elif transport.then == Then.STAY:
+        elif transport.then == STAY:
             self._free[transport.cell] = self.plan.storage.flat[transport.cell]
         if not transport.robot:
             del self._waiting[transport_id]
-            self._end(transport, Kind.CANCELLED)
+            self._end(transport)
         return True, ""
+
+    def set_open(self, station, is_open):
+        lane = self._lanes[station]
+        lane.is_open = is_open
+        if not is_open:
+            for transport in list(self._open.values()):
+                if transport.station is lane and not transport.arrived:
+                    self.cancel(transport.transport_id)
 
     def take_events(self):
         events, self._events = self._events, []
@@ -171,6 +180,10 @@ class IdealFleet:
             self._match()
         if not self._events:
             self.time = max(self.time, time)
+
+    def set_hooks(self, hooks):
+        """Who decides from now on; see transport.Hooks."""
+        self.hooks = hooks
 
     def traffic(self):
         """How often a robot with a load came through each cell, (h, w)."""
@@ -209,6 +222,8 @@ class IdealFleet:
             lane = self._lanes.get(station)
             if not lane:
                 return f"there is no station '{station}'", None, None
+            if not lane.is_open:
+                return f"station {station} is closed", None, None
             unreachable = not np.isfinite(
                 self.travel.loaded_to(lane.cell).seconds[self._units[shelf_id]]
             )
@@ -275,7 +290,7 @@ class IdealFleet:
     def _beneath(self, transport):
         transport.robot.cell = self._units[transport.shelf_id]
         if transport.cancelled:
-            return self._free_robot(transport, Kind.CANCELLED)
+            return self._free_robot(transport)
         self._does(transport.robot, "lift")
         return self._at(self.kinematics.lift, self._lift, transport)
 
@@ -319,7 +334,7 @@ class IdealFleet:
             transport.station.waited += self.time - transport.robot.since
         self._does(transport.robot, "service")
         self._tell(Kind.ARRIVED, transport)
-        if not transport.station and transport.then == Then.STAY:
+        if not transport.station and transport.then == STAY:
             self._release(transport)
         return None
 
@@ -329,7 +344,7 @@ class IdealFleet:
         if transport.station:
             transport.station.inbound -= 1
             self._leave(transport)
-        if transport.then == Then.STAY:
+        if transport.then == STAY:
             self._does(transport.robot, "lift")
             return self._at(self.kinematics.lift, self._drop, (transport, transport.robot.cell))
         return self._store(transport)
@@ -366,11 +381,12 @@ class IdealFleet:
     def _drop(self, argument):
         transport, place = argument
         self._units[transport.shelf_id] = place
-        self._free_robot(transport, Kind.CANCELLED if transport.cancelled else Kind.STORED)
+        self._tell(Kind.STORED, transport)
+        self._free_robot(transport)
 
-    def _free_robot(self, transport, kind):
+    def _free_robot(self, transport):
         robot = transport.robot
-        self._end(transport, kind)
+        self._end(transport)
         robot.transport = None
         self._does(robot, "idle")
         self._idle[robot.kiva_id] = robot
@@ -380,7 +396,6 @@ class IdealFleet:
             self.distance_m += float(metres[0, 0])
             robot.cell, robot.parked = int(to), self.time + float(seconds[0, 0])
 
-    def _end(self, transport, kind):
+    def _end(self, transport):
         del self._open[transport.transport_id]
         self._busy_units.discard(transport.shelf_id)
-        self._tell(kind, transport)

@@ -17,7 +17,6 @@ class SiteError(ValueError):
 def open_shift(
     site,
     transports,
-    gates,
     *,
     orders="fill",
     seed=1,
@@ -29,7 +28,7 @@ def open_shift(
 ):
     """A Shift in a Site over transports.
 
-    gates: the fleet's stations. database: a Database whose warehouse the shift goes on with, or in
+    database: a Database whose warehouse the shift goes on with, or in
     which it begins one; None: nothing is kept. now: simulated time [s]. Raises SiteError,
     DemandError, PolicyError, DatabaseError.
     """
@@ -58,11 +57,10 @@ def open_shift(
         _check_site(site, stored.bins, database.url)
     else:
         assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
-    kinds = [gate.kind for gate in gates]
+    kinds = [station.kind for station in site.plan.stations]
     count = kinds.count("PICK"), kinds.count("REPLENISH")
     shift = Shift(
         transports,
-        gates,
         assortment,
         [one for one, _ in stock],
         floor=Whereabouts(site.plan, site.robots, site.units, travel),

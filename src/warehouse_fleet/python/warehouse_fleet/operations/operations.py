@@ -11,6 +11,7 @@ from warehouse_fleet.operations.policies import Policies
 from warehouse_fleet.operations.site import Site
 
 CYCLE = 0.1  # for so long a world is stepped before the shift is asked again [s]
+ROUNDING = 1e-6  # [s]
 
 
 class Operations:
@@ -45,21 +46,21 @@ class Operations:
         self.shift = open_shift(
             self.site,
             self.fleet.transports,
-            self.fleet.stations,
             orders=orders,
             seed=seed,
             policies=policies,
             database=self.database,
             settings=settings,
-            travel=getattr(self.fleet, "travel", None),
+            travel=self.fleet.travel,
         )
+        self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
 
     def _fleet(self, world, physics, seed):
         if physics and not isinstance(world, Site):
-            from warehouse_fleet.fleet_driver import FleetDriver
+            from warehouse_fleet.operations.world_fleet import WorldFleet
 
-            return FleetDriver(world, seed=seed)
+            return WorldFleet(world, self.site, seed)
         site = self.site
         return IdealFleet(site.plan, site.robots, site.units, kinematics=site.kinematics)
 
@@ -89,7 +90,9 @@ class Operations:
         while self.shift.now < end:
             until = min(self.shift.next_time(), end, self.fleet.time + cycle)
             self.fleet.step_until(until)
-            self.shift.advance(min(self.fleet.time, end))
+            now = self.fleet.time
+            # A world counts steps: what differs by rounding alone is the same time.
+            self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
             count += 1
             if progress and count % 256 == 0 and progress(self):
                 break

@@ -5,8 +5,7 @@ from collections import defaultdict
 
 from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.orders import OrderEventKind, OrderState
-from warehouse_fleet.operations.stations import Pick
-from warehouse_fleet.transport import Mode
+from warehouse_fleet.operations.stations import Mode, Pick
 
 
 class Picking:
@@ -21,7 +20,7 @@ class Picking:
 
     def backlog_changed(self):
         for station in self.stations:
-            if station.free_slots and station.gate.open:
+            if station.free_slots and station.is_open:
                 self._to_assign[station] = None
 
     def unit_free(self, unit):
@@ -52,7 +51,7 @@ class Picking:
     # Orders.
 
     def _assign(self, station):
-        while station.gate.open and station.free_slots > 0 and len(self.shift.backlog):
+        while station.is_open and station.free_slots > 0 and len(self.shift.backlog):
             order = self.shift.policies.orders.choose(station, self.shift)
             if order is None:
                 return
@@ -145,8 +144,8 @@ class Picking:
     # Units.
 
     def _fetch(self, station):
-        limit = self.shift.settings.units_per_station
-        while station.gate.open and station.missing and len(station.coming) < limit:
+        limit = self.shift.units_per_station
+        while station.is_open and station.missing and len(station.coming) < limit:
             candidates = self._candidates(station)
             if not candidates:
                 return
@@ -177,7 +176,7 @@ class Picking:
     def next_piece(self, station):
         """Begins with the next piece, if the picker is free and a unit is there."""
         visit = station.here
-        if station.at_work or not visit or not visit.picks or station.gate.mode == Mode.MANUAL:
+        if station.at_work or not visit or not visit.picks or station.mode == Mode.MANUAL:
             return
         station.at_work = True
         now = self.shift.now

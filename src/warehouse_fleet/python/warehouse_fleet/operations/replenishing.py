@@ -5,7 +5,7 @@ from collections import deque
 from itertools import islice
 
 from warehouse_fleet.operations.orders import Bundle
-from warehouse_fleet.transport import Mode
+from warehouse_fleet.operations.stations import Mode
 
 PERIOD = 10.0  # between two looks at what is to be ordered [s]
 LOOK_AHEAD = 30  # bundles at the door that are tried for a place
@@ -43,8 +43,8 @@ class Replenishing:
         if not self._look:
             return
         self._look = False
-        limit = self.shift.settings.units_per_station
-        stations = [s for s in self.stations if s.gate.open and len(s.coming) < limit]
+        limit = self.shift.units_per_station
+        stations = [s for s in self.stations if s.is_open and len(s.coming) < limit]
         while self.bundles and stations:
             station = min(stations, key=lambda one: len(one.coming))
             if not self._fetch(station):
@@ -105,7 +105,7 @@ class Replenishing:
 
     def next_bundle(self, station):
         visit = station.here
-        if station.at_work or not visit or not visit.puts or station.gate.mode == Mode.MANUAL:
+        if station.at_work or not visit or not visit.puts or station.mode == Mode.MANUAL:
             return
         station.at_work = True
         self.shift.at(

@@ -22,9 +22,11 @@ from warehouse_fleet.operations.kpis import Tally
 from warehouse_fleet.operations.orders import Backlog, Order, OrderEventKind, OrderState
 from warehouse_fleet.operations.picking import Picking
 from warehouse_fleet.operations.replenishing import PERIOD, Replenishing
-from warehouse_fleet.operations.stations import Visit, WorkStation
-from warehouse_fleet.transport import ENDS, Kind, Mode
+from warehouse_fleet.operations.stations import Mode, Visit, WorkStation
+from warehouse_fleet.transport import ENDS
+from warehouse_fleet.transports import Kind
 
+UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
 HOLD = 60.0  # for so long a unit is not asked for whose transport failed [s]
 RANKS_KEPT = 300.0  # for so long the ranking of the units by turnover is used [s]
 
@@ -37,12 +39,18 @@ class Settings:
     piece_s: float = 10.0  # from a piece to the next
     pick_s: float = 3.0  # of that, until the piece is out of its bin and the unit may leave
     bundle_s: float = 10.0
-    units_per_station: int = 8  # at it or on their way to it
+    units_per_station: int = None  # at it or on their way; None: by the number of robots
     by_station: dict = field(default_factory=dict)  # what is otherwise at one, by its name
 
     def of(self, station):
         """Those of a station."""
         return replace(self, **self.by_station.get(station, {}))
+
+    def units_at(self, robots, stations):
+        """Units at a station or on their way to it, at most: robots are shared out to stations, and
+        a few units more are asked for than are fetched at once."""
+        share = round(1.5 * robots / max(stations, 1))
+        return self.units_per_station or min(max(share, UNITS_LEAST), UNITS_MOST)
 
 
 class Shift:
@@ -55,7 +63,6 @@ class Shift:
     def __init__(
         self,
         transports,
-        stations,
         assortment,
         bins,
         *,
@@ -76,30 +83,31 @@ class Shift:
         self.backlog, self.orders = Backlog(), {}
         self.inventory = Inventory(bins, self._moved)
         self.free_units = set(floor.units)
+        self.units_per_station = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
         self._visits = {}
         self._timers, self._order = [], itertools.count()
         self._visit_ids, self._order_ids = itertools.count(1), itertools.count(1)
         self._hash = hashlib.blake2b(digest_size=8)
         self._ranks, self._ranked_at = {}, -np.inf
         self._popularity_rank = _ranks_of(assortment)
-        self._stations = {gate.name: self._work_station(gate) for gate in stations}
+        self._stations = {place.name: self._work_station(place) for place in floor.plan.stations}
         of_kind = defaultdict(list)
         for station in self._stations.values():
             of_kind[station.kind].append(station)
         self.picking = Picking(self, of_kind["PICK"])
         self.replenishing = Replenishing(self, of_kind["REPLENISH"])
         self.on_order_event = None  # called with (order, kind, sku, quantity, station, unit, text)
-        transports.hooks = _Hooks(self)
+        self.hooks = _Hooks(self)
         self.at(now, self._look_after_stock, None)
         self._bundles_come()
 
-    def _work_station(self, gate):
-        settings = self.settings.of(gate.name)
-        if gate.kind == "PICK":
+    def _work_station(self, place):
+        settings = self.settings.of(place.name)
+        if place.kind == "PICK":
             times = settings.slots, settings.piece_s, min(settings.pick_s, settings.piece_s)
         else:
             times = 0, settings.bundle_s, settings.bundle_s
-        return WorkStation(gate, *times, self.inventory)
+        return WorkStation(place, *times, self.inventory)
 
     def begin(self, stock):
         """Lays the stock of the shift's beginning into the bins: pairs (bin, pieces)."""
@@ -259,8 +267,9 @@ class Shift:
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
-        station.gate.open, station.gate.mode = bool(is_open), Mode(mode)
+        station.is_open, station.mode = bool(is_open), Mode(mode)
         part = self._part(station)
+        self.transports.set_open(name, station.is_open)
         if not is_open:
             part.close(station)
         elif part is self.picking:
@@ -344,7 +353,11 @@ class Shift:
             "transport", event.transport_id, int(event.kind), event.kiva_id, event.shelf_id
         )
         self.tally.transport(event)
-        if event.kind == Kind.LIFTED:
+        if event.kind == Kind.CANCELLED:
+            visit.outcome = "cancelled"
+            if visit.lifted is None:
+                self._visit_over(visit, event)
+        elif event.kind == Kind.LIFTED:
             visit.lifted = event.stamp
             self.floor.cells.pop(visit.unit, None)
             self.journal.visit(visit)
@@ -361,7 +374,7 @@ class Shift:
     def _visit_over(self, visit, event):
         del self._visits[visit.transport_id]
         self._part(visit.station).drop_visit(visit)
-        visit.ended, visit.outcome = event.stamp, event.kind.name.lower()
+        visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
         visit.released = event.stamp if visit.released is None else visit.released
         del visit.station.inbound[visit.visit_id]
         self.journal.visit(visit)

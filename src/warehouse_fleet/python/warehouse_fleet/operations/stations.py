@@ -3,6 +3,14 @@
 
 from collections import defaultdict, deque
 from dataclasses import dataclass, field
+from enum import IntEnum
+
+
+class Mode(IntEnum):
+    """Whether a station works by itself or waits for a person."""
+
+    AUTOMATIC = 0
+    MANUAL = 1
 
 
 @dataclass(eq=False)
@@ -40,10 +48,11 @@ class Visit:
 
 
 class WorkStation:
-    """A station that pieces are picked at, or put in. `gate` is the fleet's object: open, mode."""
+    """A station that pieces are picked at, or put in; `place` is the floor's Station."""
 
-    def __init__(self, gate, capacity, seconds_a_piece, pick_seconds, inventory):
-        self.gate, self.name, self.kind = gate, gate.name, gate.kind
+    def __init__(self, place, capacity, seconds_a_piece, pick_seconds, inventory):
+        self.name, self.kind = place.name, place.kind
+        self.is_open, self.mode = True, Mode.AUTOMATIC
         self.capacity, self.inventory = capacity, inventory
         self.seconds_a_piece, self.pick_seconds = seconds_a_piece, pick_seconds
         self.orders = {}  # by id
