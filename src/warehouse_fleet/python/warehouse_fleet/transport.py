@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What whoever asks for transports sees of whoever drives them, and which decisions it is asked for.
+"""What who asks for transports sees of who drives them, and which decisions it is asked for.
 
 transports.Transports (simulated or real robots) and ideal.IdealFleet both offer it. Times are
 simulated seconds.

@@ -68,17 +68,21 @@ class Travel:
     def __init__(self, plan, kinematics):
         self.plan, self.kinematics = plan, kinematics
         self.width = plan.passable.shape[1]
-        self._forward = _graph(plan, kinematics, enter_storage=True)
-        self._backward = _graph(plan, kinematics, enter_storage=False).T.tocsr()
+        self._keep_out = np.asarray(plan.storage | plan.parking, bool).ravel()
+        edges = _edges(plan, self._keep_out)
+        # Places in storage are ends of ways, never on the way.
+        self._forward = _graph(plan, kinematics, edges, ~self._keep_out[edges[0]])
+        self._backward = _graph(plan, kinematics, edges, ~self._keep_out[edges[2]]).T.tocsr()
+        self._edges = edges
         self._tables = OrderedDict()
 
     def loaded_from(self, cell):
         """The Table of ways of a loaded robot from a cell to all others."""
-        return self._table(cell, self._forward)
+        return self._table(int(cell), True)
 
     def loaded_to(self, cell):
         """The Table of ways of a loaded robot to a cell from all others."""
-        return self._table(cell, self._backward)
+        return self._table(int(cell), False)
 
     def unloaded(self, cells, to):
         """Time [s] and length [m] for robots without a load, which drive beneath the units.
@@ -92,15 +96,24 @@ class Travel:
         run = self.kinematics.run
         return run(dx) + run(dy) + turns * self.kinematics.quarter_turn, dx + dy
 
-    def _table(self, cell, graph):
-        key = cell, graph is self._forward
+    def _table(self, cell, forward):
+        key = cell, forward
         if key in self._tables:
             self._tables.move_to_end(key)
             return self._tables[key]
-        table = self._tables[key] = self._search(cell, graph)
+        table = self._tables[key] = self._search(cell, self._graph_of(cell, forward))
         if len(self._tables) > TABLES:
             self._tables.popitem(last=False)
         return table
+
+    def _graph_of(self, cell, forward):
+        """All ways from a cell, or to it; out of its own storage place too, or into it."""
+        graph = self._forward if forward else self._backward
+        if not self._keep_out[cell]:
+            return graph
+        own = self._edges[0 if forward else 2] == cell
+        between = _graph(self.plan, self.kinematics, self._edges, own, turns=False)
+        return graph + (between if forward else between.T.tocsr())
 
     def _search(self, cell, graph):
         start = cell * HEADINGS + np.arange(HEADINGS)
@@ -114,25 +127,30 @@ class Travel:
         return Table(seconds, metres[nodes], before, heading)
 
 
-def _graph(plan, kinematics, enter_storage):
-    """Edges between (cell, heading) with their time [s]; a storage place only entered, or left."""
+def _edges(plan, keep_out):
+    """Cells, headings and next cells of all steps that a loaded robot may ever make."""
     following = np.asarray(plan.floor().edges(False)).reshape(-1, HEADINGS)
-    storage = np.asarray(plan.storage | plan.parking, bool).ravel()  # not to be driven through
     lane = np.asarray(plan.lane, bool).ravel()
     cells, headings = np.nonzero(following >= 0)
     to = following[cells, headings]
-    allowed = ~(storage[cells] if enter_storage else storage[to])
-    allowed &= ~(storage[cells] & lane[to]) & ~(lane[cells] & storage[to])
-    cells, headings, to = cells[allowed], headings[allowed], to[allowed]
-    drive = plan.spacing / kinematics.speed
-    node = np.arange(following.size)
-    turn = kinematics.quarter_turn + kinematics.start_stop
-    rows = np.concatenate([cells * HEADINGS + headings, node, node])
-    columns = np.concatenate(
-        [to * HEADINGS + headings, _turned(node, 1), _turned(node, HEADINGS - 1)]
-    )
-    weights = np.concatenate([np.full(len(cells), drive), np.full(2 * len(node), turn)])
-    return csr_matrix((weights, (rows, columns)), (following.size, following.size))
+    allowed = ~(keep_out[cells] & (keep_out[to] | lane[to])) & ~(lane[cells] & keep_out[to])
+    return cells[allowed], headings[allowed], to[allowed]
+
+
+def _graph(plan, kinematics, edges, chosen, turns=True):
+    """Steps between (cell, heading) with their time [s], and turns on the spot."""
+    cells, headings, to = (values[chosen] for values in edges)
+    count = plan.passable.size * HEADINGS
+    rows, columns = [cells * HEADINGS + headings], [to * HEADINGS + headings]
+    weights = [np.full(len(cells), plan.spacing / kinematics.speed)]
+    if turns:
+        node = np.arange(count)
+        rows += [node, node]
+        columns += [_turned(node, 1), _turned(node, HEADINGS - 1)]
+        weights += [np.full(2 * count, kinematics.quarter_turn + kinematics.start_stop)]
+    joined = (np.concatenate(parts) for parts in (weights, rows, columns))
+    weights, rows, columns = joined
+    return csr_matrix((weights, (rows, columns)), (count, count))
 
 
 def _turned(node, quarters):

@@ -259,7 +259,7 @@ class Picking:
         for pick in [p for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]:
             owner = next(v for v in self._visits_of(one.unit) if pick in v.picks)
             self._drop(owner, pick)
-        self.shift.inventory.move(one, sku, -lacking, reason, station=station, visit=visit)
+        self.shift.inventory.move(one, sku, -lacking, reason, station=station)
         for pick in picks:
             self.shift.tell_order(
                 pick.line.order,

@@ -43,7 +43,7 @@ class Replenishing:
         if not self._look:
             return
         self._look = False
-        limit = self.shift.units_per_station
+        limit = -(-self.shift.units_per_station // 2)  # their units have more work with them
         stations = [s for s in self.stations if s.is_open and len(s.coming) < limit]
         while self.bundles and stations:
             station = min(stations, key=lambda one: len(one.coming))

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from warehouse_fleet.operations.assortment import Assortment
+from warehouse_fleet.operations.assortment import CAPACITY, Assortment
 from warehouse_fleet.operations.inventory import Inventory, Reason
 from warehouse_fleet.operations.journal import Journal
 from warehouse_fleet.operations.kpis import Tally
@@ -285,7 +285,7 @@ class Shift:
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
-        if station.gate.mode != Mode.MANUAL:
+        if station.mode != Mode.MANUAL:
             return False, f"{name} works by itself"
         return self._part(station).confirm(station, sku, quantity)
 
@@ -405,8 +405,12 @@ class Shift:
         return self.replenishing.ordered + self.inventory.expected
 
     def in_stock(self, order):
-        """Whether every piece that an order lacks lies somewhere, promised to nobody."""
-        return all(self.inventory.available(line.sku) >= line.missing for line in order.lines)
+        """Whether every piece that an order lacks lies somewhere, promised to nobody.
+
+        A line of more than a bin may hold is begun with a bin's worth: room must be made for more.
+        """
+        available = self.inventory.available
+        return all(available(ln.sku) >= min(ln.missing, CAPACITY) for ln in order.lines)
 
     def stock_of(self, sku):
         """Pieces of a SKU that are there and promised to nobody, or expected."""
