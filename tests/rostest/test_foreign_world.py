@@ -14,7 +14,7 @@ from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
 from warehouse_msgs.msg import Event
 from warehouse_sim.cells import Cells
-from warehouse_sim.models import KINDS, kind_and_number
+from warehouse_sim.models import KINDS, MARKINGS, kind_and_number
 
 
 def standing(kind):
@@ -52,6 +52,8 @@ class ForeignWorld(unittest.TestCase):
         places = points("kiva") + points("storage_unit")
         self.assertEqual(len(set(places)), 28)
         self.assertTrue(cells().points().isdisjoint(places))
+        # With stations, whose lanes are painted on the floor.
+        self.assertEqual(len(standing(MARKINGS)), 1)
 
     def test_its_walls_block_robots(self):
         outside = ModelState(model_name="kiva1", pose=pose(30, 30), reference_frame="world")

@@ -20,7 +20,7 @@ from selenium.webdriver.support.ui import Select
 from warehouse_test import delete, model_file, place, pose, spawn
 
 ROBOTS, UNITS, ITEMS = 4, 24, 96
-FLOOR = (-5.5, 6.5, -4.5, 5.5)
+FLOOR = (-10.5, 10.5, -6.5, 7.5)
 
 STANDS = """(({{ robots, units, items }}) => robots.length === {robots} && units.length === {units}
   && items.length === {items})(page.world.scene)"""
@@ -94,10 +94,10 @@ class ViewerPage(unittest.TestCase):
         self.page.click(x, y, 0.4)
         self.page.until("page.selected === 'kiva1'")
         # Off its street's end, where nothing stands between the camera and the floor.
-        self.page.click(x, -4, 0.0)
-        wait_until(lambda: abs(place("kiva1")[1] + 4) < 1e-3, "kiva1 at y = -4")
+        self.page.click(x, -6, 0.0)
+        wait_until(lambda: abs(place("kiva1")[1] + 6) < 1e-3, "kiva1 at y = -6")
         self.page.until("document.getElementById('answer').dataset.kind === 'done'")
-        self.page.until("Math.abs(page.world.shown[1] + 4) < 0.001")
+        self.page.until("Math.abs(page.world.shown[1] + 6) < 0.001")
 
     def test_says_why_a_command_is_refused(self):
         self.page.read("page.select('kiva2')")
@@ -180,7 +180,8 @@ class ViewerPage(unittest.TestCase):
             "[...document.querySelectorAll('#labels span:not([hidden])')].map(s => s.textContent)"
         )
         self.page.until(f"{labels}.includes('kiva2')")
-        self.assertEqual(sorted(self.page.read(labels)), ["1", "3", "4", "kiva2"])
+        robots, stations = ["1", "3", "4", "kiva2"], ["pick1", "pick2", "replenish1"]
+        self.assertEqual(sorted(self.page.read(labels)), [*robots, *stations])
 
     # --- the simulation
     def until_link(self, state):

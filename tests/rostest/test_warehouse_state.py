@@ -4,13 +4,14 @@
 
 import unittest
 
+import numpy as np
 import rospy
 import rostest
 from node_test import Listener, Robot, call, create, latched
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Empty
 
-from warehouse_msgs.msg import KivaStatus, Lift, WarehouseState
+from warehouse_msgs.msg import KivaStatus, Lift, Station, WarehouseState
 from warehouse_sim.state import COMMANDS
 
 TOPIC = "/warehouse/state"
@@ -34,6 +35,19 @@ class State(unittest.TestCase):
         self.assertEqual(names, [f"storage_unit{i}" for i in range(1, 5)])
         self.assertEqual([k.kiva_id for k in state.kivas], [1, 2])
         self.assertEqual({k.status for k in state.kivas}, {KivaStatus.STATUS_IDLE})
+
+    def test_stations_with_their_lanes_and_storage_places(self):
+        state = latched(TOPIC, WarehouseState, lambda m: self.is_mine(m) and m.stations)
+        pick, replenish = state.stations
+        self.assertEqual((pick.name, pick.kind, pick.belt), ("pick1", "PICK", "conveyor_belt1"))
+        self.assertEqual((replenish.name, replenish.kind), ("replenish1", Station.REPLENISH))
+        for lane in (pick, replenish):
+            steps = np.abs(np.diff([lane.x, lane.y])).sum(axis=0)
+            self.assertTrue((steps == 1).all() and 5 <= lane.service < len(lane.x) - 1)
+        places = set(zip(state.place_x, state.place_y))
+        self.assertEqual(len(places), 5)  # of which 85 % are filled
+        for unit in state.storage_units:
+            self.assertIn((unit.pose.position.x, unit.pose.position.y), places)
 
     def test_once_a_second_of_simulated_time(self):
         states = Listener(TOPIC, WarehouseState)

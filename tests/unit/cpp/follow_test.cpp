@@ -393,6 +393,54 @@ TEST_F(FollowTest, StopHoldsTurnsLiftsAndWhatIsCommandedMeanwhile) {
   w.expectAt(1, 0, 2);
 }
 
+TEST_F(FollowTest, CancelledBeforeAnObstacleItDoesNotGoOnBehindIt) {
+  w.spawn("person", "person1", 5, 0);
+  follow(1, alongX(0, 0, 9), 9);
+  w.runUntilState(1, State::kBlocked);
+  EXPECT_GT(w.speed(1), 0.5) << "it brakes still";
+  order(Command::Kind::kCancel, 1);
+  w.step();
+  w.world.remove("person1");
+  w.runUntilIdle(1);
+  w.expectAt(1, 4, 0);
+  EXPECT_EQ(w.last(Kind::kDone).text, "cancelled");
+}
+
+TEST_F(FollowTest, WhoIsPushedOffItsPathSaysSo) {
+  follow(1, alongX(0, 0, 5), 2);
+  w.runUntilState(1, State::kWaiting);
+  for (int i = 0; i < 300; ++i) {
+    w.world.applyWrench("kiva1", "chassis", {0, 4000, 0}, {});
+    w.step();
+  }
+  w.run(1);
+  ASSERT_GT(std::abs(w.y(1)), 0.1);
+  release(1, 5);
+  w.step();
+  EXPECT_EQ(w.last(Kind::kBlocked).text, "was pushed off its path");
+  EXPECT_EQ(w.status(1), Status::kIdle);
+}
+
+TEST(FollowAbruptly, AtInstantaneousSpeedPathsAreFollowedToo) {
+  Warehouse w;
+  w.spawnText(abruptKiva(), "kiva1", 0, 0);
+  w.world.post(path(1, 7, {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}}, 2));
+  w.runUntilState(1, State::kWaiting);
+  w.expectAt(1, 1, 0);
+  w.world.post(path(1, 7, {}, 5));
+  w.run(0.5);
+  Command stop;
+  stop.kind = Command::Kind::kStop;
+  w.world.post(stop);
+  w.step();
+  EXPECT_LT(w.speed(1), 1e-9);
+  w.run(1);
+  stop.kind = Command::Kind::kGoOn;
+  w.world.post(stop);
+  w.runUntilIdle(1);
+  w.expectAt(1, 2, 2);
+}
+
 TEST_F(FollowTest, ACollisionEndsThePath) {
   w.spawnText(withoutPlugin(kivaText(), "laser"), "kiva2", 3, 2, -kQuarter);
   follow(1, alongX(0, 0, 10), 4);

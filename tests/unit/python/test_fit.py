@@ -66,6 +66,29 @@ def test_everything_stands_on_free_cells_and_is_reached_by_a_loaded_robot(preset
         assert any((round(x) + dx, round(y) + dy) in network for dx, dy in STEPS)
 
 
+@pytest.mark.parametrize("preset", ["small", "medium", "large"])
+def test_belts_have_stations_where_a_fleet_can_not_come_to_a_deadlock(preset):
+    floor = crowded(2, share=0.01, size=110)
+    layout = fit(PRESETS[preset], floor)
+    layout.plan.check()
+    kinds = [station.kind for station in layout.plan.stations]
+    belts = PRESETS[preset].belts
+    assert (kinds.count("PICK"), kinds.count("REPLENISH")) == (belts, belts // 2)
+    assert len(layout.places) == -(-PRESETS[preset].shelves * 20 // 17)
+    taken = floor.points()
+    assert taken.isdisjoint(
+        (round(x), round(y))
+        for station in layout.plan.stations
+        for x, y in zip(*layout.plan.point_of(station.cells))
+    )
+
+
+def test_without_room_for_stations_belts_stand_at_streets():
+    layout = fit(resolve("small"), crowded(0, share=0.25, size=40))
+    assert layout.plan is None
+    assert len(layout.belts) == 2
+
+
 def test_robots_face_a_street():
     floor = crowded(1, share=0.05)
     layout = fit(resolve("small"), floor)
@@ -119,5 +142,8 @@ def test_a_seed_decides_who_stands_where_and_no_more():
     floor, small = crowded(0, 0.1), resolve("small")
     regular, other = fit(small, floor), fit(small, floor, seed=2)
     assert occupied(regular) != occupied(other)
-    assert sorted(occupied(regular)) == sorted(occupied(other))
+    for field in ("places", "belts", "drops"):
+        assert np.array_equal(getattr(regular, field), getattr(other, field))
+    assert {*map(tuple, other.units)} <= {*map(tuple, other.places)}
+    assert sorted(regular.robots[:, :2].tolist()) == sorted(other.robots[:, :2].tolist())
     assert occupied(other) == occupied(fit(small, floor, seed=2))

@@ -135,13 +135,17 @@ def test_a_street_that_is_closed_is_named():
         FloorPlan.of_world(world).check()
 
 
-def test_what_stands_in_a_lane_is_refused_by_name():
+def test_what_stands_in_a_lane_is_in_the_way_and_the_lane_stays():
     world = World.preset("small")
-    station = FloorPlan.of_world(world).station("pick1")
-    x, y = FloorPlan.of_world(world).point_of(int(station.cells[2]))
-    world.spawn_model("person", "person1", x, y)
-    with pytest.raises(FloorError, match="pick1"):
-        FloorPlan.of_world(world)
+    known = FloorPlan.of_world(world)
+    cell = int(known.station("pick1").cells[2])
+    world.spawn_model("person", "person1", *known.point_of(cell))
+    found = FloorPlan.of_world(world)
+    assert same(found, known)
+    assert found.obstructed.flat[cell]
+    found.check(obstructed=False)
+    with pytest.raises(FloorError, match="something stands at"):
+        found.check()
 
 
 @pytest.mark.parametrize(
@@ -163,20 +167,39 @@ def test_wrong_markings_are_refused(link, size, at, message):
         FloorPlan.of_world(world)
 
 
-def test_a_fleet_delivers_to_every_station():
-    """Loaded robots, one a station, drive from their places through the lanes and back home."""
-    floor = plan(resolve("medium")).plan
-    places = np.flatnonzero(floor.storage)[::7][: len(floor.stations)].astype(np.int32)
-    services = np.array([s.service_cell for s in floor.stations], np.int32)
-    cell, heading, goal = places.copy(), np.zeros(len(places), np.uint8), services.copy()
+def test_a_fleet_delivers_to_every_station_and_waits_in_lanes_without_turning():
+    """Loaded robots, four a station, drive through the lanes, are served for 10 ticks, and home."""
+    floor, hold = plan(resolve("medium")).plan, 10
+    homes = np.flatnonzero(floor.storage)[::7][: 4 * len(floor.stations)].astype(np.int32)
+    services = np.tile([s.service_cell for s in floor.stations], 4).astype(np.int32)
+    ahead = {
+        int(cell): floor.floor().edges()[cell].tolist().index(after)
+        for s in floor.stations
+        for cell, after in zip(s.cells, s.cells[1:])
+    }
+    cell, heading, goal = homes.copy(), np.zeros(len(homes), np.uint8), services.copy()
+    served, needless = np.zeros(len(homes), int), []
     planner = epibt(floor.floor(), Rules(following=False), seed=1)
     steps = np.array([1, floor.width, -1, -floor.width], np.int32)
-    for _ in range(400):
-        fleet = Fleet(cell, heading, goal, loaded=np.ones(len(cell), np.uint8), home=places)
+    for _ in range(800):
+        waits = np.where((cell == services) & (served > 0) & (served < hold), 0, 0xFF)
+        fleet = Fleet(
+            cell,
+            heading,
+            goal,
+            loaded=np.ones(len(cell), np.uint8),
+            home=homes,
+            committed=np.repeat(waits[:, None], 4, axis=1).astype(np.uint8),
+        )
         action = planner.plan(fleet)[:, 0]
+        needless += [
+            int(c) for c, h, a in zip(cell, heading, action) if a > 1 and ahead.get(int(c)) == h
+        ]
         cell = np.where(action == 1, cell + steps[heading], cell).astype(np.int32)
         heading = ((heading + np.array([0, 0, 1, 3], np.uint8)[action]) & 3).astype(np.uint8)
-        goal = np.where(cell == services, places, goal).astype(np.int32)
-        if (goal == places).all() and (cell == places).all():
-            return
-    pytest.fail("not everybody came home")
+        served += cell == services
+        goal = np.where(served >= hold, homes, goal).astype(np.int32)
+        if (served >= hold).all() and (cell == homes).all():
+            break
+    assert (cell == homes).all() and (served >= hold).all()
+    assert needless == []

@@ -19,13 +19,15 @@ from warehouse_fleet.operations.simulation import Description, simulate
 from warehouse_fleet.travel import Kinematics
 
 NODES = Path(__file__).resolve().parents[3] / "src" / "warehouse_fleet" / "nodes"
-KPIS = (
-    "simulated_s wall_s real_time_factor robots pick_stations replenish_stations items_picked "
-    "lines_picked orders_completed bundles_stored item_throughput_per_hour "
-    "order_throughput_per_hour item_upper_bound_per_hour item_score pile_on station_idle_fraction "
-    "order_turnover_s order_throughput_s late_orders_fraction distance_m distance_per_item_m "
-    "trips collisions blocked watchdog plan_ms executed_over_planned state_hash "
-).split()
+KPIS = re.findall(
+    r"\w+",
+    "simulated_s, wall_s, real_time_factor, robots, pick_stations, replenish_stations, "
+    "items_picked, lines_picked, orders_completed, bundles_stored, item_throughput_per_hour, "
+    "order_throughput_per_hour, item_upper_bound_per_hour, item_score, pile_on, "
+    "station_idle_fraction, order_turnover_s, order_throughput_s, late_orders_fraction, "
+    "distance_m, distance_per_item_m, trips, collisions, blocked, watchdog, plan_ms, "
+    "executed_over_planned, state_hash ",
+)
 
 
 def node(name, *arguments, **options):

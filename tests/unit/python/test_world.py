@@ -29,7 +29,7 @@ REPOSITORY = Path(__file__).parents[3]
 PLACES = {1: (0, 0), 2: (0, 3), 7: (-5, -5)}
 VIEWS = (
     *("x", "y", "yaw", "vx", "vy", "yaw_rate", "tower", "status", "state"),
-    *("left_wheel_speed", "right_wheel_speed"),
+    *("left_wheel_speed", "right_wheel_speed", "path_id", "reached", "left", "stopped"),
 )
 
 
@@ -112,6 +112,34 @@ def test_what_a_robot_cannot_do_is_refused_by_an_event(world):
     assert "off the grid" in event["text"]
 
 
+def test_paths_are_followed_as_far_as_they_are_released(world):
+    fleet, ways = world.fleet, np.arange(4.0)
+    path_id, reached, left = fleet.path_id, fleet.reached, fleet.left  # views: they go on
+    world.follow(
+        [1, 2],
+        [7, 8],
+        points=4,
+        x=np.concatenate([ways, ways]),
+        y=np.repeat([0.0, 3.0], 4),
+        released=[3, 1],
+    )
+    world.step(8000)
+    assert path_id.tolist() == [7, 8, 0]
+    assert fleet.state.tolist() == [State.WAITING, State.WAITING, State.IDLE]
+    assert (reached.tolist(), left.tolist()) == ([3, 1, 0], [2, 0, 0])
+    world.stop(0)
+    world.follow(1, 7, released=4)
+    world.step(2000)
+    assert fleet.stopped.tolist() == [1, 1, 1]
+    assert reached.tolist() == [3, 1, 0]
+    world.stop(0, stop=False)
+    world.cancel(2)
+    world.step(4000)
+    assert fleet.last_end.tolist() == [EventKind.DONE, EventKind.DONE, 0]
+    assert fleet.x[0] == pytest.approx(3, abs=1e-3)
+    assert "cancelled" in world.events()["text"].tolist()
+
+
 WRONG = [
     (lambda w: w.mov(9, 1, 1), ValueError, "no robot kiva9"),
     (lambda w: w.mov(-1, 1, 1), ValueError, "no robot kiva-1"),
@@ -126,6 +154,14 @@ WRONG = [
     (lambda w: w.mov([1, 2], 1, [1, np.inf]), ValueError, "y of command 1 is inf"),
     (lambda w: w.mov([1, 2], [1, 2, 3], 1), ValueError, "x has 3 entries and kiva_id has 2"),
     (lambda w: w.mov([[1]], 1, 1), ValueError, r"not \(1, 1\)"),
+    (lambda w: w.follow(9, 1, x=[0], y=[0]), ValueError, "no robot kiva9"),
+    (lambda w: w.follow(1, -1, x=[0], y=[0]), ValueError, "path_id: .* negative"),
+    (lambda w: w.follow(1, 1, x=[0, 1], y=[0]), ValueError, "y has 1 entries, and points make 2"),
+    (lambda w: w.follow(1, 1, x=[np.nan], y=[0]), ValueError, "x of command 0 is nan"),
+    (lambda w: w.follow([1, 2], 1, points=[1], x=[0], y=[0]), ValueError, "points make 2"),
+    (lambda w: w.follow([1, 2], [1, 2, 3]), ValueError, "path_id has 3"),
+    (lambda w: w.cancel(9), ValueError, "no robot kiva9"),
+    (lambda w: w.stop(9), ValueError, "no robot kiva9"),
     (lambda w: w.rot(1, 1.0), TypeError, "direction: expected whole numbers"),
     (lambda w: w.post(np.zeros(3)), TypeError, "COMMAND"),
     (lambda w: w.post(np.zeros((1, 1), COMMAND)), ValueError, r"shape \(n,\)"),

@@ -19,6 +19,9 @@ class Kind(IntEnum):
     MOVE_Y = 2
     ROTATE = 3
     LIFT = 4
+    CANCEL = 5
+    STOP = 6
+    GO_ON = 7
 
 class Status(IntEnum):
     IDLE = 0
@@ -32,6 +35,7 @@ class State(IntEnum):
     ROTATING = 3
     LIFTING = 4
     BLOCKED = 5
+    WAITING = 6
 
 class EventKind(IntEnum):
     ACCEPTED = 0
@@ -69,6 +73,14 @@ class Fleet:
     def state(self) -> NDArray[np.uint8]: ...
     @property
     def last_end(self) -> NDArray[np.uint8]: ...
+    @property
+    def path_id(self) -> NDArray[np.uint32]: ...
+    @property
+    def reached(self) -> NDArray[np.uint32]: ...
+    @property
+    def left(self) -> NDArray[np.uint32]: ...
+    @property
+    def stopped(self) -> NDArray[np.uint8]: ...
     @property
     def kiva_id(self) -> NDArray[np.int32]: ...
     @property
@@ -136,6 +148,18 @@ class World:
     def lift(self, kiva_id: ArrayLike, status: ArrayLike, shelf_id: ArrayLike) -> None: ...
     def carry(self, kiva_id: ArrayLike, shelf_id: ArrayLike) -> None: ...
     def drop(self, kiva_id: ArrayLike, shelf_id: ArrayLike = 0) -> None: ...
+    def follow(
+        self,
+        kiva_id: ArrayLike,
+        path_id: ArrayLike,
+        first: ArrayLike = 0,
+        points: ArrayLike | None = None,
+        x: ArrayLike = (),
+        y: ArrayLike = (),
+        released: ArrayLike | None = None,
+    ) -> None: ...
+    def cancel(self, kiva_id: ArrayLike) -> None: ...
+    def stop(self, kiva_id: ArrayLike, stop: bool = True) -> None: ...
     def scans(self, kiva_id: ArrayLike | None = None) -> NDArray[np.float32]: ...
     def spawn(
         self, sdf: str, name: str = "", place: tuple[float, float, float, float] | None = None

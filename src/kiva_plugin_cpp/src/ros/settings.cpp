@@ -69,6 +69,13 @@ double wholeNumber(const ros::NodeHandle& node, const std::string& name, double 
   refuse(node, name, XmlRpc::XmlRpcValue(out), expected);
 }
 
+double fleetRate(const ros::NodeHandle& node, double fallback) {
+  const std::string expected = "a rate from 0.1 to 100 Hz";
+  const double out = number(node, "fleet_rate", fallback, 0.1, expected);
+  if (out > 100) refuse(node, "fleet_rate", XmlRpc::XmlRpcValue(out), expected);
+  return out;
+}
+
 bool flag(const ros::NodeHandle& node, const std::string& name) {
   XmlRpc::XmlRpcValue value;
   if (!node.getParam(name, value)) return false;
@@ -159,6 +166,7 @@ Settings readSettings(const ros::NodeHandle& node) {
   const std::string rate = "a rate above 0 in Hz, or 0 (every step)";
   out.rates.clock = number(node, "pub_clock_frequency", out.rates.clock, 0, rate);
   out.rates.model_states = number(node, "model_states_frequency", out.rates.model_states, 0, rate);
+  out.rates.fleet = fleetRate(node, out.rates.fleet);
   return out;
 }
 

@@ -36,6 +36,7 @@ namespace kiva_ros {
 ///   ~replay                  recording to run again, in place of ~world; empty (default): none
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
+///   ~fleet_rate              [Hz] of simulated time, of /warehouse/fleet; default 10, at most 100
 struct Settings {
   std::string world_file;
   kiva::ModelPaths model_paths;        ///< For spawn requests: a preset is made of our models.

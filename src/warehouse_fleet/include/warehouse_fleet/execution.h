@@ -44,9 +44,10 @@ struct Releases {
 
 /// What was seen of a robot's way to its goal, to compare what was driven with what was planned.
 struct Journey {
-  double driven = 0;   ///< since it left [s]
-  double alone = 0;    ///< what the same way takes a robot without others [s]
-  double planned = 0;  ///< that, and where the plan let it wait [s]
+  double driven = 0;  ///< since it left [s]
+  double alone = 0;   ///< what the same way takes a robot without others [s]
+  /// That, and where the plan let it wait: by itself, or behind a robot that stood [s].
+  double planned = 0;
   int cells = 0;
 };
 
@@ -77,16 +78,18 @@ class Execution {
   /// Cells closed now, those of robots that are not controlled among them.
   std::vector<Cell> closed() const;
 
-  /// Where each robot stands, or stood last; kNowhere beyond the floor.
-  Cell cellOf(int robot) const { return courses_[robot].at; }
+  // Of one robot; std::out_of_range if there is none of that index.
+
+  /// Where it stands, or stood last; kNowhere beyond the floor.
+  Cell cellOf(int robot) const { return courses_.at(robot).at; }
   /// Whether it stands in a cell with nothing released beyond.
   bool stands(int robot) const;
   /// Who holds a cell; -1: nobody.
   int holder(Cell cell) const { return holder_[cell]; }
   /// Whom a robot with a plan waits for; -1: nobody.
-  int waitsFor(int robot) const { return courses_[robot].waits_for; }
+  int waitsFor(int robot) const { return courses_.at(robot).waits_for; }
   /// Since when it has stood although it has somewhere to go [s]; time of the last report if not.
-  double stillSince(int robot) const { return courses_[robot].still_since; }
+  double stillSince(int robot) const { return courses_.at(robot).still_since; }
   /// Cells that it holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
@@ -137,11 +140,13 @@ class Execution {
   void dismiss(int robot);
   void follow(int robot);
   void pass(int robot, int reached, int left);
+  bool hasTurned(int robot) const;
   void finish(int robot);
   void occupy(int robot);
   void vacate(int robot);
   void withdraw(int robot);
   void measure(int robot, double elapsed);
+  bool waitsAsPlanned(int robot) const;
   void endRun(Course& course) const;
 
   void commit(int robot, std::uint8_t* row, int horizon) const;

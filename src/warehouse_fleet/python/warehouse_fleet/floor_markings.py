@@ -29,14 +29,14 @@ HEADINGS = ("+x", "+y", "-x", "-y")
 QUEUE, SERVICE, EXIT = "queue", "service", "exit"
 
 _NAMED = re.compile(rf"{NAME}\d*")
-_COLOURS = {
-    "storage": "0.73 0.76 0.80 1",
-    "parking": "0.70 0.78 0.74 1",
-    "keep_out": "0.74 0.72 0.70 1",
-    "exits": "0.79 0.79 0.81 1",
-    QUEUE: "0.86 0.79 0.55 1",
-    SERVICE: "0.80 0.62 0.30 1",
-    EXIT: "0.84 0.82 0.68 1",
+COLOURS = {  # red green blue, each in 0…1
+    "storage": (0.73, 0.76, 0.80),
+    "parking": (0.70, 0.78, 0.74),
+    "keep_out": (0.74, 0.72, 0.70),
+    "exits": (0.79, 0.79, 0.81),
+    QUEUE: (0.86, 0.79, 0.55),
+    SERVICE: (0.80, 0.62, 0.30),
+    EXIT: (0.84, 0.82, 0.68),
 }
 _GAP = {"exits": 0.0}  # between a marking and the border of its cells, of a cell
 _THICK = 0.004  # of paint [m]
@@ -56,6 +56,20 @@ class Mark:
     y: float
     size_x: float
     size_y: float
+
+    @property
+    def kind(self):
+        """One of COLOURS, or what else it is called."""
+        return _kind(self.label)
+
+    @property
+    def station(self):
+        """The name of the station whose lane it marks; "" if it marks none."""
+        return self.label.split("/")[1] if self.label.count("/") == 2 else ""
+
+
+def _kind(label):
+    return "exits" if label.startswith("exits") else label.rpartition("/")[2]
 
 
 # --- painting
@@ -106,23 +120,34 @@ def _link(label, plan, cells):
 
 
 def _visual(i, label, plan, rectangle):
-    kind = "exits" if label.startswith("exits") else label.rpartition("/")[2]
+    kind = _kind(label)
     low, high = np.reshape(rectangle, (2, 2))
     x, y = np.array(plan.origin) + plan.spacing * (low + high) / 2
     width, height = plan.spacing * (high - low + 1 - _GAP.get(kind, 0.1))
-    # Streets lie lowest: lines between cells are painted on them.
-    z = _THICK / (4 if kind == "exits" else 2)
+    z = _THICK / 2
+    colour = "{} {} {} 1".format(*COLOURS[kind])
     return (
         f'<visual name="{i}"><pose>{x:.6g} {y:.6g} {z:g} 0 0 0</pose><geometry><box>'
         f"<size>{width:.6g} {height:.6g} {2 * z:g}</size></box></geometry>"
-        f"<material><diffuse>{_COLOURS[kind]}</diffuse></material></visual>"
+        f"<material><diffuse>{colour}</diffuse></material></visual>"
     )
 
 
 # --- reading
 
 
-def of_look(look):
+def of_scenery(scenery):
+    """The Marks in a Scenery. Raises FloorError."""
+    marks = []
+    for name, look, pose in zip(
+        scenery.models, scenery.model_look, np.reshape(scenery.pose, (-1, 7))
+    ):
+        if is_name(name):
+            marks += read(_of_look(scenery.looks[look]), pose)
+    return marks
+
+
+def _of_look(look):
     """The visuals of a Look, as World.visuals() tells them: (link, pose (7,), size (3,)) each."""
     poses = np.reshape(look.shape_pose, (-1, 7))
     sizes = np.reshape(look.shape_size, (-1, 3))
@@ -158,16 +183,19 @@ def applied(blank, marks, belts):
     """A FloorPlan of what stands there, with Marks on its floor. Raises FloorError."""
     storage, parking, keep_out = (np.zeros(blank.shape, bool) for _ in range(3))
     exits = np.full(blank.shape, 15, np.uint8)
+    marked = np.zeros(blank.shape, bool)
     areas, parts = {"storage": storage, "parking": parking, "keep_out": keep_out}, {}
     for mark in marks:
         where = _cells(blank, mark)
+        marked[where] = True
         if mark.label in areas:
             areas[mark.label][where] = True
         elif mark.label.startswith("exits"):
             exits[where] = sum(1 << i for i, h in enumerate(HEADINGS) if h in mark.label)
         else:
             parts.setdefault(mark.label.rpartition("/")[0], []).append((mark, where))
-    passable = blank.passable & ~keep_out
+    # What is painted is floor, whatever stands there now.
+    passable = (blank.passable | marked) & ~keep_out
     return type(blank).laid_out(
         origin=blank.origin,
         spacing=blank.spacing,
@@ -176,6 +204,7 @@ def applied(blank, marks, belts):
         parking=parking,
         exits=exits,
         stations=_stations(blank, parts, passable, belts),
+        obstructed=~blank.passable,
     )
 
 

@@ -17,9 +17,10 @@ from warehouse_fleet import floor_markings, lane_finder
 from warehouse_fleet._core import Floor, FloorError, check_layout
 from warehouse_fleet.stations import PICK, REPLENISH, Station, lane_mask, with_lanes
 
-__all__ = ["PICK", "REPLENISH", "FloorPlan", "Station"]
+__all__ = ["PICK", "REPLENISH", "FloorError", "FloorPlan", "Station"]
 
 ALL_EXITS = 0b1111
+CONVEYOR = "conveyor_belt"  # names of belts begin so
 UNIT, BELT = 50, 99  # of a cell of the world's map: beneath a storage unit; a conveyor belt
 
 
@@ -32,10 +33,11 @@ class FloorPlan:
 
     origin: tuple  # x, y of the centre of cell (0, 0), in world [m]
     spacing: float  # edge of a cell [m]
-    passable: np.ndarray  # (h, w) bool: where a robot without a load may stand
+    passable: np.ndarray  # (h, w) bool: where a robot without a load may drive
     storage: np.ndarray  # (h, w) bool: storage places
     parking: np.ndarray  # (h, w) bool: where robots without work stand; loaded ones keep out
     exits: np.ndarray  # (h, w) uint8, bit h: may be left towards heading h
+    obstructed: np.ndarray  # (h, w) bool: passable, but for what stands there now
     stations: tuple = ()  # of Station
     without_lane: tuple = ()  # texts: which belts have no station, and why
 
@@ -71,29 +73,38 @@ class FloorPlan:
         row, column = np.divmod(cell, self.width)
         return self.origin[0] + column * self.spacing, self.origin[1] + row * self.spacing
 
-    def floor(self):
-        """What planners drive on. Loaded robots keep out of parking as they do of storage."""
+    def floor(self, passable=None):
+        """What planners drive on; obstructed cells are to be told them as closed. Loaded robots
+        keep out of parking as they do of storage."""
         return Floor(
-            self.passable,
+            self.passable if passable is None else passable,
             storage=self.storage | self.parking,
             lane=self.lane,
             exits=self.exits,
         )
 
-    def check(self):
-        """Raises FloorError with the places [m], if a fleet could come to a deadlock here."""
-        faults = check_layout(self.floor(), *self.origin, self.spacing)
+    def check(self, obstructed=True):
+        """Raises FloorError with the places [m], if a fleet could come to a deadlock here: with
+        what stands in its way now, or as the floor is without it."""
+        free = self.passable & ~self.obstructed if obstructed else self.passable
+        faults = check_layout(self.floor(free), *self.origin, self.spacing)
         if faults:
-            raise FloorError("; ".join(faults))
+            raise FloorError("; ".join([*faults, *self._in_the_way(free)]))
+
+    def _in_the_way(self, free):
+        """In a sentence, where something stands on the marked floor."""
+        cells = np.flatnonzero(self.passable & ~free)
+        points = ", ".join(f"({x:g}, {y:g})" for x, y in zip(*self.point_of(cells[:10])))
+        return [f"something stands at {points}"] if points else []
 
     @classmethod
     def of_world(cls, world):
-        """Of a kiva_plugin_cpp.World. FloorError where markings contradict what stands there."""
+        """Of a kiva_plugin_cpp.World. FloorError where markings contradict each other."""
         marks, belts = [], {}
         for name in world.names:
             if floor_markings.is_name(name):
                 marks += floor_markings.read(world.visuals(name), world.pose(name))
-            elif name.startswith("conveyor_belt"):
+            elif name.startswith(CONVEYOR):
                 belts[name] = world.pose(name)[:2]
         return cls.of_parts(*world.occupancy(), marks, belts)
 
@@ -103,12 +114,8 @@ class FloorPlan:
         corner, spacing = grid.info.origin.position, grid.info.resolution
         cells = np.array(grid.data, np.uint8).reshape(grid.info.height, grid.info.width)
         poses = np.reshape(scenery.pose, (-1, 7))
-        marks, belts = [], {}
-        for name, look, pose in zip(scenery.models, scenery.model_look, poses):
-            if floor_markings.is_name(name):
-                marks += floor_markings.read(floor_markings.of_look(scenery.looks[look]), pose)
-            elif name.startswith("conveyor_belt"):
-                belts[name] = pose[:2]
+        belts = {n: p[:2] for n, p in zip(scenery.models, poses) if n.startswith(CONVEYOR)}
+        marks = floor_markings.of_scenery(scenery)
         x, y = corner.x + spacing / 2, corner.y + spacing / 2
         return cls.of_parts(x, y, spacing, cells, marks, belts)
 
@@ -122,7 +129,9 @@ class FloorPlan:
         return lane_finder.find(blank, belts, np.asarray(occupancy) == BELT)
 
     @classmethod
-    def laid_out(cls, *, origin, spacing, passable, storage, parking, exits, stations):
+    def laid_out(
+        cls, *, origin, spacing, passable, storage, parking, exits, stations, obstructed=None
+    ):
         """With `exits` made whole: nobody leaves the floor or a lane, nor enters one but at its
         entry; places where nobody can drive are neither storage nor parking."""
         return cls(
@@ -132,6 +141,7 @@ class FloorPlan:
             storage=storage & passable,
             parking=parking & passable,
             exits=with_lanes(exits, passable, stations),
+            obstructed=np.zeros_like(passable) if obstructed is None else obstructed & passable,
             stations=tuple(stations),
         )
 

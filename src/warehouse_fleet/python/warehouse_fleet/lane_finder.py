@@ -3,10 +3,10 @@
 
 Before a belt's side or end, seen with the belt to the right (q queue, s service, x exit):
 
-    straight         around a corner      there and back
-        q
-        q                      x                  x x x x x x
-        s ==            q q q  s ==               q q q q q s ==
+    straight      there and back      around a corner
+        q           x x x x x                     x
+        q                   s ==                  s ==
+        s ==        q q q q q             q q q q q
         x
 """
 
@@ -16,8 +16,10 @@ import numpy as np
 
 from warehouse_fleet._core import check_layout
 from warehouse_fleet.stations import PICK, STEPS, Station, lane_mask, neighbour
+from warehouse_fleet.street_graph import without_dead_ends
 
-QUEUE = 5  # cells, the entry among them
+CUTS = "every lane there would cut others off from the streets, or no cell beside it is free"
+QUEUE = 6  # cells, the entry and a corner among them
 
 
 def find(plan, belts, belt_cells):
@@ -26,21 +28,23 @@ def find(plan, belts, belt_cells):
     plan = _without_dead_ends(plan)
     before = _faults(plan)
     stations, without = [], []
-    for name, (x, y) in belts.items():
-        found, reason = None, "no cell beside it is free"
-        for lane, service in _candidates(plan, stations, (x, y), belt_cells):
-            station = Station(f"pick{len(stations) + 1}", PICK, lane, service, name)
-            if _faults(_with(plan, [*stations, station])) <= before:
-                found = station
-                break
-            reason = "every lane there would cut cells off from the other streets"
-        else:
-            reason = _why(plan, stations, (x, y), belt_cells) or reason
-        if found:
-            stations.append(found)
-        else:
-            without.append(f"{name} at ({x:g}, {y:g}) has no lane: {reason}")
+    for name, at in belts.items():
+        station = _station(plan, stations, name, at, belt_cells, before)
+        if station:
+            stations.append(station)
+            continue
+        reason = _why(plan, stations, at, belt_cells) or CUTS
+        without.append(f"{name} at ({at[0]:g}, {at[1]:g}) has no lane: {reason}")
     return replace(_with(plan, stations), without_lane=tuple(without))
+
+
+def _station(plan, stations, belt, at, belt_cells, faults):
+    """The first lane there with which the floor has no more faults than before, or None."""
+    for lane, service in _candidates(plan, stations, at, belt_cells):
+        station = Station(f"pick{len(stations) + 1}", PICK, lane, service, belt)
+        if _faults(_with(plan, [*stations, station])) <= faults:
+            return station
+    return None
 
 
 def _with(plan, stations):
@@ -62,13 +66,7 @@ def _faults(plan):
 def _without_dead_ends(plan):
     """What leads nowhere is for robots without a load alone: there two could not pass."""
     streets = plan.passable & ~plan.storage & ~plan.parking
-    kept = streets.copy()
-    while True:
-        ways = sum(neighbour(kept, heading).astype(int) for heading in range(4))
-        dead = kept & (ways < 2)
-        if not dead.any():
-            break
-        kept &= ~dead
+    kept = without_dead_ends(streets)
     return replace(plan, parking=plan.parking | (streets & ~kept))
 
 
@@ -90,51 +88,57 @@ def _services(plan, streets, at, belt_cells):
 def _candidates(plan, stations, at, belt_cells):
     """Pairs (cells, index of the service cell), the smoothest first."""
     streets = _streets(plan, stations)
+    for points in _shapes(plan, streets, at, belt_cells):
+        if not _lacking(points, streets):
+            x, y = np.array(points).T
+            yield (y * plan.width + x).astype(np.int32), QUEUE
+
+
+def _shapes(plan, streets, at, belt_cells):
+    """Lists of points (x, y) in cells."""
     services = list(_services(plan, streets, at, belt_cells))
-    for shape in (_straight, _corner, _back):
+    for shape in (_straight, _back, _corner):
         for service, heading in services:
             for side in (1, -1):
-                points = shape(np.array(service), np.array(STEPS[heading]), side)
-                if _are_free(points, streets):
-                    x, y = np.array(points).T
-                    yield (y * plan.width + x).astype(np.int32), QUEUE
+                yield shape(np.array(service), np.array(STEPS[heading]), side)
 
 
 def _straight(service, towards, side):
+    """Units pass the belt without turning."""
     along = side * towards[::-1]
     return [service + i * along for i in range(-QUEUE, 2)]
 
 
+def _back(service, towards, side):
+    """They turn before and after it."""
+    along = side * towards[::-1]
+    there = [service - along - i * towards for i in range(QUEUE)]
+    return [*there[::-1], service, *(point + 2 * along for point in there)]
+
+
 def _corner(service, towards, side):
     along = side * towards[::-1]
-    return [*(service + i * towards for i in range(-QUEUE, 1)), service + along]
+    there = [service - along - i * towards for i in range(QUEUE)]
+    return [*there[::-1], service, service + along]
 
 
-def _back(service, towards, side):
-    there = [service + i * towards for i in range(-QUEUE, 1)]
-    return [*there, *(p + side * towards[::-1] for p in there[::-1])]
-
-
-def _are_free(points, streets):
+def _lacking(points, streets):
+    """Those that are not free."""
     height, width = streets.shape
-    return all(0 <= x < width and 0 <= y < height and streets[y, x] for x, y in points)
+    return [
+        (int(x), int(y))
+        for x, y in points
+        if not (0 <= x < width and 0 <= y < height and streets[y, x])
+    ]
 
 
 def _why(plan, stations, at, belt_cells):
-    """Which cells a straight lane lacks where it lacks the fewest; "" if none lacks any."""
-    streets, least = _streets(plan, stations), None
-    height, width = streets.shape
-    for service, heading in _services(plan, streets, at, belt_cells):
-        for shape in (_straight, _corner, _back):
-            for side in (1, -1):
-                lacking = [
-                    (int(x), int(y))
-                    for x, y in shape(np.array(service), np.array(STEPS[heading]), side)
-                    if not (0 <= x < width and 0 <= y < height and streets[y, x])
-                ]
-                if least is None or len(lacking) < len(least):
-                    least = lacking
-    if not least:
-        return ""
-    points = [plan.point_of(y * width + x) for x, y in least]
-    return "it would need " + ", ".join(f"({x:g}, {y:g})" for x, y in points)
+    """Which cells the lane lacks that lacks the fewest; "" if none lacks any."""
+    streets = _streets(plan, stations)
+    least = min(
+        (_lacking(points, streets) for points in _shapes(plan, streets, at, belt_cells)),
+        key=len,
+        default=[],
+    )
+    points = [plan.point_of(y * plan.width + x) for x, y in least]
+    return "it would need " + ", ".join(f"({x:g}, {y:g})" for x, y in points) if points else ""

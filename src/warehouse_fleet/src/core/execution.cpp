@@ -19,6 +19,8 @@ constexpr double kUnanswered = 0.5;   // after which something is sent again [s]
 constexpr double kBlockedFor = 1;     // after which a robot is sent another way [s]
 constexpr double kClosedFor = 10;     // that what was in its way is taken to stay [s]
 constexpr double kStandstill = 0.01;  // [m/s]
+constexpr double kAligned = 0.05;     // with the way ahead [rad]
+constexpr double kQuarter = 1.5707963267948966;  // of a turn [rad]
 constexpr int kNobody = -1;
 
 /// How long a run from rest to rest takes [s].
@@ -137,10 +139,7 @@ void Execution::free(Cell cell, int robot) {
 void Execution::follow(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  if (course.turning != kNowhere && report.state != kStateRotating &&
-      (course.at != course.turning || (course.is_accepted && speedOf(robot) > kStandstill))) {
-    course.turning = kNowhere;
-  }
+  if (course.turning != kNowhere && hasTurned(robot)) course.turning = kNowhere;
   if (!course.is_active) {
     // Somebody else has moved it.
     const Cell at = cellAt(report.x, report.y);
@@ -169,6 +168,17 @@ void Execution::follow(int robot) {
     course.blocked_since = -1;
     course.is_withdrawn = false;
   }
+}
+
+/// Whether it is around the corner that it was released around.
+bool Execution::hasTurned(int robot) const {
+  const Course& course = courses_[robot];
+  const auto corner = std::find(course.cells.rbegin(), course.cells.rend(), course.turning);
+  const auto point = course.cells.rend() - corner - 1;
+  if (point + 1 >= static_cast<int>(course.cells.size())) return true;
+  if (course.reached < point + 1) return false;
+  const double yaw = kQuarter * headingTo(course.turning, course.cells[point + 1]);
+  return std::abs(std::remainder(reports_[robot].yaw - yaw, 4 * kQuarter)) < kAligned;
 }
 
 void Execution::pass(int robot, int reached, int left) {
@@ -252,6 +262,13 @@ void Execution::endRun(Course& course) const {
   course.run = 0;
 }
 
+/// Whether it stands because the plan has it wait, or after one in its way that stands as well.
+bool Execution::waitsAsPlanned(int robot) const {
+  const Course& course = courses_[robot];
+  if (course.waits_by_plan || course.waits_for == kNobody) return course.waits_by_plan;
+  return speedOf(course.waits_for) < kStandstill;
+}
+
 void Execution::measure(int robot, double elapsed) {
   Course& course = courses_[robot];
   if (!course.is_member) return;
@@ -259,13 +276,13 @@ void Execution::measure(int robot, double elapsed) {
   if (!course.travels || !is_still) course.still_since = now_;
   if (!course.travels) return;
   course.journey.driven += elapsed;
-  if (!is_still || !course.waits_by_plan || toGo(robot) > kCentred) return;
+  if (!is_still || toGo(robot) > kCentred || !waitsAsPlanned(robot)) return;
   course.journey.planned += elapsed;
   endRun(course);
 }
 
 Journey Execution::takeJourney(int robot) {
-  Course& course = courses_[robot];
+  Course& course = courses_.at(robot);
   endRun(course);
   course.run_heading = -1;
   Journey journey = course.journey;
@@ -476,17 +493,16 @@ bool Execution::needs(int robot) const {
   return toGo(robot) < way;
 }
 
-/// Two loaded robots side by side must not turn at once, and nobody is released around a corner
+/// Two side by side, one with a load, must not turn at once, and nobody is released around a corner
 /// before it comes to it.
 bool Execution::mayTurn(int robot) const {
   const Course& course = courses_[robot];
   if (toGo(robot) > kTurnsSoon) return false;
-  if (!reports_[robot].is_loaded) return true;
   for (int heading = 0; heading < kHeadings; ++heading) {
     const Cell beside = floor_.beside(course.cells.back(), heading);
     const int other = beside == kNowhere ? kNobody : holder_[beside];
-    if (other == kNobody || other == robot || !reports_[other].is_loaded) continue;
-    if (courses_[other].turning == beside) return false;
+    if (other == kNobody || other == robot || courses_[other].turning != beside) continue;
+    if (reports_[robot].is_loaded || reports_[other].is_loaded) return false;
   }
   return true;
 }
@@ -510,19 +526,19 @@ void Execution::send(int robot, int first) {
 }
 
 bool Execution::stands(int robot) const {
-  const Course& course = courses_[robot];
+  const Course& course = courses_.at(robot);
   return course.is_member && !course.is_active;
 }
 
 std::vector<Cell> Execution::released(int robot) const {
-  const Course& course = courses_[robot];
+  const Course& course = courses_.at(robot);
   if (!course.is_member) return course.occupied;
   return {course.cells.begin() + course.left, course.cells.end()};
 }
 
 std::vector<Cell> Execution::planned(int robot) const {
   std::vector<Cell> cells;
-  for (const Step& step : courses_[robot].plan) cells.push_back(step.cell);
+  for (const Step& step : courses_.at(robot).plan) cells.push_back(step.cell);
   return cells;
 }
 
@@ -535,7 +551,6 @@ Cell Execution::cellAt(double x, double y) const {
 }
 
 Heading Execution::headingOf(int robot) const {
-  constexpr double kQuarter = 1.5707963267948966;
   return turned(static_cast<int>(std::lround(reports_[robot].yaw / kQuarter)), 0);
 }
 

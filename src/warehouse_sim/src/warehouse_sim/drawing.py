@@ -9,6 +9,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from warehouse_fleet import floor_markings
 from warehouse_msgs.msg import KivaStatus
 from warehouse_sim import looks, markers, poses, tracking
 from warehouse_sim.words import shown_status
@@ -60,6 +61,7 @@ class Drawing:
         axes.set_ylim(self.bounds[2:])
         self._floor()
         if moment.scenery:
+            _paint(axes, looks.marks(moment.scenery))
             _scenery(axes, moment.scenery)
         _robots(axes, moment)
         _loads(axes, moment)
@@ -138,10 +140,24 @@ def _loads(axes, moment):
         _add(axes, outlines, facecolors=[(*colour, opacity)], zorder=layer, **look)
 
 
+def _paint(axes, marks):
+    """What is painted on the floor, beneath its grid; the names of stations beside their places."""
+    rows = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4))
+    corners = _rectangle((1, 1)) * rows[:, None, 2:] + rows[:, None, :2]
+    _add(axes, corners, facecolors=[markers.paint_of(m) for m in marks], zorder=0.5)
+    served = markers.served(marks)
+    if len(served) <= MOST_NAMES:
+        for m in served:
+            axes.text(m.x, m.y, m.station, ha="center", va="center", fontsize=6, zorder=6)
+
+
 def _scenery(axes, scenery):
     """The footprint of every shape of what else stands there, the lower ones first."""
     described = [looks.parts(look, 0) for look in scenery.looks]
-    for look, pose in zip(scenery.model_look, poses.rows(scenery.pose)):
+    things = zip(scenery.models, scenery.model_look, poses.rows(scenery.pose))
+    for name, look, pose in things:
+        if floor_markings.is_name(name):
+            continue
         own = np.reshape([part.pose for part in described[look]], (-1, 7))
         at = poses.compose(np.broadcast_to(pose, own.shape), own)
         for i in np.argsort(at[:, 2]):

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from warehouse_fleet import floor_markings
 from warehouse_msgs.msg import KivaStatus, Look
 from warehouse_sim import looks, poses, shapes
 
@@ -26,6 +27,7 @@ NAME_HEIGHT, NAME_ABOVE = 0.28, 0.30  # of letters; over a robot [m]
 LIFTED = "tower"  # a robot's link that goes up with its load
 LINE = 0.04  # width [m]
 ABOVE_FLOOR = 0.02  # of lines [m]
+PAINT = 0.005  # of what is painted on the floor [m]
 FRAME = (0.40, 0.49)  # inner and outer half edges of the frame around a robot [m]
 ARROW = np.array([(0.90, 0), (0.30, 0.6), (0.30, -0.6)])  # of half a robot's length and width
 
@@ -125,9 +127,39 @@ def _alike(parts):
     return list(groups.values())
 
 
+def paint(marks):
+    """What floor_markings.Marks show, and the names of stations."""
+    x, y, wide, deep = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4)).T
+    across, along = wide[:, None] * _QUAD[:, 0] / 2, deep[:, None] * _QUAD[:, 1] / 2
+    corners = np.stack([x[:, None] + across, y[:, None] + along], axis=2)
+    points = np.pad(corners, ((0, 0), (0, 0), (0, 1)), constant_values=PAINT)
+    colours = np.reshape([(*paint_of(m), 1) for m in marks], (-1, 4))
+    return [
+        _joined("paint", [(points, colours)]),
+        *(
+            shapes.Text("stations", i, (m.x, m.y, NAME_ABOVE), m.station, NAME_HEIGHT, INK)
+            for i, m in enumerate(served(marks))
+        ),
+    ]
+
+
+_QUAD = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)])  # two triangles
+
+
+def paint_of(mark):
+    """Its colour, red green blue."""
+    return floor_markings.COLOURS.get(mark.kind, FLOOR[:3])
+
+
+def served(marks):
+    """Those at which units are served."""
+    return [m for m in marks if m.kind == floor_markings.SERVICE]
+
+
 def scenery(message):
     """What else stands there, in a Scenery: a marker a look."""
     at, index = poses.rows(message.pose), np.array(message.model_look, int)
+    index[[floor_markings.is_name(name) for name in message.models]] = -1
     return [
         _joined(
             f"scenery {i + 1}",

@@ -12,8 +12,9 @@ FLOOR = "ground_plane"
 
 # Of everything that a warehouse consists of, in the order in which it is taken away: what is
 # carried or lies on something goes after it.
-KINDS = ("kiva", "storage_unit", "item", "conveyor_belt", floor_markings.NAME)
-_NUMBERED = re.compile(rf"({'|'.join(KINDS)})(\d+)")
+KINDS = ("kiva", "storage_unit", "item", "conveyor_belt")
+MARKINGS = floor_markings.NAME
+_NUMBERED = re.compile(rf"({'|'.join((*KINDS, MARKINGS))})(\d+)")
 
 _INCLUDE = "<include><uri>model://{}</uri><name>{}</name><pose>{}</pose></include>"
 
@@ -51,7 +52,7 @@ def of_layout(layout):
     on which they lie."""
     on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
     floor = [Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size))]
-    marks = f"{floor_markings.NAME}1"
+    marks = f"{MARKINGS}1"
     return [
         *(floor if layout.has_own_floor else []),
         *([Part(marks, floor_markings.sdf(layout.plan, marks))] if layout.plan else []),

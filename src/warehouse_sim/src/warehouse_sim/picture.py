@@ -104,7 +104,8 @@ class Picture:
     def _of_scenery(self, scenery):
         """Made once, as long as it is the same message."""
         if scenery is not self._scenery:
-            self._scenery, self._fixed = scenery, markers.scenery(scenery)
+            self._scenery = scenery
+            self._fixed = [*markers.paint(looks.marks(scenery)), *markers.scenery(scenery)]
         return self._fixed
 
     def _show(self, made):

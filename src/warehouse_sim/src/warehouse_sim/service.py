@@ -59,7 +59,8 @@ class WarehouseService:
             self._finish(transaction, name, number, layout.floor)
         width, length = layout.floor.size
         title = f"{name}: " if name else ""
-        return f"{title}{wanted} on a {width:g} x {length:g} m floor"
+        stations = "" if layout.plan or not wanted.belts else "; no room for stations with lanes"
+        return f"{title}{wanted} on a {width:g} x {length:g} m floor{stations}"
 
     def _layout(self, wanted, engine):
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None

@@ -5,20 +5,36 @@ from geometry_msgs.msg import Pose2D
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import (
+    Cancel,
+    FleetFollow,
     FleetState,
+    FollowPath,
     KivaStatus,
     Lift,
     MoveAlong,
     MoveTo,
     Rotate,
+    Scenery,
+    Stop,
     UnitStates,
     WarehouseObjects,
     WarehouseState,
 )
 from warehouse_sim import identity, tracking
+from warehouse_sim.floor_reader import FloorReader
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 
-COMMANDS = {"/mov": MoveTo, "/movx": MoveAlong, "/movy": MoveAlong, "/rot": Rotate, "/lift": Lift}
+COMMANDS = {
+    "/mov": MoveTo,
+    "/movx": MoveAlong,
+    "/movy": MoveAlong,
+    "/rot": Rotate,
+    "/lift": Lift,
+    "/follow": FollowPath,
+    "/warehouse/follow": FleetFollow,
+    "/cancel": Cancel,
+    "/stop": Stop,
+}
 PERIOD = 1.0  # [s, simulated]
 
 
@@ -55,7 +71,9 @@ class StatePublisher:
             fleet=("/warehouse/fleet", FleetState),
             objects=("/warehouse/objects", WarehouseObjects),
             states=("/warehouse/unit_states", UnitStates),
+            scenery=("/warehouse/scenery", Scenery),
         )
+        self._floor = FloorReader(ros)
         self._topic = LazyPublisher(ros, "/warehouse/state", WarehouseState, self.message)
 
     def message(self):
@@ -64,6 +82,8 @@ class StatePublisher:
             return None
         out = glance(self._newest["fleet"], *self._newest.units_and_objects)
         out.warehouse_name, out.warehouse_id = identity.read(self._ros)
+        out.stations = self._floor.stations
+        out.place_x, out.place_y = self._floor.places
         return out
 
     def turn(self, patience=1.0):
@@ -72,10 +92,11 @@ class StatePublisher:
         now, fit = self._ros.Time.now().to_sec(), self._newest.units_and_objects
         if not fit:
             return
+        new_floor = self._floor.take(self._newest["scenery"])
         # The name is asked for when little happens; it comes last when a warehouse is built.
         shown = (fit[0].revision, None if news else identity.read(self._ros))
         due = self._next is None or not self._next - PERIOD <= now < self._next
-        if due or self._differs(shown):
+        if due or new_floor or self._differs(shown):
             self._topic.publish()
             self._shown, self._next = (shown[0], identity.read(self._ros)), now + PERIOD
 

@@ -40,7 +40,7 @@ class WarehouseBuilder:
 
     def clear(self, floor=True):
         """Takes away the models of any warehouse; those with other names stay."""
-        for kind in models.KINDS:
+        for kind in (*models.KINDS, models.MARKINGS):
             # Asked for anew each time: items go with the storage unit on which they lie.
             names = self._engine.names()
             self._delete([name for name in names if models.kind_and_number(name)[0] == kind])

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which robots have a label.
+// Which robots and stations have a label.
 
 export const LABEL_HEIGHT = 0.42; // above the floor [m]
 const LARGE = 24; // [px] a metre: who is seen so large has a number
 const MOST = 60; // of numbers, and of names
 const BLOCKED = 2;
+const READABLE = 10; // [px] a metre: a station that is seen so large has its name
 
 /** Indices of robots in sight of a View: {names, numbers}. Names have those of the set `wanted` and
  *  who is blocked; numbers the nearest of those that are seen large. */
@@ -19,4 +20,11 @@ export function labelled({ shown, status }, view, wanted) {
       .sort((a, b) => wanted.has(b) - wanted.has(a) || nearestFirst(a, b)).slice(0, MOST),
     numbers: seen.filter((i) => scales[i] >= LARGE && !matters(i)).sort(nearestFirst).slice(0, MOST),
   };
+}
+
+/** The nearest of the stations in sight of a View that are seen large enough. */
+export function namedStations(stations, view) {
+  return stations.map((station) => ({ station, scale: view.scaleAt(station.x, station.y, 0, 0.5) }))
+    .filter(({ scale }) => scale >= READABLE)
+    .sort((a, b) => b.scale - a.scale).slice(0, MOST).map(({ station }) => station);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers over the robots that are seen large, and the names of those that matter now.
+// Numbers over the robots that are seen large, the names of those that matter now, and stations'.
 
 import { make } from './dom.js';
-import { LABEL_HEIGHT, labelled } from './labelled.js';
+import { LABEL_HEIGHT, labelled, namedStations } from './labelled.js';
 import { STATUS } from './world.js';
 
 export class Labels {
@@ -14,19 +14,23 @@ export class Labels {
   /** Draws them anew, for a View; `wanted`: a set of indices of robots to name. */
   draw(view, wanted) {
     const { names, numbers } = labelled(this.world, view, wanted);
-    const { robots } = this.world.scene;
-    const texts = [...names.map((i) => `kiva${robots[i]}`), ...numbers.map((i) => String(robots[i]))];
+    const { robots, stations } = this.world.scene;
+    const { shown, status } = this.world;
+    const labels = [
+      ...names.map((i) => [`kiva${robots[i]}`, STATUS[status[i]], i]),
+      ...numbers.map((i) => [String(robots[i]), '', i]),
+    ].map(([text, kind, i]) => ({ text, kind, at: [shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT] }));
+    for (const { name, x, y } of namedStations(stations, view)) {
+      labels.push({ text: name, kind: 'station', at: [x, y, 0] });
+    }
     const spans = this.box.children;
-    while (spans.length < texts.length) this.box.append(make('span'));
-    [...names, ...numbers].forEach((i, k) => {
-      this.place(spans[k], i, texts[k], k < names.length ? STATUS[this.world.status[i]] : '');
-    });
-    for (let k = 0; k < spans.length; ++k) spans[k].hidden = k >= texts.length;
+    while (spans.length < labels.length) this.box.append(make('span'));
+    labels.forEach((label, k) => this.place(spans[k], label));
+    for (let k = 0; k < spans.length; ++k) spans[k].hidden = k >= labels.length;
   }
 
-  place(span, i, text, kind) {
-    const { shown } = this.world;
-    const [x, y] = this.stage.pixelOf(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT);
+  place(span, { text, kind, at }) {
+    const [x, y] = this.stage.pixelOf(...at);
     if (span.textContent !== text) span.textContent = text;
     if (span.className !== kind) span.className = kind;
     span.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -100%)`;

@@ -88,9 +88,10 @@ class Page {
     this.list.search($('search').value);
   }
 
-  buildPicture({ floor, grid }) {
+  buildPicture({ floor, grid, paint }) {
     if (!this.stage) return;
     this.actors.build();
+    this.stage.setPaint(paint);
     this.overlays.trails.clear();
     if (String(floor) === this.floor) return;
     this.floor = String(floor);

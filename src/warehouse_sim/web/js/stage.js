@@ -4,6 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { OrbitControls } from '/three/examples/jsm/controls/OrbitControls.js';
 import { on } from './dom.js';
+import { Paint } from './paint.js';
 
 const COLOURS = {
   dark: { page: 0x14171c, floor: 0x2a2f37, grid: 0x414955, sky: 0xffffff, ground: 0x565b66 },
@@ -34,6 +35,7 @@ export class Stage {
     this.sun = new THREE.DirectionalLight(0xffffff, 0.36);
     this.sun.position.set(-3, -5, 9);
     this.scene.add(this.sky, this.sun);
+    this.paint = new Paint(this.scene);
     this.frames = 0; // drawn since the start
     this.margins = { left: 0, right: 0, top: 0, bottom: 0 };
     this.setFloor([-5, 5, -5, 5], 1);
@@ -81,8 +83,15 @@ export class Stage {
     this.scene.background = new THREE.Color(this.colours.page);
     this.floor.material.color.set(this.colours.floor);
     this.grid.material.color.set(this.colours.grid);
+    this.paint.setTheme(theme);
     this.sky.color.set(this.colours.sky);
     this.sky.groundColor.set(this.colours.ground);
+    this.invalidate();
+  }
+
+  /** What is painted on the floor, as the scene has it. */
+  setPaint(paint) {
+    this.paint.set(paint, document.documentElement.dataset.theme);
     this.invalidate();
   }
 

@@ -178,6 +178,7 @@ int findRobot(const WorldState& world, int id) {
 /// Gives the command to its robot; `path` is what it stands for, if it is to follow one. Counts it,
 /// unless it only changes what the robot is at. Throws Refusal.
 void obey(WorldState& world, const Command& command, const FollowPath& path) {
+  if (!path.fault.empty()) throw Refusal(path.fault);
   const bool is_stop = command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
   const Order order = orderOf(command.kind);
   if (is_stop && command.kiva_id == 0) return obeyAll(world, order);
@@ -199,9 +200,10 @@ void answer(WorldState& world, const Command& command, const FollowPath& path) {
   try {
     obey(world, command, path);
   } catch (const Refusal& refusal) {
+    const bool is_fleets = command.kiva_id == 0 && !path.fault.empty();
     world.events.push_back({world.time(),
                             Event::Kind::kRefused,
-                            "kiva" + std::to_string(command.kiva_id),
+                            is_fleets ? "" : "kiva" + std::to_string(command.kiva_id),
                             "",
                             refusal.what(),
                             ++world.last_command,

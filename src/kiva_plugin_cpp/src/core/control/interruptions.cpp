@@ -11,8 +11,8 @@
 namespace kiva {
 namespace {
 
-/// Whether a robot that goes on is back on the grid after that segment: it has none off the grid
-/// before it.
+/// How many of its segments bring a robot that was off the grid back to it; at least the present
+/// one.
 std::size_t segmentsToGrid(const Task& task) {
   for (std::size_t k = task.segments.size(); k > 1; --k) {
     if (!task.segments[k - 1].on_grid) return k;
@@ -53,6 +53,7 @@ void cancel(WorldState& world, int robot) {
   task.segments.erase(task.segments.begin() + static_cast<std::ptrdiff_t>(rest),
                       task.segments.end());
   if (task.phase == Phase::kDriving && now.on_grid) shortenDrive(world, robot);
+  if (task.phase == Phase::kBraking) task.segments.front().goal = world.fleet.goal[robot];
 }
 
 void stop(WorldState& world, int robot) {

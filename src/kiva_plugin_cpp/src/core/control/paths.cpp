@@ -20,14 +20,8 @@ constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch wha
 constexpr double kCentred = 0.001;  // [m]: a robot within stands on its point
 constexpr std::uint64_t kMostPoints = 100000;
 
-/// The path as it would be: points up to `shared` as they are, then those of the message.
-struct Change {
-  const FollowPath& message;
-  std::vector<PathPoint> points;  ///< Of the message, on the grid.
-  std::uint64_t size;             ///< Of the whole path.
-};
-
-void checkNumbers(const FollowPath& m, std::uint64_t known) {
+/// `known`: points of the path so far, of which `forgotten` have been left.
+void checkNumbers(const FollowPath& m, std::uint64_t known, std::uint64_t forgotten) {
   if (!m.fault.empty()) throw Refusal(m.fault);
   if (m.path_id == 0) throw Refusal("path_id 0: another number was expected");
   if (m.x.size() != m.y.size()) {
@@ -37,9 +31,9 @@ void checkNumbers(const FollowPath& m, std::uint64_t known) {
     throw Refusal(format("first %u: the path has %u points so far, so that some are missing",
                          m.first, static_cast<unsigned>(known)));
   }
-  if (m.first + m.x.size() > kMostPoints) {
-    throw Refusal(format("a path of %zu points: at most %u were expected", m.first + m.x.size(),
-                         static_cast<unsigned>(kMostPoints)));
+  if (m.first + m.x.size() > forgotten + kMostPoints) {
+    throw Refusal(format("%zu points ahead: at most %u were expected",
+                         m.first + m.x.size() - forgotten, static_cast<unsigned>(kMostPoints)));
   }
   if (m.released == 0) throw Refusal("released 0: it stands on point 0, so at least 1 is");
 }
@@ -199,7 +193,7 @@ void startPath(WorldState& world, int robot, std::uint32_t number, const FollowP
   if (m.path_id != 0 && m.path_id == f.path_id[robot]) {
     throw Refusal(format("path %u is over", m.path_id));
   }
-  checkNumbers(m, 0);
+  checkNumbers(m, 0, 0);
   checkReleased(m, m.x.size());
   ReleasedPath path;
   for (std::size_t k = 0; k < m.x.size(); ++k) {
@@ -226,7 +220,7 @@ void changePath(WorldState& world, int robot, const FollowPath& m) {
   if (task.cancelled) throw Refusal(format("path %u is being cancelled", m.path_id));
   if (task.phase == Phase::kHalting) throw Refusal(format("path %u ends here", m.path_id));
   ReleasedPath& path = task.path;
-  checkNumbers(m, path.size());
+  checkNumbers(m, path.size(), path.first);
   const std::uint64_t size = m.x.empty() ? path.size() : m.first + m.x.size();
   checkReleased(m, size);
   const RunEnd end = checkedRunEnd(world, robot, m.released);

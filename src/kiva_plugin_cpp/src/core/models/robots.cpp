@@ -164,6 +164,7 @@ void Robots::reset(WorldState& world, Model& model) const {
   fleet.stance[robot] = Stance();
   fleet.stopped[robot] = 0;
   place(world, model, {model.spawn_pose, {}});
+  fleet.path_id[robot] = fleet.reached[robot] = fleet.left[robot] = 0;
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }

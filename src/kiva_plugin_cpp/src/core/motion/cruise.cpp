@@ -90,29 +90,35 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
   return attention != 0;
 }
 
-/// In how many steps the robot's reference may be at `place`, at the soonest.
+/// How many steps the robot's reference needs at least to come to `place`: speeding up all the way,
+/// or at top speed all the way.
 double stepsTo(const FleetState& f, int i, double place, double dt) {
-  const double way = std::max(0.0, place - f.reference[i]);
-  const double v = f.reference_speed[i], a = f.acceleration[i];
-  const double at_top_speed = way / f.top_speed[i];
-  const double speeding_up = a > 0 ? (std::sqrt(v * v + 2 * a * way) - v) / a : 0;
-  return std::floor(std::max(at_top_speed, speeding_up) / dt) - 1;  // a step goes before its speed
+  const double way = place - f.reference[i];
+  const double faster = f.acceleration[i] * dt * dt;  // a step goes that much farther than the last
+  double steps = way / (f.top_speed[i] * dt);
+  if (faster > 0) {
+    const double first = f.reference_speed[i] * dt + faster / 2;
+    steps = std::max(steps, (std::sqrt(first * first + 2 * faster * way) - first) / faster);
+  }
+  return std::max(1.0, std::ceil(steps - 1e-6));
 }
 
-void planAttention(WorldState& world, int i) {
+/// Of a robot that is to cruise on after step number `after`.
+void planAttention(WorldState& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
   if (!f.tasks[i].follows()) return;
-  const double steps = std::max(1.0, stepsTo(f, i, nextCount(world, i), world.dt));
-  f.attend_at[i] = std::min(f.attend_at[i], static_cast<double>(world.total_steps) + steps);
+  const double next = after + stepsTo(f, i, nextCount(world, i), world.dt);
+  f.attend_at[i] = std::min(f.attend_at[i], next);
 }
 
 void attend(WorldState& world, int i, double now) {
   FleetState& f = world.fleet;
-  if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   const bool ended = f.reference[i] == f.goal[i];
+  if (!ended && f.attend_at[i] > now) return;
+  if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) return moved(f, i);
-  planAttention(world, i);
+  planAttention(world, i, now);
 }
 
 }  // namespace
@@ -137,7 +143,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
   if (findClearance(world, i)) {
-    planAttention(world, i);
+    planAttention(world, i, static_cast<double>(world.total_steps));
     return true;
   }
   f.cruising[i] = 0;
@@ -153,7 +159,7 @@ void setGoal(WorldState& world, int i, double goal) {
   if (f.cruising[i] == 0) return;
   // Its way was found free up to the old goal only.
   if (saw_the_end && goes_farther && !findClearance(world, i)) return moved(f, i);
-  planAttention(world, i);
+  planAttention(world, i, static_cast<double>(world.total_steps));
 }
 
 void cruise(WorldState& world) {

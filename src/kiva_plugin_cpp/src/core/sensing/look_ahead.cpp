@@ -35,9 +35,9 @@ Sighting look(const WorldState& world, int robot) {
   seen.taken = true;
   seen.along = alongSegment(world.fleet, robot);
   const double reach = reachOfInterest(world, robot) - seen.along - r.laser.x;
+  const double farthest = std::min(r.laser.max_range, std::hypot(std::max(0.0, reach), half));
   const auto limit = [&](int ray) {
-    const double ahead = fan.c[ray] > 1e-3 ? std::max(0.0, reach) / fan.c[ray] : r.laser.max_range;
-    return std::min({r.laser.max_range, half / std::max(1e-9, std::abs(fan.s[ray])), ahead});
+    return std::min(farthest, half / std::max(1e-9, std::abs(fan.s[ray])));
   };
   castRays(world, robot, limit, &hits);
   seen.distance = std::numeric_limits<double>::infinity();

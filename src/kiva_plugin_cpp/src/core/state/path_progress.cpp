@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kHalfPi = M_PI / 2;
 constexpr double kCentred = 0.001;  // [m] from a point: the robot has come to it
+constexpr double kFacing = 0.002;   // [rad] off: it can drive; how it may be pushed, standing
 constexpr double kRounding = 1e-9;  // [m]
 
 /// A place seen from the origin of the present run [m].
@@ -65,8 +66,8 @@ MotionSegment nextSegment(const WorldState& world, int robot) {
   const double square = std::round(world.fleet.yaw[robot] / kHalfPi) * kHalfPi;
   const double ahead = headingOf(path[path.origin], path[path.origin + 1]);
   const double heading = headingNear(square, ahead);
-  return std::abs(heading - square) > kHalfPi / 2 ? turnTo(heading)
-                                                  : driveAlong(world, path, heading);
+  const bool faces_it = std::abs(heading - world.fleet.yaw[robot]) < kFacing;
+  return faces_it ? driveAlong(world, path, heading) : turnTo(heading);
 }
 
 double alongRun(const Task& task, std::uint32_t point) { return onRun(task, point).along; }

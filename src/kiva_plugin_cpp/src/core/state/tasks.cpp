@@ -2,6 +2,7 @@
 #include "core/state/tasks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/state/path_progress.h"
@@ -9,6 +10,7 @@
 namespace kiva {
 namespace {
 
+constexpr double kAstray = 0.05;             // [m] from its point: it can't begin its next run
 constexpr std::uint32_t kPointsToKeep = 64;  // of a path that were left, before they are forgotten
 
 void becomeIdle(WorldState& world, int robot) {
@@ -87,6 +89,9 @@ void continuePath(WorldState& world, int robot) {
   if (path.origin + 1 >= path.released) {
     return enterPhase(world, robot, Phase::kWaiting, Status::kBusy, State::kWaiting);
   }
+  const double astray = std::hypot(world.fleet.x[robot] - path[path.origin].x,
+                                   world.fleet.y[robot] - path[path.origin].y);
+  if (astray > kAstray) return endBlocked(world, robot, "", "was pushed off its path");
   path.extendRun();
   task.segments.push_back(nextSegment(world, robot));
   if (task.segments.front().kind == MotionSegment::Kind::kTurn) path.end = path.origin;

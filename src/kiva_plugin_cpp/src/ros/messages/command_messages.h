@@ -3,12 +3,16 @@
 // The command topics, and what is said on them.
 #pragma once
 
+#include <warehouse_msgs/Cancel.h>
+#include <warehouse_msgs/FleetFollow.h>
+#include <warehouse_msgs/FollowPath.h>
 #include <warehouse_msgs/Lift.h>
 #include <warehouse_msgs/MoveAlong.h>
 #include <warehouse_msgs/MoveTo.h>
 #include <warehouse_msgs/Rotate.h>
+#include <warehouse_msgs/Stop.h>
 
-#include "kiva_plugin_cpp/world.h"
+#include "order.h"
 
 namespace kiva_ros {
 
@@ -16,11 +20,19 @@ kiva::Command fromMessage(const warehouse_msgs::MoveTo& message);
 kiva::Command fromMessage(const warehouse_msgs::MoveAlong& message, kiva::Command::Kind axis);
 kiva::Command fromMessage(const warehouse_msgs::Rotate& message);
 kiva::Command fromMessage(const warehouse_msgs::Lift& message);
+kiva::Command fromMessage(const warehouse_msgs::Cancel& message);
+kiva::Command fromMessage(const warehouse_msgs::Stop& message);
+kiva::FollowPath fromMessage(const warehouse_msgs::FollowPath& message);
+/// One for every robot; of arrays that don't agree, one that says so.
+Orders fromMessage(const warehouse_msgs::FleetFollow& message);
 
 warehouse_msgs::MoveTo toMoveTo(const kiva::Command& command);
 warehouse_msgs::MoveAlong toMoveAlong(const kiva::Command& command);
 warehouse_msgs::Rotate toRotate(const kiva::Command& command);
 warehouse_msgs::Lift toLift(const kiva::Command& command);
+warehouse_msgs::Cancel toCancel(const kiva::Command& command);
+warehouse_msgs::Stop toStop(const kiva::Command& command);
+warehouse_msgs::FollowPath toMessage(const kiva::FollowPath& path);
 
 /// Names a type where a value is needed.
 template <typename T>
@@ -28,20 +40,25 @@ struct MessageType {
   using Message = T;
 };
 
-/// Calls `visit(MessageType<Message>(), topic, toCommand)` for each of the topics, where
-/// toCommand(message) is a kiva::Command.
+/// Calls `visit(MessageType<Message>(), topic, toOrders)` for each of the topics, where
+/// toOrders(message) are Orders.
 template <typename Visit>
 void forEachCommandTopic(Visit visit) {
   using Kind = kiva::Command::Kind;
   using warehouse_msgs::MoveAlong;
-  const auto as_is = [](const auto& message) { return fromMessage(message); };
-  const auto along_x = [](const MoveAlong& m) { return fromMessage(m, Kind::kMoveX); };
-  const auto along_y = [](const MoveAlong& m) { return fromMessage(m, Kind::kMoveY); };
+  const auto as_is = [](const auto& message) { return Orders{fromMessage(message)}; };
+  const auto along_x = [](const MoveAlong& m) { return Orders{fromMessage(m, Kind::kMoveX)}; };
+  const auto along_y = [](const MoveAlong& m) { return Orders{fromMessage(m, Kind::kMoveY)}; };
+  const auto each = [](const warehouse_msgs::FleetFollow& m) { return fromMessage(m); };
   visit(MessageType<warehouse_msgs::MoveTo>(), "/mov", as_is);
   visit(MessageType<MoveAlong>(), "/movx", along_x);
   visit(MessageType<MoveAlong>(), "/movy", along_y);
   visit(MessageType<warehouse_msgs::Rotate>(), "/rot", as_is);
   visit(MessageType<warehouse_msgs::Lift>(), "/lift", as_is);
+  visit(MessageType<warehouse_msgs::FollowPath>(), "/follow", as_is);
+  visit(MessageType<warehouse_msgs::FleetFollow>(), "/warehouse/follow", each);
+  visit(MessageType<warehouse_msgs::Cancel>(), "/cancel", as_is);
+  visit(MessageType<warehouse_msgs::Stop>(), "/stop", as_is);
 }
 
 }  // namespace kiva_ros

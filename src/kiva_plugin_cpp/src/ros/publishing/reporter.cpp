@@ -12,7 +12,6 @@
 namespace kiva_ros {
 namespace {
 
-constexpr double kFleetRate = 10;   // [Hz]
 constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
 // Simulated time may fly; a client that gets a thousand clocks a second does little else.
 constexpr auto kClockGap = std::chrono::milliseconds(4);
@@ -64,7 +63,7 @@ void Reporter::retime(double step_size, double rtf) {
   clock_gap_ = rtf == 0 ? kClockGap : WallClock::duration(0);
   clock_every_ = stepsPer(rates_.clock, step_size);
   models_every_ = stepsPer(rates_.model_states, step_size);
-  fleet_every_ = stepsPer(kFleetRate, step_size);
+  fleet_every_ = stepsPer(rates_.fleet, step_size);
   robots_every_ = stepsPer(kRobotsRate, step_size);
   heartbeat_every_ = stepsPer(kStatusRate * kHeartbeatSlots, step_size);
   hash_every_ = stepsPer(kHashRate, step_size);
@@ -81,9 +80,8 @@ void Reporter::afterStep(kiva::World& world, bool reliable) {
   send(std::move(out), reliable);
 }
 
-void Reporter::refused(const kiva::World& world, const kiva::Command& command,
-                       const std::string& text) {
-  const std::string robot = "kiva" + std::to_string(command.kiva_id);
+void Reporter::refused(const kiva::World& world, int kiva_id, const std::string& text) {
+  const std::string robot = "kiva" + std::to_string(kiva_id);
   extra_events_.push_back({world.time(), kiva::Event::Kind::kRefused, robot, "", text});
 }
 

@@ -27,6 +27,7 @@ class Reporter {
   struct Rates {
     double clock = 100;        ///< [Hz], 0 = every step.
     double model_states = 50;  ///< [Hz], 0 = every step.
+    double fleet = 10;         ///< [Hz], of FleetState.
   };
 
   /// `rtf`: the target real-time factor; unpaced, /clock is throttled by the wall clock.
@@ -39,7 +40,7 @@ class Reporter {
   /// After requests were served between steps. `moved`: models may stand elsewhere than before.
   void afterRequests(kiva::World& world, bool paused, bool moved);
   /// A command that the world never got.
-  void refused(const kiva::World& world, const kiva::Command& command, const std::string& text);
+  void refused(const kiva::World& world, int kiva_id, const std::string& text);
   /// The world is another one than before, whose models were these.
   void restored(const kiva::World& world, const std::vector<std::string>& before);
   /// Calls `done`, on another thread, when all that was reported so far is with the sockets.

@@ -15,6 +15,7 @@ using warehouse_msgs::KivaStatus;
 static_assert(int(kiva::Status::kBlocked) == int(KivaStatus::STATUS_BLOCKED));
 static_assert(int(kiva::State::kMovingX) == int(KivaStatus::STATE_MOVING_X));
 static_assert(int(kiva::State::kBlocked) == int(KivaStatus::STATE_BLOCKED));
+static_assert(int(kiva::State::kWaiting) == int(KivaStatus::STATE_WAITING));
 static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
 static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
 
@@ -107,6 +108,9 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   out.vx.assign(f.vx.begin(), f.vx.end());
   out.vy.assign(f.vy.begin(), f.vy.end());
   out.yaw_rate.assign(f.yaw_rate.begin(), f.yaw_rate.end());
+  out.path_id.assign(f.path_id.begin(), f.path_id.end());
+  out.reached.assign(f.reached.begin(), f.reached.end());
+  out.left.assign(f.left.begin(), f.left.end());
   out.last_end.assign(f.last_end.begin(), f.last_end.end());
   for (int i = 0; i < f.size(); ++i) {
     out.kiva_id.push_back(f.robots[i].id);

@@ -59,8 +59,8 @@ Recorder::Recorder(const std::string& path) : path_(path), bag_(std::make_unique
   bag_->setCompression(rosbag::compression::LZ4);
 }
 
-void Recorder::onCommand(const kiva::Command& command) {
-  if (bag_) commands_.push_back(command);
+void Recorder::onCommand(const Order& order) {
+  if (bag_) commands_.push_back(order);
 }
 
 void Recorder::onInput(std::function<void(rosbag::Bag&, const ros::Time&)> write) {
@@ -77,7 +77,9 @@ bool Recorder::beforeStep(kiva::World& world) {
   if (changed_) {
     write(kKeyframeTopic, keyframe(world.checkpoint()));  // commands that wait are in it
   } else {
-    for (const kiva::Command& command : commands_) write(command);
+    for (const Order& order : commands_) {
+      std::visit([this](const auto& asked) { write(asked); }, order);
+    }
   }
   for (const auto& input : inputs_) {
     attempt([&](rosbag::Bag& bag) { input(bag, stamp()); });
@@ -148,7 +150,16 @@ void Recorder::write(const kiva::Command& command) {
       return write("/rot", toRotate(command));
     case kiva::Command::Kind::kLift:
       return write("/lift", toLift(command));
+    case kiva::Command::Kind::kCancel:
+      return write("/cancel", toCancel(command));
+    case kiva::Command::Kind::kStop:
+    case kiva::Command::Kind::kGoOn:
+      return write("/stop", toStop(command));
+    case kiva::Command::Kind::kFollow:
+      break;  // written as what it stands for
   }
 }
+
+void Recorder::write(const kiva::FollowPath& path) { write("/follow", toMessage(path)); }
 
 }  // namespace kiva_ros

@@ -22,7 +22,7 @@ class Recorder : public StepHook {
   /// Throws std::runtime_error if there can't be a bag of that name.
   explicit Recorder(const std::string& path);
 
-  void onCommand(const kiva::Command& command) override;
+  void onCommand(const Order& order) override;
   void onChange() override { changed_ = true; }
   /// Something else takes effect at the step to come: `write` puts it into the bag.
   void onInput(std::function<void(rosbag::Bag&, const ros::Time&)> write);
@@ -35,6 +35,7 @@ class Recorder : public StepHook {
   template <typename Message>
   void write(const std::string& topic, const Message& message);
   void write(const kiva::Command& command);
+  void write(const kiva::FollowPath& path);
   void writeHash(const kiva::World& world);
   /// `act(bag)`; the recording ends if that throws.
   template <typename Act>
@@ -49,7 +50,7 @@ class Recorder : public StepHook {
   std::uint64_t hash_every_ = 0, poses_every_ = 0;  ///< Steps.
   std::uint64_t step_ = 0;                          ///< Recorded so far.
   std::uint32_t index_ = 0;                         ///< Of the next message within this step.
-  std::vector<kiva::Command> commands_;
+  Orders commands_;
   std::vector<std::function<void(rosbag::Bag&, const ros::Time&)>> inputs_;
   bool changed_ = true;
 };

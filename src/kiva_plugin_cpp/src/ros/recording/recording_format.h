@@ -2,7 +2,8 @@
 //
 // What a recording holds, as an ordinary bag:
 //
-//   /mov /movx /movy /rot /lift  the commands
+//   /mov /movx /movy /rot /lift  the commands; what came on /warehouse/follow for many robots
+//   /follow /cancel /stop        is written as one /follow for each
 //   /warehouse/state_hash        of every simulated second, of every second, and of the end
 //   whatever a plugin hears      /cmd_vel for instance, as it took effect
 //   /tf                          where the robots are, twice a second: for RViz

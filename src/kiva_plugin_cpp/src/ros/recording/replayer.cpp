@@ -5,7 +5,6 @@
 #include <std_msgs/String.h>
 #include <std_msgs/UInt8MultiArray.h>
 
-#include <optional>
 #include <stdexcept>
 
 #include "bag_check.h"
@@ -26,12 +25,13 @@ std::string checkpointIn(const rosbag::MessageInstance& message) {
   return {keyframe->data.begin(), keyframe->data.end()};
 }
 
-std::optional<kiva::Command> commandIn(const rosbag::MessageInstance& message) {
-  std::optional<kiva::Command> out;
-  forEachCommandTopic([&](auto type, const char* topic, auto toCommand) {
+/// None if it is no command.
+Orders ordersIn(const rosbag::MessageInstance& message) {
+  Orders out;
+  forEachCommandTopic([&](auto type, const char* topic, auto toOrders) {
     if (message.getTopic() != topic) return;
     const auto command = message.instantiate<typename decltype(type)::Message>();
-    if (command) out = toCommand(*command);
+    if (command) out = toOrders(*command);
   });
   return out;
 }
@@ -81,8 +81,10 @@ void Replayer::apply(kiva::World& world, const rosbag::MessageInstance& message)
   const std::string& topic = message.getTopic();
   if (topic == kKeyframeTopic) {
     restore(world, message);
-  } else if (const auto command = commandIn(message)) {
-    world.post(*command);
+  } else if (const Orders orders = ordersIn(message); !orders.empty()) {
+    for (const Order& order : orders) {
+      std::visit([&world](const auto& asked) { world.post(asked); }, order);
+    }
   } else if (!isReport(message)) {
     replay_(message);
   }

@@ -13,11 +13,11 @@ constexpr int kUnlimited = 0;  // every command is answered, however fast they c
 }  // namespace
 
 CommandTopics::CommandTopics(ros::NodeHandle& root, SimulationThread& simulation) {
-  forEachCommandTopic([&](auto type, const char* topic, auto toCommand) {
+  forEachCommandTopic([&](auto type, const char* topic, auto toOrders) {
     using Message = typename decltype(type)::Message;
     const boost::function<void(const boost::shared_ptr<const Message>&)> post =
-        [&simulation, toCommand](const boost::shared_ptr<const Message>& message) {
-          simulation.command(toCommand(*message));
+        [&simulation, toOrders](const boost::shared_ptr<const Message>& message) {
+          simulation.command(toOrders(*message));
         };
     subscribers_.push_back(root.subscribe<Message>(topic, kUnlimited, post, ros::VoidConstPtr(),
                                                    ros::TransportHints().tcpNoDelay()));

@@ -9,7 +9,7 @@
 
 namespace kiva_ros {
 
-/// The five command topics, one subscriber each whatever the number of robots.
+/// The command topics, one subscriber each whatever the number of robots.
 class CommandTopics {
  public:
   CommandTopics(ros::NodeHandle& root, SimulationThread& simulation);

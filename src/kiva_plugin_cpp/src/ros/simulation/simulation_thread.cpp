@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace kiva_ros {
 namespace {
@@ -61,30 +62,34 @@ void SimulationThread::post(std::function<void(kiva::World&)> request) {
   wake_.notify_one();
 }
 
-void SimulationThread::command(const kiva::Command& command) {
-  post([this, command](kiva::World&) { takeCommand(command); });
+void SimulationThread::command(Orders orders) {
+  post([this, orders = std::move(orders)](kiva::World&) { takeOrders(orders); });
 }
 
-void SimulationThread::takeCommand(const kiva::Command& command) {
-  const std::size_t waiting = held_commands_.size();
-  if (waiting < kMostWaitingCommands) return held_commands_.push_back(command);
-  reporter_.refused(world_, command, std::to_string(waiting) + " commands wait for the next step");
+void SimulationThread::takeOrders(const Orders& orders) {
+  for (const Order& order : orders) {
+    const std::size_t waiting = held_commands_.size();
+    if (waiting < kMostWaitingCommands) {
+      held_commands_.push_back(order);
+    } else {
+      reporter_.refused(world_, robotOf(order),
+                        std::to_string(waiting) + " commands wait for the next step");
+    }
+  }
 }
 
 void SimulationThread::postCommands() {
-  const auto by_robot = [](const kiva::Command& a, const kiva::Command& b) {
-    return a.kiva_id < b.kiva_id;
-  };
+  const auto by_robot = [](const Order& a, const Order& b) { return robotOf(a) < robotOf(b); };
   if (lockstep_) std::stable_sort(held_commands_.begin(), held_commands_.end(), by_robot);
-  for (const kiva::Command& command : held_commands_) {
-    world_.post(command);
-    for (StepHook* hook : hooks_) hook->onCommand(command);
+  for (Order& order : held_commands_) {
+    for (StepHook* hook : hooks_) hook->onCommand(order);
+    std::visit([this](auto& asked) { world_.post(std::move(asked)); }, order);
   }
   held_commands_.clear();
 }
 
 void SimulationThread::refuseCommands(const std::string& why) {
-  for (const kiva::Command& command : held_commands_) reporter_.refused(world_, command, why);
+  for (const Order& order : held_commands_) reporter_.refused(world_, robotOf(order), why);
   held_commands_.clear();
 }
 

@@ -62,7 +62,7 @@ class SimulationThread {
   /// came since the last step are put in the order of their robots, since what comes over several
   /// connections has none of its own. Refused by an event where too many wait already, and where a
   /// reset or a restore comes before that step.
-  void command(const kiva::Command& command);
+  void command(Orders orders);
 
   struct Stepped {
     double time = 0;          ///< Simulated [s].
@@ -110,7 +110,7 @@ class SimulationThread {
   void advance();
   void runSteps(StepRequest& request);
   bool stepOnce(bool reliable);  ///< False if a hook wants no further step.
-  void takeCommand(const kiva::Command& command);
+  void takeOrders(const Orders& orders);
   void postCommands();
   void refuseCommands(const std::string& why);
   void measure(int steps);
@@ -135,7 +135,7 @@ class SimulationThread {
   std::uint64_t models_revision_ = 0;  ///< Of which the hooks know.
   std::vector<StepHook*> hooks_;
   std::deque<StepRequest> step_requests_;
-  std::vector<kiva::Command> held_commands_;  ///< Until the next step.
+  Orders held_commands_;  ///< Until the next step.
   std::atomic<double> real_time_factor_{0};
   WallClock::time_point measured_since_;
   int measured_steps_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kiva_plugin_cpp/world.h"
+#include "ros/messages/order.h"
 
 namespace kiva_ros {
 
@@ -10,7 +10,7 @@ class StepHook {
  public:
   virtual ~StepHook() = default;
   /// A command was posted; it is answered at the next step.
-  virtual void onCommand(const kiva::Command& /*command*/) {}
+  virtual void onCommand(const Order& /*order*/) {}
   /// Everything is about to go back to where it was spawned.
   virtual void beforeReset(kiva::World& /*world*/) {}
   /// Models came, went or were moved from outside.

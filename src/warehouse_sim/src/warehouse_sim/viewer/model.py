@@ -6,7 +6,8 @@ import time
 
 import numpy as np
 
-from warehouse_sim import poses
+from warehouse_fleet import floor_markings
+from warehouse_sim import looks, markers, poses
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.table import Table
 from warehouse_sim.words import shown_status
@@ -26,6 +27,7 @@ class Model:
         self.loose, self.scenery = Table(protocol.BODY), Table(protocol.BODY)
         self._objects = self._states = self._scenery = self._fleet = None
         self._kiva_id, self._robot_of = np.zeros(0, int), {}
+        self._solid = np.zeros(0, int)  # indices of models in a Scenery that are not paint
         self._scene_text = None
         self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
 
@@ -47,7 +49,7 @@ class Model:
             moved |= self._take_units(states)
             self._states = states
         if scenery is not self._scenery or scene:
-            moved |= self.scenery.set(self.tick, pose=poses.rows(scenery.pose))
+            moved |= self.scenery.set(self.tick, pose=poses.rows(scenery.pose)[self._solid])
             self._scenery = scenery
         # Time alone is worth an update too, now and then: the page shows it.
         late = self._clock() - self._told_at >= TIME_GAP
@@ -67,7 +69,9 @@ class Model:
         self.robots.resize(len(ids), self.tick)
         self.units.resize(len(objects.storage_units), self.tick)
         self.loose.resize(len(objects.items), self.tick)
-        self.scenery.resize(len(scenery.models), self.tick)
+        painted = [floor_markings.is_name(name) for name in scenery.models]
+        self._solid = np.flatnonzero(np.logical_not(painted))
+        self.scenery.resize(len(self._solid), self.tick)
         self._scenery, self._scene_text = scenery, None
         return True
 
@@ -140,13 +144,33 @@ class Model:
             "item_pose": _short(objects.item_pose),
             "floor": list(map(float, scenery.floor)),
             "grid": scenery.grid_spacing,
-            "looks": [_look(look) for look in scenery.looks],
+            **_paint(scenery),
+            "looks": self._looks(),
             "robot_look": scenery.kiva_look,
             "unit_look": scenery.storage_unit_look,
             "item_look": scenery.item_look,
-            "scenery": list(scenery.models),
-            "scenery_look": list(map(int, scenery.model_look)),
+            "scenery": [scenery.models[i] for i in self._solid],
+            "scenery_look": [int(scenery.model_look[i]) for i in self._solid],
         }
+
+    def _looks(self):
+        """Of all but paint, which the page draws as it likes."""
+        scenery = self._scenery
+        solid = {scenery.model_look[i] for i in self._solid}
+        paint = {*scenery.model_look} - solid
+        return [[] if i in paint else _look(look) for i, look in enumerate(scenery.looks)]
+
+
+def _paint(scenery):
+    """Rectangles on the floor by kind, x y and full extents of each in a row [m]; stations."""
+    marks = looks.marks(scenery)
+    rectangles = {}
+    for m in marks:
+        rectangles.setdefault(m.kind, []).extend(_short([m.x, m.y, m.size_x, m.size_y]))
+    return {
+        "paint": rectangles,
+        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in markers.served(marks)],
+    }
 
 
 def _look_alike(a, b):

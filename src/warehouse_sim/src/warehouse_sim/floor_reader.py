@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stations and storage places as messages, told by the world's scenery and its map."""
+
+from nav_msgs.srv import GetMap
+
+from warehouse_fleet.floor_plan import FloorError, FloorPlan
+from warehouse_msgs.msg import Station
+
+
+def station_messages(plan):
+    """Station messages of a FloorPlan."""
+    return [
+        Station(
+            name=station.name,
+            kind=station.kind,
+            **dict(zip("xy", plan.point_of(station.cells))),
+            service=station.service,
+            belt=station.belt,
+        )
+        for station in plan.stations
+    ]
+
+
+class FloorReader:
+    """Of the warehouse that stands. `ros` is rospy.
+
+    `stations` are Station messages, `places` are the x and the y of storage places [m].
+    """
+
+    def __init__(self, ros):
+        self._ros = ros
+        self._scenery, self._told = None, None
+        self.stations, self.places = [], ([], [])
+
+    def take(self, scenery):
+        """Reads the floor anew where a Scenery, or None, tells of other things. True if it did."""
+        if scenery is None or same_things(scenery, self._scenery):
+            return False
+        try:
+            plan = FloorPlan.of_messages(
+                self._ros.ServiceProxy("/warehouse/map", GetMap)().map, scenery
+            )
+        except self._ros.ServiceException:
+            return False  # the world comes or goes; there is another time
+        except FloorError as error:
+            self._tell(f"the floor has no stations: {error}")
+            self._scenery, self.stations, self.places = scenery, [], ([], [])
+            return True
+        for reason in plan.without_lane:
+            self._tell(reason)
+        self._scenery = scenery
+        self.stations = station_messages(plan)
+        self.places = plan.point_of(plan.storage.ravel().nonzero()[0])
+        return True
+
+    def _tell(self, text):
+        if text != self._told:
+            self._ros.logwarn(text)
+        self._told = text
+
+
+def same_things(a, b):
+    """Whether two sceneries tell of the same models on the same floor, wherever they are now."""
+    if a is b or a is None or b is None:
+        return a is b
+    floors = list(a.floor) == list(b.floor) and a.grid_spacing == b.grid_spacing
+    return floors and a.models == b.models and a.model_look == b.model_look and a.looks == b.looks

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is painted on the floor: storage places, lanes of stations, where no robot drives.
+
+import * as THREE from '/three/build/three.module.js';
+
+const HEIGHT = 0.004; // above the floor [m]
+const COLOURS = {
+  dark: { storage: 0x343b46, parking: 0x2e3d39, keep_out: 0x24272c, exits: 0x2d333c,
+    queue: 0x5a5030, service: 0x8a6a2a, exit: 0x47432f },
+  light: { storage: 0xc3cad4, parking: 0xc2d2cb, keep_out: 0xcac8c4, exits: 0xd0d5dc,
+    queue: 0xe2d6a8, service: 0xd9ae5b, exit: 0xdcd8bd },
+};
+
+export class Paint {
+  constructor(scene) {
+    this.group = new THREE.Group();
+    scene.add(this.group);
+  }
+
+  /** `paint`: by kind, x y and full extents of rectangles in a row [m]. A mesh a kind. */
+  set(paint, theme) {
+    for (const mesh of this.group.children) mesh.geometry.dispose();
+    this.group.remove(...this.group.children);
+    for (const [kind, rows] of Object.entries(paint)) {
+      const mesh = new THREE.Mesh(quads(rows), new THREE.MeshBasicMaterial());
+      mesh.name = kind;
+      this.group.add(mesh);
+    }
+    this.setTheme(theme);
+  }
+
+  setTheme(theme) {
+    for (const { name, material } of this.group.children) {
+      material.color.set(COLOURS[theme][name] ?? COLOURS[theme].exits);
+    }
+  }
+}
+
+/** Two triangles for each rectangle x, y, width, depth of a row of numbers. */
+export function quads(rows) {
+  const points = [], corners = [];
+  for (let at = 0; at < rows.length; at += 4) {
+    const [x, y, width, depth] = rows.slice(at, at + 4);
+    const first = points.length / 3;
+    for (const [i, j] of [[-1, -1], [1, -1], [1, 1], [-1, 1]]) {
+      points.push(x + i * width / 2, y + j * depth / 2, HEIGHT);
+    }
+    corners.push(...[0, 1, 2, 0, 2, 3].map((corner) => first + corner));
+  }
+  const out = new THREE.BufferGeometry();
+  out.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+  out.setIndex(corners);
+  return out;
+}
