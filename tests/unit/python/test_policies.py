@@ -12,7 +12,7 @@ CHOICES = [(role, name) for role, names in ROLES.items() for name in names]
 
 @pytest.mark.parametrize("role, name", CHOICES)
 def test_a_shift_with(role, name):
-    ops = Operations(site(), physics=False, policies={role: name})
+    ops = Operations(site=site(), physics=False, policies={role: name})
     ops.run(minutes=30)
     figures = ops.kpis()
     assert figures["items_picked"] > 120
@@ -24,7 +24,7 @@ def test_a_shift_with(role, name):
 
 
 def throughput(policies):
-    ops = Operations(site(robots=6, rows=6), physics=False, policies=policies)
+    ops = Operations(site=site(robots=6, rows=6), physics=False, policies=policies)
     ops.run(hours=1)
     return ops.kpis()
 
@@ -49,7 +49,7 @@ def test_a_class_of_ones_own(tmp_path, monkeypatch):
     )
     monkeypatch.syspath_prepend(tmp_path)
     (tmp_path / "mine.yaml").write_text("orders: {name: mine:Oldest, most: 3}\n")
-    ops = Operations(site(), physics=False, policies=str(tmp_path / "mine.yaml"))
+    ops = Operations(site=site(), physics=False, policies=str(tmp_path / "mine.yaml"))
     ops.run(minutes=10)
     assert ops.shift.policies.orders.calls > 10
     assert max(len(station.orders) for station in ops.shift.picking.stations) == 3

@@ -6,7 +6,7 @@ import pytest
 from instance_file import write_instance
 
 from warehouse_fleet.operations import Operations
-from warehouse_fleet.operations.simulation import Description, simulate
+from warehouse_fleet.operations.simulation import Description, open_operations, simulate
 from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
 
 
@@ -36,7 +36,7 @@ def test_twenty_shifts_of_ten_minutes_are_above_the_published_one(tmp_path):
     site = read_instance(write_instance(tmp_path / "a.xinst"))
     found = []
     for seed in range(1, 21):
-        ops = Operations(site, seed=seed, physics=False)
+        ops = Operations(site=site, seed=seed, physics=False)
         ops.run(seconds=600)
         figures = ops.kpis()
         found.append([figures[k] for k in ("items_picked", "lines_picked", "orders_completed")])
@@ -105,3 +105,13 @@ def test_a_shift_with_settings(tmp_path):
     )
     run, faults = simulate(description, tmp_path / "out")
     assert faults == [] and run.kpis["items_picked"] > 30
+
+
+def test_an_instance_with_physics(tmp_path):
+    """Its robots, spacing and one-way streets as a world; what drives there does not touch."""
+    path = write_instance(tmp_path / "a.xinst", spacing=1.04)
+    with open_operations(Description(instance=str(path), seed=2)) as ops:
+        assert ops.fleet.world.grid_spacing == pytest.approx(1.04)
+        ops.run(seconds=300)
+        figures = ops.kpis()
+    assert figures["items_picked"] > 40 and figures["collisions"] == 0

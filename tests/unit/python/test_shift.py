@@ -14,6 +14,7 @@ from operations_site import site
 from postgres import server
 from sqlalchemy import text
 
+from kiva_plugin_cpp import World
 from warehouse_fleet.operations import Operations, check
 from warehouse_fleet.operations.database import DatabaseError, open_engine
 from warehouse_fleet.operations.opening import SiteError
@@ -24,7 +25,7 @@ PICK, REPLENISH = "pick1", "replenish3"
 
 
 def shift_on(database=None, **options):
-    return Operations(site(), physics=False, database=database, **options)
+    return Operations(site=site(), physics=False, database=database, **options)
 
 
 def events_of(ops):
@@ -100,10 +101,11 @@ def test_the_database_itself_refuses_promises_beyond_the_stock(tmp_path):
 WORKER = """
 import sys
 sys.path.insert(0, sys.argv[1])
+from kiva_plugin_cpp import World
 from operations_site import site
 from postgres import server
 from warehouse_fleet.operations import Operations
-ops = Operations(site(), physics=False, database=sys.argv[2], orders="fill:40")
+ops = Operations(site=site(), physics=False, database=sys.argv[2], orders="fill:40")
 print("up", flush=True)
 while True:
     ops.run(seconds=20)
@@ -156,7 +158,7 @@ def test_a_database_of_another_warehouse_is_refused(tmp_path):
     with shift_on(tmp_path / "run.db"):
         pass
     with pytest.raises(SiteError, match="is of another warehouse: item"):
-        Operations(site(bins=4), physics=False, database=tmp_path / "run.db")
+        Operations(site=site(bins=4), physics=False, database=tmp_path / "run.db")
 
 
 def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_path):
@@ -331,3 +333,16 @@ def test_a_database_that_can_not_be_reached_is_told(tmp_path):
         shift_on(tmp_path / "no" / "such" / "folder.db")
     with pytest.raises(DatabaseError, match="oracle-of-delphi"):
         shift_on("oracle-of-delphi://x/y")
+
+
+def test_the_worlds_own_robots_work_and_repeat(tmp_path):
+    """Physics: the same seed gives the same shift and the same state of the world."""
+    hashes = []
+    for name in ("a.db", "b.db"):
+        with Operations(World.preset("small"), database=tmp_path / name) as ops:
+            ops.run(minutes=10)
+            figures = ops.kpis()
+            hashes.append((figures["state_hash"], ops.fleet.state_hash()))
+        assert check.faults(open_engine(tmp_path / name)) == []
+        assert figures["items_picked"] > 60 and figures["collisions"] == 0
+    assert hashes[0] == hashes[1]

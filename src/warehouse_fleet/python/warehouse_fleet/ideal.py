@@ -185,6 +185,9 @@ class IdealFleet:
         """Who decides from now on; see transport.Hooks."""
         self.hooks = hooks
 
+    def close(self):
+        """Nothing is to be ended here."""
+
     def traffic(self):
         """How often a robot with a load came through each cell, (h, w)."""
         count = np.zeros(self.plan.passable.size)

@@ -3,7 +3,8 @@
 
 Waypoints become cells: their places are snapped to the rows and columns that they form, whatever
 the spacing. A station's lane is its queue, from the far end to the station's own waypoint, and what
-follows there. Ids count from 1 here, from 0 in the file.
+follows there. Units and robots are numbered
+from 1, in the file's order.
 """
 
 import xml.etree.ElementTree as ElementTree
@@ -47,12 +48,12 @@ def read_instance(path):
     pods, bots = _children(root, "Pods", "Pod"), _children(root, "Bots", "Bot")
     stations, overrides = _stations(path, root, waypoints, grid)
     plan = _plan(path, waypoints, grid, stations)
-    units = {_id(path, pod): grid.cell_at(pod, path) for pod in pods}
+    units = {i: grid.cell_at(pod, path) for i, pod in enumerate(pods, 1)}
     for pod, cell in zip(pods, units.values()):
         if not plan.storage.flat[cell]:
             raise InstanceError(f"{path}: Pod {pod.get('ID')} stands on no PodStorageLocation")
     _distinct(path, "Pod", pods, units)
-    robots = {_id(path, bot): grid.cell_at(bot, path) for bot in bots}
+    robots = {i: grid.cell_at(bot, path) for i, bot in enumerate(bots, 1)}
     _distinct(path, "Bot", bots, robots)
     items = [
         (f"item{unit}.{i + 1}", unit)

@@ -17,24 +17,25 @@ ROUNDING = 1e-6  # [s]
 class Operations:
     """Orders, stock and fleet of one shift.
 
-    world: a kiva_plugin_cpp.World, or a Site, which has no physics. orders: fill, fill:N,
+    world: a kiva_plugin_cpp.World. site: what stands in it, if it can't tell that itself; without
+    world, or with physics False, robots are ideal. orders: fill, fill:N,
     poisson:PER_HOUR, FILE.csv or none. policies: a Policies, a mapping, or the path of a YAML file.
     database: a URL, or the path of an SQLite file, in which everything is kept; what one has kept
-    goes on. physics False: ideal robots instead of the world's. The same seed gives the same shift,
-    to the last event. Raises as open_shift does.
+    goes on. The same seed gives the same shift, to the last event. Raises as open_shift does.
     """
 
     def __init__(
         self,
-        world,
+        world=None,
         orders="fill",
         seed=1,
         policies=None,
         database=None,
         physics=True,
         settings=None,
+        site=None,
     ):
-        self.site = world if isinstance(world, Site) else Site.of_world(world)
+        self.site = site or Site.of_world(world)
         if not isinstance(policies, Policies):
             policies = Policies.read(policies) if isinstance(policies, str) else Policies(policies)
         self.fleet = self._fleet(world, physics, seed)
@@ -57,7 +58,7 @@ class Operations:
         self.wall_s = 0.0
 
     def _fleet(self, world, physics, seed):
-        if physics and not isinstance(world, Site):
+        if physics and world is not None:
             from warehouse_fleet.operations.world_fleet import WorldFleet
 
             return WorldFleet(world, self.site, seed)
@@ -103,11 +104,13 @@ class Operations:
         return kpis.of_shift(self.shift, self.fleet, self.site.kinematics, self.wall_s)
 
     def close(self):
-        """Writes what is left to the database, with the run's figures; raises DatabaseError."""
+        """Ends the fleet, and writes what is left to the database with the run's figures; raises
+        DatabaseError."""
         if self.database:
             self.shift.journal.end(self.shift, self.kpis())
             self.database.close()
             self.database = None
+        self.fleet.close()
 
     def __enter__(self):
         return self

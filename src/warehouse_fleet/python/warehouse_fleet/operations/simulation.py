@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from warehouse_fleet.operations import check, report, runs
+from warehouse_fleet.operations.building import world_of
 from warehouse_fleet.operations.database import DatabaseError
 from warehouse_fleet.operations.demand import DemandError
 from warehouse_fleet.operations.opening import SiteError
@@ -68,13 +69,15 @@ def open_operations(description, database=None):
         if description.settings:
             told = read_settings(description.settings)
             site = replace(site, level=told.level or site.level)
-        world = site if not description.physics else _world_of(site, description.seed)
+        world = None
+        if description.physics:
+            world, site = world_of(site, description.seed)
     else:
         world = _preset(description)
-        if not description.physics:
-            world = Site.of_world(world, description.size)
+        site = Site.of_world(world, description.size)
     return Operations(
         world,
+        site=site,
         orders=description.orders,
         seed=description.seed,
         policies=Policies(description.policies),
@@ -119,9 +122,3 @@ def _preset(description):
         return World.preset(description.size, seed=description.seed)
     except ValueError as error:
         raise InstanceError(str(error)) from error
-
-
-def _world_of(site, seed):
-    from warehouse_fleet.operations.building import world_of
-
-    return world_of(site, seed)
