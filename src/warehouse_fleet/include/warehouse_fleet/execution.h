@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "warehouse_fleet/fleet.h"
@@ -73,6 +74,8 @@ class Execution {
   /// Releases to each robot what it needs in order not to brake, as far as it may have it.
   Releases release();
 
+  /// Units stand in these cells of the aisles, where loaded robots can't pass.
+  void setUnits(std::vector<Cell> cells) { units_ = std::move(cells); }
   /// Nobody may enter it until `until` [s].
   void close(Cell cell, double until);
   /// Cells closed now, those of robots that are not controlled among them.
@@ -90,6 +93,12 @@ class Execution {
   int waitsFor(int robot) const { return courses_.at(robot).waits_for; }
   /// Since when it has stood although it has somewhere to go [s]; time of the last report if not.
   double stillSince(int robot) const { return courses_.at(robot).still_since; }
+  /// Whether somebody else commands it: it is busy with neither its path nor what it is known to
+  /// do.
+  bool isForeign(int robot) const;
+  /// Whether it does not drive although it may: it is broken, or stopped. The planner sees its
+  /// cells closed.
+  bool isStalled(int robot) const;
   /// Cells that it holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
@@ -128,6 +137,7 @@ class Execution {
     bool waits_by_plan = false;
     int waits_for = -1;
     double still_since = 0, blocked_since = -1;
+    double moved = 0;  ///< when it moved last, or had nothing before it [s]
     Journey journey;
     int run = 0, run_heading = -1;  ///< cells that it has driven straight on
   };
@@ -180,7 +190,8 @@ class Execution {
   std::vector<Claim> claims_;  ///< by cell and tick
   std::vector<int> next_claim_;
   std::vector<double> closed_until_;  ///< by cell [s]
-  std::vector<Cell> closing_;         ///< cells that are, or were
+  std::vector<Cell> units_;
+  std::vector<Cell> closing_;  ///< cells that are, or were
   Fleet asked_;
   Releases releases_;  ///< to be sent
   int blocked_ = 0;

@@ -46,6 +46,7 @@ struct Fleet {
   std::vector<std::uint8_t> committed;
   int committed_ticks = 0;
   std::vector<Cell> closed;  ///< cells that nobody may enter now
+  std::vector<Cell> units;   ///< cells of the aisles where a unit stands: not for loaded robots
 
   static constexpr std::uint8_t kFree = 0xff;
 

@@ -10,6 +10,7 @@ released.
         world.follow(*traffic.releases())         # the arrays of FleetFollow
 """
 
+import collections
 import concurrent.futures
 import time as clock
 from dataclasses import dataclass
@@ -22,7 +23,8 @@ from warehouse_fleet import Execution, epibt
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
-PUZZLED = 5.0  # a robot that has cells before it and does not move is broken after so long [s]
+FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
+STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
 
 
 class Mode(IntEnum):
@@ -70,8 +72,12 @@ class Traffic:
         self.stands = np.zeros(count, bool)  # with nothing before it
         self.waits_for = np.full(count, NOWHERE, np.int32)  # a robot
         self.still_since = np.zeros(count)
-        self.plan_seconds = []  # computing time of each plan
-        self.plans = 0
+        self.stalled = np.zeros(count, bool)  # does not drive although it may
+        self.plan_seconds = collections.deque(maxlen=10000)  # computing time of the last plans
+        self.watchdog = 0  # how often a robot made no progress for STUCK
+        self._settled = np.zeros(count, bool)  # has been idle since this began
+        self._foreign = np.zeros(count, np.uint8)  # reports in a row
+        self._stuck = np.zeros(count, bool)
         self.time = 0.0
         self._execution = Execution(
             self.floor,
@@ -82,6 +88,10 @@ class Traffic:
             quarter=self.motion.quarter,
             latency=self.motion.latency,
         )
+        self._after = {}  # the next cell of a lane, by cell
+        for station in plan.stations:
+            cells = station.cells.tolist()
+            self._after.update(zip(cells, cells[1:]))
         self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")
         self._plan, self._due, self._next = None, 0.0, 0.0
 
@@ -110,7 +120,42 @@ class Traffic:
         )
         self.cell = self._execution.cell()
         self.stands = self._execution.stands()
+        self.stalled = self._execution.stalled()
         self.still_since = self._execution.still_since()
+        self._find_foreign(report)
+        self._watch()
+
+    def _find_foreign(self, report):
+        """A robot that was idle and is busy with something else is commanded by a person."""
+        foreign = self._execution.foreign() & self._settled & (self.mode == Mode.AUTOMATIC)
+        self._settled |= np.asarray(report.status) == IDLE
+        self._foreign = np.where(foreign, self._foreign + 1, 0).astype(np.uint8)
+        self.mode[self._foreign >= FOREIGN] = Mode.MANUAL
+
+    def _watch(self):
+        """Counts who makes no progress; waiting for who is at work in a station is none of it."""
+        stuck = self.time - self.still_since > STUCK
+        for robot in np.flatnonzero(stuck):
+            stuck[robot] = not self._waits_for_work(robot)
+        self.watchdog += int(np.count_nonzero(stuck & ~self._stuck))
+        self._stuck = stuck
+
+    def _waits_for_work(self, robot):
+        seen = set()
+        while robot != NOWHERE and robot not in seen:
+            seen.add(robot)
+            ahead = int(self.waits_for[robot])
+            if ahead == NOWHERE and not self.busy[robot]:
+                ahead = self._before(robot)
+            robot = ahead
+            if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
+                return True
+        return False
+
+    def _before(self, robot):
+        """Who holds the next cell of its lane; NOWHERE beyond lanes."""
+        after = self._after.get(int(self.cell[robot]), NOWHERE)
+        return self._execution.holder(after) if after != NOWHERE else NOWHERE
 
     @property
     def arrived(self):
@@ -128,6 +173,10 @@ class Traffic:
     def shut(self, cell, until):
         """Nobody may enter a cell for so long."""
         self._execution.close(cell, until)
+
+    def set_units(self, cells):
+        """Units stand in these cells beyond storage places: nobody passes there with a load."""
+        self._execution.set_units(np.asarray(cells, np.int32))
 
     def journey(self, robot):
         """(seconds driven, seconds planned, cells) since the last call."""
@@ -165,7 +214,6 @@ class Traffic:
 
     def _take_plan(self):
         plan, self._plan = self._plan, None
-        self.plans += 1
         return plan.result()
 
     def paths(self, robot):

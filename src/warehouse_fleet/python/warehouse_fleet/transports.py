@@ -113,7 +113,7 @@ class Transports:
         self.is_open = dict.fromkeys(self.stations, True)
         self.totals = Totals()
         self.cell_of_unit = dict(units)  # of those that stand; NOWHERE: not on a storage place
-        self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items()}
+        self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
         self._taken = set(self._unit_in)  # places with a unit, or reserved for one
         self._places = np.flatnonzero(plan.storage)
         self._open = []  # transports without a robot, the most urgent first
@@ -227,11 +227,45 @@ class Transports:
     def __iter__(self):
         return iter(self._transports.values())
 
+    def see(self, cells):
+        """Where units stand, {number: cell}, as somebody has seen it: others move units as well.
+        Those of transports under way are known better."""
+        carried = {t.shelf for t in self._of_robot.values() if t.step >= Step.LIFTING}
+        kept = {shelf: cell for shelf, cell in self.cell_of_unit.items() if shelf in carried}
+        self.cell_of_unit = {**cells, **kept}
+        self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
+        self._taken = set(self._unit_in)
+        self._taken |= {t.place for t in self._of_robot.values() if t.place != NOWHERE}
+        for transport in list(self._transports.values()):
+            if transport.shelf not in self.cell_of_unit:
+                self._fail(transport, f"storage unit {transport.shelf} is gone")
+        self._tell_traffic()
+
+    def _tell_traffic(self):
+        storage = self.plan.storage.flat
+        self.traffic.set_units([cell for cell in self._unit_in if not storage[cell]])
+
+    def adopt(self, robot, shelf_id):
+        """A robot that carries a unit, nobody knows why, stores it."""
+        if robot in self._of_robot or shelf_id in self._of_unit:
+            return
+        self._last += 1
+        cell = int(self.traffic.cell[robot])
+        transport = Transport(self._last, shelf_id, "", cell, STORE, 0, self.traffic.time)
+        transport.robot = robot
+        self._transports[self._last] = self._of_unit[shelf_id] = transport
+        self._of_robot[robot] = transport
+        self.cell_of_unit[shelf_id] = NOWHERE
+        self.traffic.loaded[robot] = True
+        self._tell(transport, Kind.RECEIVED, "its robot was found with it")
+        self._store(transport, is_inbound=False)
+
     # What it does.
 
     def advance(self, report):
         """Goes on with all of them, by what robots report: the arrays of FleetState."""
         self._drop_lost()
+        self._adopt_loaded(report)
         busy = np.flatnonzero(self.traffic.busy)
         for robot in busy:
             self._watch_lift(int(robot), report)
@@ -254,6 +288,19 @@ class Transports:
                 continue
             mode = Mode(self.traffic.mode[robot]).name
             self._fail(transport, f"its robot is {mode} now")
+
+    def _adopt_loaded(self, report):
+        """Robots that have a unit without a transport: they were found so, or given back."""
+        traffic = self.traffic
+        shelf = np.asarray(report.shelf_id)
+        loaded = shelf != 0
+        known = np.fromiter(self._of_robot, int, len(self._of_robot))
+        without = np.ones(len(loaded), bool)
+        without[known] = False
+        traffic.loaded[without] = loaded[without]
+        ready = without & loaded & traffic.stands & (traffic.mode == Mode.AUTOMATIC)
+        for robot in np.flatnonzero(ready):
+            self.adopt(int(robot), int(shelf[robot]))
 
     def _watch_lift(self, robot, report):
         transport = self._of_robot.get(robot)
@@ -321,6 +368,7 @@ class Transports:
         place = self.cell_of_unit[transport.shelf]
         self._unit_in.pop(place, None)
         self.cell_of_unit[transport.shelf] = NOWHERE
+        self._tell_traffic()
         self.traffic.loaded[transport.robot] = True
         self._tell(transport, Kind.LIFTED)
         if transport.let_go:  # was cancelled meanwhile
@@ -374,6 +422,7 @@ class Transports:
         self._unit_in[cell] = transport.shelf
         self._taken.discard(transport.place)
         self._taken.add(cell)
+        self._tell_traffic()
         self.totals.stored += 1
         self._tell(transport, Kind.STORED)
         transport.step = Step.DROPPING
@@ -389,7 +438,7 @@ class Transports:
         self._end(transport)
 
     def _end(self, transport):
-        if transport.step <= Step.FETCHING and transport.step != Step.OPEN and transport.station:
+        if transport.step == Step.FETCHING and transport.station:
             self._inbound[transport.station] -= 1
         if transport in self._open:
             self._open.remove(transport)

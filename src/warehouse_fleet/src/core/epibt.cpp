@@ -54,6 +54,7 @@ class Epibt : public Planner {
  private:
   void observe(const Fleet& fleet);
   void close(const Fleet& fleet);
+  void closeDeck(Deck deck, std::vector<Cell> cells);
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
@@ -88,7 +89,7 @@ class Epibt : public Planner {
   std::mt19937_64 random_;
   int now_ = 0;
   int version_ = 0;
-  std::vector<Cell> closed_;  ///< now, sorted
+  std::vector<Cell> closed_[2];  ///< now, by deck, sorted
   std::vector<Memory> memory_;
   std::vector<Wish> wishes_;
   std::vector<int> order_, rank_;  ///< who comes first, and who comes when
@@ -113,6 +114,7 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
   spacing_ = std::make_unique<Spacing>(options_.horizon);
   way_ = std::make_unique<MakingWay>(floor);
+  for (auto& closed : closed_) closed.clear();
   rules_ = rules;
 }
 
@@ -156,32 +158,37 @@ void Epibt::observe(const Fleet& fleet) {
   if (now_ % kRefresh == 0) guidance_->refresh();
 }
 
-/// Takes the edges away that lead into closed cells, and gives those of others back.
+/// Takes the edges away that lead into cells where nobody may go, and gives those of others back.
 void Epibt::close(const Fleet& fleet) {
-  std::vector<Cell> closed = fleet.closed;
+  std::vector<Cell> under = fleet.closed;
   for (int robot = 0; robot < fleet.size(); ++robot) {
-    if (fleet.isStopped(robot)) closed.push_back(fleet.cell[robot]);
+    if (fleet.isStopped(robot)) under.push_back(fleet.cell[robot]);
   }
-  std::sort(closed.begin(), closed.end());
-  closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
-  if (closed != closed_) {
-    const auto set = [&](const std::vector<Cell>& cells, bool is_open) {
-      for (const Cell cell : cells) {
-        for (int heading = 0; heading < kHeadings; ++heading) {
-          const Cell from = floor_->beside(cell, heading + 2);
-          if (from == kNowhere) continue;
-          for (const Deck deck : {Deck::kUnder, Deck::kAisles}) {
-            edges_->next[static_cast<int>(deck)][from * kHeadings + heading] =
-                is_open ? floor_->next(deck, from, heading) : kNowhere;
-          }
-        }
+  std::vector<Cell> aisles = under;
+  aisles.insert(aisles.end(), fleet.units.begin(), fleet.units.end());
+  closeDeck(Deck::kUnder, std::move(under));
+  closeDeck(Deck::kAisles, std::move(aisles));
+}
+
+void Epibt::closeDeck(Deck deck, std::vector<Cell> cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  std::vector<Cell>& closed = closed_[static_cast<int>(deck)];
+  if (cells == closed) return;
+  auto& next = edges_->next[static_cast<int>(deck)];
+  const auto set = [&](const std::vector<Cell>& those, bool is_open) {
+    for (const Cell cell : those) {
+      for (int heading = 0; heading < kHeadings; ++heading) {
+        const Cell from = floor_->beside(cell, heading + 2);
+        if (from == kNowhere) continue;
+        next[from * kHeadings + heading] = is_open ? floor_->next(deck, from, heading) : kNowhere;
       }
-    };
-    set(closed_, true);
-    set(closed, false);
-    closed_ = closed;
-    ++version_;
-  }
+    }
+  };
+  set(closed, true);
+  set(cells, false);
+  closed = std::move(cells);
+  ++version_;
 }
 
 void Epibt::wish(const Fleet& fleet) {

@@ -17,6 +17,7 @@ constexpr double kReach = 0.43;       // of a robot with its load, from its cent
 constexpr double kTurnsSoon = 0.35;   // from a corner, where what comes after it is released [m]
 constexpr double kUnanswered = 0.5;   // after which something is sent again [s]
 constexpr double kBlockedFor = 1;     // after which a robot is sent another way [s]
+constexpr double kStalledFor = 5;     // after which a robot is taken to be broken [s]
 constexpr double kClosedFor = 10;     // that what was in its way is taken to stay [s]
 constexpr double kStandstill = 0.01;  // [m/s]
 constexpr double kAligned = 0.05;     // with the way ahead [rad]
@@ -95,7 +96,7 @@ void Execution::admit(int robot) {
   course.at = at;
   course.cells = {at};
   course.is_off = true;
-  course.still_since = now_;
+  course.still_since = course.moved = now_;
   hold(at, robot);
 }
 
@@ -274,6 +275,7 @@ void Execution::measure(int robot, double elapsed) {
   if (!course.is_member) return;
   const bool is_still = speedOf(robot) < kStandstill && reports_[robot].state != kStateRotating;
   if (!course.travels || !is_still) course.still_since = now_;
+  if (!is_still || course.reached == static_cast<int>(course.cells.size())) course.moved = now_;
   if (!course.travels) return;
   course.journey.driven += elapsed;
   if (!is_still || toGo(robot) > kCentred || !waitsAsPlanned(robot)) return;
@@ -298,7 +300,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
   const int robots = static_cast<int>(courses_.size());
   for (int robot = 0; robot < robots; ++robot) {
     Course& course = courses_[robot];
-    if (!course.is_member) continue;
+    if (!course.is_member || isStalled(robot)) continue;
     members_.push_back(robot);
     asked_.cell.push_back(course.at);
     asked_.heading.push_back(headingOf(robot));
@@ -313,6 +315,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
     course.is_off = false;
   }
   asked_.closed = closed();
+  asked_.units = units_;
   return asked_;
 }
 
@@ -321,8 +324,11 @@ std::vector<Cell> Execution::closed() const {
   for (const Cell cell : closing_) {
     if (closed_until_[cell] > now_) closed.push_back(cell);
   }
-  for (const Course& course : courses_) {
+  for (int robot = 0; robot < robots(); ++robot) {
+    const Course& course = courses_[robot];
     closed.insert(closed.end(), course.occupied.begin(), course.occupied.end());
+    if (!course.is_member || !isStalled(robot)) continue;
+    closed.insert(closed.end(), course.cells.begin() + course.left, course.cells.end());
   }
   std::sort(closed.begin(), closed.end());
   closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
@@ -430,7 +436,7 @@ int Execution::firstClaimant(Cell cell) {
 }
 
 Releases Execution::release() {
-  for (const int robot : members_) {
+  for (int robot = 0; robot < robots(); ++robot) {
     if (courses_[robot].is_member) extend(robot);
   }
   return std::exchange(releases_, {});
@@ -523,6 +529,18 @@ void Execution::send(int robot, int first) {
   }
   releases_.points.push_back(points);
   course.sent = now_;
+}
+
+bool Execution::isForeign(int robot) const {
+  const Course& course = courses_.at(robot);
+  const Report& report = reports_[robot];
+  if (report.status == kStatusIdle || report.is_busy) return false;
+  return !course.is_active || (course.is_accepted && report.path_id != course.id);
+}
+
+bool Execution::isStalled(int robot) const {
+  const Course& course = courses_.at(robot);
+  return course.is_active && now_ - course.moved > kStalledFor;
 }
 
 bool Execution::stands(int robot) const {

@@ -46,6 +46,9 @@ class Check {
     for (const Cell cell : fleet_.closed) {
       if (!floor_.has(cell)) throw FloorError("closed: " + floor_.name(cell));
     }
+    for (const Cell cell : fleet_.units) {
+      if (!floor_.has(cell)) throw FloorError("units: " + floor_.name(cell));
+    }
   }
 
  private:

@@ -110,10 +110,16 @@ void bindExecution(py::module_& module) {
       .def("release", &release)
       .def("refused", [](Run& run, int robot) { run.execution.refused(robot); })
       .def("close", [](Run& run, Cell cell, double until) { run.execution.close(cell, until); })
+      .def("set_units",
+           [](Run& run, const Array<Cell>& cells) {
+             run.execution.setUnits({cells.data(), cells.data() + cells.size()});
+           })
       .def("closed", [](const Run& run) { return array(run.execution.closed()); })
       .def("cell", ofAll<Cell>(&Execution::cellOf))
       .def("stands", ofAll<bool>(&Execution::stands))
       .def("waits_for", ofAll<int>(&Execution::waitsFor))
+      .def("foreign", ofAll<bool>(&Execution::isForeign))
+      .def("stalled", ofAll<bool>(&Execution::isStalled))
       .def("still_since", ofAll<double>(&Execution::stillSince))
       .def("holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); })
       .def("released", [](const Run& run, int robot) { return run.execution.released(robot); })

@@ -1,0 +1,320 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The coordinator as a ROS node: the fleet of a running warehouse, driven over its topics."""
+
+import threading
+from types import SimpleNamespace
+
+import numpy as np
+import rospy
+from nav_msgs.srv import GetMap
+
+from warehouse_fleet import FloorError
+from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.traffic import Mode, Motion, Traffic
+from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
+from warehouse_msgs.msg import (
+    Cancel,
+    CoordinatorPaths,
+    CoordinatorState,
+    Event,
+    FleetFollow,
+    FleetState,
+    Lift,
+    Scenery,
+    UnitStates,
+    WarehouseObjects,
+)
+from warehouse_msgs.msg import TransportEvent as TransportEventMessage
+from warehouse_msgs.srv import (
+    ReleaseTransport,
+    ReleaseTransportResponse,
+    SetRobotMode,
+    SetRobotModeResponse,
+    Transport,
+    TransportResponse,
+)
+
+LATENCY = 0.4  # from a report to what is released for it, over topics [s]
+WAITS_LONG = 10.0  # [s]
+STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
+NOT_YET = "the coordinator has not seen the warehouse yet"
+STEP_NAMES = {
+    Step.FETCHING: "fetching",
+    Step.LIFTING: "lifting",
+    Step.BRINGING: "bringing",
+    Step.WAITING: "waiting",
+    Step.STORING: "storing",
+    Step.DROPPING: "dropping",
+}
+FIELDS = (
+    "kiva_id x y yaw vx vy status state shelf_id path_id reached left".split()
+)  # of FleetState
+
+
+class Coordinator:
+    """Follows /warehouse/fleet and answers with /warehouse/follow and /lift.
+
+    It begins anew whenever other robots or another floor are there. `demand` "random" keeps
+    stations busy with transports of its own, one every `exchange` seconds each.
+    """
+
+    def __init__(self, demand="none", exchange=20.0, seed=1):
+        self._demand, self._exchange, self._seed = demand, exchange, seed
+        self._lock = threading.RLock()  # of all below, between the worker and services
+        self._traffic = self._transports = self._random = None
+        self._alarm = ""
+        self._scenery = self._objects = self._units = None
+        self._plan_of = None  # the Scenery that the plan was made of
+        self._ids = None
+        self._refused, self._collisions = [], 0
+        self._next_state = self._next_paths = 0.0
+        self._fleet, self._news = None, threading.Event()
+        publish = rospy.Publisher
+        self._follow = publish("/warehouse/follow", FleetFollow, queue_size=10)
+        self._lift = publish("/lift", Lift, queue_size=1000)
+        self._cancel = publish("/cancel", Cancel, queue_size=1000)
+        self._events = publish("/warehouse/transports", TransportEventMessage, queue_size=1000)
+        self._state = publish("/warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
+        self._paths = publish("/warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
+        rospy.Service("/warehouse/transport", Transport, self._on_transport)
+        rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
+        rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
+        rospy.Subscriber("/warehouse/scenery", Scenery, self._keep, "_scenery", queue_size=1)
+        rospy.Subscriber(
+            "/warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1
+        )
+        rospy.Subscriber("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
+        rospy.Subscriber("/warehouse/events", Event, self._on_event, queue_size=10000)
+        rospy.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
+
+    def run(self):
+        """Until ROS shuts down."""
+        while not rospy.is_shutdown():
+            if self._news.wait(0.2):
+                self._news.clear()
+                with self._lock:
+                    self._step(self._fleet)
+
+    # What it hears.
+
+    def _keep(self, message, name):
+        setattr(self, name, message)
+
+    def _on_fleet(self, message):
+        self._fleet = message
+        self._news.set()
+
+    def _on_event(self, event):
+        if event.kind == Event.COLLISION:
+            self._collisions += 1
+        elif event.kind == Event.REFUSED and event.model.startswith("kiva"):
+            self._refused.append(event.model)
+
+    def _on_transport(self, request):
+        with self._lock:
+            if self._transports is None:
+                return TransportResponse(*Answer(0, False, self._alarm or NOT_YET))
+            answer = self._transports.submit(
+                request.shelf_id,
+                request.station,
+                request.x,
+                request.y,
+                request.then,
+                request.priority,
+            )
+            return TransportResponse(*answer)
+
+    def _on_release(self, request):
+        with self._lock:
+            if self._transports is None:
+                return ReleaseTransportResponse(False, self._alarm or NOT_YET)
+            return ReleaseTransportResponse(*self._transports.release(request.transport_id))
+
+    def _on_mode(self, request):
+        with self._lock:
+            if self._traffic is None:
+                return SetRobotModeResponse(False, self._alarm or NOT_YET)
+            robots = np.flatnonzero(self._traffic.kiva_ids == request.kiva_id)
+            if not len(robots):
+                return SetRobotModeResponse(False, f"there is no kiva{request.kiva_id}")
+            if request.mode not in list(Mode):
+                text = f"mode is {request.mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE)"
+                return SetRobotModeResponse(False, text + " was expected")
+            robot = int(robots[0])
+            if request.mode != Mode.AUTOMATIC and not self._traffic.stands[robot]:
+                self._cancel.publish(request.kiva_id)
+            self._traffic.mode[robot] = request.mode
+            return SetRobotModeResponse(True, "")
+
+    # What it does.
+
+    def _step(self, fleet):
+        report = SimpleNamespace(**{name: np.asarray(getattr(fleet, name)) for name in FIELDS})
+        time = fleet.stamp.to_sec()
+        if not self._is_known(report, time):
+            return
+        traffic, transports = self._traffic, self._transports
+        self._take_refusals()
+        if self._is_new_state(time):
+            self._see_units()
+        traffic.observe(time, report)
+        transports.advance(report)
+        self._send(traffic.releases())
+        events = transports.take_events()
+        for event in events:
+            self._events.publish(_event_message(event))
+        if self._random:
+            self._random.advance(time, events)
+        if time >= self._next_paths and self._paths.get_num_connections():
+            self._next_paths = time + PATHS_PERIOD
+            self._paths.publish(self._paths_message(time))
+        if self._is_new_state(time):
+            self._next_state = time + STATE_PERIOD
+            self._state.publish(self._state_message(time))
+
+    def _is_new_state(self, time):
+        return not self._next_state - STATE_PERIOD <= time < self._next_state
+
+    def _is_known(self, report, time):
+        """Whether this is the warehouse that the plan is of; looks at it anew if not."""
+        if self._scenery is None or self._objects is None or self._units is None:
+            return False
+        is_same = self._scenery is self._plan_of and np.array_equal(report.kiva_id, self._ids)
+        if is_same and self._traffic is not None and time >= self._traffic.time:
+            return True
+        if is_same and self._alarm:
+            return False
+        self._begin(report)
+        return self._traffic is not None
+
+    def _begin(self, report):
+        self._plan_of, self._ids = self._scenery, report.kiva_id
+        if self._traffic is not None:
+            self._traffic.close()
+        self._traffic = self._transports = self._random = None
+        try:
+            floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+            plan = FloorPlan.of_messages(floor_map, self._scenery)
+            plan.check()
+        except (rospy.ServiceException, FloorError) as error:
+            self._give_up(str(error))
+            return
+        for reason in plan.without_lane:
+            rospy.logwarn(reason)
+        self._alarm = ""
+        self._traffic = Traffic(
+            plan, report.kiva_id, Motion(latency=LATENCY), seed=self._seed, lag=0.05
+        )
+        self._transports = Transports(plan, self._traffic, {}, self._send_lift)
+        self._see_units()
+        if self._demand == "random":
+            self._random = RandomTransports(self._transports, self._seed, self._exchange)
+        # Paths of one who drove them before end where robots can stop.
+        under_way = (report.path_id != 0) & (report.status != 0)
+        for kiva_id in report.kiva_id[under_way]:
+            self._cancel.publish(int(kiva_id))
+        rospy.loginfo(
+            f"coordinates {len(report.kiva_id)} robots, {len(plan.stations)} stations,"
+            f" {len(self._transports.cell_of_unit)} storage units"
+        )
+
+    def _give_up(self, text):
+        self._alarm = text
+        rospy.logerr(f"the fleet can't be coordinated: {text}")
+        state = CoordinatorState(alarms=[text])
+        state.header.stamp = rospy.Time.now()
+        self._state.publish(state)
+
+    def _see_units(self):
+        """Takes in where units stand."""
+        objects, states = self._objects, self._units
+        if objects.revision != states.revision:
+            return
+        places = np.reshape(states.pose, (-1, 7))[:, :2]
+        cells = self._transports.plan.cell_of(places[:, 0], places[:, 1])
+        cells = np.where(np.asarray(states.carrier) == 0, cells, NOWHERE)
+        ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
+        self._transports.see(dict(zip(ids, cells.tolist())))
+
+    def _take_refusals(self):
+        refused, self._refused = self._refused, []
+        for model in refused:
+            for robot in np.flatnonzero(self._traffic.kiva_ids == int(model.removeprefix("kiva"))):
+                self._traffic.refused(int(robot))
+
+    def _send(self, releases):
+        if len(releases[0]):
+            self._follow.publish(FleetFollow(*(column.tolist() for column in releases)))
+
+    def _send_lift(self, kiva_id, shelf_id, up):
+        self._lift.publish(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+
+    def _state_message(self, time):
+        traffic, transports = self._traffic, self._transports
+        state = CoordinatorState()
+        state.header.stamp = rospy.Time.from_sec(time)
+        for name, mode in zip(("automatic", "manual", "out_of_service"), Mode):
+            setattr(state, name, int(np.count_nonzero(traffic.mode == mode)))
+        under_way = [t for t in transports if t.step != Step.OPEN]
+        for step, name in STEP_NAMES.items():
+            setattr(state, name, sum(t.step == step for t in under_way))
+        state.idle = state.automatic - len(under_way)
+        state.open = sum(t.step == Step.OPEN for t in transports)
+        state.under_way = len(under_way)
+        totals = transports.totals
+        state.delivered, state.stored, state.failed = (
+            totals.delivered,
+            totals.stored,
+            totals.failed,
+        )
+        if traffic.plan_seconds:
+            spent = 1e3 * np.percentile(traffic.plan_seconds, (50, 99))
+            state.plan_p50, state.plan_p99 = spent.tolist()
+        state.executed_over_planned = totals.driven / totals.planned if totals.planned else 1.0
+        state.station = list(transports.stations)
+        state.queue = [transports.waiting(name) for name in state.station]
+        long = np.flatnonzero(time - traffic.still_since > WAITS_LONG)
+        state.waiting_kiva = traffic.kiva_ids[long].tolist()
+        state.waiting_for = self._ids_of(traffic.waits_for[long])
+        state.waiting_since = traffic.still_since[long].tolist()
+        state.collisions, state.blocked = self._collisions, traffic.blocked
+        state.watchdog = traffic.watchdog
+        state.alarms = [
+            f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
+        ]
+        return state
+
+    def _ids_of(self, robots):
+        ids = self._traffic.kiva_ids
+        return [int(ids[robot]) if robot != NOWHERE else 0 for robot in robots]
+
+    def _paths_message(self, time):
+        traffic = self._traffic
+        message = CoordinatorPaths(stamp=rospy.Time.from_sec(time))
+        cells = []
+        for robot in np.flatnonzero(traffic.mode == Mode.AUTOMATIC):
+            held, planned = traffic.paths(robot)
+            if len(held) + len(planned) < 2:
+                continue
+            message.kiva_id.append(int(traffic.kiva_ids[robot]))
+            message.released.append(len(held))
+            message.planned.append(len(planned))
+            message.waits_for += self._ids_of([traffic.waits_for[robot]])
+            cells += held + planned
+        x, y = traffic.plan.point_of(np.array(cells, np.int32))
+        message.x, message.y = x.tolist(), y.tolist()
+        return message
+
+
+def _event_message(event):
+    message = TransportEventMessage(
+        transport_id=event.transport_id,
+        kind=event.kind,
+        kiva_id=event.kiva_id,
+        shelf_id=event.shelf_id,
+        station=event.station,
+        text=event.text,
+    )
+    message.header.stamp = rospy.Time.from_sec(event.stamp)
+    return message
