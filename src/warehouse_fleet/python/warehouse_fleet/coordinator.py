@@ -11,7 +11,7 @@ from nav_msgs.srv import GetMap
 from warehouse_fleet import FloorError
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import Mode, Motion, Traffic
+from warehouse_fleet.traffic import STAYS, Mode, Motion, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
 from warehouse_msgs.msg import (
     Cancel,
@@ -36,6 +36,7 @@ from warehouse_msgs.srv import (
 )
 
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
+OVERTAKEN = 1.0  # a report that is older by more comes from a world that began anew [s]
 WAITS_LONG = 10.0  # [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
@@ -155,6 +156,7 @@ class Coordinator:
         if not self._is_known(report, time):
             return
         traffic, transports = self._traffic, self._transports
+        report = traffic.aligned(report)
         self._take_refusals()
         if self._is_new_state(time):
             self._see_units()
@@ -162,6 +164,8 @@ class Coordinator:
             for kiva_id in traffic.kiva_ids[traffic.inherited(report)]:
                 self._cancel.publish(int(kiva_id))
         traffic.observe(time, report)
+        if traffic.wants_map:
+            self._see_map()
         transports.advance(report)
         self._send(traffic.releases())
         events = transports.take_events()
@@ -185,15 +189,31 @@ class Coordinator:
             return False
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
-        is_same = self._scenery is self._plan_of and np.array_equal(report.kiva_id, self._ids)
-        if is_same and self._traffic is not None and time >= self._traffic.time:
-            return True
+        is_same = self._scenery is self._plan_of and self._are_known(report.kiva_id)
+        if is_same and self._traffic is not None:
+            if not self._traffic.is_stale(time):
+                return True
+            if self._traffic.time - time < OVERTAKEN:
+                return False
         if is_same and self._alarm:
             return False
-        self._begin(report)
+        self._begin(report, time)
         return self._traffic is not None
 
-    def _begin(self, report):
+    def _are_known(self, kiva_ids):
+        """Some may be gone; not all, nor may there be others."""
+        return len(kiva_ids) > 0 and bool(np.isin(kiva_ids, self._ids).all())
+
+    def _see_map(self):
+        try:
+            grid = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+        except rospy.ServiceException as error:
+            rospy.logwarn(f"the floor can't be looked at: {error}")
+            return
+        cells = np.array(grid.data, np.uint8)
+        self._traffic.see(cells.reshape(grid.info.height, grid.info.width))
+
+    def _begin(self, report, time):
         self._plan_of, self._ids = self._scenery, report.kiva_id
         if self._traffic is not None:
             self._traffic.close()
@@ -201,7 +221,7 @@ class Coordinator:
         try:
             floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
             plan = FloorPlan.of_messages(floor_map, self._scenery)
-            plan.check()
+            plan.check(obstructed=False)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
             return
@@ -211,6 +231,8 @@ class Coordinator:
         self._traffic = Traffic(
             plan, report.kiva_id, Motion(latency=LATENCY), seed=self._seed, lag=0.05
         )
+        for cell in np.flatnonzero(plan.obstructed):
+            self._traffic.shut(int(cell), time + STAYS)
         self._transports = Transports(plan, self._traffic, {}, self._send_lift)
         self._see_units()
         if self._demand == "random":

@@ -14,6 +14,8 @@ from warehouse_fleet.traffic import NOWHERE, Mode
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
+URGENT = 255  # the highest priority
+DEAD = 30.0  # a robot that does not move for so long has its transport taken from it [s]
 SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
 APPROACHING = 0  # units on their way to a station beyond those that have room in its lane
 
@@ -125,6 +127,7 @@ class Transports:
         self._events = []
         self._last = 0
         self._put_down = {}  # when each unit was put down last [s]
+        self._lost = set()  # units whose robots were lost: to be stored, wherever they are
         self._shortest = {}  # of the journey that a robot is on, in cells
 
     # What is asked of it.
@@ -242,7 +245,23 @@ class Transports:
         for transport in list(self._transports.values()):
             if transport.shelf not in self.cell_of_unit:
                 self._fail(transport, f"storage unit {transport.shelf} is gone")
+        self._recover()
         self._tell_traffic()
+
+    def _recover(self):
+        """Units that were left in the streets are put away again, before all else."""
+        for shelf in sorted(self._lost & self.cell_of_unit.keys()):
+            cell = self.cell_of_unit[shelf]
+            if cell == NOWHERE:
+                continue
+            self._lost.discard(shelf)
+            if self.plan.storage.flat[cell] or shelf in self._of_unit:
+                continue
+            self._last += 1
+            transport = Transport(self._last, shelf, "", cell, STORE, URGENT, self.traffic.time)
+            self._transports[self._last] = self._of_unit[shelf] = transport
+            self._enqueue(transport)
+            self._tell(transport, Kind.RECEIVED, "its robot was lost")
 
     def _tell_traffic(self):
         storage = self.plan.storage.flat
@@ -281,16 +300,26 @@ class Transports:
         self._park()
 
     def _drop_lost(self):
-        """Robots that somebody else commands now have lost their transports."""
-        for robot in np.flatnonzero(self.traffic.mode != Mode.AUTOMATIC):
+        """Robots that somebody else commands now, or that are broken, have lost their
+        transports."""
+        traffic = self.traffic
+        lost = (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
+        for robot in np.flatnonzero(lost):
             transport = self._of_robot.get(int(robot))
             if transport is None:
                 continue
             if transport.step <= Step.FETCHING:
                 self._unassign(transport)
                 continue
-            mode = Mode(self.traffic.mode[robot]).name
-            self._fail(transport, f"its robot is {mode} now")
+            self._lost.add(transport.shelf)
+            self._fail(transport, self._why_lost(robot))
+
+    def _why_lost(self, robot):
+        if self.traffic.gone[robot]:
+            return "its robot is gone"
+        if self.traffic.mode[robot] == Mode.AUTOMATIC:
+            return "its robot does not move"
+        return f"its robot is {Mode(self.traffic.mode[robot]).name} now"
 
     def _adopt_loaded(self, report):
         """Robots that have a unit without a transport: they were found so, or given back."""
@@ -316,6 +345,9 @@ class Transports:
             self.totals.lifts += 1
             self.traffic.busy[robot] = False
             self._bring(transport) if is_up else self._stored(transport)
+        elif self.traffic.astray[robot]:  # lifts again when it is back in the middle
+            self.traffic.busy[robot] = False
+            transport.step = Step.FETCHING if is_up else Step.STORING
         elif self.traffic.time - transport.since > LIFT_PATIENCE:
             if transport.attempts < LIFT_ATTEMPTS:
                 self._begin_lift(transport, transport.step)
@@ -471,7 +503,7 @@ class Transports:
         if not self._open:
             return
         is_free = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
-        is_free &= traffic.cell != NOWHERE
+        is_free &= (traffic.cell != NOWHERE) & ~traffic.stalled
         is_free[list(self._of_robot)] = False
         for transport in list(self._open):
             if not is_free.any():
