@@ -254,11 +254,16 @@ class Coordinator:
         objects, states = self._objects, self._units
         if objects.revision != states.revision:
             return
-        places = np.reshape(states.pose, (-1, 7))[:, :2]
-        cells = self._transports.plan.cell_of(places[:, 0], places[:, 1])
-        cells = np.where(np.asarray(states.carrier) == 0, cells, NOWHERE)
+        poses = np.reshape(states.pose, (-1, 7))
         ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
-        self._transports.see(dict(zip(ids, cells.tolist())), states.header.stamp.to_sec())
+        self._transports.look(
+            np.array(ids, int),
+            poses[:, 0],
+            poses[:, 1],
+            2 * np.arctan2(poses[:, 5], poses[:, 6]),
+            np.asarray(states.carrier) != 0,
+            states.header.stamp.to_sec(),
+        )
 
     def _take_refusals(self):
         refused, self._refused = self._refused, []

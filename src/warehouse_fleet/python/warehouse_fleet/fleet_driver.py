@@ -78,10 +78,11 @@ class FleetDriver:
         gone = self.traffic.gone
         report = self.traffic.aligned(self.world.fleet)
         self.traffic.observe(self.world.time, report)
-        if self.traffic.wants_map:
+        looks = self.traffic.wants_map
+        if looks:
             self.traffic.see(self.world.occupancy()[3])
         self.transports.advance(report)
-        if not np.array_equal(gone, self.traffic.gone):
+        if looks or not np.array_equal(gone, self.traffic.gone):
             self._see_units()
         releases = self.traffic.releases()
         if len(releases[0]):
@@ -99,8 +100,16 @@ class FleetDriver:
         return dict(zip(units["shelf_id"].tolist(), cells.tolist()))
 
     def _see_units(self):
-        """Takes in where units stand, when somebody else has moved some."""
-        self.transports.see(self._cells_of_units(), self.world.time)
+        """Takes in where units stand, when somebody else may have moved some."""
+        units = self.world.storage_units
+        self.transports.look(
+            units["shelf_id"],
+            units["x"],
+            units["y"],
+            units["yaw"],
+            units["kiva_id"] != 0,
+            self.world.time,
+        )
 
     def _hear(self):
         events = self.world.events()

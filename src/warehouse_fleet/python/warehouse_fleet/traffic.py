@@ -25,6 +25,7 @@ NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
+TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
 TAKEN = 99  # of a cell of the world's map, and above: neither free nor beneath a storage unit
 LOOK = 1.0  # between two looks at that map [s]
@@ -102,7 +103,8 @@ class Traffic:
             self._after.update(zip(cells, cells[1:]))
         self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")
         self._plan, self._due, self._next = None, 0.0, 0.0
-        self._next_look = 0.0
+        self._next_look = self._obstructed_until = 0.0
+        self._units = np.zeros(0, np.int32)
 
     def close(self):
         """Ends the planner's thread."""
@@ -165,6 +167,7 @@ class Traffic:
         self.still_since = self._execution.still_since()
         self._find_foreign(report)
         self._watch()
+        self._avoid_trapped()
 
     def inherited(self, report):
         """Which robots have been on paths since before this began, by what they report."""
@@ -184,6 +187,16 @@ class Traffic:
             stuck[robot] = not self._waits_for_work(robot)
         self.watchdog += int(np.count_nonzero(stuck & ~self._stuck))
         self._stuck = stuck
+
+    def _avoid_trapped(self):
+        """Loaded robots can't turn back in a one-way street that ends before an obstacle. Whoever
+        is to take that away comes another way."""
+        if not len(self._units) and self.time > self._obstructed_until:
+            return
+        trapped = (self.time - self.still_since > TRAPPED) & ~self.stalled & ~self.busy
+        trapped &= (self.mode == Mode.AUTOMATIC) & ~self.plan.lane.ravel()[self.cell]
+        for cell in self.cell[trapped]:
+            self._execution.close(int(cell), self.time + LOOK)
 
     def _waits_for_work(self, robot):
         seen = set()
@@ -218,6 +231,12 @@ class Traffic:
     def shut(self, cell, until):
         """Nobody may enter a cell for so long."""
         self._execution.close(cell, until)
+        self._obstructed_until = max(self._obstructed_until, until)
+
+    @property
+    def closed(self):
+        """Cells that nobody may enter now."""
+        return self._execution.closed()
 
     @property
     def wants_map(self):
@@ -237,7 +256,8 @@ class Traffic:
 
     def set_units(self, cells):
         """Units stand in these cells beyond storage places: nobody passes there with a load."""
-        self._execution.set_units(np.asarray(cells, np.int32))
+        self._units = np.asarray(cells, np.int32)
+        self._execution.set_units(self._units)
 
     def journey(self, robot):
         """(seconds driven, seconds planned, cells) since the last call."""

@@ -3,17 +3,20 @@
 go, and is stored again. Neither ROS nor physics: `fleet` lifts, `traffic` drives."""
 
 import collections
+import itertools
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from warehouse_fleet.traffic import NOWHERE, Mode
+from warehouse_fleet.traffic import NOWHERE, STAYS, Mode
 
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
+CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
+UNIT_REACH = 0.48  # of a unit's sides, with room for who turns beside it [m]
 URGENT = 255  # the highest priority
 DEAD = 30.0  # a robot that does not move for so long has its transport taken from it [s]
 SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
@@ -97,6 +100,10 @@ class Totals:
     driven: float = 0.0  # [s]
     planned: float = 0.0  # [s]
     delivered_to: collections.Counter = field(default_factory=collections.Counter)
+
+
+def _urgency(transport):
+    return -transport.priority, transport.number
 
 
 class Transports:
@@ -232,9 +239,25 @@ class Transports:
     def __iter__(self):
         return iter(self._transports.values())
 
+    def look(self, shelf_id, x, y, yaw, carried, stamp):
+        """Where all units stood at that time: arrays in world [m, rad], [s]; others move units as
+        well. Nobody fetches one that stands across cells, nor passes there."""
+        plan = self.plan
+        cells = plan.cell_of(x, y)
+        centre_x, centre_y = plan.point_of(cells)
+        off = np.hypot(x - centre_x, y - centre_y)
+        crooked = (off > CROOKED) | (abs(np.remainder(yaw + np.pi / 4, np.pi / 2) - np.pi / 4) > 0.1)
+        crooked &= ~carried & (cells != NOWHERE)
+        for unit in np.flatnonzero(crooked):
+            half = UNIT_REACH * (abs(np.cos(yaw[unit])) + abs(np.sin(yaw[unit])))
+            for dx, dy in itertools.product((-half, 0, half), repeat=2):
+                self.traffic.shut(int(plan.cell_of(x[unit] + dx, y[unit] + dy)), stamp + STAYS)
+        cells = np.where(carried | crooked, NOWHERE, cells)
+        self.see(dict(zip(shelf_id.tolist(), cells.tolist())), stamp)
+
     def see(self, cells, stamp):
-        """Where units stood at that time [s], {number: cell}: others move units as well. Those of
-        transports under way, and those put down since then, are known better."""
+        """Where units stood at that time [s], {number: cell}. Those of transports under way, and
+        those put down since then, are known better."""
         better = {t.shelf for t in self._of_robot.values() if t.step >= Step.LIFTING}
         better |= {shelf for shelf, time in self._put_down.items() if time >= stamp - SEEN_LATE}
         kept = {s: cell for s, cell in self.cell_of_unit.items() if s in better and s in cells}
@@ -255,7 +278,11 @@ class Transports:
             if cell == NOWHERE:
                 continue
             self._lost.discard(shelf)
-            if self.plan.storage.flat[cell] or shelf in self._of_unit:
+            if self.plan.storage.flat[cell]:
+                continue
+            if shelf in self._of_unit:
+                self._of_unit[shelf].priority = URGENT
+                self._open.sort(key=_urgency)
                 continue
             self._last += 1
             transport = Transport(self._last, shelf, "", cell, STORE, URGENT, self.traffic.time)
@@ -288,6 +315,7 @@ class Transports:
         """Goes on with all of them, by what robots report: the arrays of FleetState."""
         self._drop_lost()
         self._adopt_loaded(report)
+        self._avoid(set(self.traffic.closed.tolist()))
         busy = np.flatnonzero(self.traffic.busy)
         for robot in busy:
             self._watch_lift(int(robot), report)
@@ -313,6 +341,13 @@ class Transports:
                 continue
             self._lost.add(transport.shelf)
             self._fail(transport, self._why_lost(robot))
+
+    def _avoid(self, closed):
+        """Units that can't get to the place that was chosen for them go to another."""
+        for transport in list(self._of_robot.values()):
+            is_away = self.traffic.cell[transport.robot] != transport.place
+            if transport.step == Step.STORING and transport.place in closed and is_away:
+                self._store(transport, is_inbound=False)
 
     def _why_lost(self, robot):
         if self.traffic.gone[robot]:
@@ -442,7 +477,8 @@ class Transports:
             self._inbound[transport.station] -= 1
         robot = transport.robot
         self._taken.discard(transport.place)
-        free = np.array([cell for cell in self._places.tolist() if cell not in self._taken])
+        out = self._taken | set(self.traffic.closed.tolist())
+        free = np.array([cell for cell in self._places.tolist() if cell not in out])
         place = int(self.choose_place(transport.shelf, int(self.traffic.cell[robot]), free))
         transport.place = place
         self._taken.add(place)
@@ -495,7 +531,7 @@ class Transports:
 
     def _enqueue(self, transport):
         self._open.append(transport)
-        self._open.sort(key=lambda one: (-one.priority, one.number))
+        self._open.sort(key=_urgency)
 
     def _assign(self):
         """Robots for what waits, as far as stations have room."""
