@@ -80,7 +80,9 @@ class Fleet(unittest.TestCase):
     def transport(self, units, **fields):
         """(unit, transport_id) of the first of the units that has no transport yet."""
         for unit in units:
-            answer = call("/warehouse/transport", Transport, unit, priority=AT_ONCE, **fields)
+            answer = call(
+                "/warehouse/transport", Transport, shelf_id=unit, priority=AT_ONCE, **fields
+            )
             if answer.accepted:
                 return unit, answer.transport_id
             self.assertIn("has transport", answer.message)

@@ -8,8 +8,8 @@ import numpy as np
 import rospy
 from nav_msgs.srv import GetMap
 
-from warehouse_fleet import FloorError
-from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet import FloorError, floor_markings
+from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import STAYS, Mode, Motion, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
@@ -189,7 +189,7 @@ class Coordinator:
             return False
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
-        is_same = self._scenery is self._plan_of and self._are_known(report.kiva_id)
+        is_same = self._is_known_floor() and self._are_known(report.kiva_id)
         if is_same and self._traffic is not None:
             if not self._traffic.is_stale(time):
                 return True
@@ -199,6 +199,18 @@ class Coordinator:
             return False
         self._begin(report, time)
         return self._traffic is not None
+
+    def _is_known_floor(self):
+        """Whether the scenery is that of the plan but for what came or went: people, boxes, …"""
+        scenery = self._scenery
+        if scenery is self._plan_of:
+            return True
+        if self._plan_of is None or _floor_of(scenery) != _floor_of(self._plan_of):
+            return False
+        self._plan_of = scenery
+        if self._traffic is not None:
+            self._see_map()
+        return True
 
     def _are_known(self, kiva_ids):
         """Some may be gone; not all, nor may there be others."""
@@ -333,6 +345,17 @@ class Coordinator:
         x, y = traffic.plan.point_of(np.array(cells, np.int32))
         message.x, message.y = x.tolist(), y.tolist()
         return message
+
+
+def _floor_of(scenery):
+    """What a plan is made of, in a Scenery: the floor, the markings on it, the belts."""
+    poses = np.reshape(scenery.pose, (-1, 7)).tolist()
+    parts = [
+        (name, pose)
+        for name, pose in zip(scenery.models, poses)
+        if name.startswith(CONVEYOR) or floor_markings.is_name(name)
+    ]
+    return list(scenery.floor), scenery.grid_spacing, parts
 
 
 def _array(field):

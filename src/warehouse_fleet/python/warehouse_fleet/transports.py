@@ -295,8 +295,10 @@ class Transports:
         self.traffic.set_units([cell for cell in self._unit_in if not storage[cell]])
 
     def adopt(self, robot, shelf_id):
-        """A robot that carries a unit, nobody knows why, stores it."""
-        if robot in self._of_robot or shelf_id in self._of_unit:
+        """A robot that carries a unit, nobody knows why, stores it. Who has asked for the unit gets
+        it then."""
+        asked = self._of_unit.get(shelf_id)
+        if robot in self._of_robot or (asked is not None and asked.robot != NOWHERE):
             return
         self._last += 1
         cell = int(self.traffic.cell[robot])
@@ -518,7 +520,11 @@ class Transports:
             self._of_robot.pop(transport.robot, None)
             self.traffic.goal[transport.robot] = NOWHERE
             self.traffic.home[transport.robot] = NOWHERE
-        self._of_unit.pop(transport.shelf, None)
+        if self._of_unit.get(transport.shelf) is transport:
+            del self._of_unit[transport.shelf]
+            for asked in self._open:
+                if asked.shelf == transport.shelf:
+                    self._of_unit[asked.shelf] = asked
         self._transports.pop(transport.number, None)
 
     def _unassign(self, transport):
