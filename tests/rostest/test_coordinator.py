@@ -204,19 +204,25 @@ class Fleet(unittest.TestCase):
         commander.close()
 
     def move_one(self, commander):
-        """A robot without work that obeys a person, who has it drive a cell along y."""
-        fleet = self.now()
-        for index in np.flatnonzero(np.frombuffer(fleet.status, np.uint8) == 0):
-            x, y = fleet.x[index], fleet.y[index]
-            for way in (1, -1):
-                goal = self.plan.cell_of(x, y + way)
-                if fleet.shelf_id[index] or goal < 0 or not self.plan.storage.flat[goal]:
-                    continue
-                robot = int(fleet.kiva_id[index])
-                answer = commander.ask("/mov", kiva_id=robot, x=x, y=y + way)
+        """A robot without a command that obeys a person, who has it drive a cell along y."""
+        for _ in range(300):
+            for robot, x, y in self.without_command(self.now()):
+                answer = commander.ask("/mov", kiva_id=robot, x=x, y=y)
                 if answer.kind == Event.ACCEPTED:
                     return robot
-        raise AssertionError("all robots are at work")
+        raise AssertionError("all robots are at work all the time")
+
+    def without_command(self, fleet):
+        """(robot, x, y): where it could go, with nobody near."""
+        x, y = np.array(fleet.x), np.array(fleet.y)
+        idle = np.frombuffer(fleet.status, np.uint8) == 0
+        for index in np.flatnonzero(idle & (np.array(fleet.shelf_id) == 0)):
+            for goal in (y[index] + 1, y[index] - 1):
+                cell = self.plan.cell_of(x[index], goal)
+                far = np.hypot(x - x[index], y - goal)
+                far[index] = np.inf
+                if cell >= 0 and self.plan.storage.flat[cell] and far.min() > 2.5:
+                    yield int(fleet.kiva_id[index]), x[index], goal
 
     def test_f_one_that_is_killed_and_comes_back_takes_over_the_fleet(self):
         loaded = lambda f: {k for k, s in zip(f.kiva_id, f.shelf_id) if s}  # noqa: E731
@@ -232,7 +238,8 @@ class Fleet(unittest.TestCase):
         self.fleet.clear()
         free = set()
         self.fleet.wait_for(
-            lambda messages: free.update(carriers - loaded(messages[-1])) or free == carriers,
+            lambda messages: free.update(*(carriers - loaded(m) for m in messages[-1:]))
+            or free == carriers,
             PATIENCE,
         )
         self.goes_on()

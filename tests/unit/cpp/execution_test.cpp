@@ -229,9 +229,13 @@ TEST_F(ExecutionTest, ACellIsNotPassedOnBeforeItWasLeft) {
   for (int i = 0; i < 30; ++i) tick();
   EXPECT_EQ(at(robots_[second]), cell(0, 1));
   EXPECT_EQ(execution_.waitsFor(second), first);
-  robots_[first].x = 1.6;  // its centre is in the next cell, its load is not
+  robots_[first].x = 2;  // its centre has come to the next cell, its load has not left the last
+  robots_[first].reached = 2;
   tick();
   EXPECT_EQ(execution_.holder(cell(1, 1)), first);
+  robots_[first].left = 1;
+  tick();
+  EXPECT_EQ(execution_.holder(cell(1, 1)), second);
   robots_[first].is_stopped = false;
   for (int i = 0; i < 60; ++i) {
     tick();

@@ -29,13 +29,26 @@ class Site:
     """`medium` with twenty robots, all its stations busy."""
 
     def __init__(self, seed=1, connection=lambda world, seed: world):
+        self.seed = seed
         self.world = World.preset("medium", seed=seed)
-        self.driver = FleetDriver(connection(self.world, seed), seed=seed)
+        self.begin(connection(self.world, seed))
+        self.run(WARM_UP)
+
+    def begin(self, world):
+        """With a driver that knows nothing yet."""
+        self.driver = FleetDriver(world, seed=self.seed)
         self.traffic, self.transports = self.driver.traffic, self.driver.transports
         self.plan = self.driver.plan
-        self._demand = RandomTransports(self.transports, seed, exchange=10)
+        self._demand = RandomTransports(self.transports, self.seed, exchange=10)
         self.events = []
-        self.run(WARM_UP)
+
+    def take_over(self):
+        """Another driver, that ends the paths it finds."""
+        self.driver.close()
+        self.begin(self.world)
+        while (found := self.traffic.inherited(self.world.fleet)).any():
+            self.world.cancel(self.traffic.kiva_ids[found])
+            self.run(0.5)
 
     def __enter__(self):
         return self
@@ -261,6 +274,23 @@ def ahead_of(site):
         if cell >= 0 and not aside[cell] and np.hypot(fleet.x - x, fleet.y - y).min() > 1.5:
             found.append(robot)
     return found
+
+
+def test_another_driver_takes_over_what_is_under_way(calm):
+    """As a coordinator does that was killed: all it knows is what robots report."""
+    after = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            carried = site.world.fleet.shelf_id.copy()
+            assert (carried != 0).sum() >= 10
+            site.take_over()
+            site.run(WARM_UP)
+            assert not site.traffic.mode.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert not ((site.world.fleet.shelf_id == carried) & (carried != 0)).any()
+    told(calm, [], after)
+    assert np.mean(after) > AS_BEFORE * calm
 
 
 def told(calm, during, after):
