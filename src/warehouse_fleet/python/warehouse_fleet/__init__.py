@@ -45,6 +45,15 @@ __all__ = [
 ]
 
 
+def __getattr__(name):
+    """Orders and stock stand on the fleet, and are imported by those alone who want them."""
+    if name != "Operations":
+        raise AttributeError(f"module {__name__} has no attribute {name}")
+    from warehouse_fleet.operations import Operations
+
+    return Operations
+
+
 class Action(IntEnum):
     """What a robot does in one tick."""
 

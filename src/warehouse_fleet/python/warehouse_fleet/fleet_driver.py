@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A whole warehouse at work in one process: the world, and the fleet that moves its units.
 
-    driver = FleetDriver(World.preset("huge"))
-    driver.transports.submit(17, "pick3")
-    driver.step_until(3600)
+driver = FleetDriver(World.preset("huge"))
+driver.transports.submit(17, "pick3")
+driver.step_until(3600)
 """
 
 import numpy as np
@@ -23,11 +23,13 @@ class FleetDriver:
     something else than driving go to `events`, if that is a list.
     """
 
-    def __init__(self, world, seed=1, planner=None, choose_robot=None, choose_place=None):
+    def __init__(
+        self, world, seed=1, planner=None, choose_robot=None, choose_place=None, motion=None
+    ):
         self.world = world
         self.plan = FloorPlan.of_world(world)
-        self.plan.check()
-        self.traffic = Traffic(self.plan, world.fleet.kiva_id, seed=seed, planner=planner)
+        self.plan.check(obstructed=False)
+        self.traffic = Traffic(self.plan, world.fleet.kiva_id, motion, seed, planner)
         units = world.storage_units
         cells = self.plan.cell_of(units["x"], units["y"])
         self.transports = Transports(

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every piece in the warehouse: bins on storage units, each of one SKU.
+
+Stock changes by moves alone, which are told to whoever writes them down: the quantity of a bin is
+the sum of its moves. Reserved pieces are promised to a pick; expected ones are on their way.
+"""
+
+from collections import defaultdict
+from enum import StrEnum
+
+ROOMY = 12  # pieces, of the largest bundle
+
+
+class Reason(StrEnum):
+    """Of a move."""
+
+    INITIAL = "initial"
+    PICK = "pick"
+    PUT = "put"
+    SHORT = "short"  # fewer were found than the books said
+    DAMAGED = "damaged"
+
+
+class StockError(ValueError):
+    """A move that can't be: more than there is, or another SKU's bin."""
+
+
+class Bin:
+    """A place for one SKU on a unit; `sku` is of what lies there, or is expected, or last lay."""
+
+    __slots__ = ("bin_id", "item", "unit", "sku", "quantity", "reserved", "expected", "capacity")
+
+    def __init__(self, bin_id, item, unit, capacity, sku=""):
+        self.bin_id, self.item, self.unit = bin_id, item, unit
+        self.capacity, self.sku = capacity, sku
+        self.quantity = self.reserved = self.expected = 0
+
+    @property
+    def available(self):
+        """Pieces nobody is promised."""
+        return self.quantity - self.reserved
+
+    @property
+    def room(self):
+        """Pieces that can be put in beside those that are expected."""
+        return self.capacity - self.quantity - self.expected
+
+    @property
+    def empty(self):
+        """Whether another SKU may move in."""
+        return not self.quantity and not self.expected
+
+    def takes(self, sku, quantity=1):
+        """Whether so many of a SKU can be put in."""
+        return self.room >= quantity and (self.sku == sku or self.empty)
+
+
+class Inventory:
+    """The bins, by unit and by SKU. on_move(bin, quantity, reason, context) hears of each move."""
+
+    def __init__(self, bins, on_move=None):
+        self.bins = {one.bin_id: one for one in bins}
+        self.of_unit, self._of_sku = defaultdict(list), defaultdict(dict)
+        self.capacity = self.total = self.expected = 0
+        self.empty = {}  # bins that any SKU may move into, by id
+        self.roomy = defaultdict(int)  # bins with room for a bundle of any size, by SKU
+        self._roomy = set()
+        self._available = defaultdict(int)
+        self._incoming = defaultdict(int)
+        self.blocked = set()  # units out of service
+        self._on_move = on_move or (lambda *_: None)
+        self.changed = set()  # bins whose figures are not written down yet
+        for one in bins:
+            self.of_unit[one.unit].append(one)
+            self.capacity += one.capacity
+            self.total += one.quantity
+            self._index(one)
+            self._available[one.sku] += one.available
+            self._measure(one)
+
+    @property
+    def level(self):
+        """Pieces over room for pieces."""
+        return self.total / self.capacity if self.capacity else 0.0
+
+    def available(self, sku):
+        """Pieces of a SKU that nobody is promised, units out of service included."""
+        return self._available.get(sku, 0)
+
+    def incoming(self, sku):
+        """Pieces of a SKU for which a bin is kept free."""
+        return self._incoming.get(sku, 0)
+
+    def with_sku(self, sku):
+        """The bins in which pieces of a SKU lie."""
+        return self._of_sku[sku].values()
+
+    def move(self, one, sku, quantity, reason, **context):
+        """Puts pieces into a bin, or takes them out; raises StockError."""
+        if quantity > 0 and one.quantity and one.sku != sku:
+            raise StockError(f"{one.item} holds {one.sku}, {sku} can't be put in")
+        if one.quantity + quantity < one.reserved:
+            raise StockError(
+                f"{-quantity} of {one.item}'s {one.quantity} pieces, {one.reserved} reserved"
+            )
+        if quantity > 0:
+            self._rename(one, sku)
+        one.quantity += quantity
+        self.total += quantity
+        self._available[one.sku] += quantity
+        self._index(one)
+        self._measure(one)
+        self.changed.add(one)
+        self._on_move(one, quantity, reason, context)
+
+    def reserve(self, one, quantity):
+        """Promises pieces of a bin, or with a negative number takes the promise back."""
+        if not 0 <= one.reserved + quantity <= one.quantity:
+            raise StockError(
+                f"{one.reserved} + {quantity} reserved of {one.quantity} in {one.item}"
+            )
+        one.reserved += quantity
+        self._available[one.sku] -= quantity
+        self.changed.add(one)
+
+    def pick(self, one, quantity, **context):
+        """Takes reserved pieces out."""
+        self.reserve(one, -quantity)
+        self.move(one, one.sku, -quantity, Reason.PICK, **context)
+
+    def expect(self, one, sku, quantity):
+        """Keeps room in a bin for pieces on their way."""
+        if not one.takes(sku, quantity):
+            raise StockError(f"{one.item} does not take {quantity} of {sku}")
+        self._rename(one, sku)
+        self._expect(one, sku, quantity)
+
+    def unexpect(self, one, sku, quantity):
+        """They do not come."""
+        self._expect(one, sku, -quantity)
+
+    def put(self, one, sku, quantity, **context):
+        """Expected pieces are there."""
+        self._expect(one, sku, -quantity)
+        self.move(one, sku, quantity, Reason.PUT, **context)
+
+    def _expect(self, one, sku, quantity):
+        one.expected += quantity
+        self.expected += quantity
+        self._incoming[sku] += quantity
+        self._measure(one)
+
+    def _index(self, one):
+        if one.quantity:
+            self._of_sku[one.sku][one.bin_id] = one
+        else:
+            self._of_sku[one.sku].pop(one.bin_id, None)
+
+    def _rename(self, one, sku):
+        """Another SKU moves into an empty bin."""
+        if one.sku != sku and one.bin_id in self._roomy:
+            self._roomy.discard(one.bin_id)
+            self.roomy[one.sku] -= 1
+        one.sku = sku
+
+    def _measure(self, one):
+        if one.empty:
+            self.empty[one.bin_id] = one
+        else:
+            self.empty.pop(one.bin_id, None)
+        if (one.room >= ROOMY) != (one.bin_id in self._roomy):
+            self.roomy[one.sku] += 1 if one.room >= ROOMY else -1
+            self._roomy ^= {one.bin_id}

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of a shift, and the formulas behind them."""
+
+import math
+from collections import defaultdict
+
+import numpy as np
+
+from warehouse_fleet.transport import Kind
+
+INTERVAL = 60.0  # of the series [s]
+
+
+class Tally:
+    """Counts what happens in a shift."""
+
+    def __init__(self):
+        self.items_picked = self.lines_picked = self.orders_completed = 0
+        self.bundles_stored = self.pieces_stored = self.late_orders = 0
+        self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
+        self.turnover_s, self.throughput_s = [], []
+        self.picked_in, self.stored_in = defaultdict(int), defaultdict(int)  # by INTERVAL
+        self.completed_in = defaultdict(int)
+        self.robot_seconds = defaultdict(float)  # by what a transport's robot did
+        self._since = {}
+
+    def picked(self, now, pieces, line):
+        self.items_picked += pieces
+        self.lines_picked += not line.open
+        self.picked_in[int(now // INTERVAL)] += pieces
+
+    def stored(self, now, bundle):
+        self.bundles_stored += 1
+        self.pieces_stored += bundle.quantity
+        self.stored_in[int(now // INTERVAL)] += bundle.quantity
+
+    def completed(self, order):
+        self.orders_completed += 1
+        self.late_orders += bool(order.due) and order.completed > order.due
+        self.turnover_s.append(order.completed - order.created)
+        self.throughput_s.append(order.completed - order.assigned)
+        self.completed_in[int(order.completed // INTERVAL)] += 1
+
+    def transport(self, event):
+        """Where the time of robots with a transport goes."""
+        began, activity = self._since.get(event.transport_id, (event.stamp, None))
+        if activity:
+            self.robot_seconds[activity] += event.stamp - began
+        following = _ACTIVITIES.get(event.kind)
+        if following:
+            self._since[event.transport_id] = event.stamp, following
+        elif event.kind != Kind.RECEIVED:
+            self._since.pop(event.transport_id, None)
+
+    def visited(self, visit):
+        if visit.arrived is not None:
+            self.trips += 1
+            self.pick_visits += visit.station.kind == "PICK"
+
+
+_ACTIVITIES = {
+    Kind.ASSIGNED: "to unit",
+    Kind.LIFTED: "to station",
+    Kind.ARRIVED: "service",
+    Kind.RELEASED: "back",
+}
+
+
+def upper_bound(pile_on, settings, kinematics, spacing=1.0):
+    """Pieces an hour that a picking station can reach at most with so many pieces a unit.
+
+    p * 3600 / (max(in + turn + out + pick - transfer, 0) + p * transfer): while the last piece of a
+    unit is handled on, the next unit may already come.
+    """
+    cell = 2 * math.sqrt(spacing / kinematics.acceleration)
+    top = kinematics.speed**2 / kinematics.acceleration
+    if spacing > top:
+        cell = spacing / kinematics.speed + kinematics.start_stop
+    change = 2 * cell + kinematics.quarter_turn + settings.pick_s - settings.piece_s
+    pieces = max(pile_on, 1.0)
+    return pieces * 3600 / (max(change, 0.0) + pieces * settings.piece_s)
+
+
+def of_shift(shift, fleet, kinematics, wall_s):
+    """What kpis.json holds, as a dict."""
+    tally, elapsed = shift.tally, shift.now - shift.began
+    hours = max(elapsed, 1e-9) / 3600
+    picking, replenishing = shift.picking.stations, shift.replenishing.stations
+    picks = sum(len([v for v in s.inbound.values() if v.pieces]) for s in picking)
+    pile_on = tally.items_picked / max(tally.pick_visits + picks, 1)
+    spacing = shift.floor.plan.spacing
+    bound = sum(
+        upper_bound(pile_on, shift.settings.of(station.name), kinematics, spacing)
+        for station in picking
+    )
+    throughput = tally.items_picked / hours
+    overdue = sum(bool(order.due) and order.due < shift.now for order in shift.orders.values())
+    busy = sum(station.busy_s for station in picking)
+    return {
+        "simulated_s": elapsed,
+        "wall_s": wall_s,
+        "real_time_factor": elapsed / wall_s if wall_s else 0.0,
+        "robots": fleet.robots,
+        "pick_stations": len(picking),
+        "replenish_stations": len(replenishing),
+        "items_picked": tally.items_picked,
+        "lines_picked": tally.lines_picked,
+        "orders_completed": tally.orders_completed,
+        "bundles_stored": tally.bundles_stored,
+        "item_throughput_per_hour": throughput,
+        "order_throughput_per_hour": tally.orders_completed / hours,
+        "item_upper_bound_per_hour": bound,
+        "item_score": throughput / bound if bound else 0.0,
+        "pile_on": pile_on,
+        "station_idle_fraction": 1 - busy / (elapsed * len(picking)) if busy else 1.0,
+        "order_turnover_s": quantiles(tally.turnover_s),
+        "order_throughput_s": quantiles(tally.throughput_s),
+        "late_orders_fraction": (tally.late_orders + overdue)
+        / max(tally.orders_completed + overdue, 1),
+        "distance_m": fleet.distance_m,
+        "distance_per_item_m": fleet.distance_m / max(tally.items_picked, 1),
+        "trips": tally.trips,
+        "collisions": fleet.collisions,
+        "blocked": fleet.blocked,
+        "watchdog": fleet.watchdog,
+        "plan_ms": _planning(fleet.plan_ms),
+        "executed_over_planned": fleet.executed_over_planned,
+        "state_hash": shift.state_hash(),
+    }
+
+
+def quantiles(values):
+    """p25, median, p75 and p95; 0 of nothing."""
+    names = ("p25", "median", "p75", "p95")
+    return dict(zip(names, np.percentile(values or [0.0], (25, 50, 75, 95)).tolist()))
+
+
+def _planning(milliseconds):
+    values = np.asarray(milliseconds if len(milliseconds) else [0.0])
+    median, late = np.percentile(values, (50, 99))
+    return {"p50": float(median), "p99": float(late), "max": float(values.max())}

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How a shift begins: with new stock, or with what a database has kept."""
+
+import numpy as np
+
+from warehouse_fleet.operations.assortment import stocked
+from warehouse_fleet.operations.demand import make_demand
+from warehouse_fleet.operations.policies import Policies
+from warehouse_fleet.operations.shift import Shift
+from warehouse_fleet.operations.whereabouts import Whereabouts
+
+
+class SiteError(ValueError):
+    """The database is of another warehouse."""
+
+
+def open_shift(
+    site,
+    transports,
+    *,
+    orders="fill",
+    seed=1,
+    policies=None,
+    database=None,
+    settings=None,
+    travel=None,
+    now=0.0,
+):
+    """A Shift in a Site over transports.
+
+    database: a Database whose warehouse the shift goes on with, or in
+    which it begins one; None: nothing is kept. now: simulated time [s]. Raises SiteError,
+    DemandError, PolicyError, DatabaseError.
+    """
+    journal = stored = None
+    if not isinstance(policies, Policies):
+        policies = Policies(policies)
+    if database:
+        from warehouse_fleet.operations import stored as keeping
+        from warehouse_fleet.operations.database import DatabaseJournal
+
+        stored = keeping.read(database.engine, now)
+        journal = DatabaseJournal(
+            database,
+            seed=seed,
+            orders=str(orders),
+            policies=policies.chosen,
+            site=site.name,
+            now=now,
+        )
+    # A run that goes on has its own chance, or the same orders would come again.
+    runs = () if journal is None else (journal.run_id,)
+    chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
+    stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
+    if stored:
+        assortment, stock = stored.assortment, [(one, 0) for one in stored.bins]
+        _check_site(site, stored.bins, database.url)
+    else:
+        assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
+    kinds = [station.kind for station in site.plan.stations]
+    count = kinds.count("PICK"), kinds.count("REPLENISH")
+    shift = Shift(
+        transports,
+        assortment,
+        [one for one, _ in stock],
+        floor=Whereabouts(site.plan, site.robots, site.units, travel),
+        policies=policies,
+        demand=make_demand(orders, assortment, count, demand_rng, now),
+        settings=settings or site.settings,
+        journal=journal,
+        rng=policy_rng,
+        now=now,
+    )
+    if stored:
+        journal.resume(shift)
+        shift.resume(stored)
+    else:
+        if journal:
+            journal.begin(shift)
+        shift.begin(stock)
+    return shift
+
+
+def _check_site(site, bins, url):
+    here, there = set(site.items), {(one.item, one.unit) for one in bins}
+    if here != there:
+        item, unit = min(here ^ there, key=str)
+        where = "the warehouse" if (item, unit) in here else "the database"
+        raise SiteError(
+            f"{url} is of another warehouse: {item} on storage unit {unit} is only in {where}"
+        )

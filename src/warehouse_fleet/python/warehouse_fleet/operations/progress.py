@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How far a shift has come, on one line of a terminal; a line now and then elsewhere."""
+
+import sys
+import time
+
+WIDTH = 30
+
+
+class ProgressBar:
+    """Called with an Operations now and then; shows simulated time, throughput and speed."""
+
+    def __init__(self, seconds, stream=sys.stderr, clock=time.monotonic):
+        self._seconds, self._stream, self._clock = seconds, stream, clock
+        self._period = 0.2 if stream.isatty() else 10.0
+        self._began = clock()
+        self._next = self._began + self._period
+        self.stopped = False
+
+    def __call__(self, ops):
+        """Shows it if it is time; returns whether to stop."""
+        now = self._clock()
+        if now >= self._next:
+            self._next = now + self._period
+            self._show(ops, now - self._began)
+        return self.stopped
+
+    def end(self, ops):
+        """Shows how it ended."""
+        self._show(ops, self._clock() - self._began)
+        if self._stream.isatty():
+            self._stream.write("\n")
+
+    def _show(self, ops, wall):
+        share = min(ops.time / self._seconds, 1.0) if self._seconds else 1.0
+        done = round(WIDTH * share)
+        hourly = ops.shift.tally.items_picked / max(ops.time, 1e-9) * 3600
+        text = (
+            f"[{'#' * done}{'.' * (WIDTH - done)}] {_hms(ops.time)} of {_hms(self._seconds)}, "
+            f"{hourly:,.0f} pieces/h, {ops.time / max(wall, 1e-9):,.1f} x real time"
+        )
+        self._stream.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
+        self._stream.flush()
+
+
+def _hms(seconds):
+    minutes, seconds = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02}:{seconds:02}"

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a sweep's shifts on a Ray cluster, behind the interface of concurrent.futures."""
+
+from concurrent.futures import Executor, Future
+from threading import Thread
+
+import ray
+
+
+class RayExecutor(Executor):
+    """A task of Ray for each call; address: "local" starts a cluster on this machine."""
+
+    def __init__(self, address="local"):
+        ray.init(address=None if address == "local" else address, log_to_driver=False)
+
+    def submit(self, function, /, *args, **kwargs):
+        future = Future()
+        future.set_running_or_notify_cancel()
+        reference = ray.remote(function).remote(*args, **kwargs)
+        Thread(target=self._finish, args=(future, reference), daemon=True).start()
+        return future
+
+    def shutdown(self, wait=True, *, cancel_futures=False):
+        ray.shutdown()
+
+    @staticmethod
+    def _finish(future, reference):
+        try:
+            future.set_result(ray.get(reference))
+        except ray.exceptions.RayTaskError as error:
+            future.set_exception(error.cause or error)
+        except ray.exceptions.RayError as error:
+            future.set_exception(error)

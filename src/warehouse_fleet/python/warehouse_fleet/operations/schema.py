@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The tables of a warehouse's database, and how a database of an older version becomes a new one.
+
+Times are simulated seconds of the run that a row belongs to. Stock is the sum of moves: `bin` holds
+that sum ready, and the pieces of it that are promised.
+"""
+
+from sqlalchemy import (
+    CheckConstraint,
+    Column,
+    Float,
+    ForeignKey,
+    ForeignKeyConstraint,
+    Index,
+    Integer,
+    MetaData,
+    String,
+    Table,
+    Text,
+    insert,
+    inspect,
+    select,
+    update,
+)
+
+VERSION = 1
+metadata = MetaData()
+
+
+class SchemaError(Exception):
+    """A database that can't be used; the text says why."""
+
+
+def _id(**options):
+    return Column("id", Integer, primary_key=True, autoincrement=False, **options)
+
+
+schema_version = Table("schema_version", metadata, Column("version", Integer, primary_key=True))
+
+run = Table(
+    "run",
+    metadata,
+    _id(),
+    Column("began", String(40), nullable=False),  # wall clock, ISO 8601, UTC
+    Column("ended", String(40)),
+    Column("site", Text, nullable=False),
+    Column("seed", Integer, nullable=False),
+    Column("orders", Text, nullable=False),
+    Column("policies", Text, nullable=False),  # JSON
+    Column("began_s", Float, nullable=False),  # simulated time at its beginning and so far
+    Column("simulated_s", Float, nullable=False),
+    Column("kpis", Text),  # JSON
+)
+
+sku = Table(
+    "sku",
+    metadata,
+    Column("sku", String(80), primary_key=True),
+    Column("number", Integer, nullable=False, unique=True),
+    Column("popularity", Float, nullable=False),
+)
+
+unit = Table("unit", metadata, _id(), Column("in_service", Integer, nullable=False))
+
+bin_ = Table(
+    "bin",
+    metadata,
+    _id(),
+    Column("item", String(80), nullable=False, unique=True),
+    Column("unit", ForeignKey("unit.id"), nullable=False),
+    Column("sku", ForeignKey("sku.sku"), nullable=False),
+    Column("quantity", Integer, nullable=False),
+    Column("reserved", Integer, nullable=False),
+    Column("capacity", Integer, nullable=False),
+    CheckConstraint("reserved >= 0 AND reserved <= quantity", name="reserved_in_stock"),
+)
+
+orders = Table(
+    "orders",
+    metadata,
+    _id(),
+    Column("run", ForeignKey("run.id"), nullable=False),  # in which it came
+    Column("reference", String(200), nullable=False, index=True),
+    Column("created", Float, nullable=False),
+    Column("due", Float, nullable=False),
+    Column("priority", Integer, nullable=False),
+    Column("state", Integer, nullable=False, index=True),  # OrderState
+    Column("station", String(80), nullable=False),
+    Column("completed", Float),
+)
+
+order_line = Table(
+    "order_line",
+    metadata,
+    Column("order_id", ForeignKey("orders.id"), primary_key=True),
+    Column("number", Integer, primary_key=True, autoincrement=False),
+    Column("sku", ForeignKey("sku.sku"), nullable=False),
+    Column("quantity", Integer, nullable=False),
+    Column("picked", Integer, nullable=False),
+    CheckConstraint("picked >= 0 AND picked <= quantity", name="picked_in_order"),
+)
+
+assignment = Table(
+    "assignment",
+    metadata,
+    _id(),
+    Column("run", ForeignKey("run.id"), nullable=False),
+    Column("order_id", ForeignKey("orders.id"), nullable=False, index=True),
+    Column("station", String(80), nullable=False),
+    Column("stamp", Float, nullable=False),
+    Column("ended", Float),  # when the station gave the order back
+)
+
+visit = Table(
+    "visit",
+    metadata,
+    _id(),
+    Column("run", ForeignKey("run.id"), nullable=False),
+    Column("transport_id", Integer, nullable=False),
+    Column("unit", ForeignKey("unit.id"), nullable=False),
+    Column("station", String(80), nullable=False),
+    Column("requested", Float, nullable=False),
+    Column("lifted", Float),
+    Column("arrived", Float),
+    Column("released", Float),
+    Column("ended", Float),
+    Column("outcome", String(20), nullable=False),  # stored, failed, cancelled, interrupted
+    Column("pieces", Integer, nullable=False),
+)
+
+move = Table(
+    "move",
+    metadata,
+    _id(),
+    Column("run", ForeignKey("run.id"), nullable=False),
+    Column("stamp", Float, nullable=False),
+    Column("bin", ForeignKey("bin.id"), nullable=False),
+    Column("sku", ForeignKey("sku.sku"), nullable=False),
+    Column("quantity", Integer, nullable=False),  # below 0: taken out
+    Column("reason", String(20), nullable=False),
+    Column("order_id", Integer),
+    Column("line", Integer),
+    Column("visit", ForeignKey("visit.id")),
+    ForeignKeyConstraint(["order_id", "line"], ["order_line.order_id", "order_line.number"]),
+    Index("move_by_bin", "bin"),
+    Index("move_by_line", "order_id", "line"),
+)
+
+event = Table(
+    "event",
+    metadata,
+    _id(),
+    Column("run", ForeignKey("run.id"), nullable=False),
+    Column("stamp", Float, nullable=False),
+    Column("kind", Integer, nullable=False),  # OrderEventKind
+    Column("order_id", ForeignKey("orders.id"), nullable=False, index=True),
+    Column("sku", String(80), nullable=False),
+    Column("quantity", Integer, nullable=False),
+    Column("station", String(80), nullable=False),
+    Column("shelf_id", Integer, nullable=False),
+    Column("text", Text, nullable=False),
+)
+
+# From each older version to the next: a function of a connection.
+MIGRATIONS = {}
+
+
+def prepare(connection, version=VERSION, migrations=None):
+    """Makes the tables, or brings those of an older version up to date; raises SchemaError."""
+    migrations = MIGRATIONS if migrations is None else migrations
+    tables = set(inspect(connection).get_table_names())
+    if schema_version.name not in tables:
+        taken = sorted(tables & set(metadata.tables))
+        if taken:
+            raise SchemaError(f"the database has tables of somebody else: {', '.join(taken)}")
+        metadata.create_all(connection)
+        connection.execute(insert(schema_version).values(version=version))
+        return
+    found = connection.execute(select(schema_version.c.version)).scalar_one()
+    if found > version:
+        raise SchemaError(
+            f"the database is of schema version {found}; this program knows {version} and older"
+        )
+    for step in range(found, version):
+        migrations[step](connection)
+        connection.execute(update(schema_version).values(version=step + 1))

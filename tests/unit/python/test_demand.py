@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where orders come from: published shares, files with their wrong rows told."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from warehouse_fleet.operations.assortment import Assortment
+from warehouse_fleet.operations.demand import (
+    Customers,
+    DemandError,
+    Poisson,
+    Wanted,
+    make_demand,
+    read_csv,
+)
+
+GOOD = "reference,sku,quantity,at,due,priority\n"
+
+
+@pytest.fixture
+def assortment():
+    return Assortment.draw(1000, np.random.default_rng(1))
+
+
+def test_orders_have_the_published_shares(assortment):
+    customers = Customers(assortment, np.random.default_rng(2))
+    orders = [customers.order(0.0, lambda sku: 100) for _ in range(4000)]
+    lines = Counter(len(order.lines) for order in orders)
+    shares = [lines[n] / len(orders) for n in (1, 2, 3, 4)]
+    assert shares == pytest.approx([0.554, 0.350, 0.088, 0.009], abs=0.03)
+    pieces = [n for order in orders for _, n in order.lines]
+    assert set(pieces) == {1, 2} or set(pieces) == {1, 2, 3}
+    assert np.mean(pieces) == pytest.approx(1.05, abs=0.03)
+    assert np.mean([order.due == 1800 for order in orders]) == pytest.approx(0.2, abs=0.02)
+    asked = Counter(sku for order in orders for sku, _ in order.lines)
+    top = sum(count for _, count in asked.most_common(200)) / sum(asked.values())
+    assert 0.5 < top < 0.62
+
+
+def test_nothing_is_ordered_that_is_not_there(assortment):
+    customers = Customers(assortment, np.random.default_rng(2))
+    assert customers.order(0.0, lambda sku: 0) is None
+    only = customers.order(0.0, lambda sku: 9 * (sku in assortment.skus[:300]))
+    assert {sku for sku, _ in only.lines} <= set(assortment.skus[:300])
+
+
+def test_poisson_comes_as_often_as_asked(assortment):
+    demand = make_demand("poisson:600", assortment, (2, 1), np.random.default_rng(3))
+    assert isinstance(demand, Poisson) and demand.bundles_per_hour == 45
+    came = list(demand.due(10 * 3600.0, [], lambda sku: 9))
+    assert len(came) == pytest.approx(6000, rel=0.05)
+    assert make_demand("poisson", assortment, (2, 1), np.random.default_rng(3)).per_hour == 320
+
+
+def test_a_file_of_orders(tmp_path):
+    path = tmp_path / "orders.csv"
+    path.write_text(GOOD + "A,sku-1,2,5,60,1\nB,sku-1,1,,,\nA,sku-2,1,5,60,1\nA,sku-1,1,5,60,1\n")
+    assert read_csv(path) == [
+        Wanted((("sku-1", 3), ("sku-2", 1)), 5.0, 60.0, 1, "A"),
+        Wanted((("sku-1", 1),), 0.0, 0.0, 0, "B"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("reference,sku\n", ":1: there is no column quantity"),
+        (GOOD + "A,sku-1,1,,,\nA,sku-9,1,,,\n", ":3: sku 'sku-9' is unknown"),
+        (GOOD + "A,sku-1,0,,,\n", ":2: quantity is '0'; a whole number from 1"),
+        (GOOD + "A,sku-1,1.5,,,\n", ":2: quantity is '1.5'; a whole number"),
+        (GOOD + "A,sku-1,1,soon,,\n", ":2: at is 'soon'; a number from 0"),
+        (GOOD + "A,sku-1,1,,,300\n", ":2: priority is '300'; a whole number from 0 to 255"),
+        (GOOD + ",sku-1,1,,,\n", ":2: reference is empty"),
+        (GOOD + "A,sku-1,1,,,,7\n", ":2: there are more fields than columns"),
+        (GOOD + "A,sku-1,1,0,,\nA,sku-2,1,9,,\n", ":3: at, due or priority differ"),
+    ],
+)
+def test_wrong_rows_are_told_with_their_line(tmp_path, text, message):
+    path = tmp_path / "orders.csv"
+    path.write_text(text)
+    with pytest.raises(DemandError) as error:
+        read_csv(path, {"sku-1", "sku-2"})
+    assert f"{path}{message}" in str(error.value)
+
+
+@pytest.mark.parametrize("text", ["fill:0", "fill:x", "poisson:-1", "poisson:inf", "full", "x.txt"])
+def test_what_is_no_demand_is_told(assortment, text):
+    with pytest.raises(DemandError, match=f"orders are '{text}'"):
+        make_demand(text, assortment, (1, 1), np.random.default_rng(1))

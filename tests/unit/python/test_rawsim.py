@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instances of RAWSim-O are read whatever their spacing and age, and shifts in them are good."""
+
+import numpy as np
+import pytest
+from instance_file import write_instance
+
+from warehouse_fleet.operations import Operations
+from warehouse_fleet.operations.simulation import Description, open_operations, simulate
+from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
+
+
+@pytest.mark.parametrize("spacing, old", [(1.0, False), (1.04, True), (1.0571, False)])
+def test_an_instance(tmp_path, spacing, old):
+    site = read_instance(write_instance(tmp_path / "a.xinst", spacing=spacing, old=old))
+    plan = site.plan
+    plan.check()
+    assert plan.spacing == pytest.approx(spacing, abs=1e-3)
+    assert plan.shape == (22, 27)
+    assert len(site.robots) == 16 and len(site.units) == 178
+    assert [(s.name, s.kind, len(s.cells), s.service) for s in plan.stations] == [
+        ("pick1", "PICK", 8, 3),
+        ("pick2", "PICK", 8, 3),
+        ("replenish1", "REPLENISH", 8, 3),
+        ("replenish2", "REPLENISH", 8, 3),
+    ]
+    # The street at the bottom leads east, the one at its right end north.
+    assert plan.exits[0, 6] & 0b0101 == 0b0001 and plan.exits[5, 22] & 0b1010 == 0b0010
+    assert site.kinematics.quarter_turn == 0.625
+    settings = site.settings.of("pick1")
+    assert (settings.slots, settings.piece_s, settings.pick_s) == (12, 10.0, 3.0)
+
+
+def test_twenty_shifts_of_ten_minutes_are_above_the_published_one(tmp_path):
+    """16 bots, 2 + 2 stations, 600 s: RAWSim-O picks 110 pieces, 96 lines, 68 orders."""
+    site = read_instance(write_instance(tmp_path / "a.xinst"))
+    found = []
+    for seed in range(1, 21):
+        ops = Operations(site=site, seed=seed, physics=False)
+        ops.run(seconds=600)
+        figures = ops.kpis()
+        found.append([figures[k] for k in ("items_picked", "lines_picked", "orders_completed")])
+        assert figures["item_upper_bound_per_hour"] == pytest.approx(720)
+    assert (np.mean(found, axis=0) > (110, 96, 68)).all()
+
+
+SETTINGS = """<SettingConfiguration><SimulationDuration>600</SimulationDuration><Seed>3</Seed>
+<InventoryConfiguration><OrderMode>{mode}</OrderMode><InitialInventory>0.6</InitialInventory>
+<DemandInventoryConfiguration><OrderCount>50</OrderCount><BundleCount>40</BundleCount>
+<InventoryLevelBundleStopThreshold>0.8</InventoryLevelBundleStopThreshold>
+<InventoryLevelBundleRestartThreshold>{begin}</InventoryLevelBundleRestartThreshold>
+</DemandInventoryConfiguration></InventoryConfiguration></SettingConfiguration>"""
+
+
+def test_settings(tmp_path):
+    path = tmp_path / "a.xsett"
+    path.write_text(SETTINGS.format(mode="Fill", begin=0.5))
+    told = read_settings(path)
+    assert (told.orders, told.duration_s, told.seed, told.level) == ("fill:50", 600, 3, 0.6)
+    assert told.policies["replenishment"] == {
+        "name": "threshold",
+        "begin": 0.5,
+        "stop": 0.8,
+        "waiting": 40,
+    }
+    for mode, begin, message in (
+        ("Fixed", 0.5, "OrderMode is 'Fixed'; Fill or Poisson was expected"),
+        ("Fill", "low", "InventoryLevelBundleRestartThreshold is 'low'; a number"),
+    ):
+        path.write_text(SETTINGS.format(mode=mode, begin=begin))
+        with pytest.raises(InstanceError, match=message):
+            read_settings(path)
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("</Instance>", "", r":\d+: no element found"),
+        ("Instance", "Layout", "<Layout>; <Instance> was expected"),
+        ('ID="3" Tier="0"', 'ID="3" Tier="1"', "2 tiers"),
+        ('MaxVelocity="1.5"', 'MaxVelocity="fast"', "Bot 0: MaxVelocity is 'fast'"),
+        ('MaxVelocity="1.5"', 'MaxVelocity="2"', "bots of 2 kinds"),
+        ("<Waypoint>7</Waypoint>", "<Waypoint>9999</Waypoint>", "has a path to 9999, which is not"),
+        ("<Waypoint>7</Waypoint>", "<Waypoint>200</Waypoint>", "are no neighbours on a grid"),
+        ('OutputStation="0"', 'OutputStation="-1"', "OutputStation 0 has no Waypoint"),
+        ('PodStorageLocation="true"', 'PodStorageLocation="false"', "on no PodStorageLocation"),
+    ],
+)
+def test_a_wrong_instance_is_told(tmp_path, old, new, message):
+    path = write_instance(tmp_path / "a.xinst")
+    text = path.read_text()
+    assert old in text
+    everywhere = old in ("Instance", 'PodStorageLocation="true"')
+    path.write_text(text.replace(old, new) if everywhere else text.replace(old, new, 1))
+    with pytest.raises(InstanceError, match=message) as error:
+        read_instance(path)
+    assert str(error.value).startswith(str(path))
+
+
+def test_a_shift_with_settings(tmp_path):
+    path = write_instance(tmp_path / "a.xinst")
+    (tmp_path / "a.xsett").write_text(SETTINGS.format(mode="Fill", begin=0.5))
+    description = Description(
+        instance=str(path), settings=str(tmp_path / "a.xsett"), seconds=300, physics=False
+    )
+    run, faults = simulate(description, tmp_path / "out")
+    assert faults == [] and run.kpis["items_picked"] > 30
+
+
+def test_an_instance_with_physics(tmp_path):
+    """Its robots, spacing and one-way streets as a world; what drives there does not touch."""
+    path = write_instance(tmp_path / "a.xinst", spacing=1.04)
+    with open_operations(Description(instance=str(path), seed=2)) as ops:
+        assert ops.fleet.world.grid_spacing == pytest.approx(1.04)
+        ops.run(seconds=300)
+        figures = ops.kpis()
+    assert figures["items_picked"] > 40 and figures["collisions"] == 0

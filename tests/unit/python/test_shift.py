@@ -1,0 +1,348 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A shift over ideal robots: every piece and order exists once, whatever happens."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from operations_site import site
+from postgres import server
+from sqlalchemy import text
+
+from kiva_plugin_cpp import World
+from warehouse_fleet.operations import Operations, check
+from warehouse_fleet.operations.database import DatabaseError, open_engine
+from warehouse_fleet.operations.opening import SiteError
+from warehouse_fleet.operations.orders import OrderEventKind, OrderState
+from warehouse_fleet.operations.stations import Mode
+
+PICK, REPLENISH = "pick1", "replenish3"
+
+
+def shift_on(database=None, **options):
+    return Operations(site=site(), physics=False, database=database, **options)
+
+
+def events_of(ops):
+    """What is told of orders from now on: (order id, kind, sku, quantity, station, unit, text)."""
+    told = []
+    ops.shift.on_order_event = lambda order, *rest: told.append((order.order_id, *rest))
+    return told
+
+
+def promised(ops):
+    """Pieces that bins promise, and pieces that order lines were promised."""
+    lines = [line for order in ops.shift.orders.values() for line in order.lines]
+    bins = ops.shift.inventory.bins.values()
+    return sum(one.reserved for one in bins), sum(line.allotted for line in lines)
+
+
+def test_an_hour_balances_to_the_piece_and_repeats_to_the_last_event(tmp_path):
+    hashes = []
+    for name, seed in (("a.db", 1), ("b.db", 1), ("c.db", 2)):
+        with shift_on(tmp_path / name, seed=seed) as ops:
+            ops.run(hours=1)
+            hashes.append(ops.kpis()["state_hash"])
+            tally = ops.shift.tally
+            pieces = ops.shift.inventory.total
+            assert promised(ops)[0] == promised(ops)[1]
+        engine = open_engine(tmp_path / name)
+        assert check.faults(engine) == []
+        found = check.summary(engine)
+        assert (found["pieces"], found["completed"]) == (pieces, tally.orders_completed)
+    assert hashes[0] == hashes[1] != hashes[2]
+    assert tally.items_picked > 600 and tally.bundles_stored > 50
+
+
+WRONG = {
+    "its moves add up to": "UPDATE bin SET quantity = quantity + 1 WHERE id = 3",
+    "instead of 0": "INSERT INTO move SELECT 10000000, run, stamp, bin, 'sku-2', 1, reason, NULL,"
+    " NULL, NULL FROM move WHERE sku <> 'sku-2' LIMIT 1",
+    "are reserved, it has room for": "UPDATE bin SET capacity = quantity - 1 WHERE id = 3",
+    "it would have held": "UPDATE move SET quantity = 1 - quantity WHERE id = 1",
+    "are picked; moves say": "UPDATE order_line SET picked = 0",
+    "that belongs to no order line": "UPDATE move SET order_id = NULL, line = NULL WHERE id ="
+    " (SELECT MAX(id) FROM move WHERE reason = 'pick')",
+    "of order {}": "UPDATE order_line SET sku = 'sku-1' WHERE sku <> 'sku-1'",
+    "of its pieces were not picked": "UPDATE order_line SET quantity = quantity + 1",
+    "it was completed": "UPDATE orders SET state = 1 WHERE state = 2",
+    "its moves add up to {}": "UPDATE visit SET pieces = pieces + 1 WHERE id = 1",
+    "is on {} visits at once": "UPDATE visit SET unit = 1, ended = NULL",
+}
+
+
+@pytest.mark.parametrize("sentence", WRONG)
+def test_what_does_not_balance_is_told(tmp_path, sentence):
+    with shift_on(tmp_path / "run.db") as ops:
+        ops.run(minutes=10)
+    engine = open_engine(tmp_path / "run.db")
+    assert check.faults(engine) == []
+    with engine.begin() as connection:
+        connection.execute(text(WRONG[sentence]))
+    expected = sentence.partition("{}")[0].strip()
+    assert any(expected in fault for fault in check.faults(engine))
+
+
+def test_the_database_itself_refuses_promises_beyond_the_stock(tmp_path):
+    with shift_on(tmp_path / "run.db") as ops:
+        ops.run(minutes=1)
+    with (
+        pytest.raises(Exception, match="reserved_in_stock"),
+        open_engine(tmp_path / "run.db").begin() as connection,
+    ):
+        connection.execute(text("UPDATE bin SET reserved = quantity + 1"))
+
+
+WORKER = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from kiva_plugin_cpp import World
+from operations_site import site
+from postgres import server
+from warehouse_fleet.operations import Operations
+ops = Operations(site=site(), physics=False, database=sys.argv[2], orders="fill:40")
+print("up", flush=True)
+while True:
+    ops.run(seconds=20)
+    ops.database.flush()
+"""
+
+
+def test_killed_at_any_moment_nothing_is_lost_or_done_twice(tmp_path):
+    database, chance = str(tmp_path / "run.db"), random.Random(4)
+    known = set()
+    for _ in range(5):
+        worker = subprocess.Popen(
+            [sys.executable, "-c", WORKER, str(Path(__file__).parent), database],
+            stdout=subprocess.PIPE,
+        )
+        worker.stdout.readline()
+        time.sleep(chance.uniform(0.05, 0.5))
+        os.kill(worker.pid, signal.SIGKILL)
+        worker.wait()
+        worker.stdout.close()
+        engine = open_engine(database)
+        assert check.faults(engine) == []
+        with engine.connect() as connection:
+            orders = set(connection.execute(text("SELECT id FROM orders")).scalars())
+        assert known <= orders
+        known = orders
+    with open_engine(database).connect() as connection:
+        before = connection.execute(text("SELECT COUNT(*) FROM orders WHERE state < 2")).scalar()
+    assert before >= 30
+    with shift_on(database, orders="none") as ops:
+        ops.run(hours=3)
+        assert not ops.shift.orders
+        assert ops.shift.tally.orders_completed == before
+    assert check.faults(open_engine(database)) == []
+
+
+def test_times_of_orders_go_on_in_the_next_run(tmp_path):
+    with shift_on(tmp_path / "run.db", orders="none") as ops:
+        ops.run(seconds=100)
+        for station in ops.shift.stations:
+            ops.shift.set_station(station.name, False, Mode.AUTOMATIC)
+        ops.shift.submit([("sku-1", 1)], due=400.0, reference="mine")
+        ops.run(seconds=50)
+    with shift_on(tmp_path / "run.db", orders="none") as ops:
+        (order,) = ops.shift.orders.values()
+        assert (order.reference, order.created, order.due) == ("mine", -50.0, 250.0)
+
+
+def test_a_database_of_another_warehouse_is_refused(tmp_path):
+    with shift_on(tmp_path / "run.db"):
+        pass
+    with pytest.raises(SiteError, match="is of another warehouse: item"):
+        Operations(site=site(bins=4), physics=False, database=tmp_path / "run.db")
+
+
+def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_path):
+    from warehouse_fleet.operations import schema
+
+    engine = open_engine(tmp_path / "run.db")
+    steps = {schema.VERSION: lambda c: c.execute(text("ALTER TABLE unit ADD COLUMN colour TEXT"))}
+    with engine.begin() as connection:
+        schema.prepare(connection, schema.VERSION + 1, steps)
+        assert connection.execute(text("SELECT colour FROM unit")).all() == []
+    with pytest.raises(DatabaseError, match="schema version 2; this program knows 1"):
+        open_engine(tmp_path / "run.db")
+
+
+def test_an_order_is_picked_told_and_complete():
+    ops = shift_on(orders="none")
+    told = events_of(ops)
+    order, message = ops.shift.submit([("sku-1", 2), ("sku-2", 1)], reference="A-1")
+    ops.run(minutes=10)
+    assert message == "" and order.state == OrderState.COMPLETED
+    kinds = [kind for _, kind, *_ in told]
+    assert kinds == [0, 1, 2, 2, 2, 3]
+    assert sum(quantity for _, kind, _, quantity, *_ in told if kind == 2) == 3
+
+
+@pytest.mark.parametrize(
+    "lines, message",
+    [
+        ([("sku-none", 1)], "there is no SKU 'sku-none'"),
+        ([("sku-1", 0)], "0 pieces of sku-1; 1 or more was expected"),
+        ([], "an order has one line or more"),
+    ],
+)
+def test_orders_that_can_not_be_are_refused(lines, message):
+    ops = shift_on(orders="none")
+    assert ops.shift.submit(lines) == (None, message)
+    assert not ops.shift.orders
+
+
+def test_more_than_there_is_waits_for_new_stock_and_nothing_else_suffers():
+    ops = shift_on(orders="none")
+    told = events_of(ops)
+    there = ops.shift.inventory.available("sku-1")
+    greedy, message = ops.shift.submit([("sku-1", there + 5)])
+    assert message == "waits for new stock of sku-1"
+    assert told[-1][1] == OrderEventKind.SHORT
+    modest, _ = ops.shift.submit([("sku-2", 1)])
+    ops.run(minutes=15)
+    assert modest.state == OrderState.COMPLETED
+    ops.run(hours=4)
+    assert greedy.state == OrderState.COMPLETED
+
+
+def test_cancelled_orders_give_back_what_they_were_promised():
+    ops = shift_on(orders="fill:30")
+    ops.run(minutes=5)
+    ops.shift.demand.waiting = 0
+    for order_id in list(ops.shift.orders):
+        done = ops.shift.orders[order_id].done
+        assert ops.shift.cancel_order(order_id)[0] is not done
+    ops.run(minutes=20)
+    assert not ops.shift.orders and promised(ops) == (0, 0)
+    assert ops.shift.cancel_order(1)[0] is False
+    away = {visit.unit for s in ops.shift.stations for visit in s.inbound.values()}
+    assert len(ops.shift.free_units | away) == len(ops.site.units)
+
+
+def test_a_station_closes_while_units_are_on_the_way():
+    ops = shift_on(orders="fill:30")
+    ops.run(minutes=5)
+    station = ops.shift.station(PICK)
+    assert len(station.coming) > 1 and station.orders
+    assert ops.shift.set_station(PICK, False, Mode.AUTOMATIC) == (True, "")
+    ops.run(minutes=10)
+    assert not station.inbound and not station.orders and promised(ops)[0] == promised(ops)[1]
+    pieces = station.pieces
+    ops.run(minutes=10)
+    assert station.pieces == pieces
+    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.run(minutes=10)
+    assert station.pieces > pieces + 30
+    ops.shift.demand.waiting = 0
+    ops.run(hours=2)
+    assert not ops.shift.orders
+
+
+def test_a_unit_out_of_service_is_not_asked_for():
+    ops = shift_on(orders="fill")
+    ops.run(minutes=5)
+    on_the_way = [visit.unit for s in ops.shift.stations for visit in s.inbound.values()]
+    for unit in on_the_way:
+        assert ops.shift.set_unit(unit, False) == (True, "")
+    ops.run(minutes=10)
+    for station in ops.shift.stations:
+        assert not {visit.unit for visit in station.inbound.values()} & set(on_the_way)
+    assert promised(ops)[0] == promised(ops)[1]
+    assert ops.shift.set_unit(10**6, False)[0] is False
+
+
+def by_hand(ops):
+    ops.shift.set_station(PICK, True, Mode.MANUAL)
+    station = ops.shift.station(PICK)
+    ops.shift.set_station("pick2", False, Mode.AUTOMATIC)
+    ops.run(minutes=10)
+    return station, station.here.picks[0]
+
+
+def test_a_person_confirms_what_was_picked():
+    ops = shift_on(orders="fill:30")
+    station, pick = by_hand(ops)
+    assert station.pieces == 0
+    sku, asked = (
+        pick.line.sku,
+        sum(p.quantity for p in station.here.picks if p.line.sku == pick.line.sku),
+    )
+    assert ops.shift.confirm_pick(PICK, sku, asked + 1)[0] is False
+    assert ops.shift.confirm_pick(PICK, "sku-none", 1)[0] is False
+    assert ops.shift.confirm_pick("pick2", sku, 1) == (False, "pick2 works by itself")
+    stock = ops.shift.inventory.total
+    assert ops.shift.confirm_pick(PICK, sku, asked) == (True, "")
+    assert (station.pieces, ops.shift.inventory.total) == (asked, stock - asked)
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_what_is_not_there_is_written_off_and_brought_from_elsewhere(tmp_path, damaged):
+    ops = shift_on(tmp_path / "run.db", orders="fill:30")
+    station, pick = by_hand(ops)
+    told = events_of(ops)
+    one, order, stock = pick.bin, pick.line.order, pick.bin.quantity
+    assert ops.shift.report_short(PICK, pick.line.sku, stock + 1)[0] is False
+    assert ops.shift.report_short(PICK, pick.line.sku, stock, damaged) == (True, "")
+    assert one.quantity == 0 and promised(ops)[0] == promised(ops)[1]
+    assert told[0][1] == OrderEventKind.SHORT
+    assert told[0][-1] == ("damaged" if damaged else "short")
+    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.run(hours=1)
+    assert order.state == OrderState.COMPLETED
+    ops.close()
+    assert check.faults(open_engine(tmp_path / "run.db")) == []
+
+
+def test_a_person_puts_new_stock_in():
+    ops = shift_on(orders="none")
+    ops.shift.set_station(REPLENISH, True, Mode.MANUAL)
+    ops.run(minutes=10)
+    visit = ops.shift.station(REPLENISH).here
+    bundle, before = visit.puts[0], visit.puts[0].bin.quantity
+    assert ops.shift.confirm_pick(REPLENISH, bundle.sku, bundle.quantity + 1)[0] is False
+    assert ops.shift.confirm_pick(REPLENISH, bundle.sku, bundle.quantity) == (True, "")
+    assert bundle.bin.quantity == before + bundle.quantity
+
+
+def test_a_server_keeps_what_a_file_keeps(tmp_path):
+    with server() as url:
+        for minutes in (20, 10):
+            with shift_on(url) as ops:
+                ops.run(minutes=minutes)
+        engine = open_engine(url)
+        assert check.faults(engine) == []
+        with engine.begin() as connection:
+            runs = connection.execute(text("SELECT id, simulated_s FROM run ORDER BY id")).all()
+            assert runs == [(1, 1200.0), (2, 600.0)]
+            connection.execute(text("UPDATE bin SET quantity = quantity + 1 WHERE id = 3"))
+        assert len(check.faults(engine)) == 1
+        engine.dispose()
+
+
+def test_a_database_that_can_not_be_reached_is_told(tmp_path):
+    with pytest.raises(DatabaseError, match="connection to server"):
+        shift_on("postgresql://nobody@127.0.0.1:1/none")
+    with pytest.raises(DatabaseError, match="unable to open database file"):
+        shift_on(tmp_path / "no" / "such" / "folder.db")
+    with pytest.raises(DatabaseError, match="oracle-of-delphi"):
+        shift_on("oracle-of-delphi://x/y")
+
+
+def test_the_worlds_own_robots_work_and_repeat(tmp_path):
+    """Physics: the same seed gives the same shift and the same state of the world."""
+    hashes = []
+    for name in ("a.db", "b.db"):
+        with Operations(World.preset("small"), database=tmp_path / name) as ops:
+            ops.run(minutes=10)
+            figures = ops.kpis()
+            hashes.append((figures["state_hash"], ops.fleet.state_hash()))
+        assert check.faults(open_engine(tmp_path / name)) == []
+        assert figures["items_picked"] > 60 and figures["collisions"] == 0
+    assert hashes[0] == hashes[1]
