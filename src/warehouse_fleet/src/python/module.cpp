@@ -199,6 +199,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("renewal_age", options.renewal_age);
   set("against", options.against);
   set("crowd", options.crowd);
+  set("at_lanes", options.at_lanes);
   set("memory", options.memory);
   for (const auto& unknown : given) {
     throw py::type_error("no such option: " + unknown.first.cast<std::string>());
