@@ -7,6 +7,8 @@ from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.orders import OrderEventKind, OrderState
 from warehouse_fleet.operations.stations import Mode, Pick
 
+RETRY = 1.0  # after the fleet refused a unit [s]
+
 
 class Picking:
     """The part of a Shift that works at its picking stations."""
@@ -151,9 +153,14 @@ class Picking:
                 return
             unit = self.shift.policies.units.choose(station, candidates, self.shift)
             visit = self.shift.request(unit, station)
-            if visit:
-                for line in candidates[unit]:
-                    self._allot(station, line)
+            if not visit:
+                self.shift.at(self.shift.now + RETRY, self._retry, station)
+                return
+            for line in candidates[unit]:
+                self._allot(station, line)
+
+    def _retry(self, station):
+        self._to_fetch[station] = None
 
     def _candidates(self, station):
         """What the units that are free could serve: {unit: {line: pieces}}."""

@@ -8,6 +8,7 @@ from warehouse_fleet.operations.orders import Bundle
 from warehouse_fleet.operations.stations import Mode
 
 PERIOD = 10.0  # between two looks at what is to be ordered [s]
+RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK_AHEAD = 30  # bundles at the door that are tried for a place
 
 
@@ -60,8 +61,13 @@ class Replenishing:
                 if visit:
                     self._place(bundle, one, visit)
                     self._fill_up(visit)
-                return True
+                    return True
+                self.shift.at(self.shift.now + RETRY, self._retry, None)
+                return False
         return False
+
+    def _retry(self, _):
+        self._look = True
 
     def _candidates(self, bundle):
         inventory, free = self.shift.inventory, self.shift.free_units
