@@ -11,6 +11,7 @@ from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_sim import models
 from warehouse_sim.layout import plan
 from warehouse_sim.request import PRESETS, resolve
+from warehouse_sim.world_file import insertable
 
 STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
 REQUESTS = {name: resolve(name) for name in STATIONED} | {
@@ -117,6 +118,18 @@ def test_markings_turn_with_what_they_mark():
     assert (turned.exits.flat[turned.cell_of(-y, x)] == 2).all()
 
 
+def test_a_warehouse_that_is_added_to_another_brings_its_floor_plan(tmp_path):
+    """As by insert_world: under free numbers, its stations too."""
+    marks = models.document([models.of_layout(plan(resolve("small")))[1]])
+    world, file = World(), tmp_path / "more.sdf"
+    world.spawn(marks)
+    file.write_text(marks)
+    world.spawn(insertable(file, world.names).xml)
+    world.set_pose("floor_markings2", 30, 20)
+    names = [station.name for station in FloorPlan.of_world(world).stations]
+    assert names == ["pick1", "pick2", "replenish1", "pick3", "pick4", "replenish2"]
+
+
 def test_cells_and_points():
     floor = plan(resolve("small")).plan
     cells = np.arange(floor.passable.size)
@@ -146,6 +159,34 @@ def test_what_stands_in_a_lane_is_in_the_way_and_the_lane_stays():
     found.check(obstructed=False)
     with pytest.raises(FloorError, match="something stands at"):
         found.check()
+
+
+def unmarked(size, belt=(7, 7), taken=()):
+    """A square floor with a belt on that cell and the next one along x, x and y from 0 on."""
+    occupancy = np.zeros((size, size), np.uint8)
+    x, y = belt
+    occupancy[y, x : x + 2] = 99
+    for i, j in taken:
+        occupancy[j, i] = 100
+    belts = {"conveyor_belt1": (x + 0.5, y)}
+    return FloorPlan.of_parts(0, 0, 1, occupancy, [], belts)
+
+
+def test_a_belt_on_a_floor_without_markings_gets_a_lane():
+    found = unmarked(16, taken=[(0, 3), (1, 4), (5, 2)])
+    (station,) = found.stations
+    assert (station.kind, station.belt, found.without_lane) == ("PICK", "conveyor_belt1", ())
+    x, y = found.point_of(station.service_cell)
+    assert abs(x - 7.5) + abs(y - 7) <= 2  # beside the belt
+    found.check()
+    assert found.parking.flat[found.cell_of(0, 4)]  # in a niche nobody can pass
+
+
+def test_a_belt_without_room_says_which_cells_a_lane_lacks():
+    found = unmarked(6, belt=(2, 2))
+    assert found.stations == ()
+    (reason,) = found.without_lane
+    assert reason.startswith("conveyor_belt1 at (2.5, 2) has no lane: it would need (")
 
 
 @pytest.mark.parametrize(

@@ -150,7 +150,7 @@ class Coordinator:
     # What it does.
 
     def _step(self, fleet):
-        report = SimpleNamespace(**{name: np.asarray(getattr(fleet, name)) for name in FIELDS})
+        report = SimpleNamespace(**{name: _array(getattr(fleet, name)) for name in FIELDS})
         time = fleet.stamp.to_sec()
         if not self._is_known(report, time):
             return
@@ -158,6 +158,9 @@ class Coordinator:
         self._take_refusals()
         if self._is_new_state(time):
             self._see_units()
+            # Paths that somebody gave out before end where robots can stop.
+            for kiva_id in traffic.kiva_ids[traffic.inherited(report)]:
+                self._cancel.publish(int(kiva_id))
         traffic.observe(time, report)
         transports.advance(report)
         self._send(traffic.releases())
@@ -178,8 +181,10 @@ class Coordinator:
 
     def _is_known(self, report, time):
         """Whether this is the warehouse that the plan is of; looks at it anew if not."""
-        if self._scenery is None or self._objects is None or self._units is None:
+        if None in (self._scenery, self._objects, self._units):
             return False
+        if self._traffic is None and self._objects.revision != self._units.revision:
+            return False  # the second message of one change is on its way
         is_same = self._scenery is self._plan_of and np.array_equal(report.kiva_id, self._ids)
         if is_same and self._traffic is not None and time >= self._traffic.time:
             return True
@@ -210,10 +215,6 @@ class Coordinator:
         self._see_units()
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)
-        # Paths of one who drove them before end where robots can stop.
-        under_way = (report.path_id != 0) & (report.status != 0)
-        for kiva_id in report.kiva_id[under_way]:
-            self._cancel.publish(int(kiva_id))
         rospy.loginfo(
             f"coordinates {len(report.kiva_id)} robots, {len(plan.stations)} stations,"
             f" {len(self._transports.cell_of_unit)} storage units"
@@ -235,7 +236,7 @@ class Coordinator:
         cells = self._transports.plan.cell_of(places[:, 0], places[:, 1])
         cells = np.where(np.asarray(states.carrier) == 0, cells, NOWHERE)
         ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
-        self._transports.see(dict(zip(ids, cells.tolist())))
+        self._transports.see(dict(zip(ids, cells.tolist())), states.header.stamp.to_sec())
 
     def _take_refusals(self):
         refused, self._refused = self._refused, []
@@ -305,6 +306,11 @@ class Coordinator:
         x, y = traffic.plan.point_of(np.array(cells, np.int32))
         message.x, message.y = x.tolist(), y.tolist()
         return message
+
+
+def _array(field):
+    """An array of a message; those of bytes come as such."""
+    return np.frombuffer(field, np.uint8) if isinstance(field, bytes) else np.asarray(field)
 
 
 def _event_message(event):

@@ -56,6 +56,7 @@ class Mark:
     y: float
     size_x: float
     size_y: float
+    model: str = ""  # of which it is a part
 
     @property
     def kind(self):
@@ -143,7 +144,7 @@ def of_scenery(scenery):
         scenery.models, scenery.model_look, np.reshape(scenery.pose, (-1, 7))
     ):
         if is_name(name):
-            marks += read(_of_look(scenery.looks[look]), pose)
+            marks += read(_of_look(scenery.looks[look]), pose, name)
     return marks
 
 
@@ -154,7 +155,7 @@ def _of_look(look):
     return [(look.links[link], *row) for link, *row in zip(look.shape_link, poses, sizes)]
 
 
-def read(visuals, pose):
+def read(visuals, pose, model=""):
     """The Marks of a model at a pose (x y z qx qy qz qw). FloorError if it is turned otherwise
     than by quarters."""
     x, y, _, qx, qy, qz, qw = pose
@@ -167,7 +168,7 @@ def read(visuals, pose):
     for link, place, size in visuals:
         wide, deep = size[:2] if s == 0 else size[1::-1]
         at = (x + c * place[0] - s * place[1], y + s * place[0] + c * place[1])
-        marks.append(Mark(_turned(link, quarters % 4), *map(float, (*at, wide, deep))))
+        marks.append(Mark(_turned(link, quarters % 4), *map(float, (*at, wide, deep)), model))
     return marks
 
 
@@ -184,7 +185,7 @@ def applied(blank, marks, belts):
     storage, parking, keep_out = (np.zeros(blank.shape, bool) for _ in range(3))
     exits = np.full(blank.shape, 15, np.uint8)
     marked = np.zeros(blank.shape, bool)
-    areas, parts = {"storage": storage, "parking": parking, "keep_out": keep_out}, {}
+    areas, lanes = {"storage": storage, "parking": parking, "keep_out": keep_out}, {}
     for mark in marks:
         where = _cells(blank, mark)
         marked[where] = True
@@ -193,7 +194,8 @@ def applied(blank, marks, belts):
         elif mark.label.startswith("exits"):
             exits[where] = sum(1 << i for i, h in enumerate(HEADINGS) if h in mark.label)
         else:
-            parts.setdefault(mark.label.rpartition("/")[0], []).append((mark, where))
+            lane = (mark.model, mark.label.rpartition("/")[0])
+            lanes.setdefault(lane, []).append((mark, where))
     # What is painted is floor, whatever stands there now.
     passable = (blank.passable | marked) & ~keep_out
     return type(blank).laid_out(
@@ -203,7 +205,7 @@ def applied(blank, marks, belts):
         storage=storage,
         parking=parking,
         exits=exits,
-        stations=_stations(blank, parts, passable, belts),
+        stations=_stations(blank, lanes, passable, belts),
         obstructed=~blank.passable,
     )
 
@@ -223,9 +225,9 @@ def _cells(plan, mark):
     return slice(low[1], high[1]), slice(low[0], high[0])
 
 
-def _stations(plan, parts, passable, belts):
+def _stations(plan, lanes, passable, belts):
     stations = []
-    for label, cells in parts.items():
+    for (_, label), cells in lanes.items():
         kind, slash, name = label.partition("/")
         service = [m.label.rpartition("/")[2] for m, _ in cells]
         if not slash or kind not in (PICK, REPLENISH) or service.count(SERVICE) != 1:

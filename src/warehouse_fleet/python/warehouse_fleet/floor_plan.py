@@ -103,7 +103,7 @@ class FloorPlan:
         marks, belts = [], {}
         for name in world.names:
             if floor_markings.is_name(name):
-                marks += floor_markings.read(world.visuals(name), world.pose(name))
+                marks += floor_markings.read(world.visuals(name), world.pose(name), name)
             elif name.startswith(CONVEYOR):
                 belts[name] = world.pose(name)[:2]
         return cls.of_parts(*world.occupancy(), marks, belts)

@@ -39,7 +39,7 @@ def find(plan, belts, belt_cells):
 
 
 def _station(plan, stations, belt, at, belt_cells, faults):
-    """The first lane there with which the floor has no more faults than before, or None."""
+    """The first lane there with which the floor has no fault that it had not before, or None."""
     for lane, service in _candidates(plan, stations, at, belt_cells):
         station = Station(f"pick{len(stations) + 1}", PICK, lane, service, belt)
         if _faults(_with(plan, [*stations, station])) <= faults:
@@ -60,7 +60,7 @@ def _with(plan, stations):
 
 
 def _faults(plan):
-    return len(check_layout(plan.floor()))
+    return set(check_layout(plan.floor()))
 
 
 def _without_dead_ends(plan):

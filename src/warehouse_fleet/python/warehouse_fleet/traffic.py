@@ -125,6 +125,10 @@ class Traffic:
         self._find_foreign(report)
         self._watch()
 
+    def inherited(self, report):
+        """Which robots have been on paths since before this began, by what they report."""
+        return ~self._settled & (report.path_id != 0) & (report.status != IDLE)
+
     def _find_foreign(self, report):
         """A robot that was idle and is busy with something else is commanded by a person."""
         foreign = self._execution.foreign() & self._settled & (self.mode == Mode.AUTOMATIC)

@@ -14,6 +14,7 @@ from warehouse_fleet.traffic import NOWHERE, Mode
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
+SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
 APPROACHING = 0  # units on their way to a station beyond those that have room in its lane
 
 
@@ -123,6 +124,7 @@ class Transports:
         self._inbound = collections.Counter()  # units on their way to a station or there
         self._events = []
         self._last = 0
+        self._put_down = {}  # when each unit was put down last [s]
         self._shortest = {}  # of the journey that a robot is on, in cells
 
     # What is asked of it.
@@ -227,11 +229,12 @@ class Transports:
     def __iter__(self):
         return iter(self._transports.values())
 
-    def see(self, cells):
-        """Where units stand, {number: cell}, as somebody has seen it: others move units as well.
-        Those of transports under way are known better."""
-        carried = {t.shelf for t in self._of_robot.values() if t.step >= Step.LIFTING}
-        kept = {shelf: cell for shelf, cell in self.cell_of_unit.items() if shelf in carried}
+    def see(self, cells, stamp):
+        """Where units stood at that time [s], {number: cell}: others move units as well. Those of
+        transports under way, and those put down since then, are known better."""
+        better = {t.shelf for t in self._of_robot.values() if t.step >= Step.LIFTING}
+        better |= {shelf for shelf, time in self._put_down.items() if time >= stamp - SEEN_LATE}
+        kept = {s: cell for s, cell in self.cell_of_unit.items() if s in better and s in cells}
         self.cell_of_unit = {**cells, **kept}
         self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
         self._taken = set(self._unit_in)
@@ -422,6 +425,7 @@ class Transports:
         self._unit_in[cell] = transport.shelf
         self._taken.discard(transport.place)
         self._taken.add(cell)
+        self._put_down[transport.shelf] = self.traffic.time
         self._tell_traffic()
         self.totals.stored += 1
         self._tell(transport, Kind.STORED)

@@ -76,6 +76,7 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
   }
   for (int robot = 0; robot < robots; ++robot) {
     if (courses_[robot].is_member) continue;
+    courses_[robot].still_since = now_;
     vacate(robot);
     if (reports[robot].is_controlled) admit(robot);
     if (!courses_[robot].is_member) occupy(robot);

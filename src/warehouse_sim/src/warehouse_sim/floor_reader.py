@@ -37,21 +37,23 @@ class FloorReader:
         if scenery is None or same_things(scenery, self._scenery):
             return False
         try:
-            plan = FloorPlan.of_messages(
-                self._ros.ServiceProxy("/warehouse/map", GetMap)().map, scenery
-            )
+            grid = self._ros.ServiceProxy("/warehouse/map", GetMap)().map
+            plan = FloorPlan.of_messages(grid, scenery) if grid.data else None
         except self._ros.ServiceException:
             return False  # the world comes or goes; there is another time
         except FloorError as error:
             self._tell(f"the floor has no stations: {error}")
-            self._scenery, self.stations, self.places = scenery, [], ([], [])
-            return True
-        for reason in plan.without_lane:
-            self._tell(reason)
+            plan = None
         self._scenery = scenery
-        self.stations = station_messages(plan)
-        self.places = plan.point_of(plan.storage.ravel().nonzero()[0])
+        self._take(plan)
         return True
+
+    def _take(self, plan):
+        """A FloorPlan; None where there is no floor."""
+        self.stations = station_messages(plan) if plan else []
+        self.places = plan.point_of(plan.storage.ravel().nonzero()[0]) if plan else ([], [])
+        for reason in plan.without_lane if plan else ():
+            self._tell(reason)
 
     def _tell(self, text):
         if text != self._told:

@@ -3,7 +3,7 @@
 
 import * as THREE from '/three/build/three.module.js';
 
-const HEIGHT = 0.004; // above the floor [m]
+const HEIGHT = -0.005; // between the floor and the borders of its cells [m]
 const COLOURS = {
   dark: { storage: 0x343b46, parking: 0x2e3d39, keep_out: 0x24272c, exits: 0x2d333c,
     queue: 0x5a5030, service: 0x8a6a2a, exit: 0x47432f },
@@ -22,7 +22,7 @@ export class Paint {
     for (const mesh of this.group.children) mesh.geometry.dispose();
     this.group.remove(...this.group.children);
     for (const [kind, rows] of Object.entries(paint)) {
-      const mesh = new THREE.Mesh(quads(rows), new THREE.MeshBasicMaterial());
+      const mesh = new THREE.Mesh(quads(rows), new THREE.MeshBasicMaterial(behind(1)));
       mesh.name = kind;
       this.group.add(mesh);
     }
@@ -34,6 +34,11 @@ export class Paint {
       material.color.set(COLOURS[theme][name] ?? COLOURS[theme].exits);
     }
   }
+}
+
+/** So far behind what lies on it [steps of depth] that from afar it does not shine through. */
+export function behind(steps) {
+  return { polygonOffset: true, polygonOffsetFactor: steps, polygonOffsetUnits: steps };
 }
 
 /** Two triangles for each rectangle x, y, width, depth of a row of numbers. */

@@ -4,7 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { OrbitControls } from '/three/examples/jsm/controls/OrbitControls.js';
 import { on } from './dom.js';
-import { Paint } from './paint.js';
+import { Paint, behind } from './paint.js';
 
 const COLOURS = {
   dark: { page: 0x14171c, floor: 0x2a2f37, grid: 0x414955, sky: 0xffffff, ground: 0x565b66 },
@@ -101,7 +101,7 @@ export class Stage {
     this.bounds = bounds;
     const [x0, x1, y0, y1] = bounds;
     const slab = new THREE.PlaneBufferGeometry(x1 - x0, y1 - y0);
-    this.floor = new THREE.Mesh(slab, new THREE.MeshBasicMaterial());
+    this.floor = new THREE.Mesh(slab, new THREE.MeshBasicMaterial(behind(2)));
     this.floor.position.set((x0 + x1) / 2, (y0 + y1) / 2, -0.01);
     this.grid = new THREE.LineSegments(gridOf(bounds, spacing), new THREE.LineBasicMaterial());
     this.scene.add(this.floor, this.grid);

@@ -82,7 +82,7 @@ class Simulation:
     def standing(self):
         """The Standing of now."""
         world = self._call("/gazebo/get_world_properties", GetWorldProperties, {})
-        names = {name for name in world.model_names if models.kind_and_number(name)[0]}
+        names = {n for n in world.model_names if models.kind_and_number(n)[0] in models.KINDS}
         return Standing(names, world.sim_time, self._physics().pause)
 
     # --- doing it; each returns what the world says of it. Raises RefusedError, AwayError.
