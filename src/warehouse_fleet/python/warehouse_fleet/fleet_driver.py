@@ -28,7 +28,7 @@ class FleetDriver:
     ):
         self.world = world
         self.plan = FloorPlan.of_world(world)
-        self.plan.check()
+        self.plan.check(obstructed=False)
         self.traffic = Traffic(self.plan, world.fleet.kiva_id, motion, seed, planner)
         units = world.storage_units
         cells = self.plan.cell_of(units["x"], units["y"])

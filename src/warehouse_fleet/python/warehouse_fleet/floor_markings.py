@@ -254,13 +254,12 @@ def _belt_at(plan, cell, belts):
 def _renamed(stations):
     """Of two stations of one name, as where a world was added to another, the later gets the
     lowest number that is free."""
-    out = []
+    out, used = [], {station.name for station in stations}
     for station in stations:
-        taken = {s.name for s in out}
-        if station.name in taken:
-            stem = station.name.rstrip("0123456789")
-            used = taken | {s.name for s in stations}
-            free = next(n for n in map(f"{stem}{{}}".format, count(1)) if n not in used)
-            station = replace(station, name=free)
-        out.append(station)
+        name = station.name
+        if name in {other.name for other in out}:
+            stem = name.rstrip("0123456789")
+            name = next(n for n in map(f"{stem}{{}}".format, count(1)) if n not in used)
+            used.add(name)
+        out.append(replace(station, name=name))
     return tuple(out)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The floor that a fleet drives on: streets, storage places, stations and their lanes, cell by cell.
+"""The floor that a fleet drives on: streets, storage places, stations with lanes, cell by cell.
 
 A FloorPlan is read from a world, never kept beside it: what is painted on the floor (see
 floor_markings) and what stands there tell all of it.

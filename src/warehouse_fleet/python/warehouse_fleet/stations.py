@@ -69,7 +69,7 @@ def with_lanes(exits, passable, stations):
 
 
 def check_lane(name, cells, passable):
-    """Raises FloorError unless `cells` are neighbours in a row, on passable cells, each but once."""
+    """Raises FloorError unless `cells` are neighbours in a row, passable, each but once."""
     width = passable.shape[1]
     y, x = np.divmod(cells, width)
     far = np.abs(np.diff(x)) + np.abs(np.diff(y))

@@ -21,11 +21,12 @@ def without_dead_ends(streets):
             joined[cell].append(near)
             joined[near].append(cell)
             seen.add(cell)
-            while near not in seen:
-                seen.add(near)
-                joined[near].append(parent[near])
-                joined[parent[near]].append(near)
-                near = parent[near]
+            end = near
+            while end not in seen:
+                seen.add(end)
+                joined[end].append(parent[end])
+                joined[parent[end]].append(end)
+                end = parent[end]
     out = np.zeros_like(streets)
     largest = max(_parts(joined), key=len, default=[])
     if len(largest) > 1:
