@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders over ROS: submitted, picked, told, confirmed by hand, and kept when the node dies."""
 
+import json
 import os
 import signal
 import unittest
+import urllib.error
+import urllib.request
 from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
 import rostest
-from node_test import Listener, call, latched, wait_until
+from node_test import PATIENCE, Listener, call, latched, wait_until
 
 from warehouse_fleet.operations import check
 from warehouse_fleet.operations.database import open_engine
@@ -96,7 +99,37 @@ class Operations(unittest.TestCase):
         self.assertTrue(set_station("pick2", True, AUTOMATIC).success)
         self.wait_for(order.order_id, OrderEvent.COMPLETED)
 
-    def test_4_killed_it_comes_back_and_goes_on(self):
+    def test_4_over_http(self):
+        wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
+        wanted = {"reference": "web-1", "lines": [{"sku": "sku-5", "quantity": 2}]}
+        status, answer = ask("/orders", wanted)
+        self.assertEqual(status, 201, answer)
+        number = answer["order_id"]
+        self.wait_for(number, OrderEvent.COMPLETED)
+        wait_until(lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED", "it is kept")
+        found = ask("/orders?search=web-1&state=COMPLETED")[1]
+        self.assertEqual((found["total"], found["orders"][0]["order_id"]), (1, number))
+        self.assertEqual(
+            found["orders"][0]["lines"], [{"sku": "sku-5", "quantity": 2, "picked": 2}]
+        )
+        self.assertEqual(ask("/orders?search=sku-5")[1]["total"], 1)
+        stock = ask("/stock?sku=sku-5")[1]
+        self.assertEqual(sum(place["quantity"] for place in stock["places"]), stock["pieces"])
+        stations = {one["name"]: one for one in ask("/stations")[1]["stations"]}
+        self.assertEqual(stations["pick1"]["mode"], "AUTOMATIC")
+        self.assertGreaterEqual(ask("/kpis")[1]["orders_completed"], 1)
+        for path, body, expected in (
+            ("/orders", {"lines": [{"sku": "sku-none", "quantity": 1}]}, 409),
+            ("/orders", {"lines": []}, 422),
+            ("/orders", {"lines": [{"sku": "sku-5", "quantity": 0}]}, 422),
+            ("/stations/pick1/confirm", {"sku": "sku-5", "quantity": 1}, 409),
+            ("/stations/nowhere/short", {"sku": "sku-5", "quantity": 1}, 409),
+        ):
+            self.assertEqual(ask(path, body)[0], expected, path)
+        self.assertEqual(ask("/orders/999999")[0], 404)
+        self.assertEqual(ask(f"/orders/{number}", method="DELETE")[0], 409)
+
+    def test_5_killed_it_comes_back_and_goes_on(self):
         orders = [submit((f"sku-{i}", 1)).order_id for i in range(1, 9)]
         self.wait_for(orders[0], OrderEvent.ASSIGNED)
         kill("/operations")
@@ -108,6 +141,19 @@ class Operations(unittest.TestCase):
         told = self.told(order_id, OrderEvent.COMPLETED)
         self.assertLessEqual(len(told), 1)
         return bool(told)
+
+
+def ask(path, body=None, method=None):
+    """(status, body) of a request to /api/v1, as JSON; POST where there is a body."""
+    url = rospy.get_param("/viewer/address") + "api/v1" + path
+    data = None if body is None else json.dumps(body).encode()
+    headers = {"content-type": "application/json"}
+    request = urllib.request.Request(url, data, headers, method=method)
+    try:
+        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
+            return answer.status, json.load(answer)
+    except urllib.error.HTTPError as error:
+        return error.code, json.load(error)
 
 
 def pid(node):

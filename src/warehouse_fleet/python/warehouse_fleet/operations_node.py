@@ -10,7 +10,7 @@ import rospy
 from nav_msgs.srv import GetMap
 
 from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_fleet.operations import kpis, stored
+from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
@@ -177,7 +177,7 @@ class Warehouse:
 class OperationsNode:
     """Runs a shift and serves it. Raises what open_shift does."""
 
-    def __init__(self, orders="fill", policies=None, database="", seed=1):
+    def __init__(self, database, orders="fill", policies=None, seed=1):
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
         self._stations = _publisher("/warehouse/stations", msg.StationStates)
@@ -185,9 +185,8 @@ class OperationsNode:
         self._events = rospy.Publisher("/warehouse/order_events", msg.OrderEvent, queue_size=10000)
         self._wait_for_warehouse()
         self._site = self._warehouse.site()
-        self._database = Database(database) if database else None
-        if self._database:
-            self._coordinator.release_left(stored.open_transports(self._database.engine))
+        self._database = Database(database)
+        self._coordinator.release_left(stored.open_transports(self._database.engine))
         self._shift = open_shift(
             self._site,
             self._coordinator,
@@ -206,6 +205,8 @@ class OperationsNode:
             ("set_station", srv.SetStation, self._set_station),
             ("confirm_pick", srv.ConfirmPick, self._confirm),
             ("report_short", srv.ReportShort, self._short),
+            ("find_orders", srv.FindOrders, self._find_orders),
+            ("find_stock", srv.FindStock, self._find_stock),
         ):
             rospy.Service(f"/warehouse/{name}", kind, call)
         rospy.loginfo(
@@ -222,10 +223,9 @@ class OperationsNode:
 
     def close(self):
         """Writes what is left to the database."""
-        if self._database:
-            with self._lock:
-                self._shift.journal.end(self._shift, self._figures())
-                self._database.close()
+        with self._lock:
+            self._shift.journal.end(self._shift, self._figures())
+            self._database.close()
 
     def _wait_for_warehouse(self):
         rate = rospy.Rate(10)
@@ -277,6 +277,27 @@ class OperationsNode:
     def _short(self, request):
         arguments = request.station, request.sku, request.quantity, request.damaged
         return srv.ReportShortResponse(*self._do(self._shift.report_short, *arguments))
+
+    def _find_orders(self, request):
+        total, found = queries.find_orders(
+            self._database.engine,
+            request.order_id,
+            request.search,
+            None if request.state < 0 else request.state,
+            request.limit,
+            request.offset,
+        )
+        return srv.FindOrdersResponse(total, [_order_status(*one) for one in found])
+
+    def _find_stock(self, request):
+        total, pieces, found = queries.find_stock(
+            self._database.engine, request.sku, request.limit, request.offset
+        )
+        places = [
+            msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
+            for one in found
+        ]
+        return srv.FindStockResponse(total, pieces, places)
 
     def _do(self, act, *arguments):
         """Does it and keeps it; success and message."""
@@ -337,6 +358,21 @@ class OperationsNode:
         )
         message.header.stamp = rospy.Time.from_sec(now)
         return message
+
+
+def _order_status(order, lines):
+    return msg.OrderStatus(
+        order_id=order.id,
+        reference=order.reference,
+        state=order.state,
+        station=order.station,
+        priority=order.priority,
+        created=order.created,
+        due=order.due,
+        completed=order.completed or 0.0,
+        lines=[msg.OrderLine(line.sku, line.quantity) for line in lines],
+        picked=[line.picked for line in lines],
+    )
 
 
 def _publisher(topic, kind):
