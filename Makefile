@@ -28,7 +28,7 @@ demo: build  ## watch robots fetch storage units, meet head on and recover
 	trap "kill $$!; wait" EXIT; rosrun warehouse_sim demo
 
 operate: build  ## a warehouse at work: orders, stations, stock; make operate ARGS="size:=large"
-	@echo "watch it: http://localhost:8080   its figures: rostopic echo /warehouse/kpis"
+	@echo "watch it: http://localhost:8080 and http://localhost:8080/operations   its figures: rostopic echo /warehouse/kpis"
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those

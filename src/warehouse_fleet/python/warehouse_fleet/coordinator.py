@@ -48,9 +48,7 @@ STEP_NAMES = {
     Step.STORING: "storing",
     Step.DROPPING: "dropping",
 }
-FIELDS = (
-    "kiva_id x y yaw vx vy status state shelf_id path_id reached left".split()
-)  # of FleetState
+FIELDS = "kiva_id x y yaw vx vy status state shelf_id path_id reached left".split()  # of FleetState
 
 
 class Coordinator:

@@ -109,6 +109,7 @@ class Viewer:
             )
 
         app.get("/", include_in_schema=False)(page("index.html"))
+        app.get("/operations", include_in_schema=False)(page("operations.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", FreshFiles(directory=self._web))
