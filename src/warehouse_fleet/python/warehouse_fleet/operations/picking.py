@@ -130,6 +130,7 @@ class Picking:
             self._drop(visit, pick)
         for line in lines:
             self._note(visit.station, line)
+        self._to_fetch[visit.station] = None  # there is room for another one
 
     def close(self, station):
         """Its orders go to others, its units are sent away."""
@@ -236,7 +237,7 @@ class Picking:
         self._assign(station)
         if not visit.picks:
             self.shift.release(visit)
-            self._to_assign[station] = None
+            self._to_assign[station] = self._to_fetch[station] = None
 
     # A person at the station.
 
