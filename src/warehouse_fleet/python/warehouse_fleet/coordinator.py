@@ -49,7 +49,10 @@ STEP_NAMES = {
     Step.STORING: "storing",
     Step.DROPPING: "dropping",
 }
-FIELDS = "kiva_id x y yaw vx vy status state shelf_id path_id reached left".split()  # of FleetState
+FIELDS = (  # of FleetState
+    *("kiva_id", "x", "y", "yaw", "vx", "vy"),
+    *("status", "state", "shelf_id", "path_id", "reached", "left"),
+)
 
 
 class Coordinator:

@@ -53,12 +53,12 @@ class Traffic:
     seconds later, whenever it is ready: so a run does not depend on the machine.
     """
 
-    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.2):
+    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
         self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
         self.motion = motion or Motion()
         self.floor = plan.floor()
         self.planner = planner or epibt(
-            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, crowd=10, memory=200
+            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, crowd=10, at_lanes=1, memory=50
         )
         self.attempts, self.lag = attempts, lag
         self.tick = plan.spacing / self.motion.speed
