@@ -168,7 +168,12 @@ class Fleet(unittest.TestCase):
 
     def test_d_a_robot_out_of_service_is_an_obstacle_until_it_is_back(self):
         robot = int(self.now().kiva_id[0])
-        call("/warehouse/set_robot_mode", SetRobotMode, robot, SetRobotMode._request_class.OUT_OF_SERVICE)
+        call(
+            "/warehouse/set_robot_mode",
+            SetRobotMode,
+            robot,
+            SetRobotMode._request_class.OUT_OF_SERVICE,
+        )
         self.state.first(lambda state: state.out_of_service == 1)
         at = self.stands(robot)
         self.goes_on()
@@ -238,8 +243,9 @@ class Fleet(unittest.TestCase):
         self.fleet.clear()
         free = set()
         self.fleet.wait_for(
-            lambda messages: free.update(*(carriers - loaded(m) for m in messages[-1:]))
-            or free == carriers,
+            lambda messages: (
+                free.update(*(carriers - loaded(m) for m in messages[-1:])) or free == carriers
+            ),
             PATIENCE,
         )
         self.goes_on()

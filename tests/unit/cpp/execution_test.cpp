@@ -102,8 +102,9 @@ class ExecutionTest : public testing::Test {
     std::vector<Message> messages;
     std::size_t begin = 0;
     for (std::size_t i = 0; i < releases.robot.size(); ++i) {
-      Message message{now_, releases.robot[i], releases.path_id[i], releases.first[i],
-                      releases.released[i], {}};
+      Message message{
+          now_, releases.robot[i], releases.path_id[i], releases.first[i], releases.released[i],
+          {}};
       message.cells.assign(releases.cells.begin() + begin,
                            releases.cells.begin() + begin + releases.points[i]);
       begin += releases.points[i];
@@ -117,8 +118,8 @@ class ExecutionTest : public testing::Test {
     Robot& robot = robots_[message.robot];
     const bool is_change = robot.is_active && robot.id == message.id;
     const bool is_gap = message.first > (is_change ? robot.path.size() : 0);
-    if (!is_change && (robot.is_active || robot.id == message.id || is_gap ||
-                       message.cells[0] != at(robot))) {
+    if (!is_change &&
+        (robot.is_active || robot.id == message.id || is_gap || message.cells[0] != at(robot))) {
       execution_.refused(message.robot);
       return;
     }
@@ -199,7 +200,8 @@ class ExecutionTest : public testing::Test {
             << "robots " << above[c] << " and " << i << " in " << floor_.name(c) << " at " << now_;
         EXPECT_EQ(execution_.holder(c), robot) << floor_.name(c) << " at " << now_;
       }
-      for (std::size_t p = robots_[i].reached; p < robots_[i].released && robots_[i].is_active; ++p) {
+      for (std::size_t p = robots_[i].reached; p < robots_[i].released && robots_[i].is_active;
+           ++p) {
         EXPECT_EQ(execution_.holder(robots_[i].path[p]), robot)
             << floor_.name(robots_[i].path[p]) << " at " << now_;
       }
@@ -267,8 +269,8 @@ TEST_P(Turning, SideBySideExcludeEachOtherIfOneIsLoaded) {
   reports_[one].is_loaded = GetParam();
   observe();
   // Both turn, and leave away from each other.
-  std::vector<Action> down{Action::kTurnNegative, Action::kForward}, up{Action::kTurnPositive,
-                                                                        Action::kForward};
+  std::vector<Action> down{Action::kTurnNegative, Action::kForward},
+      up{Action::kTurnPositive, Action::kForward};
   down.resize(8, Action::kWait);
   up.resize(8, Action::kWait);
   plan({down, up});
@@ -378,7 +380,8 @@ TEST_F(ExecutionTest, LateAndLostMessagesEndInNoContact) {
   planner->start(floor_, Rules{false, false}, 1);
   Plan plan;
   std::vector<Cell> goals, none(robots_.size(), kNowhere);
-  for (std::size_t i = 0; i < robots_.size(); ++i) goals.push_back(cell(random() % 9, random() % 7));
+  for (std::size_t i = 0; i < robots_.size(); ++i)
+    goals.push_back(cell(random() % 9, random() % 7));
   std::deque<Message> under_way;
   int arrivals = 0;
   double next_plan = 0;

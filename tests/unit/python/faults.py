@@ -62,7 +62,12 @@ class BadConnection:
             own = slice(begin, begin + count)
             one = [np.asarray(column)[robot : robot + 1] for column in (kiva_id, path_id, first)]
             self._command(
-                "follow", *one, points[robot : robot + 1], x[own], y[own], released[robot : robot + 1]
+                "follow",
+                *one,
+                points[robot : robot + 1],
+                x[own],
+                y[own],
+                released[robot : robot + 1],
             )
             begin += count
 

@@ -130,7 +130,7 @@ class FleetDriver:
 
     @property
     def watchdog(self):
-        """How often a robot made no progress for long."""
+        """How often a robot made no progress for 30 s."""
         return self.traffic.watchdog
 
     @property

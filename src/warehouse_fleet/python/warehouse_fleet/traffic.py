@@ -19,18 +19,31 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from warehouse_fleet import Execution, epibt
+from warehouse_fleet import Execution, Rules, epibt
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
+GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by measurement
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
 TAKEN = 99  # of a cell of the world's map, and above: neither free nor beneath a storage unit
 LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
-REPORTED = "x y yaw vx vy status state shelf_id path_id reached left".split()
+REPORTED = [
+    "x",
+    "y",
+    "yaw",
+    "vx",
+    "vy",
+    "status",
+    "state",
+    "shelf_id",
+    "path_id",
+    "reached",
+    "left",
+]
 
 
 class Mode(IntEnum):
@@ -59,12 +72,13 @@ class Traffic:
     seconds later, whenever it is ready: so a run does not depend on the machine.
     """
 
-    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.2):
+    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
         self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
         self.motion = motion or Motion()
         self.floor = plan.floor()
+        # Whose turn it is to turn, Execution decides: robots turn when they may drive on.
         self.planner = planner or epibt(
-            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, crowd=10, memory=200
+            self.floor, Rules(turning=True), seed, horizon=HORIZON, **GUIDANCE
         )
         self.attempts, self.lag = attempts, lag
         self.tick = plan.spacing / self.motion.speed

@@ -12,16 +12,16 @@ namespace {
 constexpr std::uint8_t kStatusIdle = 0;
 constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
 
-constexpr double kCentred = 0.02;     // from a grid point [m]
-constexpr double kReach = 0.43;       // of a robot with its load, from its centre along x and y [m]
-constexpr double kTurnsSoon = 0.35;   // from a corner, where what comes after it is released [m]
-constexpr double kUnanswered = 0.5;   // after which something is sent again [s]
-constexpr double kSettled = 1;        // after which nothing that was sent is on its way any more [s]
-constexpr double kBlockedFor = 1;     // after which a robot is sent another way [s]
-constexpr double kStalledFor = 5;     // after which a robot is taken to be broken [s]
-constexpr double kClosedFor = 3;      // that what was in its way is taken to stay [s]
-constexpr double kStandstill = 0.01;  // [m/s]
-constexpr double kAligned = 0.05;     // with the way ahead [rad]
+constexpr double kCentred = 0.02;    // from a grid point [m]
+constexpr double kReach = 0.43;      // of a robot with its load, from its centre along x and y [m]
+constexpr double kTurnsSoon = 0.35;  // from a corner, where what comes after it is released [m]
+constexpr double kUnanswered = 0.5;  // after which something is sent again [s]
+constexpr double kSettled = 1;       // after which nothing that was sent is on its way any more [s]
+constexpr double kBlockedFor = 1;    // after which a robot is sent another way [s]
+constexpr double kStalledFor = 5;    // after which a robot is taken to be broken [s]
+constexpr double kClosedFor = 3;     // that what was in its way is taken to stay [s]
+constexpr double kStandstill = 0.01;             // [m/s]
+constexpr double kAligned = 0.05;                // with the way ahead [rad]
 constexpr double kQuarter = 1.5707963267948966;  // of a turn [rad]
 constexpr int kNobody = -1;
 

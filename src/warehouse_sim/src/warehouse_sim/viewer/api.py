@@ -13,7 +13,7 @@ from pydantic.error_wrappers import ErrorWrapper
 from pydantic.errors import StrError
 from starlette.routing import Match
 
-from warehouse_sim.viewer import catalogue, schemas
+from warehouse_sim.viewer import catalogue, schemas, work
 from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 
@@ -41,9 +41,9 @@ Text = Query("", max_length=100, description="a part of the name")
 class ApiBackend:
     """What the API's answers are made from."""
 
-    def __init__(self, feed, model, journal, simulation, commander):
+    def __init__(self, feed, model, journal, simulation, commander, operations=None):
         self.feed, self.model, self.journal = feed, model, journal
-        self.simulation, self.commander = simulation, commander
+        self.simulation, self.commander, self.work = simulation, commander, operations
 
     async def look(self):
         """Waits until the world has told enough. Raises HTTPException."""
@@ -131,6 +131,7 @@ def router(backend):
     _add_things(out, backend, "storage_units", "storage_unit")
     _add_things(out, backend, "items", "item")
     _add_simulation(out, backend)
+    work.add(out, backend.work, _problems)
     return out
 
 

@@ -21,6 +21,7 @@ from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.simulation import Simulation
+from warehouse_sim.viewer.work import Work
 
 THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
 MOST_SOCKETS = 50
@@ -39,7 +40,7 @@ class Viewer:
         self.feed = Feed(ros, self._on_event, self._on_news)
         self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
-        self.backend = api.ApiBackend(*parts)
+        self.backend = api.ApiBackend(*parts, Work(ros))
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):
@@ -108,6 +109,7 @@ class Viewer:
             )
 
         app.get("/", include_in_schema=False)(page("index.html"))
+        app.get("/operations", include_in_schema=False)(page("operations.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", FreshFiles(directory=self._web))
