@@ -68,8 +68,9 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-    work: it stays), `mode`, `gone` (it was deleted). A plan is begun every tick on a thread of its own, and taken up `lag`
-    seconds later, whenever it is ready: so a run does not depend on the machine.
+    work: it stays), `mode`, `gone` (it was deleted).
+    A plan is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever
+    it is ready: so a run does not depend on the machine.
     """
 
     def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
