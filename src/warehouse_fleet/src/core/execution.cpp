@@ -10,6 +10,7 @@ namespace {
 
 // KivaStatus.
 constexpr std::uint8_t kStatusIdle = 0;
+constexpr std::uint8_t kStateMovingX = 1, kStateMovingY = 2;
 constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
 
 constexpr double kCentred = 0.02;    // from a grid point [m]
@@ -598,7 +599,9 @@ void Execution::send(int robot, int first) {
 bool Execution::isForeign(int robot) const {
   const Course& course = courses_.at(robot);
   const Report& report = reports_[robot];
-  if (report.status == kStatusIdle || report.is_busy) return false;
+  if (report.status == kStatusIdle) return false;
+  // Who lifts, or is at work, does not drive.
+  if (report.is_busy && report.state != kStateMovingX && report.state != kStateMovingY) return false;
   if (!course.is_active) return true;
   return (course.is_accepted || course.is_refused) && report.path_id != course.id;
 }
