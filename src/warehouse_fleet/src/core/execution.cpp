@@ -601,7 +601,8 @@ bool Execution::isForeign(int robot) const {
   const Report& report = reports_[robot];
   if (report.status == kStatusIdle) return false;
   // Who lifts, or is at work, does not drive.
-  if (report.is_busy && report.state != kStateMovingX && report.state != kStateMovingY) return false;
+  if (report.is_busy && report.state != kStateMovingX && report.state != kStateMovingY)
+    return false;
   if (!course.is_active) return true;
   return (course.is_accepted || course.is_refused) && report.path_id != course.id;
 }
