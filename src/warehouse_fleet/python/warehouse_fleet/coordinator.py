@@ -62,8 +62,9 @@ class Coordinator:
     stations busy with transports of its own, one every `exchange` seconds each.
     """
 
-    def __init__(self, demand="none", exchange=20.0, seed=1):
+    def __init__(self, demand="none", exchange=20.0, seed=1, planner=None):
         self._demand, self._exchange, self._seed = demand, exchange, seed
+        self._planner = planner
         self._lock = threading.RLock()  # of all below, between the worker and services
         self._traffic = self._transports = self._random = None
         self._alarm = ""
@@ -218,7 +219,7 @@ class Coordinator:
             rospy.logwarn(reason)
         self._alarm = ""
         self._traffic = Traffic(
-            plan, report.kiva_id, Motion(latency=LATENCY), seed=self._seed, lag=0.05
+            plan, report.kiva_id, Motion(latency=LATENCY), seed=self._seed, planner=self._planner, lag=0.05
         )
         self._transports = Transports(plan, self._traffic, {}, self._send_lift)
         self._see_units()
@@ -293,6 +294,8 @@ class Coordinator:
         state.alarms = [
             f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
         ]
+        if traffic.alarm:
+            state.alarms.append(traffic.alarm)
         return state
 
     def _ids_of(self, robots):
