@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator as a ROS node: the fleet of a running warehouse, driven over its topics."""
 
+import math
 import threading
 from types import SimpleNamespace
 
@@ -145,6 +146,7 @@ class Coordinator:
             if request.mode != Mode.AUTOMATIC and not self._traffic.stands[robot]:
                 self._cancel.publish(request.kiva_id)
             self._traffic.mode[robot] = request.mode
+            self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
 
     # What it does.
@@ -257,6 +259,8 @@ class Coordinator:
         state.header.stamp = rospy.Time.from_sec(time)
         for name, mode in zip(("automatic", "manual", "out_of_service"), Mode):
             setattr(state, name, int(np.count_nonzero(traffic.mode == mode)))
+        state.manual_kiva = self._ids_in(Mode.MANUAL)
+        state.out_of_service_kiva = self._ids_in(Mode.OUT_OF_SERVICE)
         under_way = [t for t in transports if t.step != Step.OPEN]
         for step, name in STEP_NAMES.items():
             setattr(state, name, sum(t.step == step for t in under_way))
@@ -286,6 +290,9 @@ class Coordinator:
         ]
         return state
 
+    def _ids_in(self, mode):
+        return self._traffic.kiva_ids[self._traffic.mode == mode].tolist()
+
     def _ids_of(self, robots):
         ids = self._traffic.kiva_ids
         return [int(ids[robot]) if robot != NOWHERE else 0 for robot in robots]
@@ -296,16 +303,25 @@ class Coordinator:
         cells = []
         for robot in np.flatnonzero(traffic.mode == Mode.AUTOMATIC):
             held, planned = traffic.paths(robot)
-            if len(held) + len(planned) < 2:
+            waits_for = traffic.waits_for[robot]
+            if len(held) + len(planned) < 2 and waits_for == NOWHERE:
                 continue
             message.kiva_id.append(int(traffic.kiva_ids[robot]))
             message.released.append(len(held))
             message.planned.append(len(planned))
-            message.waits_for += self._ids_of([traffic.waits_for[robot]])
+            message.waits_for += self._ids_of([waits_for])
+            for name, at in zip(("goal_x", "goal_y"), self._point_of(traffic.goal[robot])):
+                getattr(message, name).append(at)
             cells += held + planned
         x, y = traffic.plan.point_of(np.array(cells, np.int32))
         message.x, message.y = x.tolist(), y.tolist()
         return message
+
+    def _point_of(self, cell):
+        """Its centre [m]; NaN for NOWHERE."""
+        if cell == NOWHERE:
+            return math.nan, math.nan
+        return tuple(map(float, self._traffic.plan.point_of(cell)))
 
 
 def _array(field):
