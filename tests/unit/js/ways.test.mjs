@@ -5,7 +5,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { factsOf } from '../../../src/warehouse_sim/web/js/fleet.js';
 import { decode } from '../../../src/warehouse_sim/web/js/protocol.js';
-import { addDashes, addSolid } from '../../../src/warehouse_sim/web/js/ways.js';
+import { addDashes, addSolid, Ways } from '../../../src/warehouse_sim/web/js/ways.js';
+import { World } from '../../../src/warehouse_sim/web/js/world.js';
+import { scene } from './look.mjs';
 
 /** As viewer/protocol.py writes it: rows [id, waits for, released, planned, goal x, goal y], points. */
 function message(rows, points) {
@@ -37,6 +39,24 @@ test('what is released is a line from the robot on, what is planned a dash a ste
   assert.deepEqual(solid.filter((_, i) => i % 3 < 2), [0.25, 0, 1, 0, 1, 0, 1, 2]);
   addDashes(dashes, [1, 2], new Float32Array([2, 2, 2, 2, 2, 4]));
   assert.deepEqual(dashes.filter((_, i) => i % 3 < 2), [1.3, 2, 1.7, 2, 2, 2.6, 2, 3.4]);
+});
+
+test('who waits is tied to the one it waits for, wherever that drives', () => {
+  const world = new World();
+  world.setScene(scene()); // robots 1 and 7
+  const ways = new Ways({ scene: { add() {} }, invalidate() {} }, world);
+  world.shown.set([1, 2, 0, 3, 4, 0]);
+  ways.show(decode(message([[7, 1, 1, 0, NaN, NaN], [99, 1, 1, 0, NaN, NaN]], [3, 4, 8, 8])).ways, null);
+  const drawn = () => {
+    const { attributes, drawRange } = ways.ties.geometry;
+    return [...attributes.position.array.slice(0, 3 * drawRange.count)].filter((_, i) => i % 3 < 2);
+  };
+  assert.deepEqual(drawn(), [3, 4, 1, 2]);
+  world.shown.set([1, 5], 0);
+  ways.follow();
+  assert.deepEqual(drawn(), [3, 4, 1, 5]);
+  ways.show(ways.ways, [1]);
+  assert.deepEqual(drawn(), []);
 });
 
 test('the panel counts what is there', () => {
