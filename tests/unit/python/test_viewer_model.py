@@ -37,7 +37,7 @@ def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, 
         bytes(n),
         bytes(n),
         list(shelf),
-        *[[0] * n] * 3,  # path_id, reached, left
+        *[[0] * n] * 3,  # of paths
         bytes(ended) or bytes(n),
     )
 

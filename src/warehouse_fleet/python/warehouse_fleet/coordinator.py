@@ -42,6 +42,7 @@ STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
 STEP_NAMES = {
     Step.FETCHING: "fetching",
+    Step.READY: "ready",
     Step.LIFTING: "lifting",
     Step.BRINGING: "bringing",
     Step.WAITING: "waiting",

@@ -15,7 +15,7 @@ STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
 SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
-APPROACHING = 0  # units on their way to a station beyond those that have room in its lane
+FETCHED = 4  # robots a station for which units are fetched before there is room in its lane
 
 
 class Kind(IntEnum):
@@ -56,11 +56,12 @@ class Step(IntEnum):
 
     OPEN = 0  # no robot yet
     FETCHING = 1  # the robot drives beneath the unit
-    LIFTING = 2
-    BRINGING = 3
-    WAITING = 4  # at its destination, until it is let go
-    STORING = 5  # on the way to a storage place
-    DROPPING = 6
+    READY = 2  # and waits there until its station has room for it
+    LIFTING = 3
+    BRINGING = 4
+    WAITING = 5  # at its destination, until it is let go
+    STORING = 6  # on the way to a storage place
+    DROPPING = 7
 
 
 @dataclass
@@ -117,11 +118,13 @@ class Transports:
         self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
         self._taken = set(self._unit_in)  # places with a unit, or reserved for one
         self._places = np.flatnonzero(plan.storage)
+        self._ready = []  # transports at step READY, in the order in which they came to it
         self._open = []  # transports without a robot, the most urgent first
         self._transports = {}
         self._of_robot = {}
         self._of_unit = {}
-        self._inbound = collections.Counter()  # units on their way to a station or there
+        self._inbound = collections.Counter()  # lifted units on their way to a station or there
+        self._fetched = collections.Counter()  # units that are fetched for it
         self._events = []
         self._last = 0
         self._put_down = {}  # when each unit was put down last [s]
@@ -186,7 +189,7 @@ class Transports:
         transport = self._transports.get(transport_id)
         if transport is None:
             return False, f"there is no transport {transport_id} under way"
-        if transport.step <= Step.FETCHING:
+        if transport.step <= Step.READY:
             self._tell(transport, Kind.CANCELLED)
             self._end(transport)
         elif transport.step in (Step.LIFTING, Step.BRINGING, Step.WAITING):
@@ -212,15 +215,15 @@ class Transports:
 
     def waiting(self, station):
         """How many units are at a station or on the way to it."""
-        return self._inbound[station]
+        return self._inbound[station] + self._fetched[station]
 
     def open_for(self, station):
         """How many of its transports have no robot yet."""
         return sum(transport.station == station for transport in self._open)
 
     def capacity(self, station):
-        """How many there may be."""
-        return self.stations[station].service + 1 + APPROACHING
+        """How many may be lifted at a time: as many as have room in its lane."""
+        return self.stations[station].service + 1
 
     def get(self, transport_id):
         """A Transport under way, or None."""
@@ -277,6 +280,7 @@ class Transports:
         for transport in list(self._of_robot.values()):
             if transport.step == Step.WAITING and transport.let_go:
                 self._leave(transport)
+        self._admit()
         self._assign()
         self._park()
 
@@ -286,7 +290,7 @@ class Transports:
             transport = self._of_robot.get(int(robot))
             if transport is None:
                 continue
-            if transport.step <= Step.FETCHING:
+            if transport.step <= Step.READY:
                 self._unassign(transport)
                 continue
             mode = Mode(self.traffic.mode[robot]).name
@@ -337,8 +341,8 @@ class Transports:
         if transport.step in (Step.FETCHING, Step.BRINGING, Step.STORING):
             self._count(robot)
         if transport.step == Step.FETCHING:
-            transport.attempts = 0
-            self._begin_lift(transport, Step.LIFTING)
+            transport.step, transport.since = Step.READY, self.traffic.time
+            self._ready.append(transport)
         elif transport.step == Step.BRINGING:
             transport.step, transport.since = Step.WAITING, self.traffic.time
             self.traffic.busy[robot] = True
@@ -393,8 +397,7 @@ class Transports:
         """The unit is let go."""
         self.traffic.busy[transport.robot] = False
         self._tell(transport, Kind.RELEASED)
-        if transport.station:
-            self._inbound[transport.station] -= 1
+        self._inbound[transport.station] -= 1
         if transport.then == STAY:
             if self.plan.storage.flat[transport.cell]:
                 self._taken.discard(transport.place)
@@ -406,7 +409,7 @@ class Transports:
             self._store(transport, is_inbound=False)
 
     def _store(self, transport, is_inbound=True):
-        if is_inbound and transport.station:
+        if is_inbound:
             self._inbound[transport.station] -= 1
         robot = transport.robot
         self._taken.discard(transport.place)
@@ -435,15 +438,14 @@ class Transports:
     def _fail(self, transport, text):
         self.totals.failed += 1
         self._tell(transport, Kind.FAILED, text)
-        if Step.FETCHING < transport.step < Step.STORING and transport.station:
+        if Step.READY < transport.step < Step.STORING:
             self._inbound[transport.station] -= 1
-            transport.station = ""
         self._taken.discard(transport.place)
         self._end(transport)
 
     def _end(self, transport):
-        if transport.step == Step.FETCHING and transport.station:
-            self._inbound[transport.station] -= 1
+        if transport.step in (Step.FETCHING, Step.READY):
+            self._fetched[transport.station] -= 1
         if transport in self._open:
             self._open.remove(transport)
         if transport.robot != NOWHERE:
@@ -455,8 +457,7 @@ class Transports:
 
     def _unassign(self, transport):
         """Another robot will fetch it."""
-        if transport.station:
-            self._inbound[transport.station] -= 1
+        self._fetched[transport.station] -= 1
         self._of_robot.pop(transport.robot, None)
         transport.robot, transport.step = NOWHERE, Step.OPEN
         self._enqueue(transport)
@@ -465,8 +466,26 @@ class Transports:
         self._open.append(transport)
         self._open.sort(key=lambda one: (-one.priority, one.number))
 
+    def _admit(self):
+        """Lifts units for whose station there is room; who was there first comes first."""
+        traffic = self.traffic
+        waiting, self._ready = self._ready, []
+        for transport in waiting:
+            if transport.step != Step.READY:
+                continue
+            station, robot = transport.station, transport.robot
+            is_full = station and self._inbound[station] >= self.capacity(station)
+            is_there = traffic.stands[robot] and traffic.cell[robot] == traffic.goal[robot]
+            if is_full or not is_there:
+                self._ready.append(transport)
+                continue
+            self._fetched[station] -= 1
+            self._inbound[station] += 1
+            transport.attempts = 0
+            self._begin_lift(transport, Step.LIFTING)
+
     def _assign(self):
-        """Robots for what waits, as far as stations have room."""
+        """Robots for what waits, a few more than stations have room for."""
         traffic = self.traffic
         if not self._open:
             return
@@ -477,7 +496,7 @@ class Transports:
             if not is_free.any():
                 return
             station = transport.station
-            if station and self._inbound[station] >= self.capacity(station):
+            if station and self._fetched[station] >= FETCHED:
                 continue
             cell = self.cell_of_unit[transport.shelf]
             if cell == NOWHERE:
@@ -488,8 +507,7 @@ class Transports:
             transport.robot, transport.step = robot, Step.FETCHING
             transport.since = traffic.time
             self._of_robot[robot] = transport
-            if station:
-                self._inbound[station] += 1
+            self._fetched[station] += 1
             self._tell(transport, Kind.ASSIGNED)
             self._send(transport, cell)
 
