@@ -12,7 +12,7 @@ import rostest
 from browser import browser
 from node_test import PATIENCE, Listener, wait_until
 
-from warehouse_msgs.msg import CoordinatorState
+from warehouse_msgs.msg import CoordinatorState, Scenery
 
 MODE = "document.querySelector('#modes [aria-pressed=\"true\"]')?.dataset.mode"
 
@@ -70,6 +70,8 @@ class FleetPage(unittest.TestCase):
         self.page.until("page.overlays.ways.released.visible")
         self.page.until("page.overlays.ways.planned.visible")
         robot = self.wait_for(transport, "LIFTED")["robot"]
+        # Another page comes, and hears the scenery anew: the coordinator goes on.
+        Listener("/warehouse/scenery", Scenery).until()
         self.page.read(f"page.select('{robot}')")
         self.page.until("document.getElementById('facts').textContent.includes('pick1')")
         self.page.until("page.overlays.goal.visible")
@@ -101,7 +103,9 @@ class FleetPage(unittest.TestCase):
         x, y = self.page.read("[...page.world.pose.slice(3, 5)].map(Math.round)")
         self.page.read(f"page.details.go({x}, {y + (3 if y < 0 else -3)}) && true")
         self.page.until(f"{MODE} === 'MANUAL'")
-        self.page.until("document.getElementById('answer').dataset.kind === 'done'")
+        self.page.until(
+            "['done', 'blocked'].includes(document.getElementById('answer').dataset.kind)"
+        )
         self.page.driver.find_element("css selector", "[data-mode=AUTOMATIC]").click()
         self.page.until(f"{MODE} === 'AUTOMATIC'")
 

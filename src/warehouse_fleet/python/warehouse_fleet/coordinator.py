@@ -9,8 +9,8 @@ import numpy as np
 import rospy
 from nav_msgs.srv import GetMap
 
-from warehouse_fleet import FloorError
-from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet import FloorError, floor_markings
+from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import Mode, Motion, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
@@ -188,13 +188,22 @@ class Coordinator:
             return False
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
-        is_same = self._scenery is self._plan_of and np.array_equal(report.kiva_id, self._ids)
+        is_same = self._is_same_floor() and np.array_equal(report.kiva_id, self._ids)
         if is_same and self._traffic is not None and time >= self._traffic.time:
             return True
         if is_same and self._alarm:
             return False
         self._begin(report)
         return self._traffic is not None
+
+    def _is_same_floor(self):
+        """Sceneries come anew for whoever begins to listen, and whenever a box falls over."""
+        if self._scenery is self._plan_of or self._plan_of is None or self._alarm:
+            return self._scenery is self._plan_of
+        if _floor_of(self._scenery) != _floor_of(self._plan_of):
+            return False
+        self._plan_of = self._scenery
+        return True
 
     def _begin(self, report):
         self._plan_of, self._ids = self._scenery, report.kiva_id
@@ -323,6 +332,17 @@ class Coordinator:
         if cell == NOWHERE:
             return math.nan, math.nan
         return tuple(map(float, self._traffic.plan.point_of(cell)))
+
+
+def _floor_of(scenery):
+    """What of a Scenery a plan is made of: the floor, belts and what is painted."""
+    poses = np.reshape(scenery.pose, (-1, 7)).tolist()
+    fixed = [
+        (name, scenery.looks[look] if floor_markings.is_name(name) else None, pose)
+        for name, look, pose in zip(scenery.models, scenery.model_look, poses)
+        if name.startswith(CONVEYOR) or floor_markings.is_name(name)
+    ]
+    return scenery.floor, scenery.grid_spacing, fixed
 
 
 def _array(field):

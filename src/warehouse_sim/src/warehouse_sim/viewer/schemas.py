@@ -293,6 +293,7 @@ class RobotsByWork(BaseModel):
 
     idle: int
     fetching: int
+    ready: int = Field(description="beneath a unit, until its station has room for it")
     lifting: int
     bringing: int
     waiting: int = Field(description="at a station, or a cell, until their transport is released")
