@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Page and HTTP API show a fleet that a coordinator drives, and give its robots to a person and back."""
+"""Page and HTTP API show a coordinated fleet, and give its robots to a person and back."""
 
 import json
 import unittest

@@ -49,9 +49,20 @@ STEP_NAMES = {
     Step.STORING: "storing",
     Step.DROPPING: "dropping",
 }
-FIELDS = (
-    "kiva_id x y yaw vx vy status state shelf_id path_id reached left".split()
-)  # of FleetState
+FIELDS = [
+    "kiva_id",
+    "x",
+    "y",
+    "yaw",
+    "vx",
+    "vy",
+    "status",
+    "state",
+    "shelf_id",
+    "path_id",
+    "reached",
+    "left",
+]  # of FleetState
 
 
 class Coordinator:

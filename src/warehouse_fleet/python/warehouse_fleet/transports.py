@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Transports: a storage unit is fetched, brought to a station or a cell, waits there until it is let
-go, and is stored again. Neither ROS nor physics: `fleet` lifts, `traffic` drives."""
+"""Transports: a storage unit is fetched, brought to a station or a cell, waits there until it is
+let go, and is stored again. Neither ROS nor physics: `fleet` lifts, `traffic` drives."""
 
 import collections
 from dataclasses import dataclass, field

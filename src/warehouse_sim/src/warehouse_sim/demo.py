@@ -226,7 +226,15 @@ class FleetWatch:
 def coordinator():
     """A coordinator that keeps all stations busy, while within."""
     # It ends with this process, however that ends.
-    node = "setpriv --pdeathsig TERM rosrun warehouse_fleet coordinator _demand:=random".split()
+    node = [
+        "setpriv",
+        "--pdeathsig",
+        "TERM",
+        "rosrun",
+        "warehouse_fleet",
+        "coordinator",
+        "_demand:=random",
+    ]
     process = subprocess.Popen([*node, f"_exchange:={EXCHANGE}"], stdout=subprocess.DEVNULL)
     try:
         yield

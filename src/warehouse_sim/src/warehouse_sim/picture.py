@@ -55,7 +55,7 @@ SILENT = 2.0  # after which the coordinator drives nobody any more [s, simulated
 
 
 def way_shapes(fleet, paths, coordinated):
-    """Markers of where robots go: of a FleetPaths and a CoordinatorPaths, each of which may be None."""
+    """Markers of where robots go: of a FleetPaths and a CoordinatorPaths; either may be None."""
     if coordinated is None or (fleet.stamp - coordinated.stamp).to_sec() > SILENT:
         coordinated = CoordinatorPaths()
     others = [w for number, w in ways(fleet, paths) if number not in set(coordinated.kiva_id)]

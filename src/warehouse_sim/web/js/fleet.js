@@ -5,10 +5,11 @@ import { $, make } from './dom.js';
 
 const MOST_WAITING = 50; // rows
 
+const some = (counts) => Object.entries(counts).filter(([, count]) => count > 0)
+  .map(([name, count]) => `${count} ${name.replaceAll('_', ' ')}`).join(', ') || 'none';
+
 /** What a CoordinatorState counts, as [what, text]. */
 export function factsOf({ robots, work, transports, executed_over_planned: executed, ...told }) {
-  const some = (counts) => Object.entries(counts).filter(([, count]) => count > 0)
-    .map(([name, count]) => `${count} ${name.replaceAll('_', ' ')}`).join(', ') || 'none';
   return [
     ['robots', some(robots)],
     ['at work', some(work)],

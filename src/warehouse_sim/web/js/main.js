@@ -181,12 +181,17 @@ class Page {
     this.overlays.select(place, thing && halfOf(this.actors.boundsOf(thing)));
     const robot = this.details.selectedRobot;
     const id = this.world.scene.robots[robot];
-    const isShown = robot >= 0 && isPressed($('path'));
-    const way = isShown && this.ways.get(id);
-    const path = isShown && !way && this.paths[id];
-    this.overlays.showPath(place?.slice(0, 2), path || [], way?.goal);
+    if (robot >= 0 && isPressed($('path'))) this.showPath(place, id);
+    else this.overlays.showPath(null, []);
     const scan = robot >= 0 && isPressed($('scan')) && this.scans.get(id);
     this.overlays.showScan(scan || null, place);
+  }
+
+  /** Where a robot goes: a coordinated one's way is drawn with the others'. */
+  showPath(place, id) {
+    const way = this.ways.get(id);
+    const path = way ? [] : this.paths[id] ?? [];
+    this.overlays.showPath(place.slice(0, 2), path, way?.goal);
   }
 
   /** Ways of the fleet, or of the selected robot alone. */

@@ -326,9 +326,7 @@ def _add_coordinator(out, backend):
         """The fleet at a glance."""
         return catalogue.coordinator(await backend.coordinator())
 
-    @out.post(
-        "/robots/{number}/mode", response_model=schemas.Done, responses=_problems(404, *SENT)
-    )
+    @out.post("/robots/{number}/mode", response_model=schemas.Done, responses=_problems(404, *SENT))
     async def set_mode(wanted: schemas.NewMode, number: int = Number):
         """Gives a robot to the coordinator, to a person, or to nobody."""
         await backend.robot(number)
@@ -344,9 +342,7 @@ def _add_coordinator(out, backend):
         found = backend.transports.newest_first(state)
         return {"total": len(found), "transports": found[offset : offset + limit]}
 
-    @out.get(
-        "/transports/{number}", response_model=schemas.Transport, responses=_problems(404)
-    )
+    @out.get("/transports/{number}", response_model=schemas.Transport, responses=_problems(404))
     async def get_transport(number: int = TransportNumber):
         """How far it is."""
         found = backend.transports.get(number)

@@ -15,8 +15,8 @@ from fastapi.staticfiles import StaticFiles
 from warehouse_sim.viewer import api, stream
 from warehouse_sim.viewer.access import AccessControl
 from warehouse_sim.viewer.commander import Commander
-from warehouse_sim.viewer.coordination import Coordination
 from warehouse_sim.viewer.connections import BoundedConnection
+from warehouse_sim.viewer.coordination import Coordination
 from warehouse_sim.viewer.feed import Feed
 from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.journal import Journal

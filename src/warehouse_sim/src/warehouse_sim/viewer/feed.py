@@ -126,7 +126,7 @@ class Feed:
         return bool(self.tells_all and self["scenery"])
 
     def want(self, paths, ways, scans):
-        """Hears the paths or not, the coordinator's ways or not, and the scans of exactly these robots (ids)."""
+        """Hears paths or not, ways or not, and the scans of exactly these robots (ids)."""
         wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
         if scans:
             wanted["frames"] = ("/tf_static", TFMessage)

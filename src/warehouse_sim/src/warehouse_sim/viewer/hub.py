@@ -152,8 +152,8 @@ class Hub:
                 await self._obey(page, json.loads(await page.socket.receive_text()))
 
     async def _obey(self, page, wish):
-        """{"ack": n} answers updates; {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}} asks
-        for more, "ways": "all" for those of all robots."""
+        """{"ack": n} answers updates; {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}}
+        asks for more, "ways": "all" for those of all robots."""
         if "ack" in wish:
             page.in_flight = max(0, page.in_flight - int(wish["ack"]))
         if "watch" in wish:

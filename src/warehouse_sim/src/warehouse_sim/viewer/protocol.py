@@ -73,7 +73,7 @@ def scan(kiva_id, mount, angle_min, angle_increment, ranges):
 
 
 def ways(message, wanted=None):
-    """Bytes of a CoordinatorPaths of numpy arrays: of all its robots, or of those `wanted` (ids)."""
+    """Bytes of a CoordinatorPaths of numpy arrays: of all its robots, or of the ids `wanted`."""
     ids = message.kiva_id
     kept = np.ones(len(ids), bool) if wanted is None else np.isin(ids, list(wanted))
     rows = np.zeros(np.count_nonzero(kept), WAY)

@@ -269,7 +269,9 @@ class TransportNumber(BaseModel):
 
 class Transport(BaseModel):
     id: int
-    state: TransportState = Field(description="ARRIVED: waits to be released. STORED, FAILED: it is over")
+    state: TransportState = Field(
+        description="ARRIVED: waits to be released. STORED, FAILED: it is over"
+    )
     since: float = Field(description="[s], simulated")
     robot: str = Field(description="that does it, or empty")
     storage_unit: str
