@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator as a ROS node: the fleet of a running warehouse, driven over its topics."""
 
+import math
 import threading
 from types import SimpleNamespace
 
@@ -9,8 +10,8 @@ import rospy
 from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
-from warehouse_fleet import FloorError
-from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet import FloorError, floor_markings
+from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import Mode, Motion, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
@@ -155,6 +156,7 @@ class Coordinator:
             if request.mode != Mode.AUTOMATIC and not self._traffic.stands[robot]:
                 self._cancel.publish(request.kiva_id)
             self._traffic.mode[robot] = request.mode
+            self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
 
     # What it does.
@@ -195,13 +197,22 @@ class Coordinator:
             return False
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
-        is_same = self._scenery is self._plan_of and np.array_equal(report.kiva_id, self._ids)
+        is_same = self._is_same_floor() and np.array_equal(report.kiva_id, self._ids)
         if is_same and self._traffic is not None and time >= self._traffic.time:
             return True
         if is_same and self._alarm:
             return False
         self._begin(report)
         return self._traffic is not None
+
+    def _is_same_floor(self):
+        """Sceneries come anew for whoever begins to listen, and whenever a box falls over."""
+        if self._scenery is self._plan_of or self._plan_of is None or self._alarm:
+            return self._scenery is self._plan_of
+        if _floor_of(self._scenery) != _floor_of(self._plan_of):
+            return False
+        self._plan_of = self._scenery
+        return True
 
     def _begin(self, report):
         self._plan_of, self._ids = self._scenery, report.kiva_id
@@ -267,6 +278,8 @@ class Coordinator:
         state.header.stamp = rospy.Time.from_sec(time)
         for name, mode in zip(("automatic", "manual", "out_of_service"), Mode):
             setattr(state, name, int(np.count_nonzero(traffic.mode == mode)))
+        state.manual_kiva = self._ids_in(Mode.MANUAL)
+        state.out_of_service_kiva = self._ids_in(Mode.OUT_OF_SERVICE)
         under_way = [t for t in transports if t.step != Step.OPEN]
         for step, name in STEP_NAMES.items():
             setattr(state, name, sum(t.step == step for t in under_way))
@@ -298,6 +311,9 @@ class Coordinator:
             state.alarms.append(traffic.alarm)
         return state
 
+    def _ids_in(self, mode):
+        return self._traffic.kiva_ids[self._traffic.mode == mode].tolist()
+
     def _ids_of(self, robots):
         ids = self._traffic.kiva_ids
         return [int(ids[robot]) if robot != NOWHERE else 0 for robot in robots]
@@ -308,16 +324,36 @@ class Coordinator:
         cells = []
         for robot in np.flatnonzero(traffic.mode == Mode.AUTOMATIC):
             held, planned = traffic.paths(robot)
-            if len(held) + len(planned) < 2:
+            waits_for = traffic.waits_for[robot]
+            if len(held) + len(planned) < 2 and waits_for == NOWHERE:
                 continue
             message.kiva_id.append(int(traffic.kiva_ids[robot]))
             message.released.append(len(held))
             message.planned.append(len(planned))
-            message.waits_for += self._ids_of([traffic.waits_for[robot]])
+            message.waits_for += self._ids_of([waits_for])
+            for name, at in zip(("goal_x", "goal_y"), self._point_of(traffic.goal[robot])):
+                getattr(message, name).append(at)
             cells += held + planned
         x, y = traffic.plan.point_of(np.array(cells, np.int32))
         message.x, message.y = x.tolist(), y.tolist()
         return message
+
+    def _point_of(self, cell):
+        """Its centre [m]; NaN for NOWHERE."""
+        if cell == NOWHERE:
+            return math.nan, math.nan
+        return tuple(map(float, self._traffic.plan.point_of(cell)))
+
+
+def _floor_of(scenery):
+    """What of a Scenery a plan is made of: the floor, belts and what is painted."""
+    poses = np.reshape(scenery.pose, (-1, 7)).tolist()
+    fixed = [
+        (name, scenery.looks[look] if floor_markings.is_name(name) else None, pose)
+        for name, look, pose in zip(scenery.models, scenery.model_look, poses)
+        if name.startswith(CONVEYOR) or floor_markings.is_name(name)
+    ]
+    return scenery.floor, scenery.grid_spacing, fixed
 
 
 def _array(field):
