@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo operate test test-api test-sanitizers test-install build packages deps bench lint format install clean
+.PHONY: help run demo operate test test-long test-api test-sanitizers test-install build packages deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -12,6 +12,7 @@ unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MA
 
 JOBS ?= $(shell nproc)
 PREFIX ?= install
+SEEDS ?= 20
 BUILD = cmake --build build -j$(JOBS) -- --no-print-directory
 # If make is killed, what it started still ends.
 DEVEL := . devel/setup.bash; exec setpriv --pdeathsig TERM
@@ -34,6 +35,10 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
+
+test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
+	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS); . devel/setup.bash; cd tests; \
+	exec /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py $(ARGS)
 
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 	@scripts/fuzz_api $(ARGS)

@@ -78,6 +78,9 @@ class Execution {
   void setUnits(std::vector<Cell> cells) { units_ = std::move(cells); }
   /// Nobody may enter it until `until` [s].
   void close(Cell cell, double until);
+  /// Whether a cell is closed by that, or because a robot found something in its way there: look
+  /// whether it stands there still.
+  bool isClosing() const;
   /// Cells closed now, those of robots that are not controlled among them.
   std::vector<Cell> closed() const;
 
@@ -85,7 +88,7 @@ class Execution {
 
   /// Where it stands, or stood last; kNowhere beyond the floor.
   Cell cellOf(int robot) const { return courses_.at(robot).at; }
-  /// Whether it stands in a cell with nothing released beyond.
+  /// Whether it stands in the middle of a cell with nothing released beyond.
   bool stands(int robot) const;
   /// Who holds a cell; -1: nobody.
   int holder(Cell cell) const { return holder_[cell]; }
@@ -99,11 +102,14 @@ class Execution {
   /// Whether it does not drive although it may: it is broken, or stopped. The planner sees its
   /// cells closed.
   bool isStalled(int robot) const;
+  /// Whether it was pushed off the middle of its cell.
+  bool isAstray(int robot) const { return courses_.at(robot).is_astray; }
   /// Cells that it holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
 
-  /// A robot has refused the path that it was sent.
+  /// A robot has refused the path that it was sent. The path is given up when nothing of it can be
+  /// on its way any more.
   void refused(int robot);
 
   /// Its journey since the last call.
@@ -122,6 +128,7 @@ class Execution {
     std::uint32_t id = 0;       ///< of the path; the last one if it is over
     bool is_active = false;     ///< under way, or sent and not yet accepted
     bool is_accepted = false;   ///< the robot has reported it
+    bool is_refused = false;    ///< once at least, and not reported since
     bool is_withdrawn = false;  ///< told to stop before an obstacle
     double sent = 0;            ///< when a release was sent last [s]
     std::vector<Cell> cells;    ///< points 0 to released - 1; where it stands if there is no path
@@ -132,7 +139,8 @@ class Execution {
     bool is_off = false;         ///< is not any more where the plan was asked for
     Cell at = kNowhere;          ///< where it stands, or was last
     Cell turning = kNowhere;     ///< where it has been released around a corner
-    std::vector<Cell> occupied;  ///< of an obstacle: what it stands on
+    bool is_astray = false;      ///< was pushed, and is not in the middle of its cell
+    std::vector<Cell> occupied;  ///< what it stands on beyond `cells`: an obstacle, or astray
     bool travels = false;        ///< has somewhere to go
     bool waits_by_plan = false;
     int waits_for = -1;
@@ -152,7 +160,10 @@ class Execution {
   void pass(int robot, int reached, int left);
   bool hasTurned(int robot) const;
   void finish(int robot);
+  bool isOver(int robot) const;
   void occupy(int robot);
+  void keepAround(int robot);
+  void cover(int robot);
   void vacate(int robot);
   void withdraw(int robot);
   void measure(int robot, double elapsed);
@@ -167,6 +178,9 @@ class Execution {
   bool needs(int robot) const;
   bool mayTurn(int robot) const;
   void extend(int robot);
+  void recentre(int robot);
+  bool isAtEnd(int robot) const;
+  void releaseUpTo(int robot, int points);
   void send(int robot, int first);
 
   void hold(Cell cell, int robot) { holder_[cell] = robot; }
@@ -179,6 +193,7 @@ class Execution {
   double speedOf(int robot) const;
   double toGo(int robot) const;
   bool isCentred(int robot) const;
+  bool isSquare(int robot) const;
 
   const Floor& floor_;
   const Motion motion_;

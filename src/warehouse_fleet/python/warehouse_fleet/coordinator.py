@@ -13,7 +13,7 @@ from std_msgs.msg import Header
 from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import Mode, Motion, Traffic
+from warehouse_fleet.traffic import STAYS, Mode, Motion, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
 from warehouse_msgs.msg import (
     Cancel,
@@ -38,6 +38,7 @@ from warehouse_msgs.srv import (
 )
 
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
+OVERTAKEN = 1.0  # a report that is older by more comes from a world that began anew [s]
 WAITS_LONG = 10.0  # [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
@@ -167,6 +168,7 @@ class Coordinator:
         if not self._is_known(report, time):
             return
         traffic, transports = self._traffic, self._transports
+        report = traffic.aligned(report)
         self._take_refusals()
         if self._is_new_state(time):
             self._see_units()
@@ -174,6 +176,8 @@ class Coordinator:
             for kiva_id in traffic.kiva_ids[traffic.inherited(report)]:
                 self._cancel.publish(int(kiva_id))
         traffic.observe(time, report)
+        if traffic.wants_map:
+            self._see_map()
         transports.advance(report)
         self._send(traffic.releases())
         events = transports.take_events()
@@ -197,24 +201,42 @@ class Coordinator:
             return False
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
-        is_same = self._is_same_floor() and np.array_equal(report.kiva_id, self._ids)
-        if is_same and self._traffic is not None and time >= self._traffic.time:
-            return True
+        is_same = self._is_known_floor() and self._are_known(report.kiva_id)
+        if is_same and self._traffic is not None:
+            if not self._traffic.is_stale(time):
+                return True
+            if self._traffic.time - time < OVERTAKEN:
+                return False
         if is_same and self._alarm:
             return False
-        self._begin(report)
+        self._begin(report, time)
         return self._traffic is not None
 
-    def _is_same_floor(self):
-        """Sceneries come anew for whoever begins to listen, and whenever a box falls over."""
-        if self._scenery is self._plan_of or self._plan_of is None or self._alarm:
-            return self._scenery is self._plan_of
-        if _floor_of(self._scenery) != _floor_of(self._plan_of):
+    def _is_known_floor(self):
+        """Whether the scenery is that of the plan but for what came or went: people, boxes, …"""
+        scenery = self._scenery
+        if scenery is self._plan_of:
+            return True
+        if self._traffic is None or _floor_of(scenery) != _floor_of(self._plan_of):
             return False
-        self._plan_of = self._scenery
+        self._plan_of = scenery
+        self._see_map()
         return True
 
-    def _begin(self, report):
+    def _are_known(self, kiva_ids):
+        """Some may be gone; not all, nor may there be others."""
+        return len(kiva_ids) > 0 and bool(np.isin(kiva_ids, self._ids).all())
+
+    def _see_map(self):
+        try:
+            grid = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+        except rospy.ServiceException as error:
+            rospy.logwarn(f"the floor can't be looked at: {error}")
+            return
+        cells = np.array(grid.data, np.uint8)
+        self._traffic.see(cells.reshape(grid.info.height, grid.info.width))
+
+    def _begin(self, report, time):
         self._plan_of, self._ids = self._scenery, report.kiva_id
         if self._traffic is not None:
             self._traffic.close()
@@ -222,7 +244,7 @@ class Coordinator:
         try:
             floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
             plan = FloorPlan.of_messages(floor_map, self._scenery)
-            plan.check()
+            plan.check(obstructed=False)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
             return
@@ -230,8 +252,15 @@ class Coordinator:
             rospy.logwarn(reason)
         self._alarm = ""
         self._traffic = Traffic(
-            plan, report.kiva_id, Motion(latency=LATENCY), seed=self._seed, planner=self._planner, lag=0.05
+            plan,
+            report.kiva_id,
+            Motion(latency=LATENCY),
+            seed=self._seed,
+            planner=self._planner,
+            lag=0.05,
         )
+        for cell in np.flatnonzero(plan.obstructed):
+            self._traffic.shut(int(cell), time + STAYS)
         self._transports = Transports(plan, self._traffic, {}, self._send_lift)
         self._see_units()
         if self._demand == "random":
@@ -253,11 +282,16 @@ class Coordinator:
         objects, states = self._objects, self._units
         if objects.revision != states.revision:
             return
-        places = np.reshape(states.pose, (-1, 7))[:, :2]
-        cells = self._transports.plan.cell_of(places[:, 0], places[:, 1])
-        cells = np.where(np.asarray(states.carrier) == 0, cells, NOWHERE)
+        poses = np.reshape(states.pose, (-1, 7))
         ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
-        self._transports.see(dict(zip(ids, cells.tolist())), states.header.stamp.to_sec())
+        self._transports.look(
+            np.array(ids, int),
+            poses[:, 0],
+            poses[:, 1],
+            2 * np.arctan2(poses[:, 5], poses[:, 6]),
+            np.asarray(states.carrier) != 0,
+            states.header.stamp.to_sec(),
+        )
 
     def _take_refusals(self):
         refused, self._refused = self._refused, []

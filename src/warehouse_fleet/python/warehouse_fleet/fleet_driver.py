@@ -9,7 +9,7 @@ driver.step_until(3600)
 import numpy as np
 
 from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_fleet.traffic import Traffic
+from warehouse_fleet.traffic import NOWHERE, STAYS, Traffic
 from warehouse_fleet.transports import Transports
 
 UPDATE = 0.1  # between two releases [s]
@@ -30,17 +30,17 @@ class FleetDriver:
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
         self.traffic = Traffic(self.plan, world.fleet.kiva_id, motion, seed, planner)
-        units = world.storage_units
-        cells = self.plan.cell_of(units["x"], units["y"])
         self.transports = Transports(
             self.plan,
             self.traffic,
-            dict(zip(units["shelf_id"].tolist(), cells.tolist())),
+            self._cells_of_units(),
             self._lift,
             choose_robot,
             choose_place,
         )
         self.traffic.loaded[:] = world.fleet.shelf_id != 0
+        for cell in np.flatnonzero(self.plan.obstructed):
+            self.traffic.shut(int(cell), STAYS)
         self.events = None
         self.collisions = 0
         self.refusals = []  # texts
@@ -70,18 +70,46 @@ class FleetDriver:
     def step(self):
         """Goes on by 0.1 s."""
         self._hear()
-        report = self.world.fleet
+        if not self.traffic.is_stale(self.world.time):
+            self._drive()
+        self.world.step(self._steps)
+
+    def _drive(self):
+        gone = self.traffic.gone
+        report = self.traffic.aligned(self.world.fleet)
         self.traffic.observe(self.world.time, report)
+        looks = self.traffic.wants_map
+        if looks:
+            self.traffic.see(self.world.occupancy()[3])
         self.transports.advance(report)
+        if looks or not np.array_equal(gone, self.traffic.gone):
+            self._see_units()
         releases = self.traffic.releases()
         if len(releases[0]):
             self.world.follow(*releases)
-        self.world.step(self._steps)
 
     def step_until(self, time):
         """Goes on until that simulated time [s]."""
         while self.world.time < time - 1e-9:
             self.step()
+
+    def _cells_of_units(self):
+        units = self.world.storage_units
+        cells = self.plan.cell_of(units["x"], units["y"])
+        cells = np.where(units["kiva_id"] == 0, cells, NOWHERE)
+        return dict(zip(units["shelf_id"].tolist(), cells.tolist()))
+
+    def _see_units(self):
+        """Takes in where units stand, when somebody else may have moved some."""
+        units = self.world.storage_units
+        self.transports.look(
+            units["shelf_id"],
+            units["x"],
+            units["y"],
+            units["yaw"],
+            units["kiva_id"] != 0,
+            self.world.time,
+        )
 
     def _hear(self):
         events = self.world.events()

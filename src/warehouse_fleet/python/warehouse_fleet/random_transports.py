@@ -20,14 +20,18 @@ class RandomTransports:
         self._random = np.random.default_rng(seed)
         self._stations = [s.name for s in transports.stations.values() if s.kind == PICK]
         self._idle = sorted(transports.cell_of_unit)  # units without a transport
+        self._own = set()  # numbers of transports
         self._served = {}  # number of a transport: until when [s]
 
     def advance(self, time, events):
         """Goes on, by what has become of transports since the last call: TransportEvents."""
         for event in events:
+            if event.transport_id not in self._own:
+                continue
             if event.kind == Kind.ARRIVED:
                 self._served[event.transport_id] = time + self._dwell
             elif event.kind in (Kind.STORED, Kind.FAILED):
+                self._own.discard(event.transport_id)
                 self._served.pop(event.transport_id, None)
                 self._idle.append(event.shelf_id)
         for number in [n for n, until in self._served.items() if time >= until]:
@@ -36,7 +40,12 @@ class RandomTransports:
         for station in self._stations:
             while self._idle and self._wants(station):
                 chosen = int(self._random.integers(len(self._idle)))
-                self._transports.submit(self._idle.pop(chosen), station)
+                unit = self._idle.pop(chosen)
+                answer = self._transports.submit(unit, station)
+                if not answer.accepted:  # somebody else has it brought somewhere
+                    self._idle.append(unit)
+                    break
+                self._own.add(answer.transport_id)
 
     def _wants(self, station):
         """One waits for a robot always."""

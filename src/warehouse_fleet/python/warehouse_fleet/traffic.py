@@ -15,6 +15,7 @@ import concurrent.futures
 import time as clock
 from dataclasses import dataclass
 from enum import IntEnum
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -26,7 +27,24 @@ IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
 GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by measurement
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
+TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
+TAKEN = 99  # of a cell of the world's map, and above: neither free nor beneath a storage unit
+LOOK = 1.0  # between two looks at that map [s]
+STAYS = 2.5  # for which what was seen is taken to stay [s]
+REPORTED = [
+    "x",
+    "y",
+    "yaw",
+    "vx",
+    "vy",
+    "status",
+    "state",
+    "shelf_id",
+    "path_id",
+    "reached",
+    "left",
+]
 
 
 class Mode(IntEnum):
@@ -51,8 +69,9 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-    work: it stays), `mode`. `planner` is what a YAML file says of one, see warehouse_fleet.door;
-    None: the one of the house. A plan is begun every tick on a thread of its own, and taken up `lag`
+    work: it stays), `mode`, `gone` (it was deleted). `planner` is what a YAML file says of one, see
+    warehouse_fleet.door; None: the one of the house. A plan is begun every tick on a thread of its
+    own, and taken up `lag`
     seconds later, whenever it is ready: so a run does not depend on the machine.
     """
 
@@ -77,11 +96,14 @@ class Traffic:
         self.loaded = np.zeros(count, bool)
         self.busy = np.zeros(count, bool)
         self.mode = np.zeros(count, np.uint8)
+        self.gone = np.zeros(count, bool)
         self.cell = np.full(count, NOWHERE, np.int32)  # where each stands, or stood last
         self.stands = np.zeros(count, bool)  # with nothing before it
         self.waits_for = np.full(count, NOWHERE, np.int32)  # a robot
         self.still_since = np.zeros(count)
         self.stalled = np.zeros(count, bool)  # does not drive although it may
+        self.stalled_since = np.full(count, np.inf)  # [s]
+        self.astray = np.zeros(count, bool)  # was pushed off the middle of its cell
         self.plan_seconds = collections.deque(maxlen=10000)  # computing time of the last plans
         self.watchdog = 0  # how often a robot made no progress for STUCK
         self._settled = np.zeros(count, bool)  # has been idle since this began
@@ -103,10 +125,42 @@ class Traffic:
             self._after.update(zip(cells, cells[1:]))
         self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")
         self._plan, self._due, self._next = None, 0.0, 0.0
+        self._next_look = self._obstructed_until = 0.0
+        self._units = np.zeros(0, np.int32)
 
     def close(self):
         """Ends the planner's thread."""
         self._thread.shutdown()
+
+    def is_stale(self, time):
+        """Whether a report of that time was overtaken by another."""
+        return time < self.time
+
+    def aligned(self, report):
+        """The report with an element for each of `kiva_ids`. Robots that are gone stand nowhere,
+        and are OUT_OF_SERVICE until they are back."""
+        ids = np.asarray(report.kiva_id)
+        if np.array_equal(ids, self.kiva_ids):
+            gone = np.zeros(len(ids), bool)
+        else:
+            gone = ~np.isin(self.kiva_ids, ids)
+            report = self._spread(report, ids, gone)
+        self.mode[gone] = Mode.OUT_OF_SERVICE
+        self.mode[self.gone & ~gone] = Mode.AUTOMATIC
+        self.gone = gone
+        return report
+
+    def _spread(self, report, ids, gone):
+        order = np.argsort(ids)
+        at = order[np.searchsorted(ids[order], self.kiva_ids[~gone])]
+        out = SimpleNamespace(kiva_id=self.kiva_ids)
+        for name in REPORTED:
+            values = np.asarray(getattr(report, name))
+            column = np.zeros(len(gone), values.dtype)
+            column[~gone] = values[at]
+            setattr(out, name, column)
+        out.x[gone] = out.y[gone] = np.nan
+        return out
 
     def observe(self, time, report):
         """Takes in what all robots report: an object with the arrays of FleetState."""
@@ -130,9 +184,12 @@ class Traffic:
         self.cell = self._execution.cell()
         self.stands = self._execution.stands()
         self.stalled = self._execution.stalled()
+        self.stalled_since = np.where(self.stalled, np.minimum(self.stalled_since, time), np.inf)
+        self.astray = self._execution.astray()
         self.still_since = self._execution.still_since()
         self._find_foreign(report)
         self._watch()
+        self._avoid_trapped()
 
     def inherited(self, report):
         """Which robots have been on paths since before this began, by what they report."""
@@ -152,6 +209,16 @@ class Traffic:
             stuck[robot] = not self._waits_for_work(robot)
         self.watchdog += int(np.count_nonzero(stuck & ~self._stuck))
         self._stuck = stuck
+
+    def _avoid_trapped(self):
+        """Loaded robots can't turn back in a one-way street that ends before an obstacle. Whoever
+        is to take that away comes another way."""
+        if not len(self._units) and self.time > self._obstructed_until:
+            return
+        trapped = (self.time - self.still_since > TRAPPED) & ~self.stalled & ~self.busy
+        trapped &= (self.mode == Mode.AUTOMATIC) & ~self.plan.lane.ravel()[self.cell]
+        for cell in self.cell[trapped]:
+            self._execution.close(int(cell), self.time + LOOK)
 
     def _waits_for_work(self, robot):
         seen = set()
@@ -186,10 +253,33 @@ class Traffic:
     def shut(self, cell, until):
         """Nobody may enter a cell for so long."""
         self._execution.close(cell, until)
+        self._obstructed_until = max(self._obstructed_until, until)
+
+    @property
+    def closed(self):
+        """Cells that nobody may enter now."""
+        return self._execution.closed()
+
+    @property
+    def wants_map(self):
+        """Whether to look what stands on the floor now: only while something is in the way."""
+        if self.time < self._next_look or not self._execution.closing:
+            return False
+        self._next_look = self.time + LOOK
+        return True
+
+    def see(self, cells):
+        """What stands on the floor, (h, w) of the world's map: nobody may enter where something
+        does, until it is seen no more."""
+        cells = np.asarray(cells)
+        if cells.shape == self.plan.shape:
+            for cell in np.flatnonzero((cells >= TAKEN) & self.plan.passable):
+                self.shut(int(cell), self.time + STAYS)
 
     def set_units(self, cells):
         """Units stand in these cells beyond storage places: nobody passes there with a load."""
-        self._execution.set_units(np.asarray(cells, np.int32))
+        self._units = np.asarray(cells, np.int32)
+        self._execution.set_units(self._units)
 
     def journey(self, robot):
         """(seconds driven, seconds planned, cells) since the last call."""

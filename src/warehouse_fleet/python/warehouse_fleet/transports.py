@@ -3,17 +3,22 @@
 let go, and is stored again. Neither ROS nor physics: `fleet` lifts, `traffic` drives."""
 
 import collections
+import itertools
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from warehouse_fleet.traffic import NOWHERE, Mode
+from warehouse_fleet.traffic import NOWHERE, STAYS, Mode
 
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
+CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
+UNIT_REACH = 0.48  # of a unit's sides, with room for who turns beside it [m]
+URGENT = 255  # the highest priority
+DEAD = 30.0  # a robot that does not move for so long has its transport taken from it [s]
 SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
 FETCHED = 4  # units a station that are fetched before they may be lifted
 LIFTED = 6  # units a station under way to it at the most: more only crowd the streets before it
@@ -99,6 +104,10 @@ class Totals:
     delivered_to: collections.Counter = field(default_factory=collections.Counter)
 
 
+def _urgency(transport):
+    return -transport.priority, transport.number
+
+
 class Transports:
     """All transports and who does them.
 
@@ -130,6 +139,7 @@ class Transports:
         self._events = []
         self._last = 0
         self._put_down = {}  # when each unit was put down last [s]
+        self._lost = set()  # units whose robots were lost: to be stored, wherever they are
         self._shortest = {}  # of the journey that a robot is on, in cells
 
     # What is asked of it.
@@ -234,9 +244,27 @@ class Transports:
     def __iter__(self):
         return iter(self._transports.values())
 
+    def look(self, shelf_id, x, y, yaw, carried, stamp):
+        """Where all units stood at that time: arrays in world [m, rad], [s]; others move units as
+        well. Nobody fetches one that stands across cells, nor passes there."""
+        plan = self.plan
+        cells = plan.cell_of(x, y)
+        centre_x, centre_y = plan.point_of(cells)
+        off = np.hypot(x - centre_x, y - centre_y)
+        crooked = (off > CROOKED) | (
+            abs(np.remainder(yaw + np.pi / 4, np.pi / 2) - np.pi / 4) > 0.1
+        )
+        crooked &= ~carried & (cells != NOWHERE)
+        for unit in np.flatnonzero(crooked):
+            half = UNIT_REACH * (abs(np.cos(yaw[unit])) + abs(np.sin(yaw[unit])))
+            for dx, dy in itertools.product((-half, 0, half), repeat=2):
+                self.traffic.shut(int(plan.cell_of(x[unit] + dx, y[unit] + dy)), stamp + STAYS)
+        cells = np.where(carried | crooked, NOWHERE, cells)
+        self.see(dict(zip(shelf_id.tolist(), cells.tolist())), stamp)
+
     def see(self, cells, stamp):
-        """Where units stood at that time [s], {number: cell}: others move units as well. Those of
-        transports under way, and those put down since then, are known better."""
+        """Where units stood at that time [s], {number: cell}. Those of transports under way, and
+        those put down since then, are known better."""
         better = {t.shelf for t in self._of_robot.values() if t.step >= Step.LIFTING}
         better |= {shelf for shelf, time in self._put_down.items() if time >= stamp - SEEN_LATE}
         kept = {s: cell for s, cell in self.cell_of_unit.items() if s in better and s in cells}
@@ -247,15 +275,37 @@ class Transports:
         for transport in list(self._transports.values()):
             if transport.shelf not in self.cell_of_unit:
                 self._fail(transport, f"storage unit {transport.shelf} is gone")
+        self._recover()
         self._tell_traffic()
+
+    def _recover(self):
+        """Units that were left in the streets are put away again, before all else."""
+        for shelf in sorted(self._lost & self.cell_of_unit.keys()):
+            cell = self.cell_of_unit[shelf]
+            if cell == NOWHERE:
+                continue
+            self._lost.discard(shelf)
+            if self.plan.storage.flat[cell]:
+                continue
+            if shelf in self._of_unit:
+                self._of_unit[shelf].priority = URGENT
+                self._open.sort(key=_urgency)
+                continue
+            self._last += 1
+            transport = Transport(self._last, shelf, "", cell, STORE, URGENT, self.traffic.time)
+            self._transports[self._last] = self._of_unit[shelf] = transport
+            self._enqueue(transport)
+            self._tell(transport, Kind.RECEIVED, "its robot was lost")
 
     def _tell_traffic(self):
         storage = self.plan.storage.flat
         self.traffic.set_units([cell for cell in self._unit_in if not storage[cell]])
 
     def adopt(self, robot, shelf_id):
-        """A robot that carries a unit, nobody knows why, stores it."""
-        if robot in self._of_robot or shelf_id in self._of_unit:
+        """A robot that carries a unit, nobody knows why, stores it. Who has asked for the unit gets
+        it then."""
+        asked = self._of_unit.get(shelf_id)
+        if robot in self._of_robot or (asked is not None and asked.robot != NOWHERE):
             return
         self._last += 1
         cell = int(self.traffic.cell[robot])
@@ -274,6 +324,7 @@ class Transports:
         """Goes on with all of them, by what robots report: the arrays of FleetState."""
         self._drop_lost()
         self._adopt_loaded(report)
+        self._avoid(set(self.traffic.closed.tolist()))
         busy = np.flatnonzero(self.traffic.busy)
         for robot in busy:
             self._watch_lift(int(robot), report)
@@ -287,16 +338,33 @@ class Transports:
         self._park()
 
     def _drop_lost(self):
-        """Robots that somebody else commands now have lost their transports."""
-        for robot in np.flatnonzero(self.traffic.mode != Mode.AUTOMATIC):
+        """Robots that somebody else commands now, or that are broken, have lost their
+        transports."""
+        traffic = self.traffic
+        lost = (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
+        for robot in np.flatnonzero(lost):
             transport = self._of_robot.get(int(robot))
             if transport is None:
                 continue
             if transport.step <= Step.READY:
                 self._unassign(transport)
                 continue
-            mode = Mode(self.traffic.mode[robot]).name
-            self._fail(transport, f"its robot is {mode} now")
+            self._lost.add(transport.shelf)
+            self._fail(transport, self._why_lost(robot))
+
+    def _avoid(self, closed):
+        """Units that can't get to the place that was chosen for them go to another."""
+        for transport in list(self._of_robot.values()):
+            is_away = self.traffic.cell[transport.robot] != transport.place
+            if transport.step == Step.STORING and transport.place in closed and is_away:
+                self._store(transport, is_inbound=False)
+
+    def _why_lost(self, robot):
+        if self.traffic.gone[robot]:
+            return "its robot is gone"
+        if self.traffic.mode[robot] == Mode.AUTOMATIC:
+            return "its robot does not move"
+        return f"its robot is {Mode(self.traffic.mode[robot]).name} now"
 
     def _adopt_loaded(self, report):
         """Robots that have a unit without a transport: they were found so, or given back."""
@@ -322,6 +390,12 @@ class Transports:
             self.totals.lifts += 1
             self.traffic.busy[robot] = False
             self._bring(transport) if is_up else self._stored(transport)
+        elif self.traffic.astray[robot]:  # lifts again when it is back in the middle
+            self.traffic.busy[robot] = False
+            transport.step = Step.FETCHING if is_up else Step.STORING
+            if is_up:
+                self._inbound[transport.station] -= 1
+                self._fetched[transport.station] += 1
         elif self.traffic.time - transport.since > LIFT_PATIENCE:
             if transport.attempts < LIFT_ATTEMPTS:
                 self._begin_lift(transport, transport.step)
@@ -415,7 +489,8 @@ class Transports:
             self._inbound[transport.station] -= 1
         robot = transport.robot
         self._taken.discard(transport.place)
-        free = np.array([cell for cell in self._places.tolist() if cell not in self._taken])
+        out = self._taken | set(self.traffic.closed.tolist())
+        free = np.array([cell for cell in self._places.tolist() if cell not in out])
         place = int(self.choose_place(transport.shelf, int(self.traffic.cell[robot]), free))
         transport.place = place
         self._taken.add(place)
@@ -454,7 +529,11 @@ class Transports:
             self._of_robot.pop(transport.robot, None)
             self.traffic.goal[transport.robot] = NOWHERE
             self.traffic.home[transport.robot] = NOWHERE
-        self._of_unit.pop(transport.shelf, None)
+        if self._of_unit.get(transport.shelf) is transport:
+            del self._of_unit[transport.shelf]
+            for asked in self._open:
+                if asked.shelf == transport.shelf:
+                    self._of_unit[asked.shelf] = asked
         self._transports.pop(transport.number, None)
 
     def _unassign(self, transport):
@@ -466,7 +545,7 @@ class Transports:
 
     def _enqueue(self, transport):
         self._open.append(transport)
-        self._open.sort(key=lambda one: (-one.priority, one.number))
+        self._open.sort(key=_urgency)
 
     def _admit(self):
         """Lifts units for whose station there is room; who was there first comes first."""
@@ -492,7 +571,7 @@ class Transports:
         if not self._open:
             return
         is_free = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
-        is_free &= traffic.cell != NOWHERE
+        is_free &= (traffic.cell != NOWHERE) & ~traffic.stalled
         is_free[list(self._of_robot)] = False
         for transport in list(self._open):
             if not is_free.any():

@@ -12,15 +12,16 @@ namespace {
 constexpr std::uint8_t kStatusIdle = 0;
 constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
 
-constexpr double kCentred = 0.02;     // from a grid point [m]
-constexpr double kReach = 0.43;       // of a robot with its load, from its centre along x and y [m]
-constexpr double kTurnsSoon = 0.35;   // from a corner, where what comes after it is released [m]
-constexpr double kUnanswered = 0.5;   // after which something is sent again [s]
-constexpr double kBlockedFor = 1;     // after which a robot is sent another way [s]
-constexpr double kStalledFor = 5;     // after which a robot is taken to be broken [s]
-constexpr double kClosedFor = 10;     // that what was in its way is taken to stay [s]
-constexpr double kStandstill = 0.01;  // [m/s]
-constexpr double kAligned = 0.05;     // with the way ahead [rad]
+constexpr double kCentred = 0.02;    // from a grid point [m]
+constexpr double kReach = 0.43;      // of a robot with its load, from its centre along x and y [m]
+constexpr double kTurnsSoon = 0.35;  // from a corner, where what comes after it is released [m]
+constexpr double kUnanswered = 0.5;  // after which something is sent again [s]
+constexpr double kSettled = 1;       // after which nothing that was sent is on its way any more [s]
+constexpr double kBlockedFor = 1;    // after which a robot is sent another way [s]
+constexpr double kStalledFor = 5;    // after which a robot is taken to be broken [s]
+constexpr double kClosedFor = 3;     // that what was in its way is taken to stay [s]
+constexpr double kStandstill = 0.01;             // [m/s]
+constexpr double kAligned = 0.05;                // with the way ahead [rad]
 constexpr double kQuarter = 1.5707963267948966;  // of a turn [rad]
 constexpr int kNobody = -1;
 
@@ -69,9 +70,10 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
   // Who drives as told first: others get only what those have not got.
   for (int robot = 0; robot < robots; ++robot) {
     Course& course = courses_[robot];
-    if (course.is_member && !reports[robot].is_controlled) dismiss(robot);
+    if (course.is_member && !reports[robot].is_controlled && isOver(robot)) dismiss(robot);
     if (!course.is_member) continue;
     follow(robot);
+    if (course.is_member) keepAround(robot);
     measure(robot, elapsed);
   }
   for (int robot = 0; robot < robots; ++robot) {
@@ -79,7 +81,7 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
     courses_[robot].still_since = now_;
     vacate(robot);
     if (reports[robot].is_controlled) admit(robot);
-    if (!courses_[robot].is_member) occupy(robot);
+    courses_[robot].is_member ? keepAround(robot) : occupy(robot);
   }
 }
 
@@ -91,6 +93,7 @@ void Execution::admit(int robot) {
   if (report.status != kStatusIdle || at == kNowhere || !floor_.isPassable(at)) return;
   if (holder_[at] != kNobody) return;
   const std::uint32_t id = std::max(course.id, report.path_id);
+  vacate(robot);
   course = {};
   course.id = id;
   course.is_member = true;
@@ -101,19 +104,46 @@ void Execution::admit(int robot) {
   hold(at, robot);
 }
 
+/// Whether nothing that it was released is driven any more.
+bool Execution::isOver(int robot) const {
+  const Course& course = courses_[robot];
+  const Report& report = reports_[robot];
+  if (!course.is_active) return true;
+  if (report.status != kStatusIdle && report.path_id == course.id) return false;
+  return course.is_accepted || now_ - course.sent > kSettled;
+}
+
 void Execution::dismiss(int robot) {
   Course& course = courses_[robot];
+  vacate(robot);
   for (const Cell cell : course.cells) free(cell, robot);
   const std::uint32_t id = course.id;
   course = {};
   course.id = id;
 }
 
-/// What an obstacle stands on, and what it drives onto next.
+/// An obstacle has what it stands on, and what it drives onto next.
 void Execution::occupy(int robot) {
+  courses_[robot].at = cellAt(reports_[robot].x, reports_[robot].y);
+  cover(robot);
+}
+
+/// One that was pushed off the middle of its cell has all that it stands on, until it is back.
+void Execution::keepAround(int robot) {
+  Course& course = courses_[robot];
+  const bool rests = !course.is_active && reports_[robot].status == kStatusIdle;
+  if (isCentred(robot) && isSquare(robot)) {
+    course.is_astray = false;
+  } else if (rests) {
+    course.is_astray = true;
+  }
+  vacate(robot);
+  if (course.is_astray) cover(robot);
+}
+
+void Execution::cover(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  course.at = cellAt(report.x, report.y);
   const double reach = kReach * motion_.spacing, ahead = 0.7 * motion_.spacing;
   const double speed = std::hypot(report.vx, report.vy);
   const double dx = speed > kStandstill ? ahead * report.vx / speed : 0;
@@ -145,7 +175,7 @@ void Execution::follow(int robot) {
   if (!course.is_active) {
     // Somebody else has moved it.
     const Cell at = cellAt(report.x, report.y);
-    if (at != course.at && !report.is_busy) {
+    if (at != course.at) {
       dismiss(robot);
       admit(robot);
     }
@@ -153,12 +183,14 @@ void Execution::follow(int robot) {
   }
   const bool is_reported = report.path_id == course.id;
   if (report.status == kStatusIdle) {
-    if (course.is_accepted) finish(robot);
-    if (!course.is_accepted && is_reported) finish(robot);
+    // What was refused may still have a twin under way, and that may be accepted.
+    const bool is_dead = course.is_refused && now_ - course.sent > kSettled;
+    if (course.is_accepted || is_reported || is_dead) finish(robot);
     return;
   }
   if (!is_reported) return;
   course.is_accepted = true;
+  course.is_refused = false;
   pass(robot, static_cast<int>(report.reached), static_cast<int>(report.left));
   if (report.state == kStateBlocked) {
     if (course.blocked_since < 0) {
@@ -168,7 +200,7 @@ void Execution::follow(int robot) {
     if (now_ - course.blocked_since >= kBlockedFor) withdraw(robot);
   } else {
     course.blocked_since = -1;
-    course.is_withdrawn = false;
+    if (course.is_withdrawn) withdraw(robot);
   }
 }
 
@@ -228,7 +260,7 @@ void Execution::finish(int robot) {
   course.cells = {at};
   course.reached = 1;
   course.left = 0;
-  course.is_active = course.is_accepted = course.is_withdrawn = false;
+  course.is_active = course.is_accepted = course.is_refused = course.is_withdrawn = false;
   course.turning = kNowhere;
   course.blocked_since = -1;
 }
@@ -236,26 +268,35 @@ void Execution::finish(int robot) {
 void Execution::refused(int robot) {
   if (robot < 0 || robot >= static_cast<int>(courses_.size())) return;
   Course& course = courses_[robot];
-  if (course.is_member && course.is_active && !course.is_accepted) finish(robot);
+  if (course.is_member && course.is_active && !course.is_accepted) course.is_refused = true;
 }
 
 /// Something stands in its way: the path is to end where it can still stop. It keeps its cells
-/// until it says that it has.
+/// until it says that it has. Said again until then: where it drives on meanwhile that is refused.
 void Execution::withdraw(int robot) {
   Course& course = courses_[robot];
   const int keep = std::min<int>(course.cells.size(), course.reached + (isCentred(robot) ? 0 : 1));
-  const int points = static_cast<int>(course.cells.size());
-  if (keep < points) close(course.cells[keep], now_ + kClosedFor);
+  const bool is_blocked = reports_[robot].state == kStateBlocked;
+  if (is_blocked && keep < static_cast<int>(course.cells.size())) {
+    close(course.cells[keep], now_ + kClosedFor);
+  }
   if (course.is_withdrawn && now_ - course.sent < kUnanswered) return;
   course.is_withdrawn = true;
   course.plan.clear();
   course.is_off = true;
+  releaseUpTo(robot, keep);
+}
+
+/// So many points; the last is told once more, so that what was planned beyond is cut off.
+void Execution::releaseUpTo(int robot, int points) {
+  Course& course = courses_[robot];
   course.sent = now_;
   releases_.robot.push_back(robot);
   releases_.path_id.push_back(course.id);
-  releases_.first.push_back(keep);
-  releases_.points.push_back(0);
-  releases_.released.push_back(keep);
+  releases_.first.push_back(points - 1);
+  releases_.points.push_back(1);
+  releases_.cells.push_back(course.cells[points - 1]);
+  releases_.released.push_back(points);
 }
 
 /// Sums up what it has driven straight on.
@@ -301,7 +342,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
   const int robots = static_cast<int>(courses_.size());
   for (int robot = 0; robot < robots; ++robot) {
     Course& course = courses_[robot];
-    if (!course.is_member || isStalled(robot)) continue;
+    if (!course.is_member || !reports_[robot].is_controlled || isStalled(robot)) continue;
     members_.push_back(robot);
     asked_.cell.push_back(course.at);
     asked_.heading.push_back(headingOf(robot));
@@ -328,7 +369,7 @@ std::vector<Cell> Execution::closed() const {
   for (int robot = 0; robot < robots(); ++robot) {
     const Course& course = courses_[robot];
     closed.insert(closed.end(), course.occupied.begin(), course.occupied.end());
-    if (!course.is_member || !isStalled(robot)) continue;
+    if (!course.is_member || (reports_[robot].is_controlled && !isStalled(robot))) continue;
     closed.insert(closed.end(), course.cells.begin() + course.left, course.cells.end());
   }
   std::sort(closed.begin(), closed.end());
@@ -446,7 +487,8 @@ Releases Execution::release() {
 void Execution::extend(int robot) {
   Course& course = courses_[robot];
   course.waits_for = kNobody;
-  if (reports_[robot].is_busy || course.is_withdrawn) return;
+  if (reports_[robot].is_busy || !reports_[robot].is_controlled || course.is_withdrawn) return;
+  if (course.is_astray) return recentre(robot);
   const int before = static_cast<int>(course.cells.size());
   while (!course.plan.empty() && needs(robot)) {
     const Cell cell = course.plan.front().cell;
@@ -476,8 +518,29 @@ void Execution::extend(int robot) {
     const bool is_waiting = course.is_accepted && reports_[robot].state == kStateWaiting &&
                             course.reached < static_cast<int>(course.cells.size());
     if (is_waiting) send(robot, course.reached);
-    if (!course.is_accepted) send(robot, 0);
+    if (isAtEnd(robot)) releaseUpTo(robot, static_cast<int>(course.cells.size()));
+    if (!course.is_accepted && !course.is_refused) send(robot, 0);
   }
+}
+
+/// Whether it waits to be sent on though it has nowhere to go.
+bool Execution::isAtEnd(int robot) const {
+  const Course& course = courses_[robot];
+  return course.is_accepted && !course.travels && course.plan.empty() &&
+         reports_[robot].state == kStateWaiting &&
+         course.reached == static_cast<int>(course.cells.size());
+}
+
+/// A path begins in the middle of a cell: one without a way leads there.
+void Execution::recentre(int robot) {
+  Course& course = courses_[robot];
+  if (course.is_accepted || course.is_refused) return;
+  if (course.is_active && now_ - course.sent <= kUnanswered) return;
+  if (!course.is_active) ++course.id;
+  course.is_active = true;
+  course.plan.clear();
+  course.is_off = true;
+  send(robot, 0);
 }
 
 bool Execution::mayHave(int robot, Cell cell) {
@@ -536,7 +599,8 @@ bool Execution::isForeign(int robot) const {
   const Course& course = courses_.at(robot);
   const Report& report = reports_[robot];
   if (report.status == kStatusIdle || report.is_busy) return false;
-  return !course.is_active || (course.is_accepted && report.path_id != course.id);
+  if (!course.is_active) return true;
+  return (course.is_accepted || course.is_refused) && report.path_id != course.id;
 }
 
 bool Execution::isStalled(int robot) const {
@@ -546,7 +610,12 @@ bool Execution::isStalled(int robot) const {
 
 bool Execution::stands(int robot) const {
   const Course& course = courses_.at(robot);
-  return course.is_member && !course.is_active;
+  return course.is_member && !course.is_active && !course.is_astray;
+}
+
+bool Execution::isClosing() const {
+  const auto is_closed = [this](Cell cell) { return closed_until_[cell] > now_; };
+  return std::any_of(closing_.begin(), closing_.end(), is_closed);
 }
 
 std::vector<Cell> Execution::released(int robot) const {
@@ -600,6 +669,10 @@ bool Execution::isCentred(int robot) const {
   const Report& report = reports_[robot];
   const Cell at = courses_[robot].at;
   return std::hypot(xOf(at) - report.x, yOf(at) - report.y) < kCentred;
+}
+
+bool Execution::isSquare(int robot) const {
+  return std::abs(std::remainder(reports_[robot].yaw, kQuarter)) < kAligned;
 }
 
 }  // namespace fleet

@@ -114,12 +114,14 @@ void bindExecution(py::module_& module) {
            [](Run& run, const Array<Cell>& cells) {
              run.execution.setUnits({cells.data(), cells.data() + cells.size()});
            })
+      .def_property_readonly("closing", [](const Run& run) { return run.execution.isClosing(); })
       .def("closed", [](const Run& run) { return array(run.execution.closed()); })
       .def("cell", ofAll<Cell>(&Execution::cellOf))
       .def("stands", ofAll<bool>(&Execution::stands))
       .def("waits_for", ofAll<int>(&Execution::waitsFor))
       .def("foreign", ofAll<bool>(&Execution::isForeign))
       .def("stalled", ofAll<bool>(&Execution::isStalled))
+      .def("astray", ofAll<bool>(&Execution::isAstray))
       .def("still_since", ofAll<double>(&Execution::stillSince))
       .def("holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); })
       .def("released", [](const Run& run, int robot) { return run.execution.released(robot); })

@@ -1,0 +1,299 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fleet at work while things go wrong: nobody touches anybody, and all flows again afterwards.
+
+Robots and physics are the real ones; what goes wrong is drawn by seeds.
+"""
+
+import os
+
+import numpy as np
+import pytest
+from faults import BadConnection, Stops
+
+from kiva_plugin_cpp import World
+from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.transports import Kind
+
+BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
+  <collision name="body"><pose>0 0 0.3 0 0 0</pose>
+    <geometry><box><size>0.5 0.5 0.6</size></box></geometry></collision>
+</link></model></sdf>"""
+WARM_UP = 60  # until units arrive as fast as they are taken [s]
+WINDOW = 240  # over which deliveries are counted [s]
+AS_BEFORE = 0.8  # of the deliveries of a calm fleet: they vary so much by chance
+SEEDS = range(1, 1 + int(os.environ.get("FAULT_SEEDS", 1)))
+
+
+class Site:
+    """`medium` with twenty robots, all its stations busy."""
+
+    def __init__(self, seed=1, connection=lambda world, seed: world):
+        self.seed = seed
+        self.world = World.preset("medium", seed=seed)
+        self.begin(connection(self.world, seed))
+        self.run(WARM_UP)
+
+    def begin(self, world):
+        """With a driver that knows nothing yet."""
+        self.driver = FleetDriver(world, seed=self.seed)
+        self.traffic, self.transports = self.driver.traffic, self.driver.transports
+        self.plan = self.driver.plan
+        self._demand = RandomTransports(self.transports, self.seed, exchange=10)
+        self.events = []
+
+    def take_over(self):
+        """Another driver, that ends the paths it finds."""
+        self.driver.close()
+        self.begin(self.world)
+        while (found := self.traffic.inherited(self.world.fleet)).any():
+            self.world.cancel(self.traffic.kiva_ids[found])
+            self.run(0.5)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.driver.close()
+
+    def run(self, seconds, *happenings):
+        """Goes on for so long. Units delivered a minute."""
+        before, end = self.transports.totals.delivered, self.world.time + seconds
+        while self.world.time < end - 1e-9:
+            for happening in happenings:
+                happening.advance()
+            self.step()
+        return (self.transports.totals.delivered - before) * 60 / seconds
+
+    def step(self):
+        self.driver.step()
+        events = self.transports.take_events()
+        self.events += events
+        self._demand.advance(self.world.time, events)
+
+    def until(self, condition, patience=60):
+        """Goes on until that holds: what it says."""
+        end = self.world.time + patience
+        while not (met := condition()):
+            assert self.world.time < end, "waited in vain"
+            self.step()
+        return met
+
+    def at_speed(self, loaded):
+        """Robots that drive fast through a street."""
+        fleet = self.world.fleet
+        fast = np.hypot(fleet.vx, fleet.vy) > 1
+        aside = (self.plan.storage | self.plan.lane).ravel()
+        ready = fast & ((fleet.shelf_id != 0) == loaded) & ~aside[self.traffic.cell]
+        return np.flatnonzero(ready).tolist()
+
+    def name(self, robot):
+        return f"kiva{self.traffic.kiva_ids[robot]}"
+
+
+@pytest.fixture(scope="module")
+def calm():
+    """What `medium` delivers a minute when nothing goes wrong."""
+    rates = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            rates.append(site.run(WINDOW))
+            assert site.driver.collisions == site.driver.blocked == site.traffic.watchdog == 0
+    return float(np.mean(rates))
+
+
+def test_robots_that_stop_delay_only_whom_they_must(calm):
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            stops = Stops(site.world, seed)
+            during.append(site.run(WINDOW, stops))
+            stops.end()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert not site.traffic.mode.any()
+    told(calm, during, after)
+    assert np.mean(during) > 0.3 * calm
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def test_messages_late_and_lost(calm):
+    during = []
+    for seed in SEEDS:
+        with Site(seed, BadConnection) as site:
+            during.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert not site.traffic.mode.any()
+            assert site.transports.totals.failed == 0
+    told(calm, during, [])
+    assert np.mean(during) > 0.6 * calm
+
+
+def test_all_at_once(calm):
+    """Stops over bad lines."""
+    during = []
+    for seed in SEEDS:
+        with Site(seed, BadConnection) as site:
+            stops = Stops(site.world, seed)
+            during.append(site.run(WINDOW, stops))
+            stops.end()
+            assert site.driver.collisions == 0
+            assert not site.traffic.mode.any()
+    told(calm, during, [])
+    assert np.mean(during) > 0.25 * calm
+
+
+PUSHES = [(0.2, 0.0), (0.0, -0.3), (0.45, 0.0), (0.0, 0.6), (-0.6, 0.0)]  # [m]
+
+
+@pytest.mark.parametrize("is_loaded", [False, True])
+def test_a_robot_pushed_aside_finds_back(calm, is_loaded):
+    """One that drives, one that lifts, one that waits; to where nobody is."""
+    after = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            for dx, dy in PUSHES:
+                robot = site.until(lambda: chosen(site, is_loaded, dx, dy))
+                robot -= 1
+                pose = site.world.pose(site.name(robot))
+                yaw = site.world.fleet.yaw[robot] + 0.3
+                site.world.set_pose(site.name(robot), pose[0] + dx, pose[1] + dy, pose[2], yaw)
+                site.run(30)
+                assert site.driver.collisions == 0, (dx, dy)
+                assert not site.traffic.astray.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert len(site.driver.refusals) < 10 * len(PUSHES), site.driver.refusals[-5:]
+    told(calm, [], after)
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def chosen(site, is_loaded, dx, dy):
+    """A robot (its index + 1) that can be pushed so without touching anybody, or 0."""
+    fleet = site.world.fleet
+    for robot in np.flatnonzero((fleet.shelf_id != 0) == is_loaded):
+        x, y = fleet.x[robot] + dx, fleet.y[robot] + dy
+        far = np.maximum(abs(fleet.x - x), abs(fleet.y - y))
+        far[robot] = np.inf
+        units = site.world.storage_units
+        free = units["kiva_id"] == 0
+        away = np.maximum(abs(units["x"] - x), abs(units["y"] - y))[free]
+        is_street = all(
+            cell >= 0 and site.plan.passable.flat[cell] and not site.plan.storage.flat[cell]
+            for cell in (site.plan.cell_of(x, y), site.traffic.cell[robot])
+        )
+        if is_street and far.min() > 1.3 and away.min() > (1.1 if is_loaded else 0.9):
+            return int(robot) + 1
+    return 0
+
+
+def test_a_robot_dies_in_a_street_with_a_unit_on_it(calm):
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(lambda: site.at_speed(loaded=True))[0]
+            site.world.stop(int(site.traffic.kiva_ids[robot]), True)
+            during.append(site.run(WINDOW))
+            assert site.traffic.stalled[robot]
+            fails = [e for e in site.events if e.kind == Kind.FAILED]
+            assert [f.text for f in fails] == ["its robot does not move"]
+            site.world.stop(int(site.traffic.kiva_ids[robot]), False)
+            site.run(60)
+            assert not site.traffic.stalled.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+    told(calm, during, after)
+    assert np.mean(during) > 0.5 * calm
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def test_a_robot_is_deleted_and_leaves_its_unit_across_the_street(calm):
+    """The rest drive around the unit, until somebody puts it straight; then it is taken away."""
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(lambda: site.at_speed(loaded=True))[0]
+            shelf = int(site.world.fleet.shelf_id[robot])
+            site.world.delete(site.name(robot))
+            during.append(site.run(WINDOW))
+            name = f"storage_unit{shelf}"
+            x, y = site.world.pose(name)[:2]
+            cell = site.plan.cell_of(x, y)
+            assert np.hypot(*np.subtract(site.plan.point_of(cell), (x, y))) > 0.05
+            assert cell in site.traffic.closed
+            site.events.clear()
+            site.world.set_pose(name, *site.plan.point_of(cell))
+            kinds = lambda: {e.kind for e in site.events if e.shelf_id == shelf}  # noqa: E731
+            site.until(lambda: Kind.LIFTED in kinds())
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+    told(calm, during, after)
+    assert np.mean(during) > 0.5 * calm
+    assert np.mean(after) > AS_BEFORE * 19 / 20 * calm
+
+
+@pytest.mark.parametrize("what", ["box", "person"])
+def test_something_stands_in_a_street_for_a_minute(calm, what):
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(lambda: ahead_of(site))[0]
+            x, y = ahead(site, robot, 3)
+            if what == "box":
+                site.world.spawn(BOX, "thing", (x, y, 0, 0))
+            else:
+                site.world.spawn_model("person", "thing", x, y)
+            cell = site.plan.cell_of(x, y)
+            during.append(site.run(60))
+            assert not (site.traffic.cell == cell).any()
+            site.world.delete("thing")
+            site.run(20)
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert site.traffic.stalled.sum() == 0
+    told(calm, during, after)
+    assert np.mean(during) > 0.3 * calm
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def ahead(site, robot, cells):
+    fleet = site.world.fleet
+    column, row = round(np.cos(fleet.yaw[robot])), round(np.sin(fleet.yaw[robot]))
+    x, y = site.plan.point_of(site.traffic.cell[robot])
+    return x + cells * column * site.plan.spacing, y + cells * row * site.plan.spacing
+
+
+def ahead_of(site):
+    """Robots at speed with a free street before them."""
+    aside = (site.plan.storage | site.plan.lane).ravel() | ~site.plan.passable.ravel()
+    found = []
+    for robot in site.at_speed(loaded=False):
+        x, y = ahead(site, robot, 3)
+        cell = site.plan.cell_of(x, y)
+        fleet = site.world.fleet
+        if cell >= 0 and not aside[cell] and np.hypot(fleet.x - x, fleet.y - y).min() > 1.5:
+            found.append(robot)
+    return found
+
+
+def test_another_driver_takes_over_what_is_under_way(calm):
+    """As a coordinator does that was killed: all it knows is what robots report."""
+    after = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            carried = site.world.fleet.shelf_id.copy()
+            assert (carried != 0).sum() >= 10
+            site.take_over()
+            site.run(WARM_UP)
+            assert not site.traffic.mode.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert not ((site.world.fleet.shelf_id == carried) & (carried != 0)).any()
+    told(calm, [], after)
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def told(calm, during, after):
+    """For whoever wants figures: pytest -s."""
+    rates = [f"{np.mean(r):.1f}" if len(r) else "–" for r in (during, after)]
+    print(f"delivered a minute: calm {calm:.1f}, during {rates[0]}, after {rates[1]}")
