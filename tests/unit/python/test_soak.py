@@ -12,7 +12,7 @@ from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
 
-SEEDS = range(1, 1 + int(os.environ.get("SOAK_SEEDS", 0)))
+SEEDS = range(1, 1 + int(os.environ.get("SOAK_SEEDS", "0")))
 LAYOUTS = ("medium", "large", "huge")  # 20, 100 and 1,000 robots
 MINUTES = 10
 EXCHANGE = {"medium": 10.0}  # [s] from one unit to the next at a station
