@@ -5,8 +5,8 @@ import pathlib
 
 import numpy as np
 import pytest
-from kiva_plugin_cpp import World
 
+from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.transports import STAY, Kind
