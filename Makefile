@@ -23,7 +23,7 @@ help:  ## list the targets
 run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
 
-demo: build  ## watch robots fetch storage units, meet head on and recover
+demo: build  ## watch robots fetch storage units, meet head on, recover; and a fleet deliver
 	@. devel/setup.bash; export ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
 	roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch rtf:=5 $(ARGS) >/dev/null & \
 	trap "kill $$!; wait" EXIT; rosrun warehouse_sim demo

@@ -14,10 +14,10 @@ class Demonstration(unittest.TestCase):
         self.assertTrue(create("small").success)
 
     def test_it_comes_true(self):
-        code, text = run("demo")
+        code, text = run("demo", "_delivery:=40")
         self.assertEqual(code, 0, text)
-        self.assertEqual(text.count("  ok  "), 13, text)
-        for word in ("LIFTED", "DROPPED", "BLOCKED", "collisions"):
+        self.assertEqual(text.count("  ok  "), 17, text)
+        for word in ("LIFTED", "DROPPED", "BLOCKED", "collisions", "20 robots were coordinated"):
             self.assertIn(word, text)
 
     def test_too_late_is_a_failure(self):

@@ -84,8 +84,8 @@ def test_who_does_not_face_its_cell_turns_first(floor):
     Says.answer = np.array([6, 4])
     door = make_planner(floor, Rules(), 1, {"planner": f"{__name__}:Says"})
     assert door.plan(Fleet([0, 5], [0, 0], [5, 0])).tolist() == [
-        [Action.TURN_POSITIVE],
-        [Action.TURN_POSITIVE],
+        [Action.TURN_POSITIVE, Action.FORWARD, Action.WAIT],
+        [Action.TURN_POSITIVE, Action.TURN_POSITIVE, Action.FORWARD],
     ]
 
 

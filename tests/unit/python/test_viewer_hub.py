@@ -30,7 +30,7 @@ class Socket:
 
 
 def hub_of(world, journal=None):
-    feed = SimpleNamespace(want=lambda paths, scans: None)
+    feed = SimpleNamespace(want=lambda paths, ways, scans: None, coordinator=None)
     return Hub(feed, world.model, journal or Journal(), None)
 
 

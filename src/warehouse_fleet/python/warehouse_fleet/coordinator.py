@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator as a ROS node: the fleet of a running warehouse, driven over its topics."""
 
+import math
 import threading
 from types import SimpleNamespace
 
@@ -63,8 +64,9 @@ class Coordinator:
     stations busy with transports of its own, one every `exchange` seconds each.
     """
 
-    def __init__(self, demand="none", exchange=20.0, seed=1):
+    def __init__(self, demand="none", exchange=20.0, seed=1, planner=None):
         self._demand, self._exchange, self._seed = demand, exchange, seed
+        self._planner = planner
         self._lock = threading.RLock()  # of all below, between the worker and services
         self._traffic = self._transports = self._random = None
         self._alarm = ""
@@ -155,6 +157,7 @@ class Coordinator:
             if request.mode != Mode.AUTOMATIC and not self._traffic.stands[robot]:
                 self._cancel.publish(request.kiva_id)
             self._traffic.mode[robot] = request.mode
+            self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
 
     # What it does.
@@ -249,7 +252,12 @@ class Coordinator:
             rospy.logwarn(reason)
         self._alarm = ""
         self._traffic = Traffic(
-            plan, report.kiva_id, Motion(latency=LATENCY), seed=self._seed, lag=0.05
+            plan,
+            report.kiva_id,
+            Motion(latency=LATENCY),
+            seed=self._seed,
+            planner=self._planner,
+            lag=0.05,
         )
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
@@ -304,6 +312,8 @@ class Coordinator:
         state.header.stamp = rospy.Time.from_sec(time)
         for name, mode in zip(("automatic", "manual", "out_of_service"), Mode):
             setattr(state, name, int(np.count_nonzero(traffic.mode == mode)))
+        state.manual_kiva = self._ids_in(Mode.MANUAL)
+        state.out_of_service_kiva = self._ids_in(Mode.OUT_OF_SERVICE)
         under_way = [t for t in transports if t.step != Step.OPEN]
         for step, name in STEP_NAMES.items():
             setattr(state, name, sum(t.step == step for t in under_way))
@@ -331,7 +341,12 @@ class Coordinator:
         state.alarms = [
             f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
         ]
+        if traffic.alarm:
+            state.alarms.append(traffic.alarm)
         return state
+
+    def _ids_in(self, mode):
+        return self._traffic.kiva_ids[self._traffic.mode == mode].tolist()
 
     def _ids_of(self, robots):
         ids = self._traffic.kiva_ids
@@ -343,27 +358,36 @@ class Coordinator:
         cells = []
         for robot in np.flatnonzero(traffic.mode == Mode.AUTOMATIC):
             held, planned = traffic.paths(robot)
-            if len(held) + len(planned) < 2:
+            waits_for = traffic.waits_for[robot]
+            if len(held) + len(planned) < 2 and waits_for == NOWHERE:
                 continue
             message.kiva_id.append(int(traffic.kiva_ids[robot]))
             message.released.append(len(held))
             message.planned.append(len(planned))
-            message.waits_for += self._ids_of([traffic.waits_for[robot]])
+            message.waits_for += self._ids_of([waits_for])
+            for name, at in zip(("goal_x", "goal_y"), self._point_of(traffic.goal[robot])):
+                getattr(message, name).append(at)
             cells += held + planned
         x, y = traffic.plan.point_of(np.array(cells, np.int32))
         message.x, message.y = x.tolist(), y.tolist()
         return message
 
+    def _point_of(self, cell):
+        """Its centre [m]; NaN for NOWHERE."""
+        if cell == NOWHERE:
+            return math.nan, math.nan
+        return tuple(map(float, self._traffic.plan.point_of(cell)))
+
 
 def _floor_of(scenery):
-    """What a plan is made of, in a Scenery: the floor, the markings on it, the belts."""
+    """What of a Scenery a plan is made of: the floor, belts and what is painted."""
     poses = np.reshape(scenery.pose, (-1, 7)).tolist()
-    parts = [
-        (name, pose)
-        for name, pose in zip(scenery.models, poses)
+    fixed = [
+        (name, scenery.looks[look] if floor_markings.is_name(name) else None, pose)
+        for name, look, pose in zip(scenery.models, scenery.model_look, poses)
         if name.startswith(CONVEYOR) or floor_markings.is_name(name)
     ]
-    return list(scenery.floor), scenery.grid_spacing, parts
+    return scenery.floor, scenery.grid_spacing, fixed
 
 
 def _array(field):

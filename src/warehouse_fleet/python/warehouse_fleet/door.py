@@ -24,6 +24,11 @@ import yaml
 
 from warehouse_fleet import _core
 
+MANOEUVRE = 3  # ticks in which a robot comes to any neighbour
+# Forward after so many quarter turns, by the shorter way.
+TURNS = np.array([[1, 0, 0], [2, 1, 0], [2, 2, 1], [3, 1, 0]], np.uint8)
+FREE = 0xFF  # in Fleet.committed: no commitment
+
 
 class PlanRefusedError(Exception):
     """A plan that can't be driven; the text names the robots."""
@@ -45,9 +50,9 @@ class Door:
         actions = self.planner.plan(fleet, seconds, attempts)
         found = _core.validate(self.floor, fleet, actions, self.rules, self.ticks)
         if found:
-            raise PlanRefusedError(
-                "; ".join(one.describe(self.floor, self.names) for one in found[:5])
-            )
+            first = {tuple(one.robots): one for one in reversed(found)}  # of the same robots
+            texts = [one.describe(self.floor, self.names) for one in reversed(first.values())]
+            raise PlanRefusedError("; ".join(texts[:5]))
         return actions
 
 
@@ -59,17 +64,63 @@ class PythonPlanner:
         planner.start(floor, rules, seed)
 
     def plan(self, fleet, seconds=0.0, attempts=-1):
+        """Robots that can't take back what they do next keep to it, whatever the planner says; what
+        is before them is closed to all others."""
+        committed = _first_commitments(fleet)
+        is_free = committed == FREE
+        if not is_free.all():
+            fleet = _Narrowed(fleet, _ahead(self.floor, fleet))
+        actions = self._ask(fleet)
+        committed = fleet.committed if fleet.committed.size else committed[:, None]
+        plan = np.zeros((len(fleet), max(MANOEUVRE, committed.shape[1])), np.uint8)
+        plan[:, :MANOEUVRE] = np.where(is_free[:, None], actions, 0)
+        kept = committed != FREE
+        plan[:, : committed.shape[1]][kept] = committed[kept]
+        return plan
+
+    def _ask(self, fleet):
         cells = np.asarray(self.planner.plan(fleet))
         if cells.shape != (len(fleet),) or cells.dtype.kind not in "iu":
             raise PlanRefusedError(
                 f"the planner answered an array of {cells.dtype} with shape {cells.shape}; "
                 f"integers with shape ({len(fleet)},), a next cell for each robot, were expected"
             )
-        return actions_towards(self.floor, fleet, cells)[:, None]
+        return actions_towards(self.floor, fleet, cells)
+
+
+class _Narrowed:
+    """A Fleet with more cells closed."""
+
+    def __init__(self, fleet, cells):
+        self._fleet = fleet
+        self.closed = np.union1d(fleet.closed, cells)
+
+    def __getattr__(self, name):
+        return getattr(self._fleet, name)
+
+    def __len__(self):
+        return len(self._fleet)
+
+
+def _first_commitments(fleet):
+    """(n,) Action that each robot is committed to in the next tick, or FREE."""
+    committed = fleet.committed
+    return committed[:, 0] if committed.size else np.full(len(fleet), FREE, np.uint8)
+
+
+def _ahead(floor, fleet):
+    """The cells that robots are committed to come to."""
+    cell, heading = fleet.cell.copy(), fleet.heading.copy()
+    step, cells = np.array([1, floor.width, -1, -floor.width]), []
+    for actions in fleet.committed.T:
+        cell = np.where(actions == 1, cell + step[heading], cell)
+        heading = (heading + (actions == 2) - (actions == 3)) & 3
+        cells.append(cell[actions == 1])
+    return np.concatenate(cells)
 
 
 def actions_towards(floor, fleet, cells):
-    """What each robot does in the next tick to come to its next cell; raises PlanRefusedError."""
+    """(robots, MANOEUVRE) of Action: how each comes to its next cell; raises PlanRefusedError."""
     step = cells - fleet.cell
     directions = np.array([1, floor.width, -1, -floor.width])
     facing = step[:, None] == directions
@@ -85,8 +136,7 @@ def actions_towards(floor, fleet, cells):
             f"{floor.name(int(cells[robot]))}; that cell or a neighbour was expected"
         )
     quarters = (facing.argmax(axis=1) - fleet.heading) & 3
-    turn = np.array([1, 2, 2, 3], np.uint8)  # forward, or which way is shorter
-    return np.where(stays, 0, turn[quarters]).astype(np.uint8)
+    return np.where(stays[:, None], 0, TURNS[quarters])
 
 
 def make_planner(floor, rules, seed, spec=None, names=None, ticks=-1):

@@ -20,6 +20,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from warehouse_fleet import Execution, Rules, epibt
+from warehouse_fleet.door import PlanRefusedError, make_planner
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
@@ -68,9 +69,16 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
+<<<<<<< HEAD
     work: it stays), `mode`, `gone` (it was deleted).
     A plan is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever
     it is ready: so a run does not depend on the machine.
+=======
+    work: it stays), `mode`, `gone` (it was deleted). `planner` is what a YAML file says of one, see
+    warehouse_fleet.door; None: the one of the house. A plan is begun every tick on a thread of its
+    own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
+    machine.
+>>>>>>> main
     """
 
     def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
@@ -78,9 +86,14 @@ class Traffic:
         self.motion = motion or Motion()
         self.floor = plan.floor()
         # Whose turn it is to turn, Execution decides: robots turn when they may drive on.
-        self.planner = planner or epibt(
-            self.floor, Rules(turning=True), seed, horizon=HORIZON, **GUIDANCE
-        )
+        rules = Rules(turning=True)
+        if planner is None:
+            self.planner = epibt(self.floor, rules, seed, horizon=HORIZON, **GUIDANCE)
+        else:
+            names = [f"kiva{kiva}" for kiva in self.kiva_ids]
+            self.planner = make_planner(self.floor, rules, seed, planner, names)
+        self.refused_plans = 0
+        self.alarm = ""  # why the last plan was refused
         self.attempts, self.lag = attempts, lag
         self.tick = plan.spacing / self.motion.speed
         count = len(self.kiva_ids)
@@ -287,7 +300,9 @@ class Traffic:
         """What is to be sent now, as the arrays of FleetFollow: kiva_id, path_id, first, points, x,
         y, released. Plans as well, when it is time."""
         if self._plan is not None and self.time >= self._due - 1e-9:
-            self._execution.adopt(self._take_plan())
+            actions = self._take_plan()
+            if actions is not None:
+                self._execution.adopt(actions)
         robots, path_id, first, points, cells, released = self._execution.release()
         self.waits_for = self._execution.waits_for()
         if self._plan is None and self.time >= self._next - 1e-9:
@@ -309,8 +324,15 @@ class Traffic:
         return actions
 
     def _take_plan(self):
+        """The plan's actions; None if it was refused: robots go on with what they have then."""
         plan, self._plan = self._plan, None
-        return plan.result()
+        self.alarm = ""
+        try:
+            return plan.result()
+        except PlanRefusedError as error:
+            self.alarm = f"a plan was refused: {error}"
+            self.refused_plans += 1
+            return None
 
     def paths(self, robot):
         """(cells that it holds, cells planned beyond)."""

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The demonstration: two robots fetch two storage units at once, then meet head on.
+"""The demonstration: two robots fetch two storage units at once, then meet head on; at last a fleet
+delivers.
 
 Played over topics alone. What shall come true is checked against the events and the tracked poses.
 """
 
 import math
+import subprocess
+from contextlib import contextmanager
 
-from warehouse_msgs.msg import Event, Lift, TrackedObjects
+from warehouse_msgs.msg import CoordinatorState, Event, Lift, TrackedObjects, TransportEvent
+from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim import poses, survey
 from warehouse_sim.engine import Engine
 from warehouse_sim.latest import LatestMessages
@@ -18,6 +22,9 @@ from warehouse_sim.script_executor import command
 TOLERANCE = 0.05  # between where something shall be and where it is [m]
 PATIENCE = 60.0  # with a warehouse being built [s, wall]
 ON_UNIT = 0.6  # an item is no further from its unit's centre [m]
+FLEET = "medium"  # the warehouse that a coordinator drives
+EXCHANGE = 20  # from one unit to the next at a station [s]
+DEADLINE = 10.0  # wall seconds that a simulated one may take
 
 
 class DemoError(RuntimeError):
@@ -47,6 +54,35 @@ class Demo:
         self._meet(self._line_up())
         for kind, name in ((Event.REFUSED, "refused"), (Event.COLLISION, "a collision")):
             self._expect(f"nothing was {name}", not self._models(kind))
+
+    def deliver(self, seconds):
+        """The last act: a whole fleet delivers for so long [s, simulated]. Raises DemoError."""
+        self._tell(f"\nThe robots of a {FLEET} warehouse bring storage units to the stations.\n")
+        code, *_ = self._ros.get_master().lookupService("/warehouse/transport")
+        if code == 1:
+            raise DemoError("a coordinator runs already; the demonstration brings its own")
+        fleet = FleetWatch(self._ros)
+        self._build(FLEET)
+        before = len(self._executor.events)
+        with coordinator():
+            if not self._executor.until(lambda: fleet.robots > 0, PATIENCE):
+                raise DemoError(fleet.alarm or "no coordinator tells of its robots")
+            end = fleet.time + seconds
+            self._executor.until(lambda: fleet.time >= end, PATIENCE + DEADLINE * seconds)
+        after = self._executor.events[before:]
+        self._expect(f"{fleet.robots} robots were coordinated for {seconds:g} s", fleet.time >= end)
+        self._expect(f"{fleet.delivered} storage units were delivered", fleet.delivered > 0)
+        self._expect("there was no collision", not any(e.kind == Event.COLLISION for e in after))
+        self._expect("every robot moved on", not fleet.watchdog)
+
+    def _build(self, size):
+        create = self._ros.ServiceProxy("/warehouse/create_warehouse_models", CreateWarehouse)
+        try:
+            answer = create(warehouse_name=size)
+        except self._ros.ServiceException as error:
+            raise DemoError(f"no {size} warehouse: {error}") from error
+        if not answer.success:
+            raise DemoError(f"no {size} warehouse: {answer.message}")
 
     # --- the acts
 
@@ -152,6 +188,59 @@ class Demo:
         self._tell(f"  {'ok    ' if true else 'FAILED'}  {text}")
         if not true:
             self.failed.append(text)
+
+
+class FleetWatch:
+    """What the coordinator tells. `ros` is rospy."""
+
+    def __init__(self, ros):
+        self._state, self.delivered = CoordinatorState(), 0
+        ros.Subscriber("/warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
+        ros.Subscriber("/warehouse/transports", TransportEvent, self._count, queue_size=1000)
+
+    def _take(self, state):
+        self._state = state
+
+    def _count(self, event):
+        self.delivered += event.kind == TransportEvent.ARRIVED
+
+    @property
+    def time(self):
+        """Of the last state [s, simulated]."""
+        return self._state.header.stamp.to_sec()
+
+    @property
+    def robots(self):
+        return self._state.automatic
+
+    @property
+    def watchdog(self):
+        return self._state.watchdog
+
+    @property
+    def alarm(self):
+        return "; ".join(self._state.alarms)
+
+
+@contextmanager
+def coordinator():
+    """A coordinator that keeps all stations busy, while within."""
+    # It ends with this process, however that ends.
+    node = [
+        "setpriv",
+        "--pdeathsig",
+        "TERM",
+        "rosrun",
+        "warehouse_fleet",
+        "coordinator",
+        "_demand:=random",
+    ]
+    process = subprocess.Popen([*node, f"_exchange:={EXCHANGE}"], stdout=subprocess.DEVNULL)
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait()
 
 
 def of_tracked(message):

@@ -19,14 +19,15 @@ EDGE = (0.36, 0.42, 0.50, 1)  # of storage units seen from above
 WHITE = (0.97, 0.97, 0.97, 1)
 INK = (0.10, 0.10, 0.12, 1)
 PATH = (0.00, 0.62, 0.45, 1)
+WAITS = (0.80, 0.47, 0.65, 1)
 CHOSEN = (0.80, 0.47, 0.65, 1)
 
 MOST_POINTS = 100_000  # of all robots: where they would need more, each is a box
 MOST_NAMES = 200  # robots with their names above them
 NAME_HEIGHT, NAME_ABOVE = 0.28, 0.30  # of letters; over a robot [m]
 LIFTED = "tower"  # a robot's link that goes up with its load
-LINE = 0.04  # width [m]
-ABOVE_FLOOR = 0.02  # of lines [m]
+LINE, THIN = 0.04, 0.02  # widths [m]
+ABOVE_FLOOR, ABOVE_ROBOTS = 0.02, 0.40  # of lines [m]
 PAINT = 0.005  # of what is painted on the floor [m]
 FRAME = (0.40, 0.49)  # inner and outer half edges of the frame around a robot [m]
 ARROW = np.array([(0.90, 0), (0.30, 0.6), (0.30, -0.6)])  # of half a robot's length and width
@@ -194,6 +195,19 @@ def paths(ways):
     ends = [p for way in ways for pair in zip(way, way[1:]) for p in pair]
     points = [(x, y, ABOVE_FLOOR) for x, y in ends]
     return [shapes.lines("paths", np.reshape(points, (-1, 3)), LINE, PATH)]
+
+
+def fleet_ways(released, planned, ties):
+    """Lines along segments (n, 2, 2) [m]: see fleet_ways.py."""
+    parts = (
+        ("released", released, ABOVE_FLOOR, LINE, PATH),
+        ("planned", planned, ABOVE_FLOOR, LINE, PATH),
+        ("waits for", ties, ABOVE_ROBOTS, THIN, WAITS),
+    )
+    return [
+        shapes.lines(name, np.insert(segments.reshape(-1, 2), 2, height, axis=1), width, colour)
+        for name, segments, height, width, colour in parts
+    ]
 
 
 def chosen(at):

@@ -5,6 +5,7 @@ import numpy as np
 from visualization_msgs.msg import MarkerArray
 
 from warehouse_msgs.msg import (
+    CoordinatorPaths,
     FleetPaths,
     FleetState,
     KivaStatus,
@@ -12,7 +13,7 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_sim import looks, markers, poses, tracking
+from warehouse_sim import fleet_ways, looks, markers, poses, tracking
 from warehouse_sim.chosen import Chosen
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 from warehouse_sim.paths import PathTopics, ways
@@ -50,6 +51,23 @@ def load_shapes(scenery, objects, states):
     ]
 
 
+SILENT = 2.0  # after which the coordinator drives nobody any more [s, simulated]
+
+
+def way_shapes(fleet, paths, coordinated):
+    """Markers of where robots go: of a FleetPaths and a CoordinatorPaths; either may be None."""
+    if coordinated is None or (fleet.stamp - coordinated.stamp).to_sec() > SILENT:
+        coordinated = CoordinatorPaths()
+    others = [w for number, w in ways(fleet, paths) if number not in set(coordinated.kiva_id)]
+    where = dict(zip(fleet.kiva_id, zip(fleet.x, fleet.y)))
+    return [
+        *markers.paths(others),
+        *markers.fleet_ways(
+            *fleet_ways.released_and_planned(coordinated), fleet_ways.ties(coordinated, where)
+        ),
+    ]
+
+
 def _upright(rows):
     """x y z yaw of pose rows."""
     return np.column_stack([rows[:, :3], poses.yaw(rows)])
@@ -68,6 +86,7 @@ class Picture:
             states=("/warehouse/unit_states", UnitStates),
             scenery=("/warehouse/scenery", Scenery),
             paths=("/warehouse/paths", FleetPaths),
+            coordinated=("/warehouse/coordinator_paths", CoordinatorPaths),
         )
         self._topic = LazyPublisher(ros, "/warehouse/markers", MarkerArray, self._all, self._moved)
         self._chosen, self._paths = Chosen(ros), PathTopics(ros)
@@ -96,7 +115,7 @@ class Picture:
         return [
             *markers.floor(floor, scenery.grid_spacing or 1.0),
             *fleet_shapes(scenery, fleet, heights, self._chosen.number),
-            *markers.paths([points for _, points in ways(fleet, self._newest["paths"])]),
+            *way_shapes(fleet, self._newest["paths"], self._newest["coordinated"]),
             *load_shapes(scenery, objects, states),
             *self._of_scenery(scenery),
         ]

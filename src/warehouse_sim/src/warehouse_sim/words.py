@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from warehouse_msgs.msg import Event, KivaStatus
+from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
+from warehouse_msgs.srv import SetRobotModeRequest, TransportRequest
 
 
 def _constants(kind, prefix=""):
@@ -15,6 +16,9 @@ def _constants(kind, prefix=""):
 EVENT = _constants(Event)
 STATUS = _constants(KivaStatus, "STATUS_")
 STATE = _constants(KivaStatus, "STATE_")
+TRANSPORT = _constants(TransportEvent)
+MODE = _constants(SetRobotModeRequest)
+THEN = _constants(TransportRequest)
 
 
 def shown_status(fleet):

@@ -7,7 +7,7 @@ import { decode } from './protocol.js';
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
 
 export class Connection {
-  /** handlers: {update, scan, scene, status, events, paths} for what comes, state(live). */
+  /** handlers: {update, scan, ways, scene, status, events, paths, fleet} for what comes, state(live). */
   constructor(handlers) {
     this.handlers = handlers;
     this.failures = 0;
@@ -51,7 +51,7 @@ export class Connection {
     this.send({ ack: 1 });
   }
 
-  /** Asks for scans and paths of robots, by id. */
+  /** Asks for scans, paths and ways of robots, by id; ways: 'all' of all. */
   watch(wishes) {
     this.wishes = wishes;
     this.send({ watch: wishes });

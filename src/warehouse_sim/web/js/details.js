@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is selected: its facts, and what it can be told to do.
 
-import { command } from './api.js';
-import { $, enable, make, on } from './dom.js';
+import { command, post } from './api.js';
+import { $, enable, make, on, press } from './dom.js';
 import { STATE, STATUS } from './world.js';
 
 const LIFT = { drop: 0, carry: 1 };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
+const MODE = { AUTOMATIC: 'the coordinator commands it', MANUAL: 'you command it; others drive around it',
+  OUT_OF_SERVICE: 'nobody commands it; others drive around it' };
 const WAITS = 'sent; time stands still: it is taken when time goes on, after a reset too';
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
-   *  `isPaused()` tells whether time stands still. */
-  constructor(world, select, say, isPaused) {
-    Object.assign(this, { world, select, say, isPaused, name: null, robot: null });
+   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, and `wayOf(id)` what
+   *  the coordinator plans for a robot. */
+  constructor(world, select, say, { isPaused, fleet, wayOf }) {
+    Object.assign(this, { world, select, say, isPaused, fleet, wayOf, name: null, robot: null });
+    for (const button of $('modes').children) {
+      on(button, 'click', () => this.setMode(button.dataset.mode));
+    }
     on($('left'), 'click', () => this.turn(1));
     on($('right'), 'click', () => this.turn(-1));
     on($('carry'), 'click', () => this.lift('carry'));
@@ -48,6 +54,7 @@ export class Details {
     $('orders').hidden = !isRobot;
     for (const id of ['scan', 'path', 'remove']) $(id).hidden = !isRobot;
     $('badge').hidden = !isRobot;
+    $('modes').hidden = !isRobot || !this.fleet.runs;
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
     $('fetch').textContent = `Send ${this.robot} beneath it`;
@@ -62,6 +69,8 @@ export class Details {
     enable($('carry'), load ? 'it carries one' : over < 0 ? 'no storage unit stands over it' : '');
     enable($('drop'), load ? '' : 'it carries none');
     enable($('remove'), load ? 'it carries a storage unit' : '');
+    const mode = this.fleet.modeOf(this.world.scene.robots[i]);
+    for (const button of $('modes').children) press(button, button.dataset.mode === mode);
   }
 
   factsOf(thing) {
@@ -71,7 +80,7 @@ export class Details {
     if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
     out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
     if (thing.kind === 'robot') {
-      out.push(['does', STATE[this.world.state[index]]]);
+      out.push(['does', STATE[this.world.state[index]]], ...this.planOf(scene.robots[index]));
       const load = this.world.loadOf(index);
       out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
       if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);
@@ -86,6 +95,18 @@ export class Details {
       const unit = scene.item_unit[index];
       out.push(['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]);
     }
+    return out;
+  }
+
+  /** Where the coordinator sends a robot, and for whom it waits. */
+  planOf(id) {
+    const way = this.wayOf(id), out = [];
+    if (way?.goal) {
+      const [x, y] = way.goal;
+      const station = this.world.scene.stations.find((s) => Math.hypot(s.x - x, s.y - y) < 0.1);
+      out.push(['goes to', station ? station.name : `${metres(x)}, ${metres(y)} m`]);
+    }
+    if (way?.waitsFor) out.push(['waits for', link(`kiva${way.waitsFor}`)]);
     return out;
   }
 
@@ -113,6 +134,22 @@ export class Details {
     const over = this.world.unitOver(i);
     const shelf = what === 'drop' ? this.world.shelf[i] : numberOf(this.world.scene.units[over]);
     return this.order(this.name, 'lift', { status: LIFT[what], shelf_id: shelf });
+  }
+
+  /** Gives the selected robot to the coordinator, a person or nobody. */
+  async setMode(mode) {
+    const robot = this.name;
+    const answer = (text, kind) => {
+      if (this.name !== robot) return;
+      Object.assign($('answer'), { hidden: false, textContent: text });
+      $('answer').dataset.kind = kind;
+    };
+    try {
+      await post(`/robots/${numberOf(robot)}/mode`, { mode });
+      answer(MODE[mode], 'done');
+    } catch (error) {
+      answer(`${error.refused ? 'refused: ' : ''}${error.message}`, 'refused');
+    }
   }
 
   sendRobotHere() {

@@ -7,6 +7,7 @@ import { Builder } from './builder.js';
 import { Connection } from './connection.js';
 import { Details } from './details.js';
 import { $, isPressed, on, press } from './dom.js';
+import { FleetPanel } from './fleet.js';
 import { Keys } from './keys.js';
 import { Labels } from './labels.js';
 import { RobotList } from './list.js';
@@ -32,7 +33,10 @@ class Page {
     this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
     this.list = new RobotList(this.world, select);
     this.log = new EventLog(select);
-    this.details = new Details(this.world, select, say, () => this.bar.paused);
+    this.ways = new Map(); // of robots, by id, as the coordinator plans them
+    this.fleet = new FleetPanel(select);
+    this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
+      fleet: this.fleet, wayOf: (id) => this.ways.get(id) });
     this.builder = new Builder(say);
     this.sheets = new Sheets(() => this.fitPanels());
     this.selected = null;
@@ -51,6 +55,8 @@ class Page {
       events: ({ events }) => this.takeEvents(events),
       paths: ({ paths }) => this.takePaths(paths),
       scan: (scan) => this.takeScan(scan),
+      fleet: ({ fleet }) => this.takeFleet(fleet),
+      ways: ({ ways }) => this.takeWays(ways),
     });
   }
 
@@ -124,6 +130,21 @@ class Page {
     this.showExtras();
   }
 
+  takeFleet(fleet) {
+    const came = Boolean(fleet) !== this.fleet.runs;
+    this.fleet.take(fleet);
+    if (!came) return;
+    if (!fleet) this.takeWays(new Map());
+    this.watch();
+    this.fitPanels();
+  }
+
+  takeWays(ways) {
+    this.ways = ways;
+    this.showWays();
+    this.showExtras();
+  }
+
   takeScan(scan) {
     this.scans.set(scan.id, scan);
     this.showExtras();
@@ -137,6 +158,7 @@ class Page {
     if (moved.length) {
       this.actors.belts.run(Math.min(0.1, (now - (this.drawn ?? now)) / 1000));
       this.showExtras();
+      this.overlays.ways.follow();
     }
     this.drawn = now;
     this.actors.fill(this.stage.camera, innerHeight);
@@ -159,10 +181,24 @@ class Page {
     this.overlays.select(place, thing && halfOf(this.actors.boundsOf(thing)));
     const robot = this.details.selectedRobot;
     const id = this.world.scene.robots[robot];
-    const path = robot >= 0 && isPressed($('path')) && this.paths[id];
-    this.overlays.showPath(place?.slice(0, 2), path || []);
+    if (robot >= 0 && isPressed($('path'))) this.showPath(place, id);
+    else this.overlays.showPath(null, []);
     const scan = robot >= 0 && isPressed($('scan')) && this.scans.get(id);
     this.overlays.showScan(scan || null, place);
+  }
+
+  /** Where a robot goes: a coordinated one's way is drawn with the others'. */
+  showPath(place, id) {
+    const way = this.ways.get(id);
+    const path = way ? [] : this.paths[id] ?? [];
+    this.overlays.showPath(place.slice(0, 2), path, way?.goal);
+  }
+
+  /** Ways of the fleet, or of the selected robot alone. */
+  showWays() {
+    const id = this.world.scene.robots[this.details.selectedRobot];
+    const own = isPressed($('path')) ? [id] : [];
+    this.overlays?.ways.show(this.ways, isPressed($('ways')) ? null : own);
   }
 
   // --- the person
@@ -173,6 +209,7 @@ class Page {
     this.log.drawOwn(name);
     this.watch();
     this.follow(isPressed($('follow')));
+    this.showWays();
     this.showExtras();
     this.sheets.show(name ? 'details-panel' : null);
     this.stage?.invalidate();
@@ -208,7 +245,9 @@ class Page {
     const robot = this.details.selectedRobot;
     const id = this.world.scene.robots[robot];
     const want = (button) => (robot >= 0 && isPressed($(button)) ? [id] : []);
-    this.connection?.watch({ scans: want('scan'), paths: want('path') });
+    const own = this.fleet.runs && robot >= 0 ? [id] : [];
+    const ways = this.fleet.runs && isPressed($('ways')) ? 'all' : own;
+    this.connection?.watch({ scans: want('scan'), paths: want('path'), ways });
   }
 
   next(step) {
@@ -226,9 +265,10 @@ class Page {
 
   addButtons() {
     toggle('follow', (wanted) => this.follow(wanted));
-    for (const id of ['scan', 'path']) {
+    for (const id of ['scan', 'path', 'ways']) {
       toggle(id, () => {
         this.watch();
+        this.showWays();
         this.showExtras();
       });
     }

@@ -3,6 +3,7 @@
 
 import * as THREE from '/three/build/three.module.js';
 import { Trails } from './trails.js';
+import { Ways } from './ways.js';
 import { within } from './world.js';
 
 const ACCENT = { dark: 0x56b4e9, light: 0x0072b2 };
@@ -18,6 +19,7 @@ export class Overlays {
     this.goal = mesh(new THREE.RingBufferGeometry(0.22, 0.32, 24), 0.9);
     this.fan = mesh(new THREE.BufferGeometry(), 0.2);
     this.trails = new Trails(world);
+    this.ways = new Ways(stage, world);
     for (const object of [this.ring, this.cell, this.path, this.goal, this.fan]) {
       object.visible = false;
       object.frustumCulled = false;
@@ -52,14 +54,15 @@ export class Overlays {
     this.stage.invalidate();
   }
 
-  /** From [x, y] along points [[x, y], …]; no points: no path. */
-  showPath(from, points) {
-    this.path.visible = this.goal.visible = points.length > 0;
+  /** From [x, y] along points [[x, y], …], and a mark at `goal`; no points: no path. */
+  showPath(from, points, goal = points[points.length - 1]) {
+    this.path.visible = points.length > 0;
+    this.goal.visible = Boolean(goal);
+    if (goal) this.goal.position.set(...goal, 0.02);
     if (points.length) {
       const corners = [from, ...points];
       const segments = corners.slice(1).flatMap((to, i) => [[...corners[i], 0.03], [...to, 0.03]]);
       setPoints(this.path, segments);
-      this.goal.position.set(...points[points.length - 1], 0.02);
     }
     this.stage.invalidate();
   }

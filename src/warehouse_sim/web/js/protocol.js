@@ -2,14 +2,17 @@
 // Reads what viewer/protocol.py writes; the layout is described there.
 
 export const VERSION = 2;
-const UPDATE = 1, HEAD = 40, SCAN_HEAD = 32;
+const UPDATE = 1, SCAN = 2, HEAD = 40, SCAN_HEAD = 32, WAYS_HEAD = 8, WAY_WORDS = 6;
 export const ROBOT_WORDS = 6, BODY_WORDS = 9; // of four bytes, a row
 
 /** {kind: 'update', tick, stamp, revision, robots, units, loose, scenery}, each a table; or
- *  {kind: 'scan', id, angleMin, angleStep, mount, ranges}, `mount` the laser's place on its robot. */
+ *  {kind: 'scan', id, angleMin, angleStep, mount, ranges}, `mount` the laser's place on its robot; or
+ *  {kind: 'ways', ways}, of each robot by its id {released, planned, waitsFor, goal}: points x y in a
+ *  row, another's id or 0, [x, y] or null. */
 export function decode(buffer) {
   const view = new DataView(buffer);
-  return view.getUint32(0, true) === UPDATE ? update(buffer, view) : scan(buffer, view);
+  const kind = view.getUint32(0, true);
+  return kind === UPDATE ? update(buffer, view) : kind === SCAN ? scan(buffer, view) : ways(buffer, view);
 }
 
 function update(buffer, view) {
@@ -50,4 +53,22 @@ function scan(buffer, view) {
     mount: [...new Float32Array(buffer, 16, 4)],
     ranges: new Float32Array(buffer, SCAN_HEAD),
   };
+}
+
+function ways(buffer, view) {
+  const count = view.getUint32(4, true);
+  const [i32, f32] = [new Int32Array(buffer, WAYS_HEAD), new Float32Array(buffer, WAYS_HEAD)];
+  const out = new Map();
+  for (let row = 0, at = 0, from = WAY_WORDS * count; row < count; ++row, at += WAY_WORDS) {
+    const [id, waitsFor, released, planned] = i32.subarray(at, at + 4);
+    const [middle, to] = [from + 2 * released, from + 2 * (released + planned)];
+    out.set(id, {
+      released: f32.subarray(from, middle),
+      planned: f32.subarray(middle, to),
+      waitsFor,
+      goal: Number.isFinite(f32[at + 4]) ? [...f32.subarray(at + 4, at + 6)] : null,
+    });
+    from = to;
+  }
+  return { kind: 'ways', ways: out };
 }

@@ -14,6 +14,7 @@ from pydantic.errors import StrError
 from starlette.routing import Match
 
 from warehouse_sim.viewer import catalogue, schemas, work
+from warehouse_sim.viewer.coordination import NONE_RUNS
 from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 
@@ -35,15 +36,19 @@ Limit = Query(100, ge=1, le=schemas.MOST_ROWS, description="rows in the answer")
 Offset = Query(0, ge=0, le=schemas.INT32, description="rows to leave out before them")
 Command = Body(discriminator="command")
 Number = Path(ge=1, le=schemas.INT32, description="the number in the model's name")
+TransportNumber = Path(ge=1, le=2**32 - 1, description="of the transport")
 Text = Query("", max_length=100, description="a part of the name")
 
 
 class ApiBackend:
     """What the API's answers are made from."""
 
-    def __init__(self, feed, model, journal, simulation, commander, operations=None):
+    def __init__(
+        self, feed, model, journal, simulation, commander, coordination, transports, operations
+    ):
         self.feed, self.model, self.journal = feed, model, journal
         self.simulation, self.commander, self.work = simulation, commander, operations
+        self.coordination, self.transports = coordination, transports
 
     async def look(self):
         """Waits until the world has told enough. Raises HTTPException."""
@@ -86,8 +91,23 @@ class ApiBackend:
 
     async def do(self, action, *args):
         """Calls a method of Simulation. Raises HTTPException."""
+        return await self._ask(getattr(self.simulation, action), *args)
+
+    async def coordinate(self, action, *args):
+        """Calls a method of Coordination. Raises HTTPException."""
+        return await self._ask(getattr(self.coordination, action), *args)
+
+    async def coordinator(self):
+        """The newest CoordinatorState. Raises HTTPException."""
+        await self.look()
+        runs = await self.coordinate("runs")
+        if not runs or not await _until(lambda: self.feed.coordinator):
+            raise HTTPException(404, NONE_RUNS)
+        return self.feed.coordinator
+
+    async def _ask(self, function, *args):
         try:
-            return await asyncio.to_thread(getattr(self.simulation, action), *args)
+            return await asyncio.to_thread(function, *args)
         except RefusedError as error:
             raise HTTPException(409, str(error)) from error
         except AwayError as error:
@@ -131,6 +151,7 @@ def router(backend):
     _add_things(out, backend, "storage_units", "storage_unit")
     _add_things(out, backend, "items", "item")
     _add_simulation(out, backend)
+    _add_coordinator(out, backend)
     work.add(out, backend.work, _problems)
     return out
 
@@ -300,3 +321,53 @@ def _add_simulation(out, backend):
     offer("checkpoint", "Keeps the world as it is.", schemas.Checkpoint)
     offer("restore", "Goes back to a checkpoint.", schemas.Checkpoint)
     offer("undo", "Goes back so many simulated seconds.", schemas.Undo)
+
+
+def _add_coordinator(out, backend):
+    @out.get("/coordinator", response_model=schemas.Coordinator, responses=_problems(404))
+    async def get_coordinator():
+        """The fleet at a glance."""
+        return catalogue.coordinator(await backend.coordinator())
+
+    @out.post("/robots/{number}/mode", response_model=schemas.Done, responses=_problems(404, *SENT))
+    async def set_mode(wanted: schemas.NewMode, number: int = Number):
+        """Gives a robot to the coordinator, to a person, or to nobody."""
+        await backend.robot(number)
+        return {"message": await backend.coordinate("set_mode", number, wanted.mode)}
+
+    @out.get("/transports", response_model=schemas.Transports, responses=_problems())
+    async def get_transports(
+        state: schemas.TransportState | None = None,
+        limit: int = Limit,
+        offset: int = Offset,
+    ):
+        """How far each is, the newest first; those since the viewer began."""
+        found = backend.transports.newest_first(state)
+        return {"total": len(found), "transports": found[offset : offset + limit]}
+
+    @out.get("/transports/{number}", response_model=schemas.Transport, responses=_problems(404))
+    async def get_transport(number: int = TransportNumber):
+        """How far it is."""
+        found = backend.transports.get(number)
+        if found is None:
+            raise HTTPException(404, f"no transport {number}")
+        return found
+
+    @out.post(
+        "/transports",
+        status_code=201,
+        response_model=schemas.TransportNumber,
+        responses=_problems(*SENT),
+    )
+    async def submit_transport(wanted: schemas.NewTransport):
+        """Has a storage unit brought somewhere. It waits there to be released."""
+        return {"transport_id": await backend.coordinate("submit", *wanted.dict().values())}
+
+    @out.post(
+        "/transports/{number}/release",
+        response_model=schemas.Done,
+        responses=_problems(409),
+    )
+    async def release_transport(number: int = TransportNumber):
+        """The station is done with the unit: it may leave."""
+        return {"message": await backend.coordinate("release", number)}

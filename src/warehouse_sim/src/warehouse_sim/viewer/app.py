@@ -16,11 +16,13 @@ from warehouse_sim.viewer import api, stream
 from warehouse_sim.viewer.access import AccessControl
 from warehouse_sim.viewer.commander import Commander
 from warehouse_sim.viewer.connections import BoundedConnection
+from warehouse_sim.viewer.coordination import Coordination
 from warehouse_sim.viewer.feed import Feed
 from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.simulation import Simulation
+from warehouse_sim.viewer.transport_book import TransportBook
 from warehouse_sim.viewer.work import Work
 
 THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
@@ -36,11 +38,12 @@ class Viewer:
     def __init__(self, ros, web):
         self.journal, self.model = Journal(), Model()
         self.simulation, self.commander = Simulation(ros), Commander(ros)
+        self.coordination, self.transports = Coordination(ros), TransportBook()
         self._loop = None
-        self.feed = Feed(ros, self._on_event, self._on_news)
+        self.feed = Feed(ros, self._on_event, self.transports.add, self._on_news)
         self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
-        self.backend = api.ApiBackend(*parts, Work(ros))
+        self.backend = api.ApiBackend(*parts, self.coordination, self.transports, Work(ros))
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):

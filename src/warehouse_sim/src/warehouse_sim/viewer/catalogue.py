@@ -28,6 +28,28 @@ def robots(fleet):
     ]
 
 
+def coordinator(state):
+    """A CoordinatorState as schemas.Coordinator."""
+    waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since)
+    return schemas.Coordinator(
+        time=state.header.stamp.to_sec(),
+        robots={name: getattr(state, name) for name in schemas.RobotsByMode.__fields__},
+        work={name: getattr(state, name) for name in schemas.RobotsByWork.__fields__},
+        transports={name: getattr(state, name) for name in schemas.TransportCounts.__fields__},
+        manual=list(state.manual_kiva),
+        out_of_service=list(state.out_of_service_kiva),
+        plan_p50=state.plan_p50,
+        plan_p99=state.plan_p99,
+        executed_over_planned=state.executed_over_planned,
+        queues=dict(zip(state.station, state.queue)),
+        waiting=[schemas.Waiting(robot=r, waits_for=f, since=s) for r, f, s in waiting],
+        collisions=state.collisions,
+        blocked=state.blocked,
+        watchdog=state.watchdog,
+        alarms=list(state.alarms),
+    )
+
+
 def things(kind, objects, states):
     """A tracking.Tracked; `kind` is "storage_units" or "items"."""
     return getattr(tracking, kind)(objects, states)

@@ -10,10 +10,13 @@ from tf2_msgs.msg import TFMessage
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs.msg import (
+    CoordinatorPaths,
+    CoordinatorState,
     Event,
     FleetPaths,
     FleetState,
     Scenery,
+    TransportEvent,
     UnitStates,
     WarehouseObjects,
 )
@@ -23,22 +26,27 @@ TOPICS = {
     "objects": ("/warehouse/objects", WarehouseObjects),
     "states": ("/warehouse/unit_states", numpy_msg(UnitStates)),
     "scenery": ("/warehouse/scenery", Scenery),
+    "coordinator": ("/warehouse/coordinator", CoordinatorState),
     "performance": ("/gazebo/performance_metrics", PerformanceMetrics),
 }
+SILENT = 5.0  # after which nobody coordinates any more [s, simulated and wall]
 LINGER = 10.0  # after the last look, before the ears are closed [s, wall]
 
 
 class Feed:
     """The newest message of each topic; None where none came since somebody looked.
 
-    `ros` is rospy. `on_event(Event)` and `on_news()` are called in ROS's threads.
+    `ros` is rospy. `on_event(Event)`, `on_transport(TransportEvent)` and `on_news()` are called in
+    ROS's threads.
     """
 
-    def __init__(self, ros, on_event, on_news):
+    def __init__(self, ros, on_event, on_transport, on_news):
         self._ros, self._on_news, self._lock = ros, on_news, threading.Lock()
         self._messages, self._subscribers, self._extras = {}, {}, {}
-        self._looked = 0.0
+        self._looked, self._coordinated = 0.0, 0.0
         ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
+        topic = "/warehouse/transports"
+        ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)
 
     def __getitem__(self, name):
         return self._messages.get(name)
@@ -49,6 +57,21 @@ class Feed:
         objects, states = self["objects"], self["states"]
         fit = objects and states and objects.revision == states.revision
         return (objects, states) if fit else None
+
+    @property
+    def coordinator(self):
+        """The newest CoordinatorState; None where no coordinator runs.
+
+        One that was killed says no goodbye, but falls silent while time goes on. One that refuses
+        the floor says so once, and coordinates nobody.
+        """
+        state, fleet = self["coordinator"], self["fleet"]
+        subscriber = self._subscribers.get("coordinator")
+        if not (state and fleet and subscriber and subscriber.get_num_connections()):
+            return None
+        behind = (fleet.stamp - state.header.stamp).to_sec()
+        is_silent = min(behind, time.monotonic() - self._coordinated) > SILENT
+        return None if is_silent and (state.automatic or not state.alarms) else state
 
     def look(self):
         """Somebody looks: what is published is heard for a while."""
@@ -102,13 +125,15 @@ class Feed:
         """Whether there is all that a picture needs."""
         return bool(self.tells_all and self["scenery"])
 
-    def want(self, paths, scans):
-        """Hears the paths or not, and the scans of exactly these robots (ids)."""
+    def want(self, paths, ways, scans):
+        """Hears paths or not, ways or not, and the scans of exactly these robots (ids)."""
         wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
         if scans:
             wanted["frames"] = ("/tf_static", TFMessage)
         if paths:
             wanted["paths"] = ("/warehouse/paths", FleetPaths)
+        if ways:
+            wanted["ways"] = ("/warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
         with self._lock:
             for name in self._extras.keys() - wanted.keys():
                 self._extras.pop(name).unregister()
@@ -121,6 +146,8 @@ class Feed:
 
     def _keep(self, message, name):
         self._messages[name] = message
+        if name == "coordinator":
+            self._coordinated = time.monotonic()
         self._on_news()
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from starlette.websockets import WebSocketDisconnect
 
 from warehouse_sim import poses
-from warehouse_sim.viewer import protocol
+from warehouse_sim.viewer import catalogue, protocol
 from warehouse_sim.viewer.access import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
@@ -35,6 +35,8 @@ class Page:
         self.event, self.in_flight, self.status = last_event, 0, None
         self.scans, self.seen_scans = set(), {}
         self.paths, self.seen_paths = set(), {}
+        self.ways, self.seen_ways = set(), None  # of these robots, None: of all
+        self.coordinator = None  # the CoordinatorState that it was told
 
     async def send_json(self, message):
         await self.socket.send_text(json.dumps(message, separators=(",", ":")))
@@ -150,19 +152,23 @@ class Hub:
                 await self._obey(page, json.loads(await page.socket.receive_text()))
 
     async def _obey(self, page, wish):
-        """{"ack": n} answers updates; {"watch": {"scans": [ids], "paths": [ids]}} asks for more."""
+        """{"ack": n} answers updates; {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}}
+        asks for more, "ways": "all" for those of all robots."""
         if "ack" in wish:
             page.in_flight = max(0, page.in_flight - int(wish["ack"]))
         if "watch" in wish:
             page.scans = set(map(int, wish["watch"].get("scans", [])[:MOST_SCANS]))
             page.paths = set(map(int, wish["watch"].get("paths", [])))
+            ways = wish["watch"].get("ways", [])
+            page.ways, page.seen_ways = None if ways == "all" else set(map(int, ways)), None
             self._hear_wishes()
         async with self._turn:
             self._turn.notify_all()
 
     def _hear_wishes(self):
         scans = sorted(set().union(*(p.scans for p in self._pages)))[:MOST_SCANS]
-        self._feed.want(any(p.paths for p in self._pages), scans)
+        ways = any(p.ways is None or p.ways for p in self._pages)
+        self._feed.want(any(p.paths for p in self._pages), ways, scans)
 
     async def _send_forever(self, page):
         with suppress(WebSocketDisconnect, RuntimeError):
@@ -182,6 +188,7 @@ class Hub:
             page.in_flight += 1
             await page.socket.send_bytes(model.update(since))
         await self._send_events(page)
+        await self._send_fleet(page)
         await self._send_extras(page)
         if self._status and self._status != page.status:
             page.status = self._status
@@ -192,6 +199,17 @@ class Hub:
         if events:
             page.event = events[-1]["id"]
             await page.send_json({"type": "events", "events": events})
+
+    async def _send_fleet(self, page):
+        state = self._feed.coordinator
+        if state is not page.coordinator:
+            page.coordinator = state
+            told = json.loads(catalogue.coordinator(state).json()) if state else None
+            await page.send_json({"type": "fleet", "fleet": told})
+        ways = self._feed["ways"] if page.ways is None or page.ways else None
+        if ways and ways is not page.seen_ways:
+            page.seen_ways = ways
+            await page.socket.send_bytes(protocol.ways(ways, page.ways))
 
     async def _send_extras(self, page):
         for kiva_id in page.scans:

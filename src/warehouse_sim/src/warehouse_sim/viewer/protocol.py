@@ -14,6 +14,10 @@
     f32 x, y, z [m], yaw [rad] of the laser on its robot
     f32 ranges [m]     to the end; infinity = no return
 
+    u32 kind   3 = ways
+    u32 n              rows of WAY below
+    f32 x, y [m]       of the points of all in a row: released ones, planned ones, robot after robot
+
 web/js/protocol.js reads it.
 """
 
@@ -22,7 +26,7 @@ import struct
 import numpy as np
 
 VERSION = 2
-UPDATE, SCAN = 1, 2
+UPDATE, SCAN, WAYS = 1, 2, 3
 
 # x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
 # KivaStatus.
@@ -40,9 +44,20 @@ ROBOT = np.dtype(
 )
 # x y z [m] qx qy qz qw in world; or, where a robot carries it, in that robot's frame.
 BODY = np.dtype([("index", "<u4"), ("pose", "<f4", 7), ("carrier", "<i4")])
+# As in CoordinatorPaths; the goal is NaN where there is none.
+WAY = np.dtype(
+    [
+        ("kiva_id", "<i4"),
+        ("waits_for", "<i4"),
+        ("released", "<u4"),
+        ("planned", "<u4"),
+        ("goal", "<f4", 2),
+    ]
+)
 
 _UPDATE_HEAD = struct.Struct("<IIdIIIII4x")
 _SCAN_HEAD = struct.Struct("<II2f4f")
+_WAYS_HEAD = struct.Struct("<II")
 
 
 def update(tick, stamp, revision, tables):
@@ -55,3 +70,16 @@ def scan(kiva_id, mount, angle_min, angle_increment, ranges):
     """Bytes of a robot's scan; `mount` is (x, y, z, yaw) of the laser on it."""
     head = _SCAN_HEAD.pack(SCAN, kiva_id, angle_min, angle_increment, *mount)
     return head + np.asarray(ranges, "<f4").tobytes()
+
+
+def ways(message, wanted=None):
+    """Bytes of a CoordinatorPaths of numpy arrays: of all its robots, or of the ids `wanted`."""
+    ids = message.kiva_id
+    kept = np.ones(len(ids), bool) if wanted is None else np.isin(ids, list(wanted))
+    rows = np.zeros(np.count_nonzero(kept), WAY)
+    for name in ("kiva_id", "waits_for", "released", "planned"):
+        rows[name] = getattr(message, name)[kept]
+    rows["goal"] = np.column_stack([message.goal_x, message.goal_y])[kept]
+    points = np.repeat(kept, message.released + message.planned)
+    xy = np.column_stack([message.x, message.y])[points].astype("<f4")
+    return _WAYS_HEAD.pack(WAYS, len(rows)) + rows.tobytes() + xy.tobytes()

@@ -59,12 +59,12 @@ class Simulation:
         if _type(package, kind) is None:
             return f"this version knows no {package}/{kind}"
         try:
-            code, *_ = self._ros.get_master().lookupService(name)
-        except OSError as error:
-            return f"the ROS master does not answer: {error}"
+            offered = is_offered(self._ros, name)
+        except AwayError as error:
+            return str(error)
         if action == "undo" and not self._ros.get_param("/gazebo/autosave", 0):
             return "nothing is saved for it: start with autosave:=60, say"
-        return None if code == 1 else f"the engine offers no {name}"
+        return None if offered else f"the engine offers no {name}"
 
     def state(self):
         """Whether time stands still, how fast it should pass (0 = full speed), and its step [s]."""
@@ -157,10 +157,24 @@ class Simulation:
         return message
 
     def _call(self, name, kind, fields):
-        try:
-            return self._ros.ServiceProxy(name, kind)(**fields)
-        except (self._ros.ServiceException, self._ros.ROSException, OSError) as error:
-            raise AwayError(f"{name}: {error}") from error
+        return request(self._ros, name, kind, fields)
+
+
+def is_offered(ros, name):
+    """Whether somebody offers a service. Raises AwayError."""
+    try:
+        code, *_ = ros.get_master().lookupService(name)
+    except OSError as error:
+        raise AwayError(f"the ROS master does not answer: {error}") from error
+    return code == 1
+
+
+def request(ros, name, kind, fields):
+    """What a service answers. Raises AwayError."""
+    try:
+        return ros.ServiceProxy(name, kind)(**fields)
+    except (ros.ServiceException, ros.ROSException, OSError) as error:
+        raise AwayError(f"{name}: {error}") from error
 
 
 def _type(package, kind):

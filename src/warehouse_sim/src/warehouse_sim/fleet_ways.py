@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where a coordinated fleet drives, of a CoordinatorPaths, as line segments (n, 2, 2) [m]."""
+
+import numpy as np
+
+DASH = np.array([[0.3], [0.7]])  # of each step that is planned
+
+
+def released_and_planned(message):
+    """Segments that robots have been released, and a dash for each step planned beyond."""
+    xy = np.column_stack([message.x, message.y]).reshape(-1, 2)
+    released = np.array(message.released, int)
+    points = released + np.array(message.planned, int)
+    robot = np.repeat(np.arange(len(points)), points)
+    place = np.arange(len(xy)) - np.repeat(np.cumsum(points) - points, points)
+    steps = np.stack([xy[:-1], xy[1:]], axis=1)
+    is_step = (robot[1:] == robot[:-1]) & (steps[:, 0] != steps[:, 1]).any(axis=1)
+    is_released = place[1:] < released[robot[1:]]
+    begin, end = np.split(steps[is_step & ~is_released], 2, axis=1)
+    return steps[is_step & is_released], begin + DASH * (end - begin)
+
+
+def ties(message, where):
+    """From each robot that waits to the one it waits for; `where` is (x, y) by id."""
+    pairs = [
+        (where[robot], where[other])
+        for robot, other in zip(message.kiva_id, message.waits_for)
+        if robot in where and other in where
+    ]
+    return np.reshape(pairs, (-1, 2, 2))

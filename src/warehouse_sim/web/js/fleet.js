@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fleet that a coordinator drives, at a glance; nothing where none runs.
+
+import { $, make } from './dom.js';
+
+const MOST_WAITING = 50; // rows
+
+const some = (counts) => Object.entries(counts).filter(([, count]) => count > 0)
+  .map(([name, count]) => `${count} ${name.replaceAll('_', ' ')}`).join(', ') || 'none';
+
+/** What a CoordinatorState counts, as [what, text]. */
+export function factsOf({ robots, work, transports, executed_over_planned: executed, ...told }) {
+  return [
+    ['robots', some(robots)],
+    ['at work', some(work)],
+    ['transports', `${transports.open} open, ${transports.under_way} under way`],
+    ['done', `${transports.delivered} delivered, ${transports.stored} stored`
+      + (transports.failed ? `, ${transports.failed} failed` : '')],
+    ['planning', `${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
+    ['driven / planned', `${executed.toFixed(2)} s/s`],
+    ['trouble', some({ collisions: told.collisions, blocked: told.blocked, watchdog: told.watchdog })],
+  ];
+}
+
+export class FleetPanel {
+  /** `select(name)` is called for a robot that was clicked. */
+  constructor(select) {
+    Object.assign(this, { select, fleet: null });
+  }
+
+  get runs() {
+    return Boolean(this.fleet);
+  }
+
+  /** What the server tells of the coordinator; null: none runs. */
+  take(fleet) {
+    this.fleet = fleet;
+    document.body.classList.toggle('coordinated', this.runs);
+    for (const id of ['fleet-panel', 'fleet-tab', 'ways']) $(id).hidden = !fleet;
+    if (!fleet) return;
+    $('fleet-facts').replaceChildren(...factsOf(fleet).flatMap(([what, text]) => [
+      make('dt', { textContent: what }), make('dd', { textContent: text })]));
+    $('alarms').replaceChildren(...fleet.alarms.map((text) => make('li', { textContent: text })));
+    $('alarms').hidden = fleet.alarms.length === 0;
+    const rows = fleet.waiting.slice(0, MOST_WAITING).map((waits) => this.row(waits));
+    $('waiting').replaceChildren(...rows);
+    $('waiting-title').hidden = rows.length === 0;
+  }
+
+  row({ robot, waits_for: other, since }) {
+    const seconds = Math.round(this.fleet.time - since);
+    const text = `kiva${robot} for ${other ? `kiva${other}` : 'nobody known'}, ${seconds} s`;
+    return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
+  }
+
+  /** Who commands a robot, by its id; null where no coordinator runs. */
+  modeOf(id) {
+    if (!this.fleet) return null;
+    if (this.fleet.manual.includes(id)) return 'MANUAL';
+    return this.fleet.out_of_service.includes(id) ? 'OUT_OF_SERVICE' : 'AUTOMATIC';
+  }
+}

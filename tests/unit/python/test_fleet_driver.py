@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fleet at work with physics, in one process."""
+
+import pathlib
+
+import numpy as np
+import pytest
+
+from kiva_plugin_cpp import World
+from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.transports import STAY, Kind
+
+EXAMPLES = pathlib.Path(__file__).parents[3] / "src/warehouse_fleet/examples"
+
+
+@pytest.fixture
+def drive():
+    drivers = []
+
+    def make(world, **options):
+        drivers.append(FleetDriver(world, **options))
+        return drivers[-1]
+
+    yield make
+    for driver in drivers:
+        driver.close()
+
+
+def work(driver, seconds, exchange=12.0, seed=1):
+    """Keeps all stations busy."""
+    demand = RandomTransports(driver.transports, seed, exchange)
+    while driver.time < seconds:
+        demand.advance(driver.time, driver.transports.take_events())
+        driver.step()
+
+
+def assert_clean(driver):
+    assert (driver.collisions, driver.blocked, driver.watchdog, driver.refusals) == (0, 0, 0, [])
+
+
+def test_units_are_brought_and_stored_without_contact(drive):
+    driver = drive(World.preset("medium"))
+    work(driver, 240)
+    totals = driver.transports.totals
+    assert totals.delivered > 40 and totals.stored > 25 and totals.failed == 0
+    assert_clean(driver)
+    assert driver.executed_over_planned < 1.2
+    assert totals.cells < 1.25 * totals.shortest
+
+
+def test_the_same_seed_gives_the_same_run(drive):
+    hashes = []
+    for _ in range(2):
+        driver = drive(World.preset("small"))
+        work(driver, 60)
+        hashes.append(driver.world.state_hash())
+    assert hashes[0] == hashes[1]
+
+
+def run_until(driver, kinds, limit=200):
+    """All events until the last of the transports has come to one of these kinds."""
+    events = []
+    while driver.time < limit and not any(event.kind in kinds for event in events):
+        driver.step()
+        events += driver.transports.take_events()
+    return events
+
+
+def test_a_transport_goes_through_all_its_steps(drive):
+    driver = drive(World.preset("small"))
+    transports = driver.transports
+    station = driver.stations[0].name
+    number = transports.submit(7, station).transport_id
+    events = run_until(driver, {Kind.ARRIVED})
+    assert transports.release(number) == (True, "")
+    events += run_until(driver, {Kind.STORED})
+    steps = [Kind.RECEIVED, Kind.ASSIGNED, Kind.LIFTED, Kind.ARRIVED, Kind.RELEASED, Kind.STORED]
+    assert [event.kind for event in events] == steps
+    unit = driver.world.storage_units[6]
+    assert unit["shelf_id"] == 7 and unit["kiva_id"] == 0
+    cell = driver.plan.cell_of(unit["x"], unit["y"])
+    assert driver.plan.storage.flat[cell] and transports.cell_of_unit[7] == cell
+
+
+def test_a_unit_stays_where_it_was_brought_and_is_fetched_from_there(drive):
+    driver = drive(World.preset("small"))
+    transports, plan = driver.transports, driver.plan
+    streets = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
+    x, y = plan.point_of(int(np.flatnonzero(streets)[20]))
+    number = transports.submit(3, "", x, y, STAY).transport_id
+    run_until(driver, {Kind.STORED})
+    unit = driver.world.storage_units[2]
+    assert unit["kiva_id"] == 0 and abs(unit["x"] - x) < 1e-3 and abs(unit["y"] - y) < 1e-3
+    station = driver.stations[0].name
+    assert transports.submit(3, station).transport_id == number + 1
+    assert run_until(driver, {Kind.ARRIVED}, 400)[-1].kind == Kind.ARRIVED
+    assert_clean(driver)
+
+
+@pytest.mark.parametrize(
+    ("request_", "text"),
+    [
+        ((999, "pick1"), "there is no storage unit 999"),
+        ((1, "nowhere"), "there is no station 'nowhere'"),
+        ((1, "", float("nan"), 0.0), "neither a station nor a point: (nan, 0.0)"),
+        ((1, "", 1e6, 0.0), "no robot can stand at (1e+06, 0)"),
+        ((1, "pick1", None, None, 7), "then is 7; 0 (STORE) or 1 (STAY) was expected"),
+    ],
+)
+def test_what_can_not_be_is_refused(drive, request_, text):
+    transports = drive(World.preset("small")).transports
+    assert transports.submit(*request_) == (0, False, text)
+    assert transports.take_events() == [] and list(transports) == []
+
+
+def test_a_planner_of_ones_own_drives_the_fleet(drive, monkeypatch):
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+    driver = drive(World.preset("medium"), planner={"planner": "right_of_way:RightOfWay"})
+    work(driver, 120)
+    assert driver.transports.totals.delivered > 4
+    assert driver.collisions == driver.blocked == driver.traffic.refused_plans == 0
+
+
+class Colliding:
+    """Sends everybody where the first one is to go."""
+
+    def start(self, floor, rules, seed):
+        self.width = floor.width
+
+    def plan(self, fleet):
+        steps = np.array([1, self.width, -1, -self.width])
+        return fleet.cell + steps[fleet.heading]
+
+
+def test_a_plan_that_would_collide_is_refused_with_the_robots_names(drive):
+    driver = drive(World.preset("small"), planner={"planner": f"{__name__}:Colliding"})
+    work(driver, 5)
+    assert driver.traffic.refused_plans > 0
+    assert "kiva" in driver.traffic.alarm
+    assert driver.collisions == 0 and (driver.traffic.stands).all()
