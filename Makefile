@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo test test-api test-sanitizers test-install build packages deps bench lint format install clean
+.PHONY: help run demo operate test test-api test-sanitizers test-install build packages deps bench lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -26,6 +26,10 @@ demo: build  ## watch robots fetch storage units, meet head on, recover; and a f
 	@. devel/setup.bash; export ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
 	roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch rtf:=5 $(ARGS) >/dev/null & \
 	trap "kill $$!; wait" EXIT; rosrun warehouse_sim demo
+
+operate: build  ## a warehouse at work: orders, stations, stock; make operate ARGS="size:=large"
+	@echo "watch it: http://localhost:8080 and http://localhost:8080/operations   its figures: rostopic echo /warehouse/kpis"
+	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@$(BUILD) tests

@@ -17,6 +17,7 @@ from sqlalchemy import text
 from kiva_plugin_cpp import World
 from warehouse_fleet.operations import Operations, check
 from warehouse_fleet.operations.database import DatabaseError, open_engine
+from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.opening import SiteError
 from warehouse_fleet.operations.orders import OrderEventKind, OrderState
 from warehouse_fleet.operations.stations import Mode
@@ -346,3 +347,23 @@ def test_the_worlds_own_robots_work_and_repeat(tmp_path):
         assert check.faults(open_engine(tmp_path / name)) == []
         assert figures["items_picked"] > 60 and figures["collisions"] == 0
     assert hashes[0] == hashes[1]
+
+
+@pytest.mark.parametrize("seed", [2, 7, 15, 16])
+def test_when_no_more_orders_come_all_are_completed(seed):
+    ops = shift_on(orders="fill:40", seed=seed)
+    ops.run(minutes=40 + 20 * (seed % 4))
+    ops.shift.demand.waiting = 0
+    ops.run(hours=2)
+    assert not ops.shift.orders and promised(ops) == (0, 0)
+
+
+def test_a_sku_that_is_sold_out_keeps_a_bin_to_be_refilled_in():
+    ops = shift_on(orders="none")
+    inventory = ops.shift.inventory
+    own = [one for one in inventory.bins.values() if one.sku == "sku-26"]
+    for one in own:
+        inventory.move(one, one.sku, -one.quantity, Reason.DAMAGED)
+    for one in own[1:]:
+        inventory.expect(one, "sku-1", 1)
+    assert not inventory.takes(own[0], "sku-1", 1) and inventory.takes(own[0], "sku-26", 12)

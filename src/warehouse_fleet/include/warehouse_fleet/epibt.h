@@ -28,6 +28,7 @@ struct EpibtOptions {
   int renewal_age = 20;      ///< ticks after which a table is made anew, if there is work left
   double against = 10;       ///< what it costs to meet one robot a tick head on [ticks]
   double crowd = 0;          ///< what it costs where one robot a tick waits [ticks]
+  double at_lanes = 0;       ///< what it costs beside stations' lanes [ticks]
   double memory = 50;        ///< for how long that is remembered [ticks]
 };
 

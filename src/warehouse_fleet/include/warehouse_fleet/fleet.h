@@ -30,6 +30,8 @@ struct Rules {
   bool following = true;
   /// Robots that follow each other in a ring may all move at once.
   bool rings = false;
+  /// Two loaded robots side by side may turn at once: something else keeps them from it.
+  bool turning = false;
 };
 
 /// The fleet at a planning step. `cell`, `heading` and `goal` have an element for each robot; the

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import rospy
 from nav_msgs.srv import GetMap
+from std_msgs.msg import Header
 
 from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan
@@ -49,20 +50,10 @@ STEP_NAMES = {
     Step.STORING: "storing",
     Step.DROPPING: "dropping",
 }
-FIELDS = [
-    "kiva_id",
-    "x",
-    "y",
-    "yaw",
-    "vx",
-    "vy",
-    "status",
-    "state",
-    "shelf_id",
-    "path_id",
-    "reached",
-    "left",
-]  # of FleetState
+FIELDS = (  # of FleetState
+    *("kiva_id", "x", "y", "yaw", "vx", "vy"),
+    *("status", "state", "shelf_id", "path_id", "reached", "left"),
+)
 
 
 class Coordinator:
@@ -93,7 +84,7 @@ class Coordinator:
         rospy.Service("/warehouse/transport", Transport, self._on_transport)
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
-        rospy.Subscriber("/warehouse/scenery", Scenery, self._keep, "_scenery", queue_size=1)
+        rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         rospy.Subscriber(
             "/warehouse/objects", WarehouseObjects, self._keep, "_objects", queue_size=1
         )
@@ -113,6 +104,12 @@ class Coordinator:
 
     def _keep(self, message, name):
         setattr(self, name, message)
+
+    def _on_scenery(self, message):
+        """It is sent again whenever somebody begins to listen: the same floor is no news."""
+        message.header = Header()
+        if message != self._scenery:
+            self._scenery = message
 
     def _on_fleet(self, message):
         self._fleet = message

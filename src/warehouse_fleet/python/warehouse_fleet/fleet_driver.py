@@ -101,6 +101,11 @@ class FleetDriver:
         return self.traffic.blocked
 
     @property
+    def watchdog(self):
+        """How often a robot made no progress for 30 s."""
+        return self.traffic.watchdog
+
+    @property
     def distance_m(self):
         """Driven with a plan by all robots, in whole journeys [m]."""
         return self.transports.totals.cells * self.plan.spacing

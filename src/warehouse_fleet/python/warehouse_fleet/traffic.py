@@ -18,11 +18,12 @@ from enum import IntEnum
 
 import numpy as np
 
-from warehouse_fleet import Execution, epibt
+from warehouse_fleet import Execution, Rules, epibt
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
+GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by measurement
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
 
@@ -53,12 +54,13 @@ class Traffic:
     seconds later, whenever it is ready: so a run does not depend on the machine.
     """
 
-    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.2):
+    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
         self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
         self.motion = motion or Motion()
         self.floor = plan.floor()
+        # Whose turn it is to turn, Execution decides: robots turn when they may drive on.
         self.planner = planner or epibt(
-            self.floor, seed=seed, horizon=HORIZON, turn_ticks=2, crowd=10, memory=200
+            self.floor, Rules(turning=True), seed, horizon=HORIZON, **GUIDANCE
         )
         self.attempts, self.lag = attempts, lag
         self.tick = plan.spacing / self.motion.speed

@@ -15,7 +15,8 @@ STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
 LIFT_ATTEMPTS = 3
 SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
-FETCHED = 4  # robots a station for which units are fetched before there is room in its lane
+FETCHED = 4  # units a station that are fetched before they may be lifted
+LIFTED = 6  # units a station under way to it at the most: more only crowd the streets before it
 
 
 class Kind(IntEnum):
@@ -118,6 +119,7 @@ class Transports:
         self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
         self._taken = set(self._unit_in)  # places with a unit, or reserved for one
         self._places = np.flatnonzero(plan.storage)
+        self._aside = (plan.storage | plan.parking).ravel()  # where nobody is in the way
         self._ready = []  # transports at step READY, in the order in which they came to it
         self._open = []  # transports without a robot, the most urgent first
         self._transports = {}
@@ -222,8 +224,8 @@ class Transports:
         return sum(transport.station == station for transport in self._open)
 
     def capacity(self, station):
-        """How many may be lifted at a time: as many as have room in its lane."""
-        return self.stations[station].service + 1
+        """How many may be lifted at a time: no more than have room in its lane."""
+        return min(LIFTED, self.stations[station].service + 1)
 
     def get(self, transport_id):
         """A Transport under way, or None."""
@@ -514,23 +516,19 @@ class Transports:
     def _park(self):
         """Robots without work that stand in a street or a lane go beneath a stored unit."""
         traffic = self.traffic
-        without = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & (traffic.cell != NOWHERE)
-        without[list(self._of_robot)] = False
-        aside = (self.plan.storage | self.plan.parking).ravel()
-        goals = set(traffic.goal[traffic.goal != NOWHERE].tolist()) | set(traffic.cell.tolist())
-        for robot in np.flatnonzero(without):
-            cell = int(traffic.cell[robot])
-            if traffic.loaded[robot]:
-                continue
-            if traffic.goal[robot] != NOWHERE:
-                if traffic.goal[robot] == cell:
-                    traffic.send(robot, NOWHERE)
-                continue
-            if aside[cell]:
-                continue
-            place = self._nearest(cell, [c for c in self._unit_in if c not in goals])
+        idle = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
+        idle &= traffic.cell != NOWHERE
+        idle[list(self._of_robot)] = False
+        traffic.goal[idle & (traffic.goal == traffic.cell)] = NOWHERE
+        in_the_way = idle & (traffic.goal == NOWHERE) & ~self._aside[traffic.cell]
+        if not in_the_way.any():
+            return
+        kept = set(traffic.goal.tolist()) | set(traffic.cell.tolist())
+        places = [cell for cell in self._unit_in if self._aside[cell] and cell not in kept]
+        for robot in np.flatnonzero(in_the_way):
+            place = self._nearest(int(traffic.cell[robot]), places)
             if place != NOWHERE:
-                goals.add(place)
+                places.remove(place)
                 traffic.send(robot, place)
 
     def _nearest(self, cell, cells):

@@ -103,7 +103,7 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   floor_ = &floor;
   random_.seed(seed);
   guidance_ = std::make_unique<Guidance>(
-      floor, GuidanceOptions{options_.against, options_.crowd, options_.memory});
+      floor, GuidanceOptions{options_.against, options_.crowd, options_.at_lanes, options_.memory});
   edges_ = std::make_unique<Edges>();
   edges_->next[0] = floor.edges(Deck::kUnder);
   edges_->next[1] = floor.edges(Deck::kAisles);

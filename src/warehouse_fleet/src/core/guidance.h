@@ -20,6 +20,7 @@ constexpr int kMaxEdgeCost = 60;
 struct GuidanceOptions {
   double against = 0;   ///< cost of meeting one robot a tick, in ticks
   double crowd = 0;     ///< cost of one robot a tick that waits in the cell, in ticks
+  double at_lanes = 0;  ///< cost beside stations' lanes, which is for who goes there, in ticks
   double memory = 200;  ///< ticks after which what was seen counts 1/e
 };
 
@@ -44,6 +45,7 @@ class Guidance {
   // What is seen counts more and more instead of what was seen less and less.
   double gain_ = 1;
   std::vector<float> drove_, waited_;
+  std::vector<std::uint8_t> is_at_lanes_;
   std::vector<std::uint8_t> costs_;
 };
 

@@ -54,7 +54,7 @@ int Reservations::conflict(int robot, const Path& path) const {
     who = merged(who, at(to, tick));
     if (from != to) {
       who = merged(who, entering(robot, from, to, tick));
-    } else if (is_loaded_[robot] && quarters(path.actions[tick - 1]) != 0) {
+    } else if (!rules_.turning && is_loaded_[robot] && quarters(path.actions[tick - 1]) != 0) {
       who = merged(who, turning(robot, to, tick));
     }
   }

@@ -30,7 +30,7 @@ class Drive {
     vertices();
     for (int robot = 0; robot < fleet_.size(); ++robot) {
       follow(robot);
-      turn(robot);
+      if (!rules_.turning) turn(robot);
     }
     now_ = then_;
   }

@@ -142,12 +142,13 @@ void bindFleet(py::module_& module) {
 
 void bindRules(py::module_& module) {
   py::class_<Rules>(module, "Rules")
-      .def(py::init([](bool following, bool rings) {
-             return Rules{following, rings};
+      .def(py::init([](bool following, bool rings, bool turning) {
+             return Rules{following, rings, turning};
            }),
-           py::arg("following") = true, py::arg("rings") = false)
+           py::arg("following") = true, py::arg("rings") = false, py::arg("turning") = false)
       .def_readonly("following", &Rules::following)
-      .def_readonly("rings", &Rules::rings);
+      .def_readonly("rings", &Rules::rings)
+      .def_readonly("turning", &Rules::turning);
 }
 
 void bindValidator(py::module_& module) {
@@ -199,6 +200,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("renewal_age", options.renewal_age);
   set("against", options.against);
   set("crowd", options.crowd);
+  set("at_lanes", options.at_lanes);
   set("memory", options.memory);
   for (const auto& unknown : given) {
     throw py::type_error("no such option: " + unknown.first.cast<std::string>());

@@ -7,6 +7,14 @@ export function post(path, body = undefined) {
   return request('POST', path, body);
 }
 
+export function get(path) {
+  return request('GET', path);
+}
+
+export function put(path, body) {
+  return request('PUT', path, body);
+}
+
 export function remove(path) {
   return request('DELETE', path);
 }

@@ -5,7 +5,7 @@ Stock changes by moves alone, which are told to whoever writes them down: the qu
 the sum of its moves. Reserved pieces are promised to a pick; expected ones are on their way.
 """
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from enum import StrEnum
 
 ROOMY = 12  # pieces, of the largest bundle
@@ -50,10 +50,6 @@ class Bin:
         """Whether another SKU may move in."""
         return not self.quantity and not self.expected
 
-    def takes(self, sku, quantity=1):
-        """Whether so many of a SKU can be put in."""
-        return self.room >= quantity and (self.sku == sku or self.empty)
-
 
 class Inventory:
     """The bins, by unit and by SKU. on_move(bin, quantity, reason, context) hears of each move."""
@@ -62,7 +58,8 @@ class Inventory:
         self.bins = {one.bin_id: one for one in bins}
         self.of_unit, self._of_sku = defaultdict(list), defaultdict(dict)
         self.capacity = self.total = self.expected = 0
-        self.empty = {}  # bins that any SKU may move into, by id
+        self.empty = {}  # bins without anything, by id
+        self._kept_for = Counter(one.sku for one in bins)  # bins by the SKU they have or had last
         self.roomy = defaultdict(int)  # bins with room for a bundle of any size, by SKU
         self._roomy = set()
         self._available = defaultdict(int)
@@ -94,6 +91,14 @@ class Inventory:
     def with_sku(self, sku):
         """The bins in which pieces of a SKU lie."""
         return self._of_sku[sku].values()
+
+    def takes(self, one, sku, quantity):
+        """Whether so many of a SKU can be put into a bin.
+
+        The last bin of a SKU is kept for it: else it could never be refilled.
+        """
+        may_move_in = one.empty and self._kept_for[one.sku] > 1
+        return one.room >= quantity and (one.sku == sku or may_move_in)
 
     def move(self, one, sku, quantity, reason, **context):
         """Puts pieces into a bin, or takes them out; raises StockError."""
@@ -130,7 +135,7 @@ class Inventory:
 
     def expect(self, one, sku, quantity):
         """Keeps room in a bin for pieces on their way."""
-        if not one.takes(sku, quantity):
+        if not self.takes(one, sku, quantity):
             raise StockError(f"{one.item} does not take {quantity} of {sku}")
         self._rename(one, sku)
         self._expect(one, sku, quantity)
@@ -161,6 +166,9 @@ class Inventory:
         if one.sku != sku and one.bin_id in self._roomy:
             self._roomy.discard(one.bin_id)
             self.roomy[one.sku] -= 1
+        if one.sku != sku:
+            self._kept_for[one.sku] -= 1
+            self._kept_for[sku] += 1
         one.sku = sku
 
     def _measure(self, one):

@@ -7,6 +7,8 @@ from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.orders import OrderEventKind, OrderState
 from warehouse_fleet.operations.stations import Mode, Pick
 
+RETRY = 1.0  # after the fleet refused a unit [s]
+
 
 class Picking:
     """The part of a Shift that works at its picking stations."""
@@ -128,6 +130,7 @@ class Picking:
             self._drop(visit, pick)
         for line in lines:
             self._note(visit.station, line)
+        self._to_fetch[visit.station] = None  # there is room for another one
 
     def close(self, station):
         """Its orders go to others, its units are sent away."""
@@ -151,9 +154,14 @@ class Picking:
                 return
             unit = self.shift.policies.units.choose(station, candidates, self.shift)
             visit = self.shift.request(unit, station)
-            if visit:
-                for line in candidates[unit]:
-                    self._allot(station, line)
+            if not visit:
+                self.shift.at(self.shift.now + RETRY, self._retry, station)
+                return
+            for line in candidates[unit]:
+                self._allot(station, line)
+
+    def _retry(self, station):
+        self._to_fetch[station] = None
 
     def _candidates(self, station):
         """What the units that are free could serve: {unit: {line: pieces}}."""
@@ -229,7 +237,7 @@ class Picking:
         self._assign(station)
         if not visit.picks:
             self.shift.release(visit)
-            self._to_assign[station] = None
+            self._to_assign[station] = self._to_fetch[station] = None
 
     # A person at the station.
 

@@ -8,6 +8,7 @@ from warehouse_fleet.operations.orders import Bundle
 from warehouse_fleet.operations.stations import Mode
 
 PERIOD = 10.0  # between two looks at what is to be ordered [s]
+RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK_AHEAD = 30  # bundles at the door that are tried for a place
 
 
@@ -60,26 +61,31 @@ class Replenishing:
                 if visit:
                     self._place(bundle, one, visit)
                     self._fill_up(visit)
-                return True
+                    return True
+                self.shift.at(self.shift.now + RETRY, self._retry, None)
+                return False
         return False
 
+    def _retry(self, _):
+        self._look = True
+
     def _candidates(self, bundle):
+        """Bins with room for it, on units that are free."""
         inventory, free = self.shift.inventory, self.shift.free_units
-        same = [
-            one for one in inventory.with_sku(bundle.sku) if one.takes(bundle.sku, bundle.quantity)
+        both = (inventory.with_sku(bundle.sku), inventory.empty.values())
+        return [
+            one
+            for bins in both
+            for one in bins
+            if one.unit in free and inventory.takes(one, bundle.sku, bundle.quantity)
         ]
-        result = [one for one in same if one.unit in free]
-        return result + [one for one in inventory.empty.values() if one.unit in free]
 
     def _fill_up(self, visit):
         """Other bundles at the door that find a place on the same unit come with it."""
         inventory = self.shift.inventory
+        bins = inventory.of_unit[visit.unit]
         for bundle in list(self.bundles.values()):
-            places = [
-                one
-                for one in inventory.of_unit[visit.unit]
-                if one.takes(bundle.sku, bundle.quantity)
-            ]
+            places = [one for one in bins if inventory.takes(one, bundle.sku, bundle.quantity)]
             same = [one for one in places if one.sku == bundle.sku]
             if same:
                 self._place(bundle, min(same, key=lambda one: one.room), visit)

@@ -27,7 +27,7 @@ from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import Kind
 
 UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
-HOLD = 60.0  # for so long a unit is not asked for whose transport failed [s]
+HOLD = 10.0  # for so long a unit is not asked for whose transport failed or was refused [s]
 RANKS_KEPT = 300.0  # for so long the ranking of the units by turnover is used [s]
 
 

@@ -42,6 +42,13 @@ def read(engine, now=0.0):
         )
 
 
+def open_transports(engine):
+    """The ids of transports that a run which was killed had asked for."""
+    query = select(schema.visit.c.transport_id).where(schema.visit.c.ended.is_(None))
+    with engine.connect() as connection:
+        return set(connection.execute(query).scalars())
+
+
 def _bins(connection):
     result = []
     for row in connection.execute(select(schema.bin_).order_by(schema.bin_.c.id)):

@@ -13,7 +13,7 @@ from pydantic.error_wrappers import ErrorWrapper
 from pydantic.errors import StrError
 from starlette.routing import Match
 
-from warehouse_sim.viewer import catalogue, schemas
+from warehouse_sim.viewer import catalogue, schemas, work
 from warehouse_sim.viewer.coordination import NONE_RUNS
 from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
@@ -43,9 +43,11 @@ Text = Query("", max_length=100, description="a part of the name")
 class ApiBackend:
     """What the API's answers are made from."""
 
-    def __init__(self, feed, model, journal, simulation, commander, coordination, transports):
+    def __init__(
+        self, feed, model, journal, simulation, commander, coordination, transports, operations=None
+    ):
         self.feed, self.model, self.journal = feed, model, journal
-        self.simulation, self.commander = simulation, commander
+        self.simulation, self.commander, self.work = simulation, commander, operations
         self.coordination, self.transports = coordination, transports
 
     async def look(self):
@@ -150,6 +152,7 @@ def router(backend):
     _add_things(out, backend, "items", "item")
     _add_simulation(out, backend)
     _add_coordinator(out, backend)
+    work.add(out, backend.work, _problems)
     return out
 
 

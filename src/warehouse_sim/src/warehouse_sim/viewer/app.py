@@ -23,6 +23,7 @@ from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.simulation import Simulation
 from warehouse_sim.viewer.transport_book import TransportBook
+from warehouse_sim.viewer.work import Work
 
 THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
 MOST_SOCKETS = 50
@@ -42,7 +43,7 @@ class Viewer:
         self.feed = Feed(ros, self._on_event, self.transports.add, self._on_news)
         self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
-        self.backend = api.ApiBackend(*parts, self.coordination, self.transports)
+        self.backend = api.ApiBackend(*parts, self.coordination, self.transports, Work(ros))
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):
@@ -111,6 +112,7 @@ class Viewer:
             )
 
         app.get("/", include_in_schema=False)(page("index.html"))
+        app.get("/operations", include_in_schema=False)(page("operations.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", FreshFiles(directory=self._web))

@@ -34,8 +34,10 @@ class Threshold:
 
     def _shortages(self, view):
         for sku, pieces in sorted(view.shortages().items()):
-            for _ in range(-(-pieces // BUNDLE_MOST)):
-                yield sku, BUNDLE_MOST
+            whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
+            wanted = whole if view.inventory.roomy[sku] else pieces
+            for begun in range(0, wanted, BUNDLE_MOST):
+                yield sku, min(BUNDLE_MOST, wanted - begun)
 
 
 class Never:

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a database is asked by people: orders, and where pieces lie. Rows of the schema's tables."""
+
+from sqlalchemy import exists, func, or_, select
+
+from warehouse_fleet.operations import schema
+
+
+def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0):
+    """(how many there are, [(row of orders, rows of its lines)]), the newest first.
+
+    search: a part of the reference, or a whole SKU.
+    """
+    orders, lines = schema.orders, schema.order_line
+    query = select(orders)
+    if order_id:
+        query = query.where(orders.c.id == order_id)
+    if state is not None:
+        query = query.where(orders.c.state == state)
+    if search:
+        with_sku = exists().where(lines.c.order_id == orders.c.id, lines.c.sku == search)
+        query = query.where(or_(orders.c.reference.contains(search, autoescape=True), with_sku))
+    with engine.connect() as connection:
+        total = connection.execute(select(func.count()).select_from(query.subquery())).scalar()
+        newest = query.order_by(orders.c.id.desc()).limit(limit).offset(offset)
+        rows = connection.execute(newest).all()
+        of_them = select(lines).where(lines.c.order_id.in_([row.id for row in rows]))
+        by_order = {row.id: [] for row in rows}
+        for line in connection.execute(of_them.order_by(lines.c.order_id, lines.c.number)):
+            by_order[line.order_id].append(line)
+    return total, [(row, by_order[row.id]) for row in rows]
+
+
+def find_stock(engine, sku="", limit=100, offset=0):
+    """(how many bins, pieces in all of them, rows of bin), the fullest first."""
+    bins = schema.bin_
+    query = select(bins)
+    if sku:
+        query = query.where(bins.c.sku == sku, bins.c.quantity > 0)
+    with engine.connect() as connection:
+        found = query.subquery()
+        counts = select(func.count(), func.coalesce(func.sum(found.c.quantity), 0))
+        total, pieces = connection.execute(counts.select_from(found)).one()
+        fullest = query.order_by(bins.c.quantity.desc(), bins.c.id).limit(limit).offset(offset)
+        return total, pieces, connection.execute(fullest).all()

@@ -1,0 +1,412 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Orders and stock as a ROS node: a shift over the coordinator of a running warehouse."""
+
+import threading
+from time import monotonic as clock
+from types import SimpleNamespace
+
+import numpy as np
+import rospy
+from nav_msgs.srv import GetMap
+
+from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.operations import kpis, queries, stored
+from warehouse_fleet.operations.database import Database
+from warehouse_fleet.operations.opening import open_shift
+from warehouse_fleet.operations.site import Site
+from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_msgs import msg, srv
+
+CYCLE = 0.1  # between two looks at what has happened [s]
+STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
+LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
+
+
+class Coordinator:
+    """The coordinator of another node, with the face of transport.Requests."""
+
+    def __init__(self):
+        self._heard, self._told = [], []
+        self._open = {}  # unit and station of what was asked for, by id
+        self._left = set()  # transports that an earlier run asked for
+        self._asked = 0.0
+        self._lock = threading.Lock()
+        self.state = None
+        self._submit = rospy.ServiceProxy("/warehouse/transport", srv.Transport)
+        self._release = rospy.ServiceProxy("/warehouse/release_transport", srv.ReleaseTransport)
+        rospy.Subscriber("/warehouse/transports", msg.TransportEvent, self._hear, queue_size=10000)
+        rospy.Subscriber("/warehouse/coordinator", msg.CoordinatorState, self._see, queue_size=1)
+
+    def submit(self, shelf_id, station="", x=0.0, y=0.0, then=0, priority=0):
+        try:
+            answer = self._submit(shelf_id, station, x or 0.0, y or 0.0, then, priority)
+        except rospy.ServiceException as error:
+            return Answer(0, False, str(error))
+        if answer.accepted:
+            if answer.transport_id in self._open:
+                self._lost()  # it counts anew: another coordinator
+            self._asked = rospy.get_time()
+            self._open[answer.transport_id] = shelf_id, station
+        return Answer(answer.transport_id, answer.accepted, answer.message)
+
+    def release(self, transport_id):
+        try:
+            answer = self._release(transport_id)
+        except rospy.ServiceException as error:
+            return False, str(error)
+        return answer.success, answer.message
+
+    def cancel(self, transport_id):
+        return False, "the coordinator brings what it has begun with"
+
+    def set_open(self, station, is_open):
+        """The coordinator is not told: nothing is asked for at a closed station."""
+
+    def release_left(self, transports):
+        """Lets go what an earlier run asked for: at once, or when it arrives."""
+        self._left = {number for number in transports if not self.release(number)[0]}
+
+    def take_events(self):
+        with self._lock:
+            heard, self._heard = self._told + self._heard, []
+            self._told = []
+        known = []
+        for event in heard:
+            if event.transport_id in self._open:
+                known.append(event)
+                if event.kind in (Kind.STORED, Kind.FAILED):
+                    del self._open[event.transport_id]
+            elif event.transport_id in self._left and event.kind == Kind.ARRIVED:
+                self._left.discard(event.transport_id)
+                self.release(event.transport_id)
+        return known
+
+    def _hear(self, event):
+        with self._lock:
+            self._heard.append(
+                TransportEvent(
+                    event.header.stamp.to_sec(),
+                    event.transport_id,
+                    Kind(event.kind),
+                    event.kiva_id,
+                    event.shelf_id,
+                    event.station,
+                    event.text,
+                )
+            )
+
+    def _see(self, state):
+        self.state = state
+        since = state.header.stamp.to_sec() - self._asked
+        if self._open and not (state.open or state.under_way) and since > LOST_AFTER:
+            self._lost()
+
+    def _lost(self):
+        """The coordinator has begun anew: what it was asked for will not come."""
+        rospy.logwarn(f"the coordinator has lost {len(self._open)} transports")
+        now = rospy.get_time()
+        with self._lock:
+            self._told += [
+                TransportEvent(now, number, Kind.FAILED, 0, shelf, station, "lost")
+                for number, (shelf, station) in self._open.items()
+            ]
+
+
+class Warehouse:
+    """What the other nodes tell about the warehouse; `distance_m` that all robots have driven."""
+
+    def __init__(self):
+        self.fleet = self.objects = self.units = self.scenery = None
+        self.distance_m = 0.0
+        for topic, kind, name in (
+            ("objects", msg.WarehouseObjects, "objects"),
+            ("unit_states", msg.UnitStates, "units"),
+            ("scenery", msg.Scenery, "scenery"),
+        ):
+            rospy.Subscriber(f"/warehouse/{topic}", kind, self._keep, name, queue_size=1)
+        rospy.Subscriber("/warehouse/fleet", msg.FleetState, self._on_fleet, queue_size=10)
+
+    def _keep(self, message, name):
+        setattr(self, name, message)
+
+    def _on_fleet(self, message):
+        before, self.fleet = self.fleet, message
+        if before and before.kiva_id == message.kiva_id:
+            dx, dy = np.subtract(message.x, before.x), np.subtract(message.y, before.y)
+            moved = np.hypot(dx, dy)
+            self.distance_m += float(moved[moved < 1.0].sum())  # farther: it was put there
+
+    @property
+    def is_known(self):
+        told = self.fleet, self.objects, self.units, self.scenery
+        return None not in told and self.objects.revision == self.units.revision
+
+    def site(self):
+        """The Site of it."""
+        floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+        plan = FloorPlan.of_messages(floor_map, self.scenery)
+        robots = self.fleet
+        units = self._unit_ids()
+        return Site(
+            plan,
+            dict(zip(robots.kiva_id, plan.cell_of(robots.x, robots.y).tolist())),
+            dict(zip(units, self._unit_cells(plan))),
+            [
+                (item, units[unit])
+                for item, unit in zip(self.objects.items, self.objects.item_unit)
+                if unit >= 0
+            ],
+            rospy.get_param("/warehouse/name", ""),
+        )
+
+    def standing(self, plan):
+        """The cells of the units that nobody carries, by id."""
+        if not self.is_known:
+            return {}
+        told = zip(self._unit_ids(), self._unit_cells(plan), self.units.carrier)
+        return {unit: cell for unit, cell, carrier in told if not carrier and cell >= 0}
+
+    def _unit_ids(self):
+        return [int(name.removeprefix("storage_unit")) for name in self.objects.storage_units]
+
+    def _unit_cells(self, plan):
+        places = np.reshape(self.units.pose, (-1, 7))
+        return plan.cell_of(places[:, 0], places[:, 1]).tolist()
+
+
+class OperationsNode:
+    """Runs a shift and serves it. Raises what open_shift does."""
+
+    def __init__(self, database, orders="fill", policies=None, seed=1):
+        self._lock = threading.RLock()  # of the shift, between the loop and services
+        self._warehouse, self._coordinator = Warehouse(), Coordinator()
+        self._stations = _publisher("/warehouse/stations", msg.StationStates)
+        self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
+        self._events = rospy.Publisher("/warehouse/order_events", msg.OrderEvent, queue_size=10000)
+        self._wait_for_warehouse()
+        self._site = self._warehouse.site()
+        self._database = Database(database)
+        self._coordinator.release_left(stored.open_transports(self._database.engine))
+        self._shift = open_shift(
+            self._site,
+            self._coordinator,
+            orders=orders,
+            seed=seed,
+            policies=policies,
+            database=self._database,
+            now=rospy.get_time(),
+        )
+        self._shift.on_order_event = self._tell
+        self._began = clock()
+        self._next_stations = self._next_kpis = rospy.get_time()
+        for name, kind, call in (
+            ("submit_order", srv.SubmitOrder, self._submit),
+            ("cancel_order", srv.CancelOrder, self._cancel),
+            ("set_station", srv.SetStation, self._set_station),
+            ("confirm_pick", srv.ConfirmPick, self._confirm),
+            ("report_short", srv.ReportShort, self._short),
+            ("find_orders", srv.FindOrders, self._find_orders),
+            ("find_stock", srv.FindStock, self._find_stock),
+        ):
+            rospy.Service(f"/warehouse/{name}", kind, call)
+        rospy.loginfo(
+            f"{len(self._site.units)} storage units, {len(self._site.items)} bins, "
+            f"{len(self._shift.orders)} orders to go on with"
+        )
+
+    def run(self):
+        """Until ROS shuts down."""
+        while not rospy.is_shutdown():
+            with self._lock:
+                self._step(rospy.get_time())
+            rospy.sleep(CYCLE)
+
+    def close(self):
+        """Writes what is left to the database."""
+        with self._lock:
+            self._shift.journal.end(self._shift, self._figures())
+            self._database.close()
+
+    def _wait_for_warehouse(self):
+        rate = rospy.Rate(10)
+        while not (self._warehouse.is_known and self._is_coordinated()):
+            rate.sleep()
+
+    def _is_coordinated(self):
+        state = self._coordinator.state
+        return state is not None and len(state.station)
+
+    def _step(self, now):
+        if now < self._shift.now:
+            raise rospy.ROSInterruptException("simulated time has gone back: beginning anew")
+        if now >= self._next_stations:
+            self._shift.floor.cells = self._warehouse.standing(self._site.plan)
+        self._shift.advance(now)
+        if now >= self._next_stations:
+            self._next_stations = now + STATIONS_PERIOD
+            self._stations.publish(self._stations_message(now))
+        if now >= self._next_kpis:
+            self._next_kpis = now + KPIS_PERIOD
+            self._kpis.publish(self._kpis_message(now))
+
+    # Services.
+
+    def _submit(self, request):
+        due = request.due.to_sec()
+        lines = [(line.sku, line.quantity) for line in request.lines]
+        with self._lock:
+            order, message = self._shift.submit(lines, due, request.priority, request.reference)
+            self._shift.journal.commit(self._shift)
+        self._shift.journal.flush()
+        return srv.SubmitOrderResponse(order.order_id if order else 0, bool(order), message)
+
+    def _cancel(self, request):
+        return srv.CancelOrderResponse(*self._do(self._shift.cancel_order, request.order_id))
+
+    def _set_station(self, request):
+        if request.mode not in (srv.SetStationRequest.AUTOMATIC, srv.SetStationRequest.MANUAL):
+            text = f"mode is {request.mode}; 0 (AUTOMATIC) or 1 (MANUAL) was expected"
+            return srv.SetStationResponse(False, text)
+        arguments = request.station, request.open, request.mode
+        return srv.SetStationResponse(*self._do(self._shift.set_station, *arguments))
+
+    def _confirm(self, request):
+        arguments = request.station, request.sku, request.quantity
+        return srv.ConfirmPickResponse(*self._do(self._shift.confirm_pick, *arguments))
+
+    def _short(self, request):
+        arguments = request.station, request.sku, request.quantity, request.damaged
+        return srv.ReportShortResponse(*self._do(self._shift.report_short, *arguments))
+
+    def _find_orders(self, request):
+        total, found = queries.find_orders(
+            self._database.engine,
+            request.order_id,
+            request.search,
+            None if request.state < 0 else request.state,
+            request.limit,
+            request.offset,
+        )
+        return srv.FindOrdersResponse(total, [_order_status(*one) for one in found])
+
+    def _find_stock(self, request):
+        total, pieces, found = queries.find_stock(
+            self._database.engine, request.sku, request.limit, request.offset
+        )
+        places = [
+            msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
+            for one in found
+        ]
+        return srv.FindStockResponse(total, pieces, places)
+
+    def _do(self, act, *arguments):
+        """Does it and keeps it; success and message."""
+        with self._lock:
+            answer = act(*arguments)
+            self._shift.journal.commit(self._shift)
+        self._shift.journal.flush()
+        return answer
+
+    # Topics.
+
+    def _tell(self, order, kind, sku, quantity, station, unit, text):
+        event = msg.OrderEvent(
+            order_id=order.order_id,
+            kind=kind,
+            sku=sku,
+            quantity=quantity,
+            station=station,
+            shelf_id=unit,
+            text=text,
+        )
+        event.header.stamp = rospy.Time.from_sec(self._shift.now)
+        self._events.publish(event)
+
+    def _stations_message(self, now):
+        message = msg.StationStates()
+        message.header.stamp = rospy.Time.from_sec(now)
+        elapsed = max(now - self._shift.began, 1e-9)
+        message.stations = [_station_state(one, elapsed) for one in self._shift.stations]
+        return message
+
+    def _figures(self):
+        state, wall = self._coordinator.state, clock() - self._began
+        fleet = SimpleNamespace(
+            robots=len(self._site.robots),
+            distance_m=self._warehouse.distance_m,
+            collisions=state.collisions,
+            blocked=state.blocked,
+            watchdog=state.watchdog,
+            plan_ms=[],
+            executed_over_planned=state.executed_over_planned,
+        )
+        figures = kpis.of_shift(self._shift, fleet, self._site.kinematics, wall)
+        planning = {"p50": state.plan_p50, "p99": state.plan_p99, "max": state.plan_p99}
+        return figures | {"plan_ms": planning}
+
+    def _kpis_message(self, now):
+        figures = self._figures()
+        planning = figures.pop("plan_ms")
+        for name in ("order_turnover_s", "order_throughput_s"):
+            figures[name] = msg.Quantiles(**figures[name])
+        message = msg.Kpis(
+            **figures,
+            **{f"plan_{name}": value for name, value in planning.items()},
+            orders_waiting=len(self._shift.backlog),
+            orders_at_stations=len(self._shift.orders) - len(self._shift.backlog),
+            stock_level=self._shift.inventory.level,
+        )
+        message.header.stamp = rospy.Time.from_sec(now)
+        return message
+
+
+def _order_status(order, lines):
+    return msg.OrderStatus(
+        order_id=order.id,
+        reference=order.reference,
+        state=order.state,
+        station=order.station,
+        priority=order.priority,
+        created=order.created,
+        due=order.due,
+        completed=order.completed or 0.0,
+        lines=[msg.OrderLine(line.sku, line.quantity) for line in lines],
+        picked=[line.picked for line in lines],
+    )
+
+
+def _publisher(topic, kind):
+    return rospy.Publisher(topic, kind, latch=True, queue_size=1)
+
+
+def _station_state(station, elapsed):
+    here = station.here
+    return msg.StationState(
+        name=station.name,
+        kind=station.kind,
+        open=station.is_open,
+        mode=station.mode,
+        shelf_id=here.unit if here else 0,
+        inbound=[visit.unit for visit in station.coming if visit is not here],
+        orders=list(station.orders),
+        slots=station.capacity,
+        picks=_picks(here) if here else [],
+        pieces=station.pieces,
+        busy_fraction=station.busy_s / elapsed,
+    )
+
+
+def _picks(visit):
+    return [
+        msg.StationPick(
+            pick.line.sku,
+            pick.quantity,
+            pick.bin.item,
+            pick.line.order.order_id,
+            pick.line.order.reference,
+        )
+        for pick in visit.picks
+    ] + [
+        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "")
+        for bundle in visit.puts
+    ]

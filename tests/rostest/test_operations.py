@@ -1,0 +1,176 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Orders over ROS: submitted, picked, told, confirmed by hand, and kept when the node dies."""
+
+import json
+import os
+import signal
+import unittest
+import urllib.error
+import urllib.request
+from xmlrpc.client import ServerProxy
+
+import rosgraph
+import rospy
+import rostest
+from node_test import PATIENCE, Listener, call, latched, wait_until
+
+from warehouse_fleet.operations import check
+from warehouse_fleet.operations.database import open_engine
+from warehouse_msgs.msg import Kpis, OrderEvent, OrderLine, StationStates
+from warehouse_msgs.srv import (
+    CancelOrder,
+    ConfirmPick,
+    ReportShort,
+    SetStation,
+    SetStationRequest,
+    SubmitOrder,
+)
+
+AUTOMATIC, MANUAL = SetStationRequest.AUTOMATIC, SetStationRequest.MANUAL
+LONG = 120.0  # [s, wall]
+
+
+def submit(*lines, reference=""):
+    wanted = [OrderLine(sku, quantity) for sku, quantity in lines]
+    return call("/warehouse/submit_order", SubmitOrder, reference=reference, lines=wanted)
+
+
+def station(name, condition=lambda station: True):
+    def holds(message):
+        return condition({one.name: one for one in message.stations}[name])
+
+    states = latched("/warehouse/stations", StationStates, holds)
+    return {one.name: one for one in states.stations}[name]
+
+
+def set_station(name, is_open, mode):
+    return call("/warehouse/set_station", SetStation, name, is_open, mode)
+
+
+class Operations(unittest.TestCase):
+    def setUp(self):
+        self.events = Listener("/warehouse/order_events", OrderEvent)
+        rospy.wait_for_service("/warehouse/submit_order", LONG)
+
+    def tearDown(self):
+        self.events.close()
+
+    def told(self, order_id, kind):
+        return [e for e in self.events.messages if (e.order_id, e.kind) == (order_id, kind)]
+
+    def wait_for(self, order_id, kind):
+        wait_until(lambda: self.told(order_id, kind), f"order {order_id}: {kind}", LONG)
+        return self.told(order_id, kind)[0]
+
+    def test_1_an_order_is_picked_and_told(self):
+        answer = submit(("sku-1", 1), ("sku-2", 2), reference="A-1")
+        self.assertTrue(answer.accepted, answer.message)
+        completed = self.wait_for(answer.order_id, OrderEvent.COMPLETED)
+        self.assertTrue(completed.station.startswith("pick"), completed)
+        picked = self.told(answer.order_id, OrderEvent.PICKED)
+        self.assertEqual(sorted(event.sku for event in picked), ["sku-1", "sku-2", "sku-2"])
+        self.assertTrue(all(event.shelf_id > 0 for event in picked))
+        kpis = latched("/warehouse/kpis", Kpis, lambda kpis: kpis.orders_completed)
+        self.assertEqual((kpis.items_picked, kpis.collisions), (3, 0))
+
+    def test_2_what_can_not_be_is_refused(self):
+        answer = submit(("sku-none", 1))
+        self.assertEqual((answer.order_id, answer.accepted), (0, False))
+        self.assertIn("there is no SKU 'sku-none'", answer.message)
+        self.assertFalse(call("/warehouse/cancel_order", CancelOrder, 10**6).success)
+        self.assertFalse(set_station("nowhere", True, AUTOMATIC).success)
+        self.assertFalse(set_station("pick1", True, 7).success)
+
+    def test_3_a_person_confirms_and_finds_too_few(self):
+        self.assertTrue(set_station("pick1", True, MANUAL).success)
+        self.assertTrue(set_station("pick2", False, AUTOMATIC).success)
+        order = submit(("sku-3", 2))
+        there = station("pick1", lambda one: one.picks)
+        pick = there.picks[0]
+        self.assertEqual((pick.sku, pick.quantity, pick.order_id), ("sku-3", 2, order.order_id))
+        self.assertIn(order.order_id, there.orders)
+        self.assertFalse(call("/warehouse/confirm_pick", ConfirmPick, "pick1", "sku-3", 9).success)
+        self.assertTrue(call("/warehouse/confirm_pick", ConfirmPick, "pick1", "sku-3", 1).success)
+        short = call("/warehouse/report_short", ReportShort, "pick1", "sku-3", 1, False)
+        self.assertTrue(short.success, short.message)
+        self.wait_for(order.order_id, OrderEvent.SHORT)
+        self.assertTrue(set_station("pick1", True, AUTOMATIC).success)
+        self.assertTrue(set_station("pick2", True, AUTOMATIC).success)
+        self.wait_for(order.order_id, OrderEvent.COMPLETED)
+
+    def test_4_over_http(self):
+        wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
+        wanted = {"reference": "web-1", "lines": [{"sku": "sku-5", "quantity": 2}]}
+        status, answer = ask("/orders", wanted)
+        self.assertEqual(status, 201, answer)
+        number = answer["order_id"]
+        self.wait_for(number, OrderEvent.COMPLETED)
+        wait_until(lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED", "it is kept")
+        found = ask("/orders?search=web-1&state=COMPLETED")[1]
+        self.assertEqual((found["total"], found["orders"][0]["order_id"]), (1, number))
+        self.assertEqual(
+            found["orders"][0]["lines"], [{"sku": "sku-5", "quantity": 2, "picked": 2}]
+        )
+        self.assertEqual(ask("/orders?search=sku-5")[1]["total"], 1)
+        stock = ask("/stock?sku=sku-5")[1]
+        self.assertEqual(sum(place["quantity"] for place in stock["places"]), stock["pieces"])
+        stations = {one["name"]: one for one in ask("/stations")[1]["stations"]}
+        self.assertEqual(stations["pick1"]["mode"], "AUTOMATIC")
+        self.assertGreaterEqual(ask("/kpis")[1]["orders_completed"], 1)
+        for path, body, expected in (
+            ("/orders", {"lines": [{"sku": "sku-none", "quantity": 1}]}, 409),
+            ("/orders", {"lines": []}, 422),
+            ("/orders", {"lines": [{"sku": "sku-5", "quantity": 0}]}, 422),
+            ("/stations/pick1/confirm", {"sku": "sku-5", "quantity": 1}, 409),
+            ("/stations/nowhere/short", {"sku": "sku-5", "quantity": 1}, 409),
+        ):
+            self.assertEqual(ask(path, body)[0], expected, path)
+        self.assertEqual(ask("/orders/999999")[0], 404)
+        self.assertEqual(ask(f"/orders/{number}", method="DELETE")[0], 409)
+
+    def test_5_killed_it_comes_back_and_goes_on(self):
+        orders = [submit((f"sku-{i}", 1)).order_id for i in range(1, 9)]
+        self.wait_for(orders[0], OrderEvent.ASSIGNED)
+        kill("/operations")
+        wait_until(lambda: all(self.is_complete(o) for o in orders), "all orders complete", LONG)
+        engine = open_engine(rospy.get_param("~database"))
+        self.assertEqual(check.faults(engine), [])
+
+    def is_complete(self, order_id):
+        told = self.told(order_id, OrderEvent.COMPLETED)
+        self.assertLessEqual(len(told), 1)
+        return bool(told)
+
+
+def ask(path, body=None, method=None):
+    """(status, body) of a request to /api/v1, as JSON; POST where there is a body."""
+    url = rospy.get_param("/viewer/address") + "api/v1" + path
+    data = None if body is None else json.dumps(body).encode()
+    headers = {"content-type": "application/json"}
+    request = urllib.request.Request(url, data, headers, method=method)
+    try:
+        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
+            return answer.status, json.load(answer)
+    except urllib.error.HTTPError as error:
+        return error.code, json.load(error)
+
+
+def pid(node):
+    """Process of a node; None while it is not there."""
+    try:
+        return ServerProxy(rosgraph.Master("/test").lookupNode(node)).getPid("/test")[2]
+    except (rosgraph.MasterException, OSError):
+        return None
+
+
+def kill(node):
+    """Kills a node without a chance to say goodbye, and waits for the next of that name."""
+    before = pid(node)
+    os.kill(before, signal.SIGKILL)
+    wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_operations")
+    rostest.rosrun("warehouse_tests", "work_at_orders", Operations)

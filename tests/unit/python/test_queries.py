@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What people ask a database: orders by reference and SKU, where pieces lie."""
+
+import time
+
+import pytest
+from operations_site import site
+
+from warehouse_fleet.operations import Operations
+from warehouse_fleet.operations.database import open_engine
+from warehouse_fleet.operations.orders import OrderState
+from warehouse_fleet.operations.queries import find_orders, find_stock
+
+
+@pytest.fixture(scope="module")
+def engine(tmp_path_factory):
+    path = tmp_path_factory.mktemp("queries") / "run.db"
+    with Operations(site=site(), database=path, orders="none") as ops:
+        ops.shift.submit([("sku-1", 1), ("sku-2", 2)], reference="A_1")
+        ops.shift.submit([("sku-2", 1)], reference="AB1")
+        ops.run(minutes=10)
+        ops.shift.submit([("sku-3", 1)], reference="late")
+    return open_engine(path)
+
+
+def test_orders_are_found(engine):
+    total, found = find_orders(engine)
+    assert total == 3 and [row.reference for row, _ in found] == ["late", "AB1", "A_1"]
+    assert [(line.sku, line.quantity, line.picked) for line in found[2][1]] == [
+        ("sku-1", 1, 1),
+        ("sku-2", 2, 2),
+    ]
+    assert find_orders(engine, search="sku-2")[0] == 2
+    assert find_orders(engine, search="A_")[0] == 1  # no wildcard
+    assert find_orders(engine, state=int(OrderState.COMPLETED))[0] == 2
+    assert find_orders(engine, order_id=3)[1][0][0].reference == "late"
+    total, found = find_orders(engine, limit=1, offset=1)
+    assert (total, found[0][0].reference) == (3, "AB1")
+
+
+def test_stock_is_found(engine):
+    total, pieces, rows = find_stock(engine, "sku-2")
+    assert total == len(rows) and pieces == sum(row.quantity for row in rows)
+    assert all(row.sku == "sku-2" for row in rows)
+    assert [row.quantity for row in rows] == sorted((r.quantity for r in rows), reverse=True)
+    assert find_stock(engine, "sku-none") == (0, 0, [])
+    assert find_stock(engine)[0] == len(site().items)
+
+
+def test_many_orders_are_no_burden(tmp_path):
+    """1,000 orders at once cost the shift little, and 10,000 in the list are searched at once."""
+    with Operations(site=site(), database=tmp_path / "run.db", orders="none") as ops:
+        ops.run(seconds=1)
+        began = time.process_time()
+        for i in range(10_000):
+            assert ops.shift.submit([("sku-1", 1)], reference=f"R-{i}")[0]
+        spent = time.process_time() - began
+        ops.shift.journal.commit(ops.shift)
+        ops.database.flush()
+        began = time.process_time()
+        assert find_orders(ops.database.engine, search="R-77", limit=20)[0] == 111
+        assert time.process_time() - began < 0.5
+    assert spent / 10_000 < 2e-3
