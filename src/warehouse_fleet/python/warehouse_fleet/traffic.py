@@ -69,16 +69,10 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-<<<<<<< HEAD
-    work: it stays), `mode`, `gone` (it was deleted).
-    A plan is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever
-    it is ready: so a run does not depend on the machine.
-=======
     work: it stays), `mode`, `gone` (it was deleted). `planner` is what a YAML file says of one, see
     warehouse_fleet.door; None: the one of the house. A plan is begun every tick on a thread of its
     own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
     machine.
->>>>>>> main
     """
 
     def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
