@@ -603,7 +603,8 @@ bool Execution::isForeign(int robot) const {
   // Who lifts, or is at work, does not drive.
   if (report.is_busy && report.state != kStateMovingX && report.state != kStateMovingY)
     return false;
-  if (!course.is_active) return true;
+  // A late copy of a path that was given up is its own still.
+  if (!course.is_active) return report.path_id == 0 || report.path_id != course.id;
   return (course.is_accepted || course.is_refused) && report.path_id != course.id;
 }
 
