@@ -4,10 +4,14 @@
 Everything waits for what it needs, with a deadline of wall time; nothing sleeps.
 """
 
+import os
+import signal
 import subprocess
 import threading
 import time
+from xmlrpc.client import ServerProxy
 
+import rosgraph
 import rospy
 
 from warehouse_msgs.msg import Event
@@ -61,6 +65,22 @@ def wait_until(condition, what, patience=PATIENCE):
     while not condition():
         assert time.monotonic() < end, f"waited in vain: {what}"
         threading.Event().wait(0.05)
+
+
+def pid(node):
+    """Process of a node; None while it is not there."""
+    try:
+        address = rosgraph.Master("/test").lookupNode(node)
+        return ServerProxy(address).getPid("/test")[2]
+    except (rosgraph.MasterException, OSError):
+        return None
+
+
+def kill(node):
+    """Kills a node without a chance to say goodbye, and waits for the next of that name."""
+    before = pid(node)
+    os.kill(before, signal.SIGKILL)
+    wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
 
 
 def call(name, kind, *args, **fields):

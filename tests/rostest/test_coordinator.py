@@ -9,14 +9,12 @@ import math
 import os
 import signal
 import unittest
-from xmlrpc.client import ServerProxy
 
 import numpy as np
-import rosgraph
 import rospy
 import rostest
 from nav_msgs.srv import GetMap
-from node_test import call, latched, wait_until
+from node_test import call, latched, pid, wait_until
 from warehouse_test import Collector, Commander
 
 from warehouse_fleet.floor_plan import FloorPlan
@@ -35,14 +33,6 @@ PATIENCE = 90.0  # [s, wall] of a transport
 NODE = "/coordinator"
 KINDS = ("RECEIVED", "ASSIGNED", "LIFTED", "ARRIVED", "RELEASED", "STORED")
 AT_ONCE = 255  # priority
-
-
-def pid():
-    """Process of the coordinator; None while it is not there."""
-    try:
-        return ServerProxy(rosgraph.Master("/test").lookupNode(NODE)).getPid("/test")[2]
-    except (rosgraph.MasterException, OSError):
-        return None
 
 
 class Fleet(unittest.TestCase):
@@ -233,10 +223,10 @@ class Fleet(unittest.TestCase):
         loaded = lambda f: {k for k, s in zip(f.kiva_id, f.shelf_id) if s}  # noqa: E731
         self.fleet.clear()
         fleet = self.fleet.first(lambda f: len(loaded(f)) >= 3 and max(map(abs, f.vx)) > 1)
-        carriers, before = loaded(fleet), pid()
+        carriers, before = loaded(fleet), pid(NODE)
         os.kill(before, signal.SIGKILL)
         self.state.clear()
-        wait_until(lambda: pid() not in (None, before), "the next coordinator")
+        wait_until(lambda: pid(NODE) not in (None, before), "the next coordinator")
         state = self.state.first(lambda state: state.automatic == 20)
         self.assertLessEqual(state.delivered, 1)
         # What they carry is put down, all of it.

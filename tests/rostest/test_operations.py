@@ -3,17 +3,13 @@
 """Orders over ROS: submitted, picked, told, confirmed by hand, and kept when the node dies."""
 
 import json
-import os
-import signal
 import unittest
 import urllib.error
 import urllib.request
-from xmlrpc.client import ServerProxy
 
-import rosgraph
 import rospy
 import rostest
-from node_test import PATIENCE, Listener, call, latched, wait_until
+from node_test import PATIENCE, Listener, call, kill, latched, wait_until
 
 from warehouse_fleet.operations import check
 from warehouse_fleet.operations.database import open_engine
@@ -154,21 +150,6 @@ def ask(path, body=None, method=None):
             return answer.status, json.load(answer)
     except urllib.error.HTTPError as error:
         return error.code, json.load(error)
-
-
-def pid(node):
-    """Process of a node; None while it is not there."""
-    try:
-        return ServerProxy(rosgraph.Master("/test").lookupNode(node)).getPid("/test")[2]
-    except (rosgraph.MasterException, OSError):
-        return None
-
-
-def kill(node):
-    """Kills a node without a chance to say goodbye, and waits for the next of that name."""
-    before = pid(node)
-    os.kill(before, signal.SIGKILL)
-    wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
 
 
 if __name__ == "__main__":

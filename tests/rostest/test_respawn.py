@@ -2,38 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """A node that dies comes back and finds the warehouse as it stands."""
 
-import os
-import signal
 import threading
 import unittest
-from xmlrpc.client import ServerProxy
 
-import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
-from node_test import Robot, call, create, latched, wait_until
+from node_test import Robot, call, create, kill, latched, wait_until
 
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties
 from warehouse_msgs.msg import TrackedObjects, WarehouseState
 
 SERVICE = "/warehouse/create_warehouse_models"
-
-
-def pid(node):
-    """Process of a node; None while it is not there."""
-    try:
-        address = rosgraph.Master("/test").lookupNode(node)
-        return ServerProxy(address).getPid("/test")[2]
-    except (rosgraph.MasterException, OSError):
-        return None
-
-
-def kill(node):
-    """Kills a node without a chance to say goodbye, and waits for the next of that name."""
-    before = pid(node)
-    os.kill(before, signal.SIGKILL)
-    wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
 
 
 def models():

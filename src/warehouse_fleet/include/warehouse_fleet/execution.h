@@ -62,9 +62,8 @@ class Execution {
 
   /// What the planner is to see: where robots are, what they can no longer take back. Robots that
   /// are not controlled are no part of it: their cells are closed. `goal` and `home` by robot, as
-  /// in Fleet; members() tells which robots the elements of the answer are.
+  /// in Fleet.
   Fleet fleet(const std::vector<Cell>& goal, const std::vector<Cell>& home, int horizon);
-  const std::vector<int>& members() const { return members_; }
   int robots() const { return static_cast<int>(courses_.size()); }
 
   /// From now on robots drive by this plan for the last fleet(). Where a robot was released

@@ -11,9 +11,9 @@ from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
 from warehouse_fleet import FloorError, floor_markings
-from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan
+from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import STAYS, Mode, Motion, Traffic
+from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Motion, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
 from warehouse_msgs.msg import (
     Cancel,
@@ -51,10 +51,6 @@ STEP_NAMES = {
     Step.STORING: "storing",
     Step.DROPPING: "dropping",
 }
-FIELDS = (  # of FleetState
-    *("kiva_id", "x", "y", "yaw", "vx", "vy"),
-    *("status", "state", "shelf_id", "path_id", "reached", "left"),
-)
 
 
 class Coordinator:
@@ -147,13 +143,12 @@ class Coordinator:
         with self._lock:
             if self._traffic is None:
                 return SetRobotModeResponse(False, self._alarm or NOT_YET)
-            robots = np.flatnonzero(self._traffic.kiva_ids == request.kiva_id)
-            if not len(robots):
+            robot = self._traffic.index(request.kiva_id)
+            if robot == NOWHERE:
                 return SetRobotModeResponse(False, f"there is no kiva{request.kiva_id}")
             if request.mode not in list(Mode):
                 text = f"mode is {request.mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE)"
                 return SetRobotModeResponse(False, text + " was expected")
-            robot = int(robots[0])
             if request.mode != Mode.AUTOMATIC and not self._traffic.stands[robot]:
                 self._cancel.publish(request.kiva_id)
             self._traffic.mode[robot] = request.mode
@@ -163,7 +158,9 @@ class Coordinator:
     # What it does.
 
     def _step(self, fleet):
-        report = SimpleNamespace(**{name: _array(getattr(fleet, name)) for name in FIELDS})
+        report = SimpleNamespace(
+            **{name: _array(getattr(fleet, name)) for name in ("kiva_id", *REPORTED)}
+        )
         time = fleet.stamp.to_sec()
         if not self._is_known(report, time):
             return
@@ -229,12 +226,9 @@ class Coordinator:
 
     def _see_map(self):
         try:
-            grid = rospy.ServiceProxy("/warehouse/map", GetMap)().map
+            self._traffic.see(occupancy_of(_map()))
         except rospy.ServiceException as error:
             rospy.logwarn(f"the floor can't be looked at: {error}")
-            return
-        cells = np.array(grid.data, np.uint8)
-        self._traffic.see(cells.reshape(grid.info.height, grid.info.width))
 
     def _begin(self, report, time):
         self._plan_of, self._ids = self._scenery, report.kiva_id
@@ -242,8 +236,7 @@ class Coordinator:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
         try:
-            floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
-            plan = FloorPlan.of_messages(floor_map, self._scenery)
+            plan = FloorPlan.of_messages(_map(), self._scenery)
             plan.check(obstructed=False)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
@@ -296,8 +289,7 @@ class Coordinator:
     def _take_refusals(self):
         refused, self._refused = self._refused, []
         for model in refused:
-            for robot in np.flatnonzero(self._traffic.kiva_ids == int(model.removeprefix("kiva"))):
-                self._traffic.refused(int(robot))
+            self._traffic.refused(model)
 
     def _send(self, releases):
         if len(releases[0]):
@@ -329,7 +321,7 @@ class Coordinator:
         if traffic.plan_seconds:
             spent = 1e3 * np.percentile(traffic.plan_seconds, (50, 99))
             state.plan_p50, state.plan_p99 = spent.tolist()
-        state.executed_over_planned = totals.driven / totals.planned if totals.planned else 1.0
+        state.executed_over_planned = totals.executed_over_planned
         state.station = list(transports.stations)
         state.queue = [transports.waiting(name) for name in state.station]
         long = np.flatnonzero(time - traffic.still_since > WAITS_LONG)
@@ -377,6 +369,10 @@ class Coordinator:
         if cell == NOWHERE:
             return math.nan, math.nan
         return tuple(map(float, self._traffic.plan.point_of(cell)))
+
+
+def _map():
+    return rospy.ServiceProxy("/warehouse/map", GetMap)().map
 
 
 def _floor_of(scenery):

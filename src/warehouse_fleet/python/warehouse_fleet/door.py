@@ -66,15 +66,12 @@ class PythonPlanner:
     def plan(self, fleet, seconds=0.0, attempts=-1):
         """Robots that can't take back what they do next keep to it, whatever the planner says; what
         is before them is closed to all others."""
-        committed = _first_commitments(fleet)
-        is_free = committed == FREE
-        if not is_free.all():
-            fleet = _Narrowed(fleet, _ahead(self.floor, fleet))
-        actions = self._ask(fleet)
-        committed = fleet.committed if fleet.committed.size else committed[:, None]
-        plan = np.zeros((len(fleet), max(MANOEUVRE, committed.shape[1])), np.uint8)
-        plan[:, :MANOEUVRE] = np.where(is_free[:, None], actions, 0)
+        committed = fleet.committed  # (robots, ticks); no ticks if nobody is
         kept = committed != FREE
+        if kept.any():
+            fleet = _Narrowed(fleet, _ahead(self.floor, fleet))
+        plan = np.zeros((len(fleet), max(MANOEUVRE, committed.shape[1])), np.uint8)
+        plan[:, :MANOEUVRE] = np.where(kept.any(axis=1)[:, None], 0, self._ask(fleet))
         plan[:, : committed.shape[1]][kept] = committed[kept]
         return plan
 
@@ -100,12 +97,6 @@ class _Narrowed:
 
     def __len__(self):
         return len(self._fleet)
-
-
-def _first_commitments(fleet):
-    """(n,) Action that each robot is committed to in the next tick, or FREE."""
-    committed = fleet.committed
-    return committed[:, 0] if committed.size else np.full(len(fleet), FREE, np.uint8)
 
 
 def _ahead(floor, fleet):

@@ -44,7 +44,6 @@ class FleetDriver:
         self.events = None
         self.collisions = 0
         self.refusals = []  # texts
-        self._index = {int(kiva): i for i, kiva in enumerate(world.fleet.kiva_id)}
         self._steps = max(1, round(UPDATE / world.step_size))
 
     def close(self):
@@ -119,9 +118,7 @@ class FleetDriver:
         self.collisions += int(np.count_nonzero(kinds == COLLISION))
         for event in events[kinds == REFUSED]:
             self.refusals.append(f"{event['model']}: {event['text']}")
-            robot = self._index.get(int(event["model"].removeprefix("kiva")))
-            if robot is not None:
-                self.traffic.refused(robot)
+            self.traffic.refused(event["model"])
 
     @property
     def blocked(self):
@@ -141,8 +138,7 @@ class FleetDriver:
     @property
     def executed_over_planned(self):
         """Seconds that robots drove over those of their plans; 1 before anybody has arrived."""
-        totals = self.transports.totals
-        return totals.driven / totals.planned if totals.planned else 1.0
+        return self.transports.totals.executed_over_planned
 
     @property
     def plan_ms(self):

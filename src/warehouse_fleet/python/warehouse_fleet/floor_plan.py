@@ -112,12 +112,11 @@ class FloorPlan:
     def of_messages(cls, grid, scenery):
         """Of a nav_msgs/OccupancyGrid (/warehouse/map) and a Scenery. Raises FloorError."""
         corner, spacing = grid.info.origin.position, grid.info.resolution
-        cells = np.array(grid.data, np.uint8).reshape(grid.info.height, grid.info.width)
         poses = np.reshape(scenery.pose, (-1, 7))
         belts = {n: p[:2] for n, p in zip(scenery.models, poses) if n.startswith(CONVEYOR)}
         marks = floor_markings.of_scenery(scenery)
         x, y = corner.x + spacing / 2, corner.y + spacing / 2
-        return cls.of_parts(x, y, spacing, cells, marks, belts)
+        return cls.of_parts(x, y, spacing, occupancy_of(grid), marks, belts)
 
     @classmethod
     def of_parts(cls, x, y, spacing, occupancy, marks, belts):
@@ -146,9 +145,19 @@ class FloorPlan:
         )
 
 
+def occupancy_of(grid):
+    """The cells of a nav_msgs/OccupancyGrid, (h, w) uint8, as World.occupancy() has them."""
+    return np.array(grid.data, np.uint8).reshape(grid.info.height, grid.info.width)
+
+
+def is_taken(occupancy):
+    """(h, w) bool: cells of a world's map that are neither free nor beneath a storage unit."""
+    return np.asarray(occupancy) >= BELT
+
+
 def _blank(x, y, spacing, occupancy):
     """A floor without markings: storage is where units stand."""
-    free = occupancy < BELT
+    free = ~is_taken(occupancy)
     none = np.zeros_like(free)
     exits = np.full(free.shape, ALL_EXITS, np.uint8)
     return FloorPlan.laid_out(

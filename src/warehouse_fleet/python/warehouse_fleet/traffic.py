@@ -21,6 +21,7 @@ import numpy as np
 
 from warehouse_fleet import Execution, Rules, epibt
 from warehouse_fleet.door import PlanRefusedError, make_planner
+from warehouse_fleet.floor_plan import is_taken
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
@@ -29,22 +30,12 @@ GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by mea
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
-TAKEN = 99  # of a cell of the world's map, and above: neither free nor beneath a storage unit
 LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
-REPORTED = [
-    "x",
-    "y",
-    "yaw",
-    "vx",
-    "vy",
-    "status",
-    "state",
-    "shelf_id",
-    "path_id",
-    "reached",
-    "left",
-]
+REPORTED = (  # of FleetState, beside kiva_id
+    *("x", "y", "yaw", "vx", "vy"),
+    *("status", "state", "shelf_id", "path_id", "reached", "left"),
+)
 
 
 class Mode(IntEnum):
@@ -246,9 +237,15 @@ class Traffic:
         """A robot is to go there; `home` is a storage place that it may enter with a load."""
         self.goal[robot], self.home[robot] = cell, home
 
-    def refused(self, robot):
-        """A robot has refused its path."""
-        self._execution.refused(robot)
+    def index(self, kiva_id):
+        """Which robot that is; NOWHERE if there is none."""
+        return next(iter(np.flatnonzero(self.kiva_ids == kiva_id).tolist()), NOWHERE)
+
+    def refused(self, model):
+        """A robot, by its model's name, has refused its path."""
+        robot = self.index(int(model.removeprefix("kiva")))
+        if robot != NOWHERE:
+            self._execution.refused(robot)
 
     def shut(self, cell, until):
         """Nobody may enter a cell for so long."""
@@ -273,7 +270,7 @@ class Traffic:
         does, until it is seen no more."""
         cells = np.asarray(cells)
         if cells.shape == self.plan.shape:
-            for cell in np.flatnonzero((cells >= TAKEN) & self.plan.passable):
+            for cell in np.flatnonzero(is_taken(cells) & self.plan.passable):
                 self.shut(int(cell), self.time + STAYS)
 
     def set_units(self, cells):

@@ -4,7 +4,7 @@ let go, and is stored again. Neither ROS nor physics: `fleet` lifts, `traffic` d
 
 import collections
 import itertools
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -80,7 +80,6 @@ class Transport:
     cell: int  # where it is to be brought
     then: int
     priority: int
-    received: float
     step: Step = Step.OPEN
     robot: int = NOWHERE  # an index
     let_go: bool = False
@@ -96,12 +95,15 @@ class Totals:
     delivered: int = 0  # units that came to their destination
     stored: int = 0
     failed: int = 0
-    lifts: int = 0
     cells: int = 0
     shortest: int = 0  # cells of the same journeys on the shortest ways
     driven: float = 0.0  # [s]
     planned: float = 0.0  # [s]
-    delivered_to: collections.Counter = field(default_factory=collections.Counter)
+
+    @property
+    def executed_over_planned(self):
+        """Seconds driven over those planned, of all journeys; 1 before there is one."""
+        return self.driven / self.planned if self.planned else 1.0
 
 
 def _urgency(transport):
@@ -126,7 +128,6 @@ class Transports:
         self.totals = Totals()
         self.cell_of_unit = dict(units)  # of those that stand; NOWHERE: not on a storage place
         self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
-        self._taken = set(self._unit_in)  # places with a unit, or reserved for one
         self._places = np.flatnonzero(plan.storage)
         self._aside = (plan.storage | plan.parking).ravel()  # where nobody is in the way
         self._ready = []  # transports at step READY, in the order in which they came to it
@@ -157,14 +158,16 @@ class Transports:
             cell = self._destination(shelf_id, station, x, y)
         except ValueError as error:
             return Answer(0, False, str(error))
-        self._last += 1
-        transport = Transport(
-            self._last, shelf_id, station, cell, then, priority, self.traffic.time
-        )
-        self._transports[self._last] = self._of_unit[shelf_id] = transport
+        transport = self._add(shelf_id, station, cell, then, priority)
         self._enqueue(transport)
         self._tell(transport, Kind.RECEIVED)
-        return Answer(self._last, True, "")
+        return Answer(transport.number, True, "")
+
+    def _add(self, shelf_id, station, cell, then=STORE, priority=0):
+        self._last += 1
+        transport = Transport(self._last, shelf_id, station, cell, then, priority)
+        self._transports[self._last] = self._of_unit[shelf_id] = transport
+        return transport
 
     def _destination(self, shelf_id, station, x, y):
         if station:
@@ -180,7 +183,7 @@ class Transports:
             raise ValueError(f"no robot can stand at ({x:g}, {y:g})")
         if self.plan.lane.flat[cell]:
             raise ValueError(f"({x:g}, {y:g}) is in the lane of a station; name the station")
-        if cell in self._taken and self._unit_in.get(cell) != shelf_id:
+        if cell in self._taken() and self._unit_in.get(cell) != shelf_id:
             raise ValueError(f"({x:g}, {y:g}) is taken")
         return cell
 
@@ -237,10 +240,6 @@ class Transports:
         """How many may be lifted at a time: no more than have room in its lane."""
         return min(LIFTED, self.stations[station].service + 1)
 
-    def get(self, transport_id):
-        """A Transport under way, or None."""
-        return self._transports.get(transport_id)
-
     def __iter__(self):
         return iter(self._transports.values())
 
@@ -270,8 +269,6 @@ class Transports:
         kept = {s: cell for s, cell in self.cell_of_unit.items() if s in better and s in cells}
         self.cell_of_unit = {**cells, **kept}
         self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
-        self._taken = set(self._unit_in)
-        self._taken |= {t.place for t in self._of_robot.values() if t.place != NOWHERE}
         for transport in list(self._transports.values()):
             if transport.shelf not in self.cell_of_unit:
                 self._fail(transport, f"storage unit {transport.shelf} is gone")
@@ -291,11 +288,13 @@ class Transports:
                 self._of_unit[shelf].priority = URGENT
                 self._open.sort(key=_urgency)
                 continue
-            self._last += 1
-            transport = Transport(self._last, shelf, "", cell, STORE, URGENT, self.traffic.time)
-            self._transports[self._last] = self._of_unit[shelf] = transport
+            transport = self._add(shelf, "", cell, priority=URGENT)
             self._enqueue(transport)
             self._tell(transport, Kind.RECEIVED, "its robot was lost")
+
+    def _taken(self):
+        """Cells with a unit, or kept for one that is under way."""
+        return self._unit_in.keys() | {t.place for t in self._of_robot.values()}
 
     def _tell_traffic(self):
         storage = self.plan.storage.flat
@@ -307,11 +306,8 @@ class Transports:
         asked = self._of_unit.get(shelf_id)
         if robot in self._of_robot or (asked is not None and asked.robot != NOWHERE):
             return
-        self._last += 1
-        cell = int(self.traffic.cell[robot])
-        transport = Transport(self._last, shelf_id, "", cell, STORE, 0, self.traffic.time)
+        transport = self._add(shelf_id, "", int(self.traffic.cell[robot]))
         transport.robot = robot
-        self._transports[self._last] = self._of_unit[shelf_id] = transport
         self._of_robot[robot] = transport
         self.cell_of_unit[shelf_id] = NOWHERE
         self.traffic.loaded[robot] = True
@@ -387,7 +383,6 @@ class Transports:
         if report.status[robot] != 0:
             return
         if report.shelf_id[robot] == (transport.shelf if is_up else 0):
-            self.totals.lifts += 1
             self.traffic.busy[robot] = False
             self._bring(transport) if is_up else self._stored(transport)
         elif self.traffic.astray[robot]:  # lifts again when it is back in the middle
@@ -423,7 +418,6 @@ class Transports:
             transport.step, transport.since = Step.WAITING, self.traffic.time
             self.traffic.busy[robot] = True
             self.totals.delivered += 1
-            self.totals.delivered_to[transport.station] += 1
             self._tell(transport, Kind.ARRIVED)
             if not transport.station:
                 transport.let_go = True
@@ -455,7 +449,6 @@ class Transports:
         self.traffic.loaded[transport.robot] = True
         self._tell(transport, Kind.LIFTED)
         if transport.let_go:  # was cancelled meanwhile
-            self._taken.discard(place)
             self._store(transport)
             return
         transport.step, transport.since = Step.BRINGING, self.traffic.time
@@ -476,9 +469,7 @@ class Transports:
         self._inbound[transport.station] -= 1
         if transport.then == STAY:
             if self.plan.storage.flat[transport.cell]:
-                self._taken.discard(transport.place)
                 transport.place = transport.cell
-                self._taken.add(transport.cell)
             transport.attempts = 0
             self._begin_lift(transport, Step.DROPPING)
         else:
@@ -488,12 +479,11 @@ class Transports:
         if is_inbound:
             self._inbound[transport.station] -= 1
         robot = transport.robot
-        self._taken.discard(transport.place)
-        out = self._taken | set(self.traffic.closed.tolist())
+        transport.place = NOWHERE
+        out = self._taken() | set(self.traffic.closed.tolist())
         free = np.array([cell for cell in self._places.tolist() if cell not in out])
         place = int(self.choose_place(transport.shelf, int(self.traffic.cell[robot]), free))
         transport.place = place
-        self._taken.add(place)
         transport.step, transport.since = Step.STORING, self.traffic.time
         self._send(transport, place, place)
 
@@ -503,8 +493,6 @@ class Transports:
         self.traffic.loaded[robot] = False
         self.cell_of_unit[transport.shelf] = cell
         self._unit_in[cell] = transport.shelf
-        self._taken.discard(transport.place)
-        self._taken.add(cell)
         self._put_down[transport.shelf] = self.traffic.time
         self._tell_traffic()
         self.totals.stored += 1
@@ -517,7 +505,6 @@ class Transports:
         self._tell(transport, Kind.FAILED, text)
         if Step.READY < transport.step < Step.STORING:
             self._inbound[transport.station] -= 1
-        self._taken.discard(transport.place)
         self._end(transport)
 
     def _end(self, transport):
@@ -565,14 +552,19 @@ class Transports:
             transport.attempts = 0
             self._begin_lift(transport, Step.LIFTING)
 
+    def _without_work(self):
+        traffic = self.traffic
+        idle = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
+        idle &= traffic.cell != NOWHERE
+        idle[list(self._of_robot)] = False
+        return idle
+
     def _assign(self):
         """Robots for what waits, a few more than stations have room for."""
         traffic = self.traffic
         if not self._open:
             return
-        is_free = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
-        is_free &= (traffic.cell != NOWHERE) & ~traffic.stalled
-        is_free[list(self._of_robot)] = False
+        is_free = self._without_work() & ~traffic.stalled
         for transport in list(self._open):
             if not is_free.any():
                 return
@@ -595,9 +587,7 @@ class Transports:
     def _park(self):
         """Robots without work that stand in a street or a lane go beneath a stored unit."""
         traffic = self.traffic
-        idle = (traffic.mode == Mode.AUTOMATIC) & ~traffic.busy & ~traffic.loaded
-        idle &= traffic.cell != NOWHERE
-        idle[list(self._of_robot)] = False
+        idle = self._without_work()
         traffic.goal[idle & (traffic.goal == traffic.cell)] = NOWHERE
         in_the_way = idle & (traffic.goal == NOWHERE) & ~self._aside[traffic.cell]
         if not in_the_way.any():

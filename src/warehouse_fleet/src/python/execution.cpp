@@ -105,7 +105,6 @@ void bindExecution(py::module_& module) {
             return run.execution.fleet(goals, homes, horizon);
           },
           py::arg("goal"), py::arg("home"), py::arg("horizon"))
-      .def("members", [](const Run& run) { return array(run.execution.members()); })
       .def("adopt", [](Run& run, const Bytes& actions) { run.execution.adopt(makePlan(actions)); })
       .def("release", &release)
       .def("refused", [](Run& run, int robot) { run.execution.refused(robot); })

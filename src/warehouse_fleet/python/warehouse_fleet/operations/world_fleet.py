@@ -74,8 +74,8 @@ class WorldFleet:
 
     @property
     def watchdog(self):
-        """How often a robot without progress was helped."""
-        return getattr(self._driver, "watchdog", 0)
+        """How often a robot made no progress for 30 s."""
+        return self._driver.watchdog
 
     @property
     def stuck(self):
