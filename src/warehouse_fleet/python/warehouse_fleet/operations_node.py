@@ -352,7 +352,7 @@ class OperationsNode:
         counts = (tally.picked_in, tally.stored_in, tally.completed_in)
         series = ([of.get(i, 0) for i in range(first, last + 1)] for of in counts)
         begin = max(first * kpis.INTERVAL, self._shift.began)
-        return msg.Throughput(_header(now), kpis.INTERVAL, begin, *series)
+        return msg.Throughput(_header(now), kpis.INTERVAL, begin, now, *series)
 
     def _heat_message(self, now):
         plan, heat = self._site.plan, self._warehouse.heat

@@ -119,10 +119,12 @@ class Short(Line):
 
 
 class Throughput(BaseModel):
-    """What the stations did in each interval of the last hour, the oldest first."""
+    """What the stations did in each interval of the last hour, the oldest first. They begin at whole
+    multiples of their length; the last one goes on."""
 
     interval: float = Field(description="[s], simulated")
-    begin: float = Field(description="of the first interval [s], simulated")
+    begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")
+    end: float = Field(description="up to which the last one goes so far [s]")
     items_picked: list[int]
     pieces_stored: list[int]
     orders_completed: list[int]
