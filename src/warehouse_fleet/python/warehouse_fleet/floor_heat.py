@@ -5,6 +5,7 @@ import numpy as np
 
 WINDOW, SLICES = 3600.0, 12  # what is older than the window is forgotten a slice at a time [s]
 TRAFFIC, WAITING = range(2)
+GAP = 1.0  # reports further apart tell no more of the time between than that [s]
 
 
 class FloorHeat:
@@ -22,7 +23,7 @@ class FloorHeat:
         counts = self._slices[self._slice % SLICES]
         cells = self._plan.cell_of(x, y)
         inside = cells >= 0
-        np.add.at(counts[WAITING], cells[inside & waits], now - self._time)
+        np.add.at(counts[WAITING], cells[inside & waits], min(now - self._time, GAP))
         if self._cells is not None and len(self._cells) == len(cells):
             np.add.at(counts[TRAFFIC], cells[inside & (cells != self._cells)], 1)
         self._cells, self._time = cells, now

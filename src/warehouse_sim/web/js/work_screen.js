@@ -72,7 +72,7 @@ export class WorkScreen {
     };
     set(quantity);
     const step = (text, by, label) => make('button', { textContent: text, ariaLabel: label, click: () => set(this.count + by) });
-    const left = picks.length > 1 ? `${picks.length - 1} more from this unit` : 'the last from this unit';
+    const left = picks.length > 1 ? `then ${picks.length - 1} more` : 'the last one at this unit';
     const shelf = document.createElementNS(SVG, 'svg');
     drawUnit(shelf, unit, item, quantity);
     $('screen').replaceChildren(

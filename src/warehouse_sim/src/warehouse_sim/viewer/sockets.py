@@ -18,7 +18,8 @@ def described(app):
         about = {name: getattr(app, name) for name in ("title", "version", "description", "routes")}
         out = get_openapi(**about)
         messages = schemas_of(changes.MESSAGES, ref_prefix=REFERENCE)["definitions"]
-        out["components"]["schemas"] = messages | out["components"]["schemas"]
+        kinds = out.setdefault("components", {}).setdefault("schemas", {})
+        kinds.update((name, kind) for name, kind in messages.items() if name not in kinds)
         out["x-websockets"] = {
             "/api/v1/changes": {
                 "description": getdoc(changes),
