@@ -33,8 +33,9 @@ test('a question for a SKU is understood', () => {
   assert.equal(skuIn('Red Paint'), 'Red Paint');
 });
 
+const place = (item, shelf_id, sku, quantity) => [item, { item, shelf_id, sku, quantity }];
+
 test('pieces are summed up by unit, the most first; a bin may have come to hold another SKU', () => {
-  const place = (item, shelf_id, sku, quantity) => [item, { item, shelf_id, sku, quantity }];
   const places = new Map([place('a', 3, 's', 2), place('b', 4, 's', 5), place('c', 3, 's', 4),
     place('d', 9, 't', 7), place('e', 8, 's', 0)]);
   assert.deepEqual([...piecesByUnit(places, 's')], [[3, 6], [4, 5]]);

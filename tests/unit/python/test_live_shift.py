@@ -17,7 +17,9 @@ REPLENISH = "replenish3"
 
 def test_changes_are_those_that_the_database_keeps(tmp_path):
     """Whoever takes every change in has what the database has in the end."""
-    with Operations(site=site(), physics=False, database=tmp_path / "a.db", orders="fill:40") as ops:
+    with Operations(
+        site=site(), physics=False, database=tmp_path / "a.db", orders="fill:40"
+    ) as ops:
         shift = ops.shift
         changes = shift.journal = ChangeJournal(shift.journal)
         stock = {one.item: one.quantity for one in shift.inventory.bins.values()}

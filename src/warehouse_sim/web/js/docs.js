@@ -13,13 +13,13 @@ async function show() {
       $('operations').append(section(api, path, method, operation));
     }
   }
-  for (const [path, told] of Object.entries(api['x-websockets'])) $('operations').append(socket(api, path, told));
+  for (const [path, about] of Object.entries(api['x-websockets'])) $('operations').append(socket(api, path, about));
 }
 
 /** A WebSocket, with what it sends. */
 function socket(api, path, { description, parameters, messages = [] }) {
-  const lines = parameters.map(({ name, enum: some, description: about }) => (
-    make('li', {}, make('code', { textContent: name }), ` ${[about, some?.join(' | ')].filter(Boolean).join(': ')}`)));
+  const lines = parameters.map(({ name, enum: some, description: text }) => (
+    make('li', {}, make('code', { textContent: name }), ` ${[text, some?.join(' | ')].filter(Boolean).join(': ')}`)));
   const sent = messages.map((message) => make('li', {}, make('code', { textContent: told(api, message) })));
   return make('details', {},
     make('summary', {},

@@ -95,8 +95,8 @@ class Page {
   }
 
   showFigures() {
-    $('figures').replaceChildren(...FIGURES.map(([name, words, told]) => (
-      make('div', {}, make('b', { textContent: told(this.kpis[name]) }), make('span', { className: 'dim', textContent: words })))));
+    $('figures').replaceChildren(...FIGURES.map(([name, text, told]) => (
+      make('div', {}, make('b', { textContent: told(this.kpis[name]) }), make('span', { className: 'dim', textContent: text })))));
   }
 
   showChart() {
@@ -150,8 +150,9 @@ function words(name) {
   return name.replaceAll('_', ' ');
 }
 
+const pad = (n) => String(Math.floor(n)).padStart(2, '0');
+
 function clock(seconds) {
-  const pad = (n) => String(Math.floor(n)).padStart(2, '0');
   return `${Math.floor(seconds / 3600)}:${pad(seconds / 60 % 60)}:${pad(seconds % 60)}`;
 }
 

@@ -53,11 +53,14 @@ class Card {
     this.busy.textContent = `${Math.round(100 * station.busy_fraction)} % busy`;
     const work = kind === 'PICK' ? `${orders.length} of ${slots} orders, ${pieces} pieces` : `${pieces} pieces put in`;
     this.work.textContent = open ? work : `closed; ${work}`;
-    const chip = (text, className = '') => make('span', { textContent: text, className });
     this.queue.replaceChildren(...unit ? [chip(unit, 'here')] : [], ...inbound.map((other) => chip(other)));
     this.queue.title = `storage units: ${unit ? `${unit} is there, ` : ''}${inbound.length} on their way`;
     this.gate.textContent = open ? 'Close' : 'Open';
     this.hand.textContent = this.isByHand ? 'By itself' : 'By hand';
     this.screen.href = `#${name}`;
   }
+}
+
+function chip(text, className = '') {
+  return make('span', { textContent: text, className });
 }

@@ -61,10 +61,13 @@ export class WorkScreen {
     const unit = this.station.shelf_id;
     this.count = quantity;
     const count = make('b');
-    const button = (kind, text, path, more = {}) => make('button', {
-      className: kind, textContent: text, click: () => this.send(post(`/stations/${this.name}/${path}`, { sku, quantity: this.count, ...more })),
-    });
-    const confirm = button('confirm strong', 'Confirm', 'confirm');
+    const button = (kind, text, act) => make('button', { className: kind, textContent: text, click: () => this.send(act()) });
+    const report = (damaged, pieces) => post(`/stations/${this.name}/short`, { sku, quantity: pieces, damaged });
+    const confirm = button('confirm strong', 'Confirm', () => post(`/stations/${this.name}/confirm`, { sku, quantity: this.count }));
+    // Who finds too few has an empty bin before them, whatever the books say.
+    const short = button('short', 'Short', async () => report(false, isPicking ? await booked(sku, item) : this.count));
+    short.title = isPicking ? 'no more of them are in the bin' : 'so many did not come';
+    const damaged = button('damaged', 'Damaged', () => report(true, this.count));
     const set = (number) => {
       this.count = Math.max(1, Math.min(quantity, number));
       count.textContent = this.count;
@@ -81,8 +84,7 @@ export class WorkScreen {
         make('p', { textContent: reference ? `bin ${item}, for ${reference}` : `bin ${item}` }),
         make('div', { className: 'count' }, step('−', -1, 'one piece fewer'), count, step('+', 1, 'one piece more'), 'pieces'),
         make('p', { id: 'screen-answer', className: 'answer', hidden: true })),
-      make('div', { className: 'buttons' }, confirm, button('short', 'Short', 'short', { damaged: false }),
-        button('damaged', 'Damaged', 'short', { damaged: true })));
+      make('div', { className: 'buttons' }, confirm, short, damaged));
   }
 
   /** Waits for what was asked of the server; what comes next the stations tell. */
@@ -96,6 +98,12 @@ export class WorkScreen {
     }
     for (const button of buttons) button.disabled = false;
   }
+}
+
+/** Pieces in a bin, by the books. */
+async function booked(sku, item) {
+  const { places } = await get(`/stock?limit=1000&sku=${encodeURIComponent(sku)}`);
+  return places.find((place) => place.item === item)?.quantity ?? 1;
 }
 
 /** The unit's front with its bins, of which one is lit. */

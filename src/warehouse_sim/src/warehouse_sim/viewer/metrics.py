@@ -151,5 +151,3 @@ def _by_label(name, text, label, values):
     for key, value in values.items():
         family.add_metric([key], value)
     return family
-
-
