@@ -18,7 +18,7 @@ from warehouse_msgs.msg import Event
 from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim.script_executor import ScriptExecutor, command
 
-PATIENCE = 30.0  # [s, wall]
+PATIENCE = 60.0  # [s, wall]
 
 
 class Listener:
