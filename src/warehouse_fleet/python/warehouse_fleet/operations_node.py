@@ -25,6 +25,7 @@ STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 SHOWN = 60  # intervals of the throughput: an hour
 WAITS = (msg.KivaStatus.STATE_WAITING, msg.KivaStatus.STATE_BLOCKED)  # robots under way
 LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
+UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
 
 class Coordinator:
@@ -34,6 +35,7 @@ class Coordinator:
         self._heard, self._told = [], []
         self._open = {}  # unit and station of what was asked for, by id
         self._left = set()  # transports that an earlier run asked for
+        self._last_left = None  # the newest of them that is known, until this run asks for one
         self._asked = 0.0
         self._lock = threading.Lock()
         self.state = None
@@ -50,6 +52,7 @@ class Coordinator:
         if answer.accepted:
             if answer.transport_id in self._open:
                 self._lost()  # it counts anew: another coordinator
+            self._release_unknown(answer.transport_id)
             self._asked = rospy.get_time()
             self._open[answer.transport_id] = shelf_id, station
         return Answer(answer.transport_id, answer.accepted, answer.message)
@@ -67,9 +70,16 @@ class Coordinator:
     def set_open(self, station, is_open):
         """The coordinator is not told: nothing is asked for at a closed station."""
 
-    def release_left(self, transports):
-        """Lets go what an earlier run asked for: at once, or when it arrives."""
-        self._left = {number for number in transports if not self.release(number)[0]}
+    def release_left(self, transports, last):
+        """Lets go what an earlier run asked for, the newest known `last`: at once, or when it
+        arrives."""
+        self._left.update(number for number in transports if not self.release(number)[0])
+        self._last_left = last
+
+    def _release_unknown(self, first):
+        """What the earlier run was killed over before it was kept: all up to the `first` of this."""
+        if self._last_left is not None:
+            self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 
     def take_events(self):
         with self._lock:
@@ -199,7 +209,7 @@ class OperationsNode:
         self._wait_for_warehouse()
         self._site = self._warehouse.site()
         self._database = Database(database)
-        self._coordinator.release_left(stored.open_transports(self._database.engine))
+        self._coordinator.release_left(*stored.transports_left(self._database.engine))
         self._shift = open_shift(
             self._site,
             self._coordinator,
