@@ -77,7 +77,7 @@ class Coordinator:
         self._last_left = last
 
     def _release_unknown(self, first):
-        """What the earlier run was killed over before it was kept: all up to the `first` of this."""
+        """What the earlier run was killed over before it kept it: all up to the `first` of this."""
         if self._last_left is not None:
             self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 
