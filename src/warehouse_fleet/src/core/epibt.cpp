@@ -301,10 +301,13 @@ void Epibt::prioritise(const Fleet& fleet) {
 }
 
 /// Of those who go to the same cell the nearest inherits the first place, and so on. Whoever has
-/// waited longer behind it would else push it past where both go.
+/// waited longer behind it would else push it past where both go. Those who make way are told
+/// something else.
 void Epibt::nearestFirst(const std::vector<int>& distance, std::vector<int>& key) const {
-  std::vector<int> by_distance(key.size());
-  std::iota(by_distance.begin(), by_distance.end(), 0);
+  std::vector<int> by_distance;
+  for (int robot = 0; robot < static_cast<int>(key.size()); ++robot) {
+    if (!way_->isTold(robot)) by_distance.push_back(robot);
+  }
   std::vector<int> by_key = by_distance;
   const auto sort = [this](std::vector<int>& robots, const std::vector<int>& value) {
     std::sort(robots.begin(), robots.end(), [&](int one, int other) {
@@ -315,7 +318,7 @@ void Epibt::nearestFirst(const std::vector<int>& distance, std::vector<int>& key
   sort(by_distance, distance);
   sort(by_key, key);
   const std::vector<int> keys = key;
-  for (std::size_t i = 0; i < key.size(); ++i) key[by_distance[i]] = keys[by_key[i]];
+  for (std::size_t i = 0; i < by_key.size(); ++i) key[by_distance[i]] = keys[by_key[i]];
 }
 
 void Epibt::visit(int robot) {
