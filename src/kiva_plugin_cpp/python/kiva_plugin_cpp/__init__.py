@@ -46,6 +46,7 @@ __all__ = [
     "State",
     "Status",
     "World",
+    "Worlds",
 ]
 
 
@@ -186,3 +187,42 @@ class World(_core.World):
     def drop(self, kiva_id, shelf_id=0):
         """Drop it, or whichever unit it carries. Arguments and errors as of mov()."""
         self.lift(kiva_id, 0, shelf_id)
+
+
+class Worlds(_core.Worlds):
+    """Many worlds of equally many robots that are stepped on all cores in one call.
+
+    worlds = Worlds(64, "small")
+    worlds.post(world=[0, 5], commands=rows)
+    worlds.step(100)
+    worlds.x  # (64, 4)
+
+    Arrays have a leading dimension n and are read-only views of memory that step(), restore() and
+    place() fill; nothing is copied to look at them. worlds[i] is a World: what it is told shows in
+    the arrays after the next step(). Threads sleep between calls.
+    """
+
+    def __init__(self, n, name="", *, threads=0, seed=1, **options):
+        """n worlds as World.create(name, seed=seed + i, **options) builds them.
+
+        threads: how many step them, the caller among them; 0: as many as there are cores.
+        """
+        if n < 1:
+            raise ValueError(f"n is {n}; 1 or more")
+        self._adopt([World.create(name, seed=seed + i, **options) for i in range(n)], threads)
+
+    @classmethod
+    def of(cls, worlds, threads=0):
+        """Of Worlds that there are. ValueError unless they have equally many robots."""
+        self = cls.__new__(cls)
+        self._adopt(list(worlds), threads)
+        return self
+
+    def _adopt(self, worlds, threads):
+        if threads < 0:
+            raise ValueError(f"threads is {threads}; 0 or more")
+        super().__init__(worlds, threads)
+        self._worlds = worlds
+
+    def __getitem__(self, i):
+        return self._worlds[i]
