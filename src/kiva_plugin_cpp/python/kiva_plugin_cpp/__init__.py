@@ -47,6 +47,7 @@ __all__ = [
     "Status",
     "World",
     "Worlds",
+    "worlds_folder",
 ]
 
 
@@ -97,8 +98,8 @@ class EventKind(IntEnum):
     DELETED = 8
 
 
-def _worlds():
-    """The folder of world files: of the installation, else of the source tree."""
+def worlds_folder():
+    """The folder of world files and models: of the installation, else of the source tree."""
     package = Path(__file__).parent
     installed = package.parents[3] / "share" / "warehouse_sim" / "worlds"
     return (
@@ -109,7 +110,7 @@ def _worlds():
 
 
 def _find(world):
-    tried = [Path(world), _worlds() / world, _worlds() / f"{world}.sdf"]
+    tried = [Path(world), worlds_folder() / world, worlds_folder() / f"{world}.sdf"]
     for path in tried:
         if path.is_file():
             return path
@@ -125,7 +126,7 @@ class World(_core.World):
     """
 
     def __init__(self, world="empty", *, seed=1, drive="", model_paths=()):
-        models = [*map(str, model_paths), str(_worlds() / "models")]
+        models = [*map(str, model_paths), str(worlds_folder() / "models")]
         super().__init__(str(_find(world)), False, models, seed, drive)
 
     @classmethod

@@ -4,10 +4,13 @@
 // or a checkpoint is restored; so who has just stepped a world copies its robots into the common
 // arrays while they are in the cache (under a microsecond for ten robots), and Python looks at
 // those without another copy.
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <limits>
 
 #include "arrays.h"
+#include "core/motion/wheels.h"
 #include "crew.h"
 #include "host.h"
 #include "kiva_plugin_cpp/command.h"
@@ -179,6 +182,35 @@ class Worlds {
     }
   }
 
+  /// Who is at no command, (n, robots): those take it.
+  py::array_t<bool> drive(
+      const py::array_t<double, py::array::c_style | py::array::forcecast>& left,
+      const py::array_t<double, py::array::c_style | py::array::forcecast>& right) {
+    const std::size_t all = size() * static_cast<std::size_t>(robots_);
+    for (const auto* speeds : {&left, &right}) {
+      const bool fits = speeds->ndim() == 2 &&
+                        static_cast<std::size_t>(speeds->shape(0)) == size() &&
+                        speeds->shape(1) == robots_;
+      if (!fits) {
+        throw py::value_error("wheel speeds: expected shape (" + std::to_string(size()) + ", " +
+                              std::to_string(robots_) + "), not " + text(speeds->attr("shape")));
+      }
+      for (std::size_t k = 0; k < all; ++k) {
+        if (std::isfinite(speeds->data()[k])) continue;
+        throw py::value_error("wheel speed of robot " + std::to_string(k % robots_) + " in world " +
+                              std::to_string(k / robots_) + " is no finite number");
+      }
+    }
+    py::array_t<bool> out({static_cast<py::ssize_t>(size()), static_cast<py::ssize_t>(robots_)});
+    for (std::size_t k = 0; k < all; ++k) {
+      Host& at = *hosts_[k / robots_];
+      const auto lock = at.use();
+      out.mutable_data()[k] =
+          setWheelSpeeds(at.world, static_cast<int>(k % robots_), left.data()[k], right.data()[k]);
+    }
+    return out;
+  }
+
   py::array scans() {
     std::size_t rays = 0;
     for (const HostPtr& host : hosts_) {
@@ -345,6 +377,12 @@ CheckpointError, with that world unchanged, if the bytes are damaged.)");
              R"(Puts robots there, at rest: arrays (k,), in world [m, rad].
 
 ValueError for a robot that isn't or arrays of other lengths.)");
+  worlds.def("drive", &Worlds::drive, py::arg("left"), py::arg("right"),
+             R"(Asks the wheel motors of robots at no command for these speeds, (n, robots) [rad/s].
+
+They keep them until the next call or command: no faster than the robot's top speed, with all the
+motors' torque; no laser stops them. Returns who took it, (n, robots) bool: not who is at a command.
+ValueError for another shape, NaN or infinity.)");
   worlds.def("scans", &Worlds::scans,
              R"(Laser ranges now: (n, robots, rays) float32 [m], rows as of World.scans().
 
