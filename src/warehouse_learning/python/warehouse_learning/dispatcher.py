@@ -73,7 +73,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._cycle = self.delivered = 0
         while len(self._tasks) < self.options.requests:
             self._ask()
-        self._screen.stepped()
+        self._show()
         return self._observation(), self._info()
 
     def step(self, action):
@@ -100,7 +100,7 @@ class KivaDispatcherEnv(gymnasium.Env):
             + reward["refused"] * refused
             + reward["collided"] * (self._driver.collisions - collisions)
         )
-        self._screen.stepped()
+        self._show()
         ends = self._cycle >= self.options.max_cycles
         return self._observation(), float(earned), False, ends, self._info()
 
@@ -115,6 +115,10 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._scene.requested = np.isin(units, asked)[None]
         self._scene.busy = ~self._free()[None]
         return self._screen.render()
+
+    def _show(self):
+        if self.render_mode == "human":
+            self.render()
 
     def close(self):
         self._screen.close()

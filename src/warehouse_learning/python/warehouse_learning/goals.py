@@ -20,18 +20,20 @@ class Goals:
         self.cell = np.zeros(shape, np.int32)  # its own: none
         self.row = np.full(shape, warehouses.grid.nowhere, np.int32)  # of Grid.far
         self.aim = np.full(shape, -1, np.int32)  # unit, or cell of a storage place; -1 = none
+        self._news = np.ones(warehouses.n, bool)  # there may be other goals than before
 
     def begin(self, which):
         """Finds goals anew in those worlds."""
         self.aim[which] = -1
         self.row[which] = self._in.grid.nowhere
-        self.cell[which] = self._in.cell[which]
-        self._find([(w, r) for w in which for r in range(self._in.robots)])
+        self._news[which] = True
+        self._find()
 
     def end(self, w, robot):
         """A robot has lifted, delivered or put down."""
         self.aim[w, robot] = -1
         self.row[w, robot] = self._in.grid.nowhere
+        self._news[w] = True
 
     def renew(self):
         """Finds goals for those whose own is gone."""
@@ -45,51 +47,48 @@ class Goals:
         gone |= served & (aim >= 0) & (see.unit_at[w, np.maximum(aim, 0)] >= 0)
         if gone.any():
             aim[gone], self.row[gone] = -1, grid.nowhere
-        lacks = self.row == grid.nowhere
-        if lacks.any():
-            self.cell[lacks] = see.cell[lacks]
-            self._find(np.argwhere(lacks))
+            self._news |= gone.any(1)
+        self._find()
 
     def distance(self):
         """(n, robots) cells to go; 0 where there is no goal or no way."""
         far = self._in.grid.far[self.row, self._in.cell]
         return np.where(far == FAR, 0, far)
 
-    def _find(self, pairs):
-        for w, robot in pairs:
-            load = self._in.load[w, robot]
+    def _find(self):
+        see = self._in
+        lacks = self.row == see.grid.nowhere
+        self.cell[lacks] = see.cell[lacks]
+        for w, robot in np.argwhere(lacks & self._news[:, None]).tolist():
+            load = int(see.load[w, robot])
             if load < 0:
                 self._find_unit(w, robot)
-            elif self._in.requested[w, load]:
-                self._choose(w, robot, self._in.grid.stations, self._in.grid.loaded_to, -1)
+            elif see.requested[w, load]:
+                self._choose(w, robot, see.grid.stations, see.grid.loaded_to, None)
             else:
                 self._find_place(w, robot)
+        self._news[:] = False
 
     def _find_unit(self, w, robot):
         see = self._in
         wanted = see.requested[w] & (see.unit_cell[w] >= 0)
         others = self.aim[w, see.load[w] < 0]
         wanted[others[others >= 0]] = False
-        units = np.flatnonzero(wanted)
+        units = wanted.nonzero()[0]
         if len(units):
             self._choose(w, robot, see.unit_cell[w, units], see.grid.unloaded_to, units)
 
     def _find_place(self, w, robot):
         see = self._in
-        places = see.grid.places[see.unit_at[w, see.grid.places] < 0]
+        free = see.grid.storage & (see.unit_at[w] < 0)
         others = self.aim[w, see.load[w] >= 0]
-        places = places[~np.isin(places, others)]
-        if not len(places):
-            return
-        # Only the nearest as the crow flies are measured.
-        row, column = np.divmod(places, see.grid.width)
-        own = divmod(int(see.cell[w, robot]), see.grid.width)
-        near = np.argsort(np.abs(row - own[0]) + np.abs(column - own[1]), kind="stable")[:6]
-        self._choose(w, robot, places[near], see.grid.loaded_to, places[near])
+        free[others[others >= 0]] = False
+        places = free.nonzero()[0]
+        if len(places):
+            self._choose(w, robot, places, see.grid.loaded_to, places)
 
-    def _choose(self, w, robot, cells, row_to, aims):
-        grid = self._in.grid
-        rows = np.array([row_to(cell) for cell in cells])
-        nearest = int(grid.far[rows, self._in.cell[w, robot]].argmin())
+    def _choose(self, w, robot, cells, rows_to, aims):
+        rows = rows_to(cells)
+        nearest = self._in.grid.far[rows, self._in.cell[w, robot]].argmin()
         self.cell[w, robot], self.row[w, robot] = cells[nearest], rows[nearest]
-        self.aim[w, robot] = -1 if isinstance(aims, int) else aims[nearest]
+        self.aim[w, robot] = -1 if aims is None else aims[nearest]

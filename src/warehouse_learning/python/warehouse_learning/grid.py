@@ -10,6 +10,7 @@ import numpy as np
 from warehouse_fleet.stations import PICK
 
 FAR = np.iinfo(np.int16).max  # no way leads there
+UNLOADED, LOADED = range(2)
 
 
 class Grid:
@@ -33,10 +34,10 @@ class Grid:
         self.steps = np.array([1, self.width, -1, -self.width])
         self.places = np.flatnonzero(self.storage)
         self.longest = max(plan.shape)
-        self._row_of = {}
         self._far = np.full((16, self.cells), FAR, np.int16)
-        # A goal that is none: nothing is nearer.
-        self.nowhere = self._add(("nowhere", 0), np.zeros(self.cells, np.int16))
+        self._far[0] = 0  # a goal that is none: nothing is nearer
+        self._rows, self.nowhere = 1, 0
+        self._row_of = {deck: np.full(self.cells, -1, np.int32) for deck in (UNLOADED, LOADED)}
 
     def _rimmed(self, mask):
         return np.pad(mask, self.rim).ravel()
@@ -64,26 +65,30 @@ class Grid:
         """(rows, cells) int16: ways to goals in cells; a row by unloaded_to, loaded_to."""
         return self._far
 
-    def unloaded_to(self, cell):
-        """The row of `far` for a robot without a load that goes there."""
-        return self._row(("unloaded", int(cell)), self.passable)
+    def unloaded_to(self, cells):
+        """The rows of `far` for a robot without a load that goes there, (k,)."""
+        return self._rows_to(UNLOADED, cells)
 
-    def loaded_to(self, cell):
-        """The row of `far` for a robot with a load, which keeps out of storage but its goal."""
-        return self._row(("loaded", int(cell)), self.passable & ~self.storage)
+    def loaded_to(self, cells):
+        """The rows of `far` for a robot with a load, which keeps out of storage but its goal."""
+        return self._rows_to(LOADED, cells)
 
-    def _row(self, key, free):
-        if key not in self._row_of:
-            self._add(key, self._measure(key[1], free))
-        return self._row_of[key]
+    def _rows_to(self, deck, cells):
+        row_of = self._row_of[deck]
+        rows = row_of[cells]
+        if rows.min() < 0:  # measured when they are asked for at first
+            free = self.passable & ~self.storage if deck == LOADED else self.passable
+            for cell in np.unique(np.asarray(cells)[rows < 0]):
+                row_of[cell] = self._add(self._measure(cell, free))
+            rows = row_of[cells]
+        return rows
 
-    def _add(self, key, far):
-        row = len(self._row_of)
-        if row == len(self._far):
+    def _add(self, far):
+        if self._rows == len(self._far):
             self._far = np.concatenate([self._far, np.full_like(self._far, FAR)])
-        self._far[row] = far
-        self._row_of[key] = row
-        return row
+        self._far[self._rows] = far
+        self._rows += 1
+        return self._rows - 1
 
     def _measure(self, goal, free):
         """(cells,) int16, wave by wave from the goal. One may begin in any passable cell."""
