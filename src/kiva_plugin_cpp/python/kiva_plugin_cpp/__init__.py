@@ -27,7 +27,9 @@ if _built and not set(_built) & set(EXTENSION_SUFFIXES):
 
 import numpy
 
-if int(numpy.__version__.split(".")[0]) > 1:
+# Left there by a build with a pybind11 that does not know numpy 2.
+_only_numpy_1 = Path(__file__).with_name("only_numpy_1").exists()
+if _only_numpy_1 and int(numpy.__version__.split(".")[0]) > 1:
     raise ImportError(
         f"kiva_plugin_cpp is built for numpy 1, not {numpy.__version__}: pip install 'numpy<2'"
     )
@@ -101,12 +103,12 @@ class EventKind(IntEnum):
 def worlds_folder():
     """The folder of world files and models: of the installation, else of the source tree."""
     package = Path(__file__).parent
-    installed = package.parents[3] / "share" / "warehouse_sim" / "worlds"
-    return (
-        installed
-        if installed.is_dir()
-        else package.joinpath("__init__.py").resolve().parents[4] / "worlds"
+    places = (
+        package.parent / "warehouse_sim" / "share" / "worlds",  # of a wheel
+        package.parents[3] / "share" / "warehouse_sim" / "worlds",
+        package.joinpath("__init__.py").resolve().parents[4] / "worlds",
     )
+    return next((place for place in places if place.is_dir()), places[-1])
 
 
 def _find(world):
