@@ -16,7 +16,7 @@ from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Motion, Traffic
+from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
 from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_msgs.msg import (
     Cancel,
@@ -284,17 +284,15 @@ class Coordinator:
         self._traffic = Traffic(
             plan,
             report.kiva_id,
-            Motion(latency=LATENCY),
             seed=self._seed,
             planner=self._planner,
+            latency=LATENCY,
             lag=0.05,
         )
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
         self._abandoned = list(self._ledger)
-        self._transports = Transports(
-            plan, self._traffic, {}, self._send_lift, last=self._ledger.last
-        )
+        self._transports = Transports(plan, self._traffic, self._send_lift, last=self._ledger.last)
         self._see_units()
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)
