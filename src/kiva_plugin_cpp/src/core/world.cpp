@@ -33,6 +33,7 @@ constexpr double kMostStep = 1;                       // [s]
 constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
 constexpr double kLeastMoment = 1e-12;                // [kg m²]
 constexpr double kMostArm = 1000;                     // [m]
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void loadWorldPlugins(WorldState& world, const std::vector<PluginDescription>& plugins) {
   for (const PluginDescription& plugin : plugins) {
@@ -377,13 +378,14 @@ const Floor& World::floor() const { return state_->floor; }
 double World::gridSpacing() const { return state_->grid_spacing; }
 
 void World::scan(int robot, std::vector<float>* ranges) const {
-  std::vector<RayHit> hits;
-  castScan(*state_, robot, &hits);
-  const double nearest = state_->fleet.robots[robot].laser.min_range;
-  ranges->resize(hits.size());
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    (*ranges)[i] = hits[i].range < nearest ? -std::numeric_limits<float>::infinity()
-                                           : static_cast<float>(hits[i].range);
+  static thread_local FanHits hits;
+  const LaserParameters& laser = state_->fleet.robots[robot].laser;
+  castRays(*state_, robot, {laser.max_range, kInfinity}, &hits);
+  ranges->assign(laser.rays, static_cast<float>(kInfinity));
+  for (int ray = hits.first; ray <= hits.last; ++ray) {
+    if (hits.model[ray] < 0) continue;
+    const double range = hits.range[ray];
+    (*ranges)[ray] = static_cast<float>(range < laser.min_range ? -kInfinity : range);
   }
 }
 

@@ -43,13 +43,6 @@ struct Crash {
   std::string with;  ///< A model's name.
 };
 
-/// Directions of a laser's rays in the frame of its robot, as (cos, sin).
-struct RayFan {
-  int rays = 0;
-  double min_angle = 0, max_angle = 0;  // [rad]
-  std::vector<double> c, s;
-};
-
 /// Robots whose scans have the same period, by the step within it.
 struct ScanRound {
   std::uint64_t period = 0;  // steps
