@@ -8,7 +8,8 @@
 //   jointed   the same with wheel joints, as fast as they can
 // Every scan is read, or with --unread none is; robots look ahead in any case.
 //
-//   fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--seconds S] N…
+//   fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--threads T]
+//               [--seconds S] N…
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -24,7 +25,8 @@
 namespace {
 
 constexpr char kHelp[] =
-    "fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--seconds S] N…\n";
+    "fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--threads T] "
+    "[--seconds S] N…\n";
 
 // With which a jointed robot's square takes as long as the workload's.
 const std::pair<const char*, const char*> kJointedChanges[] = {
@@ -33,6 +35,7 @@ const std::pair<const char*, const char*> kJointedChanges[] = {
 struct Options : bench::Options {
   std::string robot = "default";
   bool read = true;  ///< Every scan that is due.
+  int threads = 1;
 };
 
 Options parse(int argc, char** argv) {
@@ -44,6 +47,8 @@ Options parse(int argc, char** argv) {
       options.read = false;
     } else if (words[k] == "--robot" && k + 1 < words.size()) {
       options.robot = words[++k];
+    } else if (words[k] == "--threads" && k + 1 < words.size()) {
+      options.threads = std::atoi(words[++k].c_str());
     } else {
       bench::usage(kHelp);
     }
@@ -142,8 +147,8 @@ double meanSpeed(const kiva::Fleet& fleet) {
 }
 
 /// Lasers are read by somebody: every scan that is due is taken.
-void readLasers(const kiva::World& world, std::vector<float>* ranges) {
-  for (int i : world.scansDue()) world.scan(i, ranges);
+void readLasers(const kiva::World& world, std::vector<std::vector<float>>* ranges) {
+  world.scan(world.scansDue(), ranges);
 }
 
 void spawn(kiva::World& world, const Options& options, int robots) {
@@ -156,10 +161,13 @@ void spawn(kiva::World& world, const Options& options, int robots) {
 }
 
 void run(const Options& options, int robots) {
-  kiva::World world(kiva::parseWorld(floorAndWalls(bench::Lattice(robots).size()), {}, "bench"));
+  kiva::WorldOptions of_world;
+  of_world.threads = options.threads;
+  kiva::World world(kiva::parseWorld(floorAndWalls(bench::Lattice(robots).size()), {}, "bench"),
+                    of_world);
   spawn(world, options, robots);
   Squares squares(robots);
-  std::vector<float> ranges;
+  std::vector<std::vector<float>> ranges;
   double speed = 0;
   constexpr int kSample = 10;  // steps between two looks at the speed
   const long steps = std::lround(options.seconds / world.stepSize());
@@ -175,8 +183,8 @@ void run(const Options& options, int robots) {
     world.takeEvents();
   });
   bench::print(options.robot, robots, options.lasers, factors,
-               std::string(", \"read\": ") + (options.read ? "true" : "false") +
-                   ", \"speed\": " + std::to_string(speed));
+               std::string(", \"read\": ") + (options.read ? "true" : "false") + ", \"threads\": " +
+                   std::to_string(options.threads) + ", \"speed\": " + std::to_string(speed));
 }
 
 }  // namespace

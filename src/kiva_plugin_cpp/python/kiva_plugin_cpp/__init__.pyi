@@ -96,6 +96,7 @@ class World:
         seed: int = 1,
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
     ) -> None: ...
     @classmethod
     def preset(
@@ -106,6 +107,7 @@ class World:
         seed: int = 1,
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
     ) -> World: ...
     @classmethod
     def create(
@@ -119,6 +121,7 @@ class World:
         seed: int = 1,
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
     ) -> World: ...
     @property
     def fleet(self) -> Fleet: ...

@@ -84,8 +84,7 @@ void forRays(const RayFan& fan, double from, double to, Visit visit) {
 /// The slab test (Kay and Kajiya 1986) in the box's own axes, for several rays at a time.
 __attribute__((target_clones("avx2", "default"))) void meetBox(const Target& t, const double* c,
                                                                const double* s, int rays,
-                                                               double* range,
-                                                               std::int64_t* model) {
+                                                               double* range, std::int64_t* model) {
   const double tc = t.c, ts = t.s, hx = t.shape->hx, hy = t.shape->hy;
   const double px = -(t.x * tc + t.y * ts), py = t.x * ts - t.y * tc;
   const std::int64_t own = t.shape->model;
@@ -117,9 +116,10 @@ void meetOther(const Target& t, const Sensor& from, const RayFan& fan, const Int
     const double along = t.x * c + t.y * s, across = t.x * s - t.y * c;
     RayHit hit{hits->range[k], static_cast<int>(hits->model[k])};
     if (std::abs(across) > radius || along < -radius || along - radius > hit.range) continue;
-    const double met = isFixed(f) ? castFootprint(f, from.x, from.y, from.z, from.c * c - from.s * s,
-                                                  from.s * c + from.c * s, hit.range)
-                                  : castFootprint(f, t, 0, 0, from.z, c, s, hit.range);
+    const double met = isFixed(f)
+                           ? castFootprint(f, from.x, from.y, from.z, from.c * c - from.s * s,
+                                           from.s * c + from.c * s, hit.range)
+                           : castFootprint(f, t, 0, 0, from.z, c, s, hit.range);
     hit.meet(met, f.model);
     hits->range[k] = hit.range;
     hits->model[k] = hit.model;
@@ -173,7 +173,8 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
   const Sector sector(fan, reach);
   Targets targets;
   const auto add = [&](const Footprint& f, const FlatPose& pose) {
-    if (from.z < f.z_min || from.z > f.z_max || !sector.mayHold(pose.x, pose.y, radiusOf(f))) return;
+    if (from.z < f.z_min || from.z > f.z_max || !sector.mayHold(pose.x, pose.y, radiusOf(f)))
+      return;
     targets.emplace_back();
     static_cast<FlatPose&>(targets.back()) = pose;
     targets.back().shape = &f;

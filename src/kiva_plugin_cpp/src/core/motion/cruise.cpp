@@ -49,7 +49,8 @@ bool hasEnded(const FleetState& f, int i, double dt) {
          endOf(f.acceleration[i], f.deceleration[i], f.reference_speed[i], dt);
 }
 
-constexpr int kBlock = 16;  // robots that are stepped together
+constexpr int kBlock = 16;           // robots that are stepped together
+constexpr int kBlocksTogether = 64;  // on one thread: less is not worth waking another
 
 /// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
 /// reference has ended, or step `now` is the one that it waits for.
@@ -140,6 +141,28 @@ void attend(WorldState& world, int i, double now) {
   planAttention(world, i, now);
 }
 
+enum : char { kNeedsALook = 1, kCarries = 2 };
+
+/// One step of those of block `b` that cruise; tells what is to be done for it then.
+char advanceBlock(FleetState& f, int b, double dt, double now) {
+  const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
+  std::int64_t any = 0, loaded = 0;
+  for (int i = begin; i < end; ++i) {
+    any |= f.cruising[i];
+    loaded |= f.cruising[i] & (f.unit[i] >= 0);
+  }
+  if (any == 0) return 0;
+  const bool needs_a_look = advance(f, begin, end, dt, now);
+  return static_cast<char>((needs_a_look ? kNeedsALook : 0) | (loaded ? kCarries : 0));
+}
+
+void attendBlock(WorldState& world, int b, double now) {
+  const int begin = b * kBlock, end = std::min(begin + kBlock, world.fleet.size());
+  for (int i = begin; i < end; ++i) {
+    if (world.fleet.cruising[i] != 0) attend(world, i, now);
+  }
+}
+
 }  // namespace
 
 bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
@@ -186,20 +209,17 @@ void setGoal(WorldState& world, int i, double goal) {
 void cruise(WorldState& world) {
   FleetState& f = world.fleet;
   const auto next = static_cast<double>(world.total_steps + 1);
-  bool any_loaded = false;
-  for (int begin = 0; begin < f.size(); begin += kBlock) {
-    const int end = std::min(begin + kBlock, f.size());
-    std::int64_t any = 0;
-    for (int i = begin; i < end; ++i) {
-      any |= f.cruising[i];
-      any_loaded |= f.cruising[i] != 0 && f.unit[i] >= 0;
-    }
-    if (any == 0 || !advance(f, begin, end, world.dt, next)) continue;
-    for (int i = begin; i < end; ++i) {
-      if (f.cruising[i] != 0) attend(world, i, next);
-    }
+  world.cruised.resize((f.size() + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<int>(world.cruised.size());
+  world.workers->share(blocks, kBlocksTogether, [&](int begin, int end) {
+    for (int b = begin; b < end; ++b) world.cruised[b] = advanceBlock(f, b, world.dt, next);
+  });
+  char any = 0;
+  for (int b = 0; b < blocks; ++b) {
+    any |= world.cruised[b];
+    if (world.cruised[b] & kNeedsALook) attendBlock(world, b, next);  // where all have gone
   }
-  if (any_loaded) world.unitsMoved();
+  if (any & kCarries) world.unitsMoved();
 }
 
 }  // namespace kiva

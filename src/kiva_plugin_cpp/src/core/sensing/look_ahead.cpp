@@ -17,6 +17,7 @@ constexpr double kSideMargin = 0.03;  // [m]
 // Kept to what stands or turns beyond a path's released end; a loaded robot that turns in the next
 // cell comes as near as 1 − 0.566 − 0.4 m.
 constexpr double kEndMargin = 0.02;  // [m]
+constexpr int kLooksTogether = 16;   // on one thread
 constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
 
 bool stops(const WorldState& world, int model, int robot) {
@@ -69,24 +70,32 @@ bool isOnGuard(const FleetState& f, int robot) {
          !task.segments.front().reverse;
 }
 
-void watch(WorldState& world, int robot) {
+/// It looks in this step.
+void alert(WorldState& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   task.last_sighting = task.sighting;
-  task.sighting = look(world, robot);
+  task.sighting.taken = true;
   world.sighted.push_back(robot);
 }
 
 }  // namespace
 
 void lookAhead(WorldState& world) {
-  const FleetState& f = world.fleet;
+  FleetState& f = world.fleet;
   world.sighted.clear();
   for (int i : world.scans_due) {
-    if (isOnGuard(f, i)) watch(world, i);
+    if (isOnGuard(f, i)) alert(world, i);
   }
   for (int i : world.stepped_singly) {
-    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) watch(world, i);
+    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) alert(world, i);
   }
+  const auto robots = static_cast<int>(world.sighted.size());
+  world.workers->share(robots, kLooksTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const int i = world.sighted[k];
+      f.tasks[i].sighting = look(world, i);
+    }
+  });
 }
 
 double alongSegment(const FleetState& f, int i) {
