@@ -8,7 +8,7 @@
 //   jointed   the same with wheel joints, as fast as they can
 // Every scan is read, or with --unread none is; robots look ahead in any case.
 //
-//   fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--threads T]
+//   fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--threads=T]
 //               [--seconds S] N…
 #include <cmath>
 #include <fstream>
@@ -25,8 +25,10 @@
 namespace {
 
 constexpr char kHelp[] =
-    "fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--threads T] "
+    "fleet_bench [--robot default|at_once|jointed] [--unread | --no-lasers] [--threads=T] "
     "[--seconds S] N…\n";
+
+const std::string kThreads = "--threads=";  // bare numbers are robots
 
 // With which a jointed robot's square takes as long as the workload's.
 const std::pair<const char*, const char*> kJointedChanges[] = {
@@ -47,8 +49,8 @@ Options parse(int argc, char** argv) {
       options.read = false;
     } else if (words[k] == "--robot" && k + 1 < words.size()) {
       options.robot = words[++k];
-    } else if (words[k] == "--threads" && k + 1 < words.size()) {
-      options.threads = std::atoi(words[++k].c_str());
+    } else if (words[k].rfind(kThreads, 0) == 0) {
+      options.threads = std::atoi(words[k].c_str() + kThreads.size());
     } else {
       bench::usage(kHelp);
     }

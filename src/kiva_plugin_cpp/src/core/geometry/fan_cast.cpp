@@ -18,15 +18,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAngleError = 1e-3;  // [rad] that angleOf() may be off, with much to spare
 constexpr double kTouching = 1e-6;    // [m]: a laser as near to a surface may be in it
 
-/// A footprint as the laser sees it.
+/// Rays of a fan that lie side by side.
+struct Interval {
+  int first = 0, last = -1;
+};
+
+/// A footprint as the laser sees it, and the rays that may meet it.
 struct Target : FlatPose {
   const Footprint* shape = nullptr;
-};
-using Targets = boost::container::small_vector<Target, 64>;
-
-/// Rays that may meet it.
-struct Interval {
-  int first, last;
+  Interval rays[3];  // of a whole circle, one end of the fan and the other
+  int parts = 0;
 };
 
 /// Of a direction [rad], within kAngleError.
@@ -66,19 +67,23 @@ bool anglesTo(const Target& t, double* from, double* to) {
   return true;
 }
 
-/// Calls visit(interval) for the rays between two angles, which may lie twice around.
-template <typename Visit>
-void forRays(const RayFan& fan, double from, double to, Visit visit) {
+/// The rays between two angles [rad], which may go on beyond ±π.
+void findRays(const RayFan& fan, double from, double to, Target* target) {
   const double span = fan.max_angle - fan.min_angle;
-  if (!(span > 0)) return visit(Interval{0, fan.rays - 1});
-  const double per = (fan.rays - 1) / span;
+  const double per = span > 0 ? (fan.rays - 1) / span : 0;
   for (const double turn : {-2 * M_PI, 0.0, 2 * M_PI}) {
     const double first = std::ceil((from + turn - kAngleError - fan.min_angle) * per);
     const double last = std::floor((to + turn + kAngleError - fan.min_angle) * per);
     const Interval rays{static_cast<int>(std::max(first, 0.0)),
                         static_cast<int>(std::min(last, fan.rays - 1.0))};
-    if (rays.first <= rays.last) visit(rays);
+    if (rays.first <= rays.last) target->rays[target->parts++] = rays;
   }
+}
+
+void findRays(const RayFan& fan, Target* target) {
+  double from = 0, to = 0;
+  if (anglesTo(*target, &from, &to)) return findRays(fan, from, to, target);
+  target->rays[target->parts++] = {0, fan.rays - 1};
 }
 
 /// The slab test (Kay and Kajiya 1986) in the box's own axes, for several rays at a time.
@@ -151,14 +156,6 @@ struct Sector {
   }
 };
 
-/// Calls visit(interval) for the rays that may meet a target.
-template <typename Visit>
-void forRaysTo(const Target& target, const RayFan& fan, Visit visit) {
-  double first = 0, last = 0;
-  if (!anglesTo(target, &first, &last)) return visit(Interval{0, fan.rays - 1});
-  forRays(fan, first, last, visit);
-}
-
 /// Seen from the laser.
 FlatPose seenFrom(const Sensor& from, double x, double y, double c, double s) {
   const double dx = x - from.x, dy = y - from.y;
@@ -166,50 +163,16 @@ FlatPose seenFrom(const Sensor& from, double x, double y, double c, double s) {
           from.c * s - from.s * c};
 }
 
-}  // namespace
-
-void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
-                     FanHits* hits) const {
-  const Sector sector(fan, reach);
-  Targets targets;
-  const auto add = [&](const Footprint& f, const FlatPose& pose) {
-    if (from.z < f.z_min || from.z > f.z_max || !sector.mayHold(pose.x, pose.y, radiusOf(f)))
-      return;
-    targets.emplace_back();
-    static_cast<FlatPose&>(targets.back()) = pose;
-    targets.back().shape = &f;
-  };
-  const auto addMover = [&](int robot) {
-    const double x = fleet_.x[robot], y = fleet_.y[robot];
-    const FlatPose middle = seenFrom(from, x, y, 1, 0);
-    if (!sector.mayHold(middle.x, middle.y, radius_[robot])) return;
-    const double c = std::cos(fleet_.yaw[robot]), s = std::sin(fleet_.yaw[robot]);
-    for (const Footprint& f : movers_[robot].local) {
-      add(f, seenFrom(from, x + c * f.x - s * f.y, y + s * f.x + c * f.y, c * f.c - s * f.s,
-                      s * f.c + c * f.s));
-    }
-  };
-  const auto see = [&](int handle) {
-    if (handle < 0) {
-      if (~handle != group) addMover(~handle);
-    } else if (const Footprint& f = entries_[handle].footprint; group < 0 || f.group != group) {
-      add(f, seenFrom(from, f.x, f.y, f.c, f.s));
-    }
-    return false;
-  };
-  const double middle = (sector.ahead - sector.back) / 2, half = (sector.ahead + sector.back) / 2;
-  const double x = from.x + from.c * middle, y = from.y + from.s * middle;
-  const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;
-  const double high = std::abs(from.s) * half + std::abs(from.c) * sector.aside;
-  anyHandle({x - wide, x + wide, y - high, y + high}, see);
-
+/// Rays that may meet anything go as far as they are of interest, so far.
+template <typename Targets>
+void begin(const RayFan& fan, const FanReach& reach, const Targets& targets, FanHits* hits) {
   hits->first = fan.rays;
   hits->last = -1;
   for (const Target& target : targets) {
-    forRaysTo(target, fan, [&](const Interval& rays) {
-      hits->first = std::min(hits->first, rays.first);
-      hits->last = std::max(hits->last, rays.last);
-    });
+    for (int k = 0; k < target.parts; ++k) {
+      hits->first = std::min(hits->first, target.rays[k].first);
+      hits->last = std::max(hits->last, target.rays[k].last);
+    }
   }
   hits->range.resize(fan.rays);
   hits->model.resize(fan.rays);
@@ -217,8 +180,53 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
     hits->range[ray] = std::min(reach.range, reach.aside * fan.per_aside[ray]);
     hits->model[ray] = -1;
   }
+}
+
+}  // namespace
+
+void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
+                     FanHits* hits) const {
+  const Sector sector(fan, reach);
+  boost::container::small_vector<Target, 32> targets;
+  const auto isAtHeight = [&](const Footprint& f) {
+    return f.z_min <= from.z && from.z <= f.z_max;
+  };
+  const auto add = [&](const Footprint& f, const FlatPose& pose) {
+    if (!sector.mayHold(pose.x, pose.y, radiusOf(f))) return;
+    Target target;
+    static_cast<FlatPose&>(target) = pose;
+    target.shape = &f;
+    findRays(fan, &target);
+    if (target.parts > 0) targets.push_back(target);
+  };
+  const auto addMover = [&](int robot) {
+    const double x = fleet_.x[robot], y = fleet_.y[robot];
+    const FlatPose middle = seenFrom(from, x, y, 1, 0);
+    if (!sector.mayHold(middle.x, middle.y, radius_[robot])) return;
+    const double c = std::cos(fleet_.yaw[robot]), s = std::sin(fleet_.yaw[robot]);
+    for (const Footprint& f : movers_[robot].local) {
+      if (!isAtHeight(f)) continue;
+      add(f, seenFrom(from, x + c * f.x - s * f.y, y + s * f.x + c * f.y, c * f.c - s * f.s,
+                      s * f.c + c * f.s));
+    }
+  };
+  // Of that floor, along the world's axes.
+  const double middle = (sector.ahead - sector.back) / 2, half = (sector.ahead + sector.back) / 2;
+  const double x = from.x + from.c * middle, y = from.y + from.s * middle;
+  const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;
+  const double high = std::abs(from.s) * half + std::abs(from.c) * sector.aside;
+  anyHandle({x - wide, x + wide, y - high, y + high}, [&](int handle) {
+    if (handle < 0) {
+      if (~handle != group) addMover(~handle);
+    } else if (const Footprint& f = entries_[handle].footprint;
+               isAtHeight(f) && (group < 0 || f.group != group)) {
+      add(f, seenFrom(from, f.x, f.y, f.c, f.s));
+    }
+    return false;
+  });
+  begin(fan, reach, targets, hits);
   for (const Target& target : targets) {
-    forRaysTo(target, fan, [&](const Interval& rays) { meet(target, from, fan, rays, hits); });
+    for (int k = 0; k < target.parts; ++k) meet(target, from, fan, target.rays[k], hits);
   }
 }
 
