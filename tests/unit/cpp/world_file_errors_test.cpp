@@ -321,6 +321,38 @@ TEST(WorldFileWarnings, EndWhenTheMissingModelComes) {
   fs::remove_all(folder);
 }
 
+/// libsdformat would end the process at some of them.
+TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
+  const fs::path folder = fs::temp_directory_path() / ("config_" + std::to_string(getpid()));
+  fs::create_directories(folder / "m");
+  std::ofstream(folder / "m" / "model.sdf")
+      << "<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>";
+  const std::map<std::string, std::string> faults = {
+      {"<model/>", "expected a <name>"},
+      {"<model><sdf>model.sdf</sdf></model>", "expected a <name>"},
+      {"<model><sdf version='1.6'/></model>", "expected a <name>"},
+      {"<model><sdf version='99'>model.sdf</sdf></model>", "expected a <name>"},
+      {"<model><name>m</name><sdf version='1.x'>model.sdf</sdf></model>", "'1.x' is no number"},
+      {"<model><sdf version='1.6'>model.sdf</sdf></model>", ""},
+      {"<model><name>m</name><sdf>model.sdf</sdf></model>", ""}};
+  const std::string include = "<include><uri>model://m</uri></include>";
+  const std::string wrapped = "<model name='o'><link name='l'/>" + include + "</model>";
+  for (const auto& [config, fault] : faults) {
+    SCOPED_TRACE(config);
+    std::ofstream(folder / "m" / "model.config") << config;
+    for (const std::string& part : {include, wrapped}) {
+      std::vector<std::string> warnings;
+      parseWorld("<sdf version='1.6'><world name='w'>" + part + "</world></sdf>", {folder.string()},
+                 "text", &warnings);
+      if (fault.empty()) continue;
+      ASSERT_EQ(warnings.size(), 1u);
+      EXPECT_PRED2(contains, warnings[0], "m/model.config:1: ");
+      EXPECT_PRED2(contains, warnings[0], fault);
+    }
+  }
+  fs::remove_all(folder);
+}
+
 TEST(WorldFileErrors, HaveAFixtureEach) {
   for (const auto& entry : fs::directory_iterator(kFolder)) {
     const std::string name = entry.path().stem().string();

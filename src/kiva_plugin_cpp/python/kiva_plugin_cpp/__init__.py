@@ -107,6 +107,11 @@ def _worlds():
     )
 
 
+def _ours(text):
+    """SDF that includes models of worlds/models, whatever else is called like them."""
+    return text.replace("model://", f"file://{_worlds()}/models/")
+
+
 def _find(world):
     tried = [Path(world), _worlds() / world, _worlds() / f"{world}.sdf"]
     for path in tried:
@@ -147,7 +152,7 @@ class World(_core.World):
         plan = layout.plan(wanted, options.get("seed", layout.SEED))
         world = cls(**options)
         world.delete(models.FLOOR)
-        world.spawn(models.document(models.of_layout(plan)))
+        world.spawn(_ours(models.document(models.of_layout(plan))))
         world.events()
         return world
 
@@ -177,7 +182,7 @@ class World(_core.World):
         """
         include = f"<include><uri>model://{model}</uri><name>{name}</name></include>"
         text = f'<sdf version="1.9"><world name="models">{include}</world></sdf>'
-        return self.spawn(text, name, (x, y, z, yaw))[0]
+        return self.spawn(_ours(text), name, (x, y, z, yaw))[0]
 
     def carry(self, kiva_id, shelf_id):
         """Carry that storage unit. Arguments and errors as of mov()."""
