@@ -76,9 +76,12 @@ def pid(node):
         return None
 
 
-def kill(node):
-    """Kills a node without a chance to say goodbye, and waits for the next of that name."""
+def kill(node, meanwhile=lambda: None):
+    """Kills a node without a chance to say goodbye, and waits for the next of that name. What is
+    done meanwhile it does not see."""
     before = pid(node)
+    os.kill(before, signal.SIGSTOP)
+    meanwhile()
     os.kill(before, signal.SIGKILL)
     wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
 

@@ -290,6 +290,7 @@ class Traffic:
     def releases(self):
         """What is to be sent now, as the arrays of FleetFollow: kiva_id, path_id, first, points, x,
         y, released. Plans as well, when it is time."""
+        self._execution.set_work(self.busy, self.loaded)
         if self._plan is not None and self.time >= self._due - 1e-9:
             actions = self._take_plan()
             if actions is not None:
