@@ -15,6 +15,7 @@ import sys
 from enum import IntEnum
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 _built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
 if _built and not set(_built) & set(EXTENSION_SUFFIXES):
@@ -113,7 +114,7 @@ def worlds_folder():
 
 def _ours(text):
     """SDF that includes models of worlds/models, whatever else is called like them."""
-    return text.replace("model://", f"file://{_worlds()}/models/")
+    return text.replace("model://", escape(f"file://{worlds_folder()}/models/"))
 
 
 def _find(world):
@@ -129,7 +130,8 @@ class World(_core.World):
 
     seed: of everything random. drive: "traction" or "jointed" instead of what the robots' models
     say. model_paths: folders in which to look for `model://` before the project's own.
-    FileNotFoundError, or DescriptionError that names file, line and what is wrong.
+    What is faulty in it is left out with a warning. FileNotFoundError, or DescriptionError that
+    names file, line and what is wrong where no world would be left.
     """
 
     def __init__(self, world="empty", *, seed=1, drive="", model_paths=()):
