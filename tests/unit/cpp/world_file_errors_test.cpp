@@ -113,6 +113,7 @@ const std::map<std::string, Loss> kWarnings = {
       {":9:" + kGeometry +
            "/prism: XML Element[prism], child of element[geometry], not defined in SDF",
        ":8:" + kGeometry + kNoCollision + "<prism> is not supported; " + kShapes}}},
+    {"gravity_huge", {1, {"gravity is left out: expected a gravity of 1000 m/s² at most"}}},
     {"gravity",
      {0,
       {":5: world 'w', gravity: this gravity is left out: '0 0 down' is no value for <gravity>; "
@@ -150,16 +151,26 @@ const std::map<std::string, Loss> kWarnings = {
        "joints of type 'screw' are not supported; expected fixed, revolute, continuous, prismatic "
        "or ball"}}},
     {"mass_nan",
-     {1, {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found nan" + kKilogram}}},
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found nan" +
+       kKilogram}}},
+    {"mass_huge",
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found 1e308" +
+       kKilogram}}},
     {"mass_negative",
-     {1, {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found -1" + kKilogram}}},
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found -1" +
+       kKilogram}}},
     {"mass_text",
      {1,
       {":8:" + kLink +
        ", inertial/mass: this mass is left out: 'heavy' is no value for <mass>; expected a "
        "number"}}},
     {"mass_zero",
-     {1, {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found 0" + kKilogram}}},
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found 0" +
+       kKilogram}}},
     {"mesh",
      {1, {":9:" + kGeometry + "/mesh" + kNoCollision + "there is no mesh 'model://m/m.dae'"}}},
     {"nested_include_missing", {1, {":8: world 'w', model 'm', include/uri" + kNowhere}}},
@@ -235,12 +246,12 @@ const std::map<std::string, Loss> kWarnings = {
        "true or false"}}},
     {"step_size",
      {0,
-      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size above 0 "
-       "s"}}},
+      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size from 1e-6 "
+       "to 1 s"}}},
     {"step_size_infinite",
      {0,
-      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size above 0 "
-       "s"}}},
+      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size from 1e-6 "
+       "to 1 s"}}},
     {"transparency",
      {1,
       {":8:" + kLink +

@@ -152,7 +152,6 @@ struct ModelInstance {
   std::shared_ptr<const ModelDescription> description;
   std::string
       robot_namespace{};  ///< Told to its plugins as `robotNamespace`, unless they have one.
-  std::string where{};    ///< `file:line: model`, where a file has it; empty if none does.
 };
 
 struct WorldDescription {

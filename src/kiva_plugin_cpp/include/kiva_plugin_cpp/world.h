@@ -144,7 +144,7 @@ struct WorldOptions {
 
 class World {
  public:
-  /// Builds every model and plugin; what is faulty is left out, see takeWarnings().
+  /// Builds every model and plugin. Throws DescriptionError.
   explicit World(const WorldDescription& description, const WorldOptions& options = {});
   ~World();
   World(const World&) = delete;

@@ -36,12 +36,11 @@ constexpr double kMostArm = 1000;                     // [m]
 
 /// A faulty part of a world costs that part and a warning.
 template <typename Add>
-void addOrLeaveOut(WorldState& world, const std::string& where, Add add) {
+void addOrLeaveOut(WorldState& world, Add add) {
   try {
     add();
   } catch (const DescriptionError& error) {
-    world.warn(error.what(),
-               (where.empty() ? "" : where + ": ") + "it is left out: " + error.what());
+    world.warn(error.what(), std::string("left out: ") + error.what());
   }
 }
 
@@ -110,10 +109,10 @@ World::World(const WorldDescription& description, const WorldOptions& options)
   state_->fleet_plugins = makeFleetPlugins();
   for (const Light& light : description.lights) setLight(light);
   for (const ModelInstance& model : description.models) {
-    addOrLeaveOut(*state_, model.where, [&] { spawn(model); });
+    addOrLeaveOut(*state_, [&] { spawn(model); });
   }
   for (const PluginDescription& plugin : description.plugins) {
-    addOrLeaveOut(*state_, "", [&] { loadWorldPlugin(*state_, plugin); });
+    addOrLeaveOut(*state_, [&] { loadWorldPlugin(*state_, plugin); });
   }
 }
 

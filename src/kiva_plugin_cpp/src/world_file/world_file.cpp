@@ -23,6 +23,10 @@
 namespace kiva {
 namespace {
 
+// What World::setStepSize and World::setGravity take.
+constexpr double kLeastStep = 1e-6, kMostStep = 1;  // [s]
+constexpr double kMostGravity = 1000;               // [m/s²]
+
 /// What libsdformat's part of a text came to.
 struct ParsedText {
   bool is_world = false;
@@ -37,7 +41,6 @@ void addModel(const sdf::Model& model, const Origin& origin, std::vector<ModelIn
     ModelInstance instance;
     instance.name = model.Name();
     instance.pose = resolved(model.SemanticPose(), model.Element());
-    instance.where = address(noteAt(model.Element(), ""), origin.where);
     instance.description =
         std::make_shared<ModelDescription>(describeModel(model, origin, warnings));
     models->push_back(std::move(instance));
@@ -46,8 +49,8 @@ void addModel(const sdf::Model& model, const Origin& origin, std::vector<ModelIn
 
 void setPhysics(const sdf::Physics& from, WorldDescription* world) {
   const double step = from.MaxStepSize(), factor = from.RealTimeFactor();
-  if (!std::isfinite(step) || step <= 0) {
-    failAt(from.Element(), "expected a max_step_size above 0 s");
+  if (!(step >= kLeastStep && step <= kMostStep)) {
+    failAt(from.Element(), "expected a max_step_size from 1e-6 to 1 s");
   }
   if (!std::isfinite(factor) || factor < 0) {
     failAt(from.Element(), "expected a real_time_factor of 0 or above");
@@ -57,7 +60,9 @@ void setPhysics(const sdf::Physics& from, WorldDescription* world) {
 }
 
 void setGravity(const sdf::World& from, WorldDescription* world) {
-  if (!from.Gravity().IsFinite()) failAt(from.Element(), "expected a finite gravity");
+  if (!(from.Gravity().Length() <= kMostGravity)) {
+    failAt(from.Element(), "expected a gravity of 1000 m/s² at most");
+  }
   world->gravity = from.Gravity();
 }
 
@@ -183,8 +188,7 @@ class Reading {
                std::vector<ModelInstance>* models) {
     const auto original = originals.find(include.copy_of);
     if (original != originals.end()) return add(include, copyOf(original->second, include), models);
-    warn(at(include) + ": this model is left out, as is '" + include.copy_of +
-         "', which is like it");
+    warn(at(include) + "this model is left out, as is '" + include.copy_of + "', which is like it");
   }
 
   void addLight(const Include& include, Light light) {
@@ -198,21 +202,20 @@ class Reading {
     try {
       model = library(include);
     } catch (const DescriptionError& error) {
-      return warn(at(include) + ": this include is left out: " + error.what());
+      return warn(at(include) + "this include is left out: " + error.what());
     }
-    if (!model) return warn(at(include) + ": " + leftOut(include.uri, model_paths_));
+    if (!model) return warn(at(include) + leftOut(include.uri, model_paths_));
     if (model->light) return addLight(include, *model->light);
     if (!model->description) {
-      warn(at(include) + ": '" + include.uri + "' holds no model and is left out");
+      warn(at(include) + "'" + include.uri + "' holds no model and is left out");
       return;
     }
     add(include, instance(include, *model), models);
   }
 
   void add(const Include& include, ModelInstance model, std::vector<ModelInstance>* models) {
-    model.where = at(include);
     if (names_.insert(model.name).second) return models->push_back(std::move(model));
-    warn(at(include) + ": it is left out: the name '" + model.name +
+    warn(at(include) + "it is left out: the name '" + model.name +
          "' is taken; expected every <model> in <world> to have a name of its own");
   }
 
@@ -229,7 +232,7 @@ class Reading {
 
   std::string at(const Include& include) const {
     const std::string what = include.copy_of.empty() ? "include" : "model";
-    return where_ + ":" + std::to_string(include.line) + ": " + what;
+    return where_ + ":" + std::to_string(include.line) + ": " + what + ": ";
   }
 
   static ModelInstance copyOf(const ModelInstance& original, const Include& include) {

@@ -92,7 +92,39 @@ void checkJoints(const ModelDescription& model, std::size_t slot) {
 
 // --- models
 
-bool isActivatable(const Model& model) { return model.owner->isActivatedWhenNear(); }
+bool isActivatable(const Model& model) {
+  return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
+}
+
+/// Whether the entry of that index in the table of its kind is about that model.
+bool isListed(const WorldState& world, const Model& model) {
+  const auto leads_back = [&](const auto& list) {
+    return isIn(model.index, list.size()) && list[model.index].model == model.slot;
+  };
+  switch (model.kind) {
+    case ModelKind::kRobot:
+      return leads_back(world.fleet.robots);
+    case ModelKind::kStorageUnit:
+      return leads_back(world.units);
+    case ModelKind::kItem:
+      return leads_back(world.items);
+    default:
+      return model.index == -1;
+  }
+}
+
+bool mayBeInPhysics(const WorldState& world, const Model& model) {
+  switch (model.kind) {
+    case ModelKind::kRobot:
+      return model.in_physics == (world.fleet.activated[model.index] != 0);
+    case ModelKind::kStorageUnit:
+      return !model.in_physics || world.units[model.index].carrier < 0;
+    case ModelKind::kItem:
+      return model.in_physics == (world.items[model.index].unit < 0);
+    default:
+      return model.in_physics;
+  }
+}
 
 void checkModel(const WorldState& world, const Model& model, std::size_t slot) {
   const ModelDescription& description = *model.description;
@@ -100,12 +132,11 @@ void checkModel(const WorldState& world, const Model& model, std::size_t slot) {
   checkJoints(description, slot);
   require(!model.name.empty(), "models", slot, "name", "it is empty");
   require(model.serial < world.next_serial, "models", slot, "serial", "it has not come yet");
-  const ModelOwner& owner = *model.owner;
-  const bool must_move = isActivatable(model) || owner.isTracked();
+  const bool must_move = isActivatable(model) || model.kind == ModelKind::kItem;
   require(!must_move || !model.isStatic(), "models", slot, "kind", "it can't be static");
-  require(owner.isListed(world, model), "models", slot, "index", "it leads to something else");
-  require(owner.mayBeInPhysics(world, model), "models", slot, "in_physics", "it can't be");
-  const bool may_be_disturbed = isActivatable(model) && owner.isTracked() && model.in_physics;
+  require(isListed(world, model), "models", slot, "index", "it leads to something else");
+  require(mayBeInPhysics(world, model), "models", slot, "in_physics", "it can't be");
+  const bool may_be_disturbed = model.kind == ModelKind::kStorageUnit && model.in_physics;
   require(!model.disturbed || may_be_disturbed, "models", slot, "disturbed", "it can't be");
   require(model.joints.empty() || model.joints.size() == description.joints.size(), "models", slot,
           "joints", "their number is not that of its description");

@@ -102,12 +102,4 @@ bool Items::push(WorldState& world, Model& model, int link, const Vector3& at, c
   return unit.owner->push(world, unit, 0, at, force, torque);
 }
 
-bool Items::isListed(const WorldState& world, const Model& model) const {
-  return leadsTo(world.items, model);
-}
-
-bool Items::mayBeInPhysics(const WorldState& world, const Model& model) const {
-  return model.in_physics == (world.items[model.index].unit < 0);
-}
-
 }  // namespace kiva

@@ -21,8 +21,6 @@ class Items : public OrdinaryModels {
   std::uint8_t occupies() const override { return Occupancy::kFree; }
   int group(const Model& /*model*/) const override { return -1; }
   bool isTracked() const override { return true; }
-  bool isListed(const WorldState& world, const Model& model) const override;
-  bool mayBeInPhysics(const WorldState& world, const Model& model) const override;
 };
 
 }  // namespace kiva

@@ -258,12 +258,4 @@ void Robots::deactivated(WorldState& world, Model& model) const {
   world.fleet.activated[model.index] = 0;
 }
 
-bool Robots::isListed(const WorldState& world, const Model& model) const {
-  return leadsTo(world.fleet.robots, model);
-}
-
-bool Robots::mayBeInPhysics(const WorldState& world, const Model& model) const {
-  return model.in_physics == (world.fleet.activated[model.index] != 0);
-}
-
 }  // namespace kiva

@@ -28,8 +28,6 @@ class Robots : public ModelOwner {
   bool tellsCollisions() const override { return true; }
   int robot(const WorldState& /*world*/, const Model& model) const override { return model.index; }
   int group(const Model& model) const override { return model.index; }
-  bool isListed(const WorldState& world, const Model& model) const override;
-  bool mayBeInPhysics(const WorldState& world, const Model& model) const override;
 };
 
 /// Whether the description is a Kiva robot's: it names the motion plugin.

@@ -185,12 +185,4 @@ bool StorageUnits::stops(const WorldState& world, const Model& model, int robot)
   return world.fleet.unit[robot] >= 0 || world.units[model.index].carrier >= 0;
 }
 
-bool StorageUnits::isListed(const WorldState& world, const Model& model) const {
-  return leadsTo(world.units, model);
-}
-
-bool StorageUnits::mayBeInPhysics(const WorldState& world, const Model& model) const {
-  return !model.in_physics || world.units[model.index].carrier < 0;
-}
-
 }  // namespace kiva

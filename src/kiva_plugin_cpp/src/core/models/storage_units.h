@@ -30,8 +30,6 @@ class StorageUnits : public ModelOwner {
   std::uint8_t occupies() const override { return Occupancy::kStorageUnit; }
   bool isTracked() const override { return true; }
   bool holdsItems() const override { return true; }
-  bool isListed(const WorldState& world, const Model& model) const override;
-  bool mayBeInPhysics(const WorldState& world, const Model& model) const override;
 };
 
 }  // namespace kiva

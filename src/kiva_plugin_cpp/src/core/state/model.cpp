@@ -9,14 +9,6 @@ bool ModelOwner::followsBodies(const Model& model) const {
   return model.in_physics && !model.isStatic() && !model.bodies.links.empty();
 }
 
-bool ModelOwner::isListed(const WorldState& /*world*/, const Model& model) const {
-  return model.index == -1;
-}
-
-bool ModelOwner::mayBeInPhysics(const WorldState& /*world*/, const Model& model) const {
-  return model.in_physics;
-}
-
 bool isAwake(const Model& model) {
   return std::any_of(model.bodies.links.begin(), model.bodies.links.end(),
                      [](const LinkBody& link) { return link.body->isActive(); });

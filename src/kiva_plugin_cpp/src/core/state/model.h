@@ -104,12 +104,6 @@ class ModelOwner {
   virtual bool isTracked() const { return false; }
   /// The group of its footprints: rays of that group pass them; -1 = none.
   virtual int group(const Model& /*model*/) const { return -1; }
-
-  // --- what must be true of a model that a checkpoint brings
-  /// Whether its index leads to its entry in the table of its kind, or is -1 if that has none.
-  virtual bool isListed(const WorldState& world, const Model& model) const;
-  /// Whether it may be in Bullet, or out of it, as Model::in_physics has it.
-  virtual bool mayBeInPhysics(const WorldState& world, const Model& model) const;
 };
 
 struct Model {
@@ -136,13 +130,6 @@ struct Model {
 
   bool isStatic() const { return description->is_static; }
 };
-
-/// Whether its index leads to its entry in `entries`: robots, storage units or items.
-template <typename Entries>
-bool leadsTo(const Entries& entries, const Model& model) {
-  return model.index >= 0 && model.index < static_cast<int>(entries.size()) &&
-         entries[model.index].model == model.slot;
-}
 
 /// Whether one of its bodies is awake in Bullet.
 bool isAwake(const Model& model);
