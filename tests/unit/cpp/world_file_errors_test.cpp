@@ -113,11 +113,14 @@ const std::map<std::string, Loss> kWarnings = {
       {":9:" + kGeometry +
            "/prism: XML Element[prism], child of element[geometry], not defined in SDF",
        ":8:" + kGeometry + kNoCollision + "<prism> is not supported; " + kShapes}}},
-    {"gravity_huge", {1, {"gravity is left out: expected a gravity of 1000 m/s² at most"}}},
     {"gravity",
      {0,
       {":5: world 'w', gravity: this gravity is left out: '0 0 down' is no value for <gravity>; "
        "expected three numbers"}}},
+    {"gravity_huge",
+     {0,
+      {":5: world 'w', gravity: this gravity is left out: expected a gravity of 1000 m/s² at "
+       "most"}}},
     {"heightmap",
      {1,
       {":9:" + kGeometry + "/heightmap" + kNoCollision + "<heightmap> is not supported; " +

@@ -61,7 +61,7 @@ void setPhysics(const sdf::Physics& from, WorldDescription* world) {
 
 void setGravity(const sdf::World& from, WorldDescription* world) {
   if (!(from.Gravity().Length() <= kMostGravity)) {
-    failAt(from.Element(), "expected a gravity of 1000 m/s² at most");
+    failAt(from.Element()->FindElement("gravity"), "expected a gravity of 1000 m/s² at most");
   }
   world->gravity = from.Gravity();
 }
