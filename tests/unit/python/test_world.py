@@ -225,11 +225,12 @@ def test_models_of_a_world_that_are_called_like_ours_are_no_robots(tmp_path):
     (tmp_path / "kiva").mkdir()
     (tmp_path / "kiva" / "model.config").write_text("<model><sdf>model.sdf</sdf></model>")
     (tmp_path / "kiva" / "model.sdf").write_text(
-        '<sdf version="1.6"><model name="kiva"><static>1</static><link name="statue"/></model></sdf>'
+        '<sdf version="1.6"><model name="kiva"><static>1</static><link name="l"/></model></sdf>'
     )
     file = tmp_path / "their.world"
     file.write_text(
-        '<sdf version="1.6"><world name="w"><include><uri>model://kiva</uri></include></world></sdf>'
+        '<sdf version="1.6"><world name="w"><include><uri>model://kiva</uri></include>'
+        "</world></sdf>"
     )
     world = World(file, model_paths=[tmp_path])
     assert world.names == ["kiva"]
