@@ -55,6 +55,7 @@ HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std:
                                   options, models);
   }
   warn(warnings);
+  warn(host->world.takeWarnings());
   return host;
 }
 
