@@ -60,6 +60,9 @@ class Execution {
   /// number changes, or at the first call, all is taken anew from where they are.
   void observe(double time, const std::vector<Report>& reports);
 
+  /// Who is busy, and who is loaded, if that has changed since the reports. An element a robot.
+  void setWork(const std::vector<std::uint8_t>& busy, const std::vector<std::uint8_t>& loaded);
+
   /// What the planner is to see: where robots are, what they can no longer take back. Robots that
   /// are not controlled are no part of it: their cells are closed. `goal` and `home` by robot, as
   /// in Fleet.

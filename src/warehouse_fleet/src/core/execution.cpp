@@ -86,6 +86,14 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
   }
 }
 
+void Execution::setWork(const std::vector<std::uint8_t>& busy,
+                        const std::vector<std::uint8_t>& loaded) {
+  for (int robot = 0; robot < robots(); ++robot) {
+    reports_[robot].is_busy = busy.at(robot);
+    reports_[robot].is_loaded = loaded.at(robot);
+  }
+}
+
 /// It drives as it is told from now on, if it stands in a cell that nobody else has.
 void Execution::admit(int robot) {
   Course& course = courses_[robot];

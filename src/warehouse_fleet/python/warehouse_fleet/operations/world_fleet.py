@@ -82,7 +82,7 @@ class WorldFleet:
         """Robots that stand still for long though they have somewhere to go."""
         traffic = self._driver.traffic
         going = (traffic.goal >= 0) & (traffic.goal != traffic.cell) & ~traffic.busy
-        return int(np.count_nonzero(going & (traffic.time - traffic.still_since > STUCK)))
+        return int(np.count_nonzero(going & (traffic.stuck_for > STUCK)))
 
     def state_hash(self):
         """Of the world."""
