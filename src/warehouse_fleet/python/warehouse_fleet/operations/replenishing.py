@@ -171,3 +171,4 @@ class Replenishing:
         if visit and not visit.puts:
             self.shift.release(visit)
             self._look = True
+            self.next_bundle(station)

@@ -19,7 +19,7 @@ class WorldFleet:
     """A FleetDriver whose decisions are made by policies, with the figures that a report wants."""
 
     def __init__(self, world, site, seed):
-        self.world, self.robots = world, len(site.robots)
+        self.world, self.plan, self.robots = world, site.plan, len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
         self._driver = FleetDriver(world, seed=seed, motion=_motion(site.kinematics))
         self.transports = self._driver.transports
