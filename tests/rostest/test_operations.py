@@ -13,7 +13,7 @@ from node_test import PATIENCE, Listener, call, kill, latched, wait_until
 
 from warehouse_fleet.operations import check
 from warehouse_fleet.operations.database import open_engine
-from warehouse_msgs.msg import Kpis, OrderEvent, OrderLine, StationStates
+from warehouse_msgs.msg import Kpis, OrderEvent, OrderLine, StationStates, TransportEvent
 from warehouse_msgs.srv import (
     CancelOrder,
     ConfirmPick,
@@ -21,6 +21,7 @@ from warehouse_msgs.srv import (
     SetStation,
     SetStationRequest,
     SubmitOrder,
+    Transport,
 )
 
 AUTOMATIC, MANUAL = SetStationRequest.AUTOMATIC, SetStationRequest.MANUAL
@@ -38,6 +39,15 @@ def station(name, condition=lambda station: True):
 
     states = latched("/warehouse/stations", StationStates, holds)
     return {one.name: one for one in states.stations}[name]
+
+
+def bring_a_unit(station):
+    """The transport of a unit that nobody has asked for yet."""
+    for unit in range(1, 25):
+        answer = call("/warehouse/transport", Transport, shelf_id=unit, station=station)
+        if answer.accepted:
+            return answer.transport_id
+    raise AssertionError("all units are under way")
 
 
 def set_station(name, is_open, mode):
@@ -128,10 +138,22 @@ class Operations(unittest.TestCase):
     def test_5_killed_it_comes_back_and_goes_on(self):
         orders = [submit((f"sku-{i}", 1)).order_id for i in range(1, 9)]
         self.wait_for(orders[0], OrderEvent.ASSIGNED)
-        kill("/operations")
+        transports = Listener("/warehouse/transports", TransportEvent)
+        self.addCleanup(transports.close)
+        asked = []
+        # It can't have kept all that it had asked for.
+        kill("/operations", lambda: asked.append(bring_a_unit("pick1")))
         wait_until(lambda: all(self.is_complete(o) for o in orders), "all orders complete", LONG)
         engine = open_engine(rospy.get_param("~database"))
         self.assertEqual(check.faults(engine), [])
+        wait_until(
+            lambda: any(
+                (event.transport_id, event.kind) == (asked[0], TransportEvent.STORED)
+                for event in transports.messages
+            ),
+            "the station lets the unit go",
+            LONG,
+        )
 
     def is_complete(self, order_id):
         told = self.told(order_id, OrderEvent.COMPLETED)

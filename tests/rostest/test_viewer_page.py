@@ -236,10 +236,10 @@ class ViewerPage(unittest.TestCase):
         self.until_link("live")
 
     def test_goes_back_to_a_checkpoint(self):
-        robot, status = Robot(3), "document.getElementById('tip').dataset.kind"
+        robot, tip = Robot(3), "document.getElementById('tip').textContent"
         self.page.read("document.getElementById('checkpoint').click()")
-        self.page.until(f"{status} === 'done'")
-        x, y, _ = place("kiva3")
+        self.page.until(f"{tip} === 'checkpoint kept'")
+        x = place("kiva3")[0]
         robot.do("/movx", distance=1.0)
         self.page.until(f"Math.abs(page.world.shown[6] - {x + 1}) < 0.01")
         self.page.read("document.getElementById('restore').click()")

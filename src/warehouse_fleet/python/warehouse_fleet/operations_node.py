@@ -20,6 +20,7 @@ from warehouse_msgs import msg, srv
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
+UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
 
 class Coordinator:
@@ -29,6 +30,7 @@ class Coordinator:
         self._heard, self._told = [], []
         self._open = {}  # unit and station of what was asked for, by id
         self._left = set()  # transports that an earlier run asked for
+        self._last_left = None  # the newest of them that is known, until this run asks for one
         self._asked = 0.0
         self._lock = threading.Lock()
         self.state = None
@@ -45,6 +47,7 @@ class Coordinator:
         if answer.accepted:
             if answer.transport_id in self._open:
                 self._lost()  # it counts anew: another coordinator
+            self._release_unknown(answer.transport_id)
             self._asked = rospy.get_time()
             self._open[answer.transport_id] = shelf_id, station
         return Answer(answer.transport_id, answer.accepted, answer.message)
@@ -62,9 +65,16 @@ class Coordinator:
     def set_open(self, station, is_open):
         """The coordinator is not told: nothing is asked for at a closed station."""
 
-    def release_left(self, transports):
-        """Lets go what an earlier run asked for: at once, or when it arrives."""
-        self._left = {number for number in transports if not self.release(number)[0]}
+    def release_left(self, transports, last):
+        """Lets go what an earlier run asked for, the newest known `last`: at once, or when it
+        arrives."""
+        self._left.update(number for number in transports if not self.release(number)[0])
+        self._last_left = last
+
+    def _release_unknown(self, first):
+        """What the earlier run was killed over before it was kept: all up to the `first` of this."""
+        if self._last_left is not None:
+            self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 
     def take_events(self):
         with self._lock:
@@ -186,7 +196,7 @@ class OperationsNode:
         self._wait_for_warehouse()
         self._site = self._warehouse.site()
         self._database = Database(database)
-        self._coordinator.release_left(stored.open_transports(self._database.engine))
+        self._coordinator.release_left(*stored.transports_left(self._database.engine))
         self._shift = open_shift(
             self._site,
             self._coordinator,
