@@ -3,6 +3,7 @@
 
 import math
 import threading
+import time as clock
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +15,7 @@ from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Motion, Traffic
-from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
+from warehouse_fleet.transports import NOWHERE, NUMBERS, Answer, Step, Transports
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -29,6 +30,8 @@ from warehouse_msgs.msg import (
 )
 from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 from warehouse_msgs.srv import (
+    CancelTransport,
+    CancelTransportResponse,
     ReleaseTransport,
     ReleaseTransportResponse,
     SetRobotMode,
@@ -81,6 +84,7 @@ class Coordinator:
         self._paths = publish("/warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
         rospy.Service("/warehouse/transport", Transport, self._on_transport)
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
+        rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
         rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         rospy.Subscriber(
@@ -138,6 +142,12 @@ class Coordinator:
             if self._transports is None:
                 return ReleaseTransportResponse(False, self._alarm or NOT_YET)
             return ReleaseTransportResponse(*self._transports.release(request.transport_id))
+
+    def _on_cancel(self, request):
+        with self._lock:
+            if self._transports is None:
+                return CancelTransportResponse(False, self._alarm or NOT_YET)
+            return CancelTransportResponse(*self._transports.cancel(request.transport_id))
 
     def _on_mode(self, request):
         with self._lock:
@@ -254,7 +264,9 @@ class Coordinator:
         )
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
-        self._transports = Transports(plan, self._traffic, {}, self._send_lift)
+        self._transports = Transports(
+            plan, self._traffic, {}, self._send_lift, first=_first_number()
+        )
         self._see_units()
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)
@@ -318,6 +330,7 @@ class Coordinator:
             totals.stored,
             totals.failed,
         )
+        state.first_transport = transports.first
         if traffic.plan_seconds:
             spent = 1e3 * np.percentile(traffic.plan_seconds, (50, 99))
             state.plan_p50, state.plan_p99 = spent.tolist()
@@ -369,6 +382,12 @@ class Coordinator:
         if cell == NOWHERE:
             return math.nan, math.nan
         return tuple(map(float, self._traffic.plan.point_of(cell)))
+
+
+def _first_number():
+    """Above all that a coordinator before this one has given to transports: none gives out a hundred
+    a second for long."""
+    return int(100 * clock.time()) % NUMBERS or 1
 
 
 def _map():

@@ -14,12 +14,12 @@ from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
-from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.transport import ENDS
+from warehouse_fleet.transports import NUMBERS, Answer, Kind, TransportEvent
 from warehouse_msgs import msg, srv
 
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
-LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
 UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
 
@@ -27,15 +27,15 @@ class Coordinator:
     """The coordinator of another node, with the face of transport.Requests."""
 
     def __init__(self):
-        self._heard, self._told = [], []
+        self._heard = []
         self._open = {}  # unit and station of what was asked for, by id
         self._left = set()  # transports that an earlier run asked for
         self._last_left = None  # the newest of them that is known, until this run asks for one
-        self._asked = 0.0
         self._lock = threading.Lock()
         self.state = None
         self._submit = rospy.ServiceProxy("/warehouse/transport", srv.Transport)
         self._release = rospy.ServiceProxy("/warehouse/release_transport", srv.ReleaseTransport)
+        self._cancel = rospy.ServiceProxy("/warehouse/cancel_transport", srv.CancelTransport)
         rospy.Subscriber("/warehouse/transports", msg.TransportEvent, self._hear, queue_size=10000)
         rospy.Subscriber("/warehouse/coordinator", msg.CoordinatorState, self._see, queue_size=1)
 
@@ -45,25 +45,28 @@ class Coordinator:
         except rospy.ServiceException as error:
             return Answer(0, False, str(error))
         if answer.accepted:
-            if answer.transport_id in self._open:
-                self._lost()  # it counts anew: another coordinator
             self._release_unknown(answer.transport_id)
-            self._asked = rospy.get_time()
-            self._open[answer.transport_id] = shelf_id, station
+            with self._lock:
+                self._open[answer.transport_id] = shelf_id, station
         return Answer(answer.transport_id, answer.accepted, answer.message)
 
     def release(self, transport_id):
+        return self._call(self._release, transport_id)
+
+    def cancel(self, transport_id):
+        return self._call(self._cancel, transport_id)
+
+    @staticmethod
+    def _call(service, transport_id):
         try:
-            answer = self._release(transport_id)
+            answer = service(transport_id)
         except rospy.ServiceException as error:
             return False, str(error)
         return answer.success, answer.message
 
-    def cancel(self, transport_id):
-        return False, "the coordinator brings what it has begun with"
-
     def set_open(self, station, is_open):
-        """The coordinator is not told: nothing is asked for at a closed station."""
+        """The coordinator is not told: a shift asks for nothing at a closed station, and cancels
+        what it has asked for."""
 
     def release_left(self, transports, last):
         """Lets go what an earlier run asked for, the newest known `last`: at once, or when it
@@ -78,14 +81,14 @@ class Coordinator:
 
     def take_events(self):
         with self._lock:
-            heard, self._heard = self._told + self._heard, []
-            self._told = []
+            heard, self._heard = self._heard, []
         known = []
         for event in heard:
             if event.transport_id in self._open:
                 known.append(event)
-                if event.kind in (Kind.STORED, Kind.FAILED):
-                    del self._open[event.transport_id]
+                if event.kind in ENDS:
+                    with self._lock:
+                        del self._open[event.transport_id]
             elif event.transport_id in self._left and event.kind == Kind.ARRIVED:
                 self._left.discard(event.transport_id)
                 self.release(event.transport_id)
@@ -107,19 +110,25 @@ class Coordinator:
 
     def _see(self, state):
         self.state = state
-        since = state.header.stamp.to_sec() - self._asked
-        if self._open and not (state.open or state.under_way) and since > LOST_AFTER:
-            self._lost()
+        if state.first_transport:
+            self._lose(state.first_transport)
 
-    def _lost(self):
-        """The coordinator has begun anew: what it was asked for will not come."""
-        rospy.logwarn(f"the coordinator has lost {len(self._open)} transports")
+    def _lose(self, first):
+        """What was asked of a coordinator that is no more will not come: all before the `first`."""
         now = rospy.get_time()
         with self._lock:
-            self._told += [
-                TransportEvent(now, number, Kind.FAILED, 0, shelf, station, "lost")
-                for number, (shelf, station) in self._open.items()
-            ]
+            lost = [number for number in self._open if _is_before(number, first)]
+            for number in lost:
+                shelf, station = self._open[number]
+                event = TransportEvent(now, number, Kind.FAILED, 0, shelf, station, "lost")
+                self._heard.append(event)
+        if lost:
+            rospy.logwarn(f"the coordinator has begun anew: {len(lost)} transports are lost")
+
+
+def _is_before(number, first):
+    """Of two numbers of transports, which begin anew after the last one."""
+    return 0 < (first - number) % NUMBERS < NUMBERS // 2
 
 
 class Warehouse:
