@@ -59,10 +59,13 @@ HALL, BUFFER, CROSSING = 2, 4, 4  # streets before the stations; cells before th
 
 
 def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
-    """As those of MaTi kind: so many picking and replenishing stations. Their queues wind over three
-    rows, with a way to cut them short; before them are a hall of two streets, one up and one down,
-    and a buffer of one-way rows. Robots stand in the streets at first, and are slow: 0.5 m/s², 3 s
-    a lift. blocks is odd, so that the outermost streets go round."""
+    """As those of MaTi kind: so many picking and replenishing stations.
+
+    Their queues wind over three rows, with a way to cut them short; before them are a hall of two
+    streets, one up and one down, and a buffer of one-way rows. Robots stand in the streets at
+    first, and are slow: 0.5 m/s², 3 s a lift. blocks is odd, so that the outermost streets go
+    round.
+    """
     rows = 6 * stations + 4
     first = LANE + HALL + BUFFER  # the first street of the storage
     street_x = first + np.arange(blocks + 1) * (CROSSING + 1)

@@ -118,7 +118,8 @@ class Transports:
     up)` sends the command. Three decisions can be made by others: `match_robots(asked, free)` yields
     pairs of a Transport of those `asked` for and a robot of the indices `free`;
     `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that is in `cell`;
-    `park(robot)` is the cell for a robot that has no more work, or None: it waits where it is. `first` is the number of the first transport.
+    `park(robot)` is the cell for a robot that has no more work, or None: it waits where it is.
+    Transports are numbered from `first` on.
     """
 
     def __init__(self, plan, traffic, units, lift, first=1):
@@ -590,8 +591,8 @@ class Transports:
         return found
 
     def _park(self):
-        """Robots without work go where they are to wait; those that stand in a street or a lane then
-        go beneath a stored unit."""
+        """Robots without work go where they are to wait; those that stand in a street or a lane go
+        beneath a stored unit."""
         traffic = self.traffic
         idle = self._without_work()
         traffic.goal[idle & (traffic.goal == traffic.cell)] = NOWHERE
