@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders over ROS: submitted, picked, told, confirmed by hand, and kept when the node dies."""
 
-import json
 import unittest
-import urllib.error
-import urllib.request
 
 import rospy
 import rostest
-from node_test import PATIENCE, Listener, call, kill, latched, wait_until
+from node_test import Listener, call, kill, latched, wait_until
+from page_test import ask
 
 from warehouse_fleet.operations import check
 from warehouse_fleet.operations.database import open_engine
@@ -106,7 +104,6 @@ class Operations(unittest.TestCase):
         self.wait_for(order.order_id, OrderEvent.COMPLETED)
 
     def test_4_over_http(self):
-        wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
         wanted = {"reference": "web-1", "lines": [{"sku": "sku-5", "quantity": 2}]}
         status, answer = ask("/orders", wanted)
         self.assertEqual(status, 201, answer)
@@ -159,19 +156,6 @@ class Operations(unittest.TestCase):
         told = self.told(order_id, OrderEvent.COMPLETED)
         self.assertLessEqual(len(told), 1)
         return bool(told)
-
-
-def ask(path, body=None, method=None):
-    """(status, body) of a request to /api/v1, as JSON; POST where there is a body."""
-    url = rospy.get_param("/viewer/address") + "api/v1" + path
-    data = None if body is None else json.dumps(body).encode()
-    headers = {"content-type": "application/json"}
-    request = urllib.request.Request(url, data, headers, method=method)
-    try:
-        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-            return answer.status, json.load(answer)
-    except urllib.error.HTTPError as error:
-        return error.code, json.load(error)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,11 @@ import json
 import math
 import os
 import tempfile
-import unittest
 
 import rospy
 import rostest
-from browser import browser
-from node_test import PATIENCE, Robot, wait_until
+from node_test import Robot, wait_until
+from page_test import PageTest
 from PIL import Image
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -51,26 +50,12 @@ SMALL = """[...document.querySelectorAll('button, a, select, input, .row, .event
   }).map((e) => `${e.id || e.className || e.textContent} ${e.offsetWidth} x ${e.offsetHeight}`)"""
 
 
-def address():
-    wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
-    return rospy.get_param("/viewer/address")
-
-
-class ViewerPage(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls._browser = browser(PATIENCE)
-        cls.page = cls._browser.__enter__()
-        cls.page.open(address())
-        cls.page.until(f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._browser.__exit__(None, None, None)
+class ViewerPage(PageTest):
+    ready = f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2"
 
     def tearDown(self):
         self.page.read("page.select(null)")
-        self.assertEqual(self.page.complaints(), [])
+        super().tearDown()
 
     def drawn(self, robot):
         """[x, y] of a robot in the picture."""
@@ -300,20 +285,10 @@ class ViewerPage(unittest.TestCase):
         self.assertIn(("kiva3", "DONE"), [(row["model"], row["kind"]) for row in rows])
 
 
-class Phone(unittest.TestCase):
+class Phone(PageTest):
     """The same in a small window that is tapped at."""
 
-    @classmethod
-    def setUpClass(cls):
-        cls._browser = browser(PATIENCE)
-        cls.page = cls._browser.__enter__()
-        cls.page.be_phone()
-        cls.page.open(address())
-        cls.page.until(f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._browser.__exit__(None, None, None)
+    ready, is_phone = ViewerPage.ready, True
 
     def test_a_tap_on_a_robot_opens_what_is_known_of_it(self):
         self.page.tap(*self.page.pixel(*place("kiva3")[:2], 0.3))

@@ -149,7 +149,7 @@ class Execution {
     double still_since = 0, blocked_since = -1;
     double moved = 0;  ///< when it moved last, or had nothing before it [s]
     Journey journey;
-    int run = 0, run_heading = -1;  ///< cells that it has driven straight on
+    int run = 0, run_heading = 0;  ///< cells that it has driven straight on, and where to
   };
   struct Claim {
     Cell cell;

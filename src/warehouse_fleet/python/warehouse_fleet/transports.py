@@ -17,7 +17,6 @@ LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again 
 LIFT_ATTEMPTS = 3
 CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
 UNIT_REACH = 0.48  # of a unit's sides, with room for who turns beside it [m]
-NUMBERS = 2**31  # of transports; after the last one comes the first
 URGENT = 255  # the highest priority
 DEAD = 30.0  # a robot that does not move for so long has its transport taken from it [s]
 SEEN_LATE = 0.5  # what is seen of units may lag behind by so much [s]
@@ -115,14 +114,14 @@ class Transports:
     """All transports and who does them.
 
     `units` maps a unit's number to the storage cell where it stands. `lift(kiva_id, shelf_id,
-    up)` sends the command. Three decisions can be made by others: `match_robots(asked, free)` yields
-    pairs of a Transport of those `asked` for and a robot of the indices `free`;
+    up)` sends the command. Three decisions can be made by others: `match_robots(asked, free)`
+    yields pairs of a Transport of those `asked` for and a robot of the indices `free`;
     `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that is in `cell`;
     `park(robot)` is the cell for a robot that has no more work, or None: it waits where it is.
-    Transports are numbered from `first` on.
+    Transports get the numbers after `last`.
     """
 
-    def __init__(self, plan, traffic, units, lift, first=1):
+    def __init__(self, plan, traffic, units, lift, last=0):
         self.plan, self.traffic, self._lift = plan, traffic, lift
         self.match_robots, self.choose_place = self._nearest_robots, self._nearest_place
         self.park = lambda robot: None
@@ -141,7 +140,7 @@ class Transports:
         self._inbound = collections.Counter()  # lifted units on their way to a station or there
         self._fetched = collections.Counter()  # units that are fetched for it
         self._events = []
-        self.first, self._last = first, first - 1
+        self._last = last
         self._put_down = {}  # when each unit was put down last [s]
         self._lost = set()  # units whose robots were lost: to be stored, wherever they are
         self._freed = []  # robots that have ended a transport since somebody looked
@@ -246,6 +245,9 @@ class Transports:
 
     def __iter__(self):
         return iter(self._transports.values())
+
+    def __contains__(self, transport_id):
+        return transport_id in self._transports
 
     def look(self, shelf_id, x, y, yaw, carried, stamp):
         """Where all units stood at that time: arrays in world [m, rad], [s]; others move units as

@@ -110,6 +110,7 @@ void Execution::admit(int robot) {
   course.cells = {at};
   course.is_off = true;
   course.still_since = course.moved = now_;
+  course.run_heading = headingOf(robot);
   hold(at, robot);
 }
 
@@ -227,11 +228,12 @@ bool Execution::hasTurned(int robot) const {
 void Execution::pass(int robot, int reached, int left) {
   Course& course = courses_[robot];
   const int points = static_cast<int>(course.cells.size());
-  reached = std::clamp(reached, course.reached, points);
+  // Who has left a cell wholly is in the next one, before it comes to the middle of that.
+  reached = std::clamp(std::max(reached, left + 1), course.reached, points);
   for (int point = course.reached; point < reached; ++point) {
     const int heading = headingTo(course.cells[point - 1], course.cells[point]);
     if (heading != course.run_heading) {
-      const int quarters = course.run_heading < 0 ? 0 : (heading - course.run_heading) & 3;
+      const int quarters = (heading - course.run_heading) & 3;
       endRun(course);
       course.journey.alone += motion_.quarter * (quarters == 3 ? 1 : quarters);
       course.run_heading = heading;
@@ -337,7 +339,7 @@ void Execution::measure(int robot, double elapsed) {
 Journey Execution::takeJourney(int robot) {
   Course& course = courses_.at(robot);
   endRun(course);
-  course.run_heading = -1;
+  course.run_heading = headingOf(robot);
   Journey journey = course.journey;
   journey.planned += journey.alone;
   course.journey = {};
@@ -440,10 +442,8 @@ void Execution::take(int robot, const Plan& plan, int index) {
   if (course.is_off || course.is_withdrawn) return;
   State state{asked_.cell[index], asked_.heading[index]};
   std::vector<Step> steps;
-  int first = plan.horizon;  // when it moves or turns by its own will
   for (int tick = 0; tick < plan.horizon; ++tick) {
     const Action action = plan.at(index, tick);
-    if (asked_.commitments(index) <= tick && action != Action::kWait) first = std::min(first, tick);
     state = after(floor_, state, action);
     if (action == Action::kForward && state.cell != kNowhere) steps.push_back({state.cell, tick});
   }
@@ -451,8 +451,14 @@ void Execution::take(int robot, const Plan& plan, int index) {
   for (std::size_t i = course.committed; i < known; ++i) {
     if (i >= steps.size() || steps[i].cell != course.granted[i - course.committed]) return;
   }
-  if (steps.size() > known) course.plan.assign(steps.begin() + known, steps.end());
-  course.waits_by_plan = first > asked_.commitments(index) && course.granted.empty();
+  if (steps.size() < known) return;
+  course.plan.assign(steps.begin() + known, steps.end());
+  // A robot that is to turn and to wait then waits first: it turns when it may drive on.
+  const int from = std::max(asked_.commitments(index), known > 0 ? steps[known - 1].tick + 1 : 0);
+  const int until = course.plan.empty() ? plan.horizon : course.plan.front().tick;
+  for (int tick = from; tick < until; ++tick) {
+    if (plan.at(index, tick) == Action::kWait) course.waits_by_plan = true;
+  }
 }
 
 /// For each cell, who passes it first.

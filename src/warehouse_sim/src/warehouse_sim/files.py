@@ -7,7 +7,10 @@ _HERE = Path(__file__).resolve()
 
 
 def share():
-    """The folder with launch/, worlds/ and web/."""
+    """The folder with launch/, worlds/ and web/; of a wheel with worlds/ alone."""
+    packaged = _HERE.parent / "share"
+    if packaged.is_dir():
+        return packaged
     source, installed = _HERE.parents[2], _HERE.parents[4] / "share" / "warehouse_sim"
     return installed if installed.is_dir() else source
 
