@@ -19,6 +19,7 @@ from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Motion, Traffic
 from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
+from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -327,13 +328,9 @@ class Coordinator:
         objects, states = self._objects, self._units
         if objects.revision != states.revision:
             return
-        poses = np.reshape(states.pose, (-1, 7))
-        ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
         self._transports.look(
-            np.array(ids, int),
-            poses[:, 0],
-            poses[:, 1],
-            2 * np.arctan2(poses[:, 5], poses[:, 6]),
+            np.array(unit_ids(objects), int),
+            *unit_poses(states),
             np.asarray(states.carrier) != 0,
             states.header.stamp.to_sec(),
         )

@@ -19,6 +19,7 @@ from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
 CYCLE = 0.1  # between two looks at what has happened [s]
@@ -153,7 +154,7 @@ class Warehouse:
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
         plan = FloorPlan.of_messages(floor_map, self.scenery)
         robots = self.fleet
-        units = self._unit_ids()
+        units = unit_ids(self.objects)
         return Site(
             plan,
             dict(zip(robots.kiva_id, plan.cell_of(robots.x, robots.y).tolist())),
@@ -170,15 +171,12 @@ class Warehouse:
         """The cells of the units that nobody carries, by id."""
         if not self.is_known:
             return {}
-        told = zip(self._unit_ids(), self._unit_cells(plan), self.units.carrier)
+        told = zip(unit_ids(self.objects), self._unit_cells(plan), self.units.carrier)
         return {unit: cell for unit, cell, carrier in told if not carrier and cell >= 0}
 
-    def _unit_ids(self):
-        return [int(name.removeprefix("storage_unit")) for name in self.objects.storage_units]
-
     def _unit_cells(self, plan):
-        places = np.reshape(self.units.pose, (-1, 7))
-        return plan.cell_of(places[:, 0], places[:, 1]).tolist()
+        x, y, _ = unit_poses(self.units)
+        return plan.cell_of(x, y).tolist()
 
 
 class OperationsNode:
