@@ -360,8 +360,8 @@ TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
                  "text", &warnings);
       if (fault.empty()) continue;
       ASSERT_EQ(warnings.size(), 1u);
-      EXPECT_PRED2(contains, warnings[0], "m/model.config:1: ");
-      EXPECT_PRED2(contains, warnings[0], fault);
+      EXPECT_PRED2(test::contains, warnings[0], "m/model.config:1: ");
+      EXPECT_PRED2(test::contains, warnings[0], fault);
     }
   }
   fs::remove_all(folder);
