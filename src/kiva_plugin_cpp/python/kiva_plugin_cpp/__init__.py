@@ -15,6 +15,7 @@ import sys
 from enum import IntEnum
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 _built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
 if _built and not set(_built) & set(EXTENSION_SUFFIXES):
@@ -27,7 +28,9 @@ if _built and not set(_built) & set(EXTENSION_SUFFIXES):
 
 import numpy
 
-if int(numpy.__version__.split(".")[0]) > 1:
+# Left there by a build with a pybind11 that does not know numpy 2.
+_only_numpy_1 = Path(__file__).with_name("only_numpy_1").exists()
+if _only_numpy_1 and int(numpy.__version__.split(".")[0]) > 1:
     raise ImportError(
         f"kiva_plugin_cpp is built for numpy 1, not {numpy.__version__}: pip install 'numpy<2'"
     )
@@ -46,6 +49,8 @@ __all__ = [
     "State",
     "Status",
     "World",
+    "Worlds",
+    "worlds_folder",
 ]
 
 
@@ -96,19 +101,24 @@ class EventKind(IntEnum):
     DELETED = 8
 
 
-def _worlds():
-    """The folder of world files: of the installation, else of the source tree."""
+def worlds_folder():
+    """The folder of world files and models: of the installation, else of the source tree."""
     package = Path(__file__).parent
-    installed = package.parents[3] / "share" / "warehouse_sim" / "worlds"
-    return (
-        installed
-        if installed.is_dir()
-        else package.joinpath("__init__.py").resolve().parents[4] / "worlds"
+    places = (
+        package.parent / "warehouse_sim" / "share" / "worlds",  # of a wheel
+        package.parents[3] / "share" / "warehouse_sim" / "worlds",
+        package.joinpath("__init__.py").resolve().parents[4] / "worlds",
     )
+    return next((place for place in places if place.is_dir()), places[-1])
+
+
+def _ours(text):
+    """SDF that includes models of worlds/models, whatever else is called like them."""
+    return text.replace("model://", escape(f"file://{worlds_folder()}/models/"))
 
 
 def _find(world):
-    tried = [Path(world), _worlds() / world, _worlds() / f"{world}.sdf"]
+    tried = [Path(world), worlds_folder() / world, worlds_folder() / f"{world}.sdf"]
     for path in tried:
         if path.is_file():
             return path
@@ -121,11 +131,12 @@ class World(_core.World):
     seed: of everything random. drive: "traction" or "jointed" instead of what the robots' models
     say. model_paths: folders in which to look for `model://` before the project's own. threads: on
     which a large fleet is stepped and scans, with the same result however many; 1 to 256.
-    FileNotFoundError, or DescriptionError that names file, line and what is wrong.
+    What is faulty in it is left out with a warning. FileNotFoundError, or DescriptionError that
+    names file, line and what is wrong where no world would be left.
     """
 
     def __init__(self, world="empty", *, seed=1, drive="", model_paths=(), threads=1):
-        models = [*map(str, model_paths), str(_worlds() / "models")]
+        models = [*map(str, model_paths), str(worlds_folder() / "models")]
         super().__init__(str(_find(world)), False, models, seed, drive, threads)
 
     @classmethod
@@ -148,7 +159,7 @@ class World(_core.World):
         plan = layout.plan(wanted, options.get("seed", layout.SEED))
         world = cls(**options)
         world.delete(models.FLOOR)
-        world.spawn(models.document(models.of_layout(plan)))
+        world.spawn(_ours(models.document(models.of_layout(plan))))
         world.events()
         return world
 
@@ -178,7 +189,7 @@ class World(_core.World):
         """
         include = f"<include><uri>model://{model}</uri><name>{name}</name></include>"
         text = f'<sdf version="1.9"><world name="models">{include}</world></sdf>'
-        return self.spawn(text, name, (x, y, z, yaw))[0]
+        return self.spawn(_ours(text), name, (x, y, z, yaw))[0]
 
     def carry(self, kiva_id, shelf_id):
         """Carry that storage unit. Arguments and errors as of mov()."""
@@ -187,3 +198,42 @@ class World(_core.World):
     def drop(self, kiva_id, shelf_id=0):
         """Drop it, or whichever unit it carries. Arguments and errors as of mov()."""
         self.lift(kiva_id, 0, shelf_id)
+
+
+class Worlds(_core.Worlds):
+    """Many worlds of equally many robots that are stepped on all cores in one call.
+
+    worlds = Worlds(64, "small")
+    worlds.post(world=[0, 5], commands=rows)
+    worlds.step(100)
+    worlds.x  # (64, 4)
+
+    Arrays have a leading dimension n and are read-only views of memory that step(), restore() and
+    place() fill; nothing is copied to look at them. worlds[i] is a World: what it is told shows in
+    the arrays after the next step(). Threads sleep between calls.
+    """
+
+    def __init__(self, n, name="", *, threads=0, seed=1, **options):
+        """n worlds as World.create(name, seed=seed + i, **options) builds them.
+
+        threads: how many step them, the caller among them; 0: as many as there are cores.
+        """
+        if n < 1:
+            raise ValueError(f"n is {n}; 1 or more")
+        self._adopt([World.create(name, seed=seed + i, **options) for i in range(n)], threads)
+
+    @classmethod
+    def of(cls, worlds, threads=0):
+        """Of Worlds that there are. ValueError unless they have equally many robots."""
+        self = cls.__new__(cls)
+        self._adopt(list(worlds), threads)
+        return self
+
+    def _adopt(self, worlds, threads):
+        if threads < 0:
+            raise ValueError(f"threads is {threads}; 0 or more")
+        super().__init__(worlds, threads)
+        self._worlds = worlds
+
+    def __getitem__(self, i):
+        return self._worlds[i]

@@ -42,15 +42,24 @@ const WorldOptions& checked(const WorldOptions& options) {
                               std::to_string(kMostThreads) + " was expected");
 }
 
-void loadWorldPlugins(WorldState& world, const std::vector<PluginDescription>& plugins) {
-  for (const PluginDescription& plugin : plugins) {
-    if (plugin.filename == kGridPlugin) {
-      world.grid_spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
-      plugin.parameters.rejectUnread();
-    } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
-      world.world_plugins.push_back(std::move(own));
-      world.world_plugin_descriptions.push_back(plugin);
-    }
+/// A faulty part of a world costs that part and a warning.
+template <typename Add>
+void addOrLeaveOut(WorldState& world, Add add) {
+  try {
+    add();
+  } catch (const DescriptionError& error) {
+    world.warn(error.what(), std::string("left out: ") + error.what());
+  }
+}
+
+void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
+  if (plugin.filename == kGridPlugin) {
+    const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
+    plugin.parameters.rejectUnread();
+    world.grid_spacing = spacing;
+  } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
+    world.world_plugins.push_back(std::move(own));
+    world.world_plugin_descriptions.push_back(plugin);
   }
 }
 
@@ -107,8 +116,12 @@ World::World(const WorldDescription& description, const WorldOptions& options)
   state_->owner = this;
   state_->fleet_plugins = makeFleetPlugins();
   for (const Light& light : description.lights) setLight(light);
-  spawn(description.models);
-  loadWorldPlugins(*state_, description.plugins);
+  for (const ModelInstance& model : description.models) {
+    addOrLeaveOut(*state_, [&] { spawn(model); });
+  }
+  for (const PluginDescription& plugin : description.plugins) {
+    addOrLeaveOut(*state_, [&] { loadWorldPlugin(*state_, plugin); });
+  }
 }
 
 World::~World() = default;

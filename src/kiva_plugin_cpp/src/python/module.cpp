@@ -10,24 +10,15 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "arrays.h"
-#include "kiva_plugin_cpp/world.h"
-#include "kiva_plugin_cpp/world_file.h"
+#include "host.h"
 
 namespace kiva::python {
 namespace {
 
 constexpr std::uint64_t kStepsBetweenSignals = 256;
-
-/// A row of World.storage_units.
-struct UnitRow {
-  std::int32_t shelf_id;
-  double x, y, z, yaw, mass;
-  std::int32_t kiva_id;
-};
 
 /// A row of World.items.
 struct ItemRow {
@@ -35,28 +26,6 @@ struct ItemRow {
   double x, y, z, mass;
   std::int32_t shelf_id;
 };
-
-/// A world that one thread uses at a time: a second one is told so.
-class Host {
- public:
-  Host(const WorldDescription& description, const WorldOptions& options, ModelPaths paths)
-      : world(description, options), model_paths(std::move(paths)) {}
-
-  std::unique_lock<std::mutex> use() {
-    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
-    if (!lock) throw std::runtime_error("the world is in use by another thread");
-    return lock;
-  }
-
-  World world;
-  ModelPaths model_paths;
-  Column<float> ranges;  // of the last scans()
-
- private:
-  std::mutex mutex_;
-};
-
-using HostPtr = std::shared_ptr<Host>;
 
 std::optional<Drive> driveOf(const std::string& name) {
   if (name.empty()) return std::nullopt;
@@ -86,6 +55,7 @@ HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std:
                                   options, models);
   }
   warn(warnings);
+  warn(host->world.takeWarnings());
   return host;
 }
 
@@ -117,6 +87,8 @@ void checkFinite(const char* name, double value, std::size_t i) {
                         text(py::float_(value)) + "; expected a finite number");
 }
 
+}  // namespace
+
 void checkCommand(const Host& host, const Command& command, std::size_t i) {
   if (command.kind >= Command::Kind::kFollow) {
     throw py::value_error("kind of command " + std::to_string(i) + " is " +
@@ -129,6 +101,8 @@ void checkCommand(const Host& host, const Command& command, std::size_t i) {
   checkFinite("y", command.y, i);
 }
 
+namespace {
+
 /// All or none.
 void postAll(Host& host, const Command* commands, std::size_t count) {
   const auto lock = host.use();
@@ -136,7 +110,9 @@ void postAll(Host& host, const Command* commands, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) host.world.post(commands[i]);
 }
 
-void post(Host& host, const py::array& commands) {
+}  // namespace
+
+py::array_t<Command, py::array::c_style> commandRows(const py::array& commands) {
   const py::dtype expected = py::dtype::of<Command>();
   if (!commands.dtype().equal(expected)) {
     throw py::type_error("commands: expected an array of dtype kiva_plugin_cpp.COMMAND, " +
@@ -145,7 +121,13 @@ void post(Host& host, const py::array& commands) {
   if (commands.ndim() > 1) {
     throw py::value_error("commands: expected shape (n,), not " + text(commands.attr("shape")));
   }
-  const auto rows = py::array_t<Command, py::array::c_style>::ensure(commands);
+  return py::array_t<Command, py::array::c_style>::ensure(commands);
+}
+
+namespace {
+
+void post(Host& host, const py::array& commands) {
+  const auto rows = commandRows(commands);
   postAll(host, rows.data(), static_cast<std::size_t>(rows.size()));
 }
 
@@ -401,20 +383,21 @@ void setPose(Host& host, const std::string& name, double x, double y, double z, 
   host.world.setState(name, {Pose(x, y, z, 0, 0, yaw), {}});
 }
 
+}  // namespace
+
+UnitRow unitRow(const World& world, int unit) {
+  const StorageUnit& u = world.storageUnits()[unit];
+  const Pose pose = world.storageUnitPose(unit);
+  return {u.id, pose.X(), pose.Y(), pose.Z(), pose.Yaw(), u.mass, idOf(world, u.carrier)};
+}
+
+namespace {
+
 py::array_t<UnitRow> storageUnits(Host& host) {
   const auto lock = host.use();
-  const auto& units = host.world.storageUnits();
-  py::array_t<UnitRow> out(static_cast<py::ssize_t>(units.size()));
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    const Pose pose = host.world.storageUnitPose(static_cast<int>(i));
-    out.mutable_data()[i] = {units[i].id,
-                             pose.X(),
-                             pose.Y(),
-                             pose.Z(),
-                             pose.Yaw(),
-                             units[i].mass,
-                             idOf(host.world, units[i].carrier)};
-  }
+  const int units = static_cast<int>(host.world.storageUnits().size());
+  py::array_t<UnitRow> out(units);
+  for (int i = 0; i < units; ++i) out.mutable_data()[i] = unitRow(host.world, i);
   return out;
 }
 
@@ -704,8 +687,13 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
   world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
   world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
                               "Since time was 0.");
-  world.def_property_readonly("step_size", guarded([](World& w) { return w.stepSize(); }),
-                              "How far a step goes [s].");
+  world.def_property(
+      "step_size", guarded([](World& w) { return w.stepSize(); }),
+      [](Host& host, double seconds) {
+        const auto lock = host.use();
+        host.world.setStepSize(seconds);
+      },
+      "How far a step goes [s]; set, from the next one on: 1e-6 to 1, else ValueError.");
   world.def_property_readonly("grid_spacing", guarded([](World& w) { return w.gridSpacing(); }),
                               "Of the grid points on which robots stand [m].");
   world.def_property_readonly("floor", guarded([](World& w) {
@@ -727,6 +715,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("EVENT") = eventType();
   defineFleet(m);
   defineWorld(m);
+  defineWorlds(m);
 }
 
 }  // namespace kiva::python

@@ -8,7 +8,10 @@ from types import SimpleNamespace
 import numpy as np
 import rospy
 from nav_msgs.srv import GetMap
+from std_msgs.msg import Header
 
+from warehouse_fleet.changes import ChangeJournal
+from warehouse_fleet.floor_heat import FloorHeat
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
@@ -19,7 +22,10 @@ from warehouse_msgs import msg, srv
 
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
+SHOWN = 60  # intervals of the throughput: an hour
+WAITS = (msg.KivaStatus.STATE_WAITING, msg.KivaStatus.STATE_BLOCKED)  # robots under way
 LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
+UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
 
 class Coordinator:
@@ -29,6 +35,7 @@ class Coordinator:
         self._heard, self._told = [], []
         self._open = {}  # unit and station of what was asked for, by id
         self._left = set()  # transports that an earlier run asked for
+        self._last_left = None  # the newest of them that is known, until this run asks for one
         self._asked = 0.0
         self._lock = threading.Lock()
         self.state = None
@@ -45,6 +52,7 @@ class Coordinator:
         if answer.accepted:
             if answer.transport_id in self._open:
                 self._lost()  # it counts anew: another coordinator
+            self._release_unknown(answer.transport_id)
             self._asked = rospy.get_time()
             self._open[answer.transport_id] = shelf_id, station
         return Answer(answer.transport_id, answer.accepted, answer.message)
@@ -62,9 +70,16 @@ class Coordinator:
     def set_open(self, station, is_open):
         """The coordinator is not told: nothing is asked for at a closed station."""
 
-    def release_left(self, transports):
-        """Lets go what an earlier run asked for: at once, or when it arrives."""
-        self._left = {number for number in transports if not self.release(number)[0]}
+    def release_left(self, transports, last):
+        """Lets go what an earlier run asked for, the newest known `last`: at once, or when it
+        arrives."""
+        self._left.update(number for number in transports if not self.release(number)[0])
+        self._last_left = last
+
+    def _release_unknown(self, first):
+        """What the earlier run was killed over before it kept it: all up to the `first` of this."""
+        if self._last_left is not None:
+            self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 
     def take_events(self):
         with self._lock:
@@ -113,11 +128,12 @@ class Coordinator:
 
 
 class Warehouse:
-    """What the other nodes tell about the warehouse; `distance_m` that all robots have driven."""
+    """What the other nodes tell about the warehouse; `distance_m` that all robots have driven, and
+    the FloorHeat that they leave, once somebody has set it."""
 
     def __init__(self):
         self.fleet = self.objects = self.units = self.scenery = None
-        self.distance_m = 0.0
+        self.distance_m, self.heat = 0.0, None
         for topic, kind, name in (
             ("objects", msg.WarehouseObjects, "objects"),
             ("unit_states", msg.UnitStates, "units"),
@@ -135,6 +151,9 @@ class Warehouse:
             dx, dy = np.subtract(message.x, before.x), np.subtract(message.y, before.y)
             moved = np.hypot(dx, dy)
             self.distance_m += float(moved[moved < 1.0].sum())  # farther: it was put there
+        if self.heat:
+            waits = np.isin(np.frombuffer(bytes(message.state), np.uint8), WAITS)
+            self.heat.see(message.stamp.to_sec(), message.x, message.y, waits)
 
     @property
     def is_known(self):
@@ -182,11 +201,15 @@ class OperationsNode:
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
         self._stations = _publisher("/warehouse/stations", msg.StationStates)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
+        self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
+        self._heat = _publisher("/warehouse/heat", msg.HeatMap)
+        self._orders = _queued("/warehouse/order_changes", msg.OrderStatuses)
+        self._stock = _queued("/warehouse/stock_changes", msg.StockPlaces)
         self._events = rospy.Publisher("/warehouse/order_events", msg.OrderEvent, queue_size=10000)
         self._wait_for_warehouse()
         self._site = self._warehouse.site()
         self._database = Database(database)
-        self._coordinator.release_left(stored.open_transports(self._database.engine))
+        self._coordinator.release_left(*stored.transports_left(self._database.engine))
         self._shift = open_shift(
             self._site,
             self._coordinator,
@@ -197,6 +220,8 @@ class OperationsNode:
             now=rospy.get_time(),
         )
         self._shift.on_order_event = self._tell
+        self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
+        self._warehouse.heat = FloorHeat(self._site.plan, rospy.get_time())
         self._began = clock()
         self._next_stations = self._next_kpis = rospy.get_time()
         for name, kind, call in (
@@ -242,12 +267,15 @@ class OperationsNode:
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
         self._shift.advance(now)
+        self._tell_changes(now)
         if now >= self._next_stations:
             self._next_stations = now + STATIONS_PERIOD
             self._stations.publish(self._stations_message(now))
         if now >= self._next_kpis:
             self._next_kpis = now + KPIS_PERIOD
             self._kpis.publish(self._kpis_message(now))
+            self._throughput.publish(self._throughput_message(now))
+            self._heat.publish(self._heat_message(now))
 
     # Services.
 
@@ -286,18 +314,15 @@ class OperationsNode:
             None if request.state < 0 else request.state,
             request.limit,
             request.offset,
+            self._shift.now if request.late else None,
         )
-        return srv.FindOrdersResponse(total, [_order_status(*one) for one in found])
+        return srv.FindOrdersResponse(total, [_stored_order(*one) for one in found])
 
     def _find_stock(self, request):
         total, pieces, found = queries.find_stock(
             self._database.engine, request.sku, request.limit, request.offset
         )
-        places = [
-            msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
-            for one in found
-        ]
-        return srv.FindStockResponse(total, pieces, places)
+        return srv.FindStockResponse(total, pieces, [_place(one) for one in found])
 
     def _do(self, act, *arguments):
         """Does it and keeps it; success and message."""
@@ -321,6 +346,29 @@ class OperationsNode:
         )
         event.header.stamp = rospy.Time.from_sec(self._shift.now)
         self._events.publish(event)
+
+    def _tell_changes(self, now):
+        """Publishes orders and bins as they are now, if they have changed."""
+        for publisher, kind, rows in (
+            (self._orders, msg.OrderStatuses, map(_order, self._changes.take_orders())),
+            (self._stock, msg.StockPlaces, map(_place, self._changes.take_bins())),
+        ):
+            if rows := list(rows):
+                publisher.publish(kind(_header(now), rows))
+
+    def _throughput_message(self, now):
+        tally, last = self._shift.tally, int(now // kpis.INTERVAL)
+        first = max(int(self._shift.began // kpis.INTERVAL), last + 1 - SHOWN)
+        counts = (tally.picked_in, tally.stored_in, tally.completed_in)
+        series = ([of.get(i, 0) for i in range(first, last + 1)] for of in counts)
+        begin = max(first * kpis.INTERVAL, self._shift.began)
+        return msg.Throughput(_header(now), kpis.INTERVAL, begin, now, *series)
+
+    def _heat_message(self, now):
+        plan, heat = self._site.plan, self._warehouse.heat
+        x, y = plan.point_of(0)
+        size = plan.spacing, plan.passable.shape[1]
+        return msg.HeatMap(_header(now), heat.seconds(now), x, y, *size, *heat.maps())
 
     def _stations_message(self, now):
         message = msg.StationStates()
@@ -347,6 +395,7 @@ class OperationsNode:
     def _kpis_message(self, now):
         figures = self._figures()
         planning = figures.pop("plan_ms")
+        orders = self._shift.orders.values()
         for name in ("order_turnover_s", "order_throughput_s"):
             figures[name] = msg.Quantiles(**figures[name])
         message = msg.Kpis(
@@ -354,15 +403,26 @@ class OperationsNode:
             **{f"plan_{name}": value for name, value in planning.items()},
             orders_waiting=len(self._shift.backlog),
             orders_at_stations=len(self._shift.orders) - len(self._shift.backlog),
+            orders_late=sum(0 < order.due < self._shift.now for order in orders),
             stock_level=self._shift.inventory.level,
         )
         message.header.stamp = rospy.Time.from_sec(now)
         return message
 
 
-def _order_status(order, lines):
+def _stored_order(row, lines):
+    """An OrderStatus of rows of the database."""
+    return _order_status(row, row.id, lines)
+
+
+def _order(order):
+    """An OrderStatus of an Order."""
+    return _order_status(order, order.order_id, order.lines)
+
+
+def _order_status(order, order_id, lines):
     return msg.OrderStatus(
-        order_id=order.id,
+        order_id=order_id,
         reference=order.reference,
         state=order.state,
         station=order.station,
@@ -375,8 +435,21 @@ def _order_status(order, lines):
     )
 
 
+def _place(one):
+    """A StockPlace of a Bin, or of its row in the database."""
+    return msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
+
+
+def _header(now):
+    return Header(stamp=rospy.Time.from_sec(now))
+
+
 def _publisher(topic, kind):
     return rospy.Publisher(topic, kind, latch=True, queue_size=1)
+
+
+def _queued(topic, kind):
+    return rospy.Publisher(topic, kind, queue_size=10000)
 
 
 def _station_state(station, elapsed):

@@ -113,21 +113,21 @@ def _urgency(transport):
 class Transports:
     """All transports and who does them.
 
-    `units` maps a unit's number to the storage cell where it stands. `lift(kiva_id, shelf_id,
-    up)` sends the command. Two decisions can be made by others: `choose_robot(cell, free)` of the
-    indices `free` for a unit in `cell`, and `choose_place(shelf_id, cell, free)` of the cells
-    `free` for a unit that is in `cell`.
+    `lift(kiva_id, shelf_id, up)` sends the command. Two decisions can be made by others:
+    `choose_robot(cell, free)` of the indices `free` for a unit in `cell`, and
+    `choose_place(shelf_id, cell, free)` of the cells `free` for a unit that is in `cell`.
+    Transports get the numbers after `last`. Nothing is known of units until look() is told.
     """
 
-    def __init__(self, plan, traffic, units, lift, choose_robot=None, choose_place=None):
+    def __init__(self, plan, traffic, lift, choose_robot=None, choose_place=None, last=0):
         self.plan, self.traffic, self._lift = plan, traffic, lift
         self.choose_robot = choose_robot or self._nearest_robot
         self.choose_place = choose_place or self._nearest_place
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
         self.totals = Totals()
-        self.cell_of_unit = dict(units)  # of those that stand; NOWHERE: not on a storage place
-        self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
+        self.cell_of_unit = {}  # NOWHERE: not in a cell, or carried
+        self._unit_in = {}  # those that stand, by cell
         self._places = np.flatnonzero(plan.storage)
         self._aside = (plan.storage | plan.parking).ravel()  # where nobody is in the way
         self._ready = []  # transports at step READY, in the order in which they came to it
@@ -138,7 +138,7 @@ class Transports:
         self._inbound = collections.Counter()  # lifted units on their way to a station or there
         self._fetched = collections.Counter()  # units that are fetched for it
         self._events = []
-        self._last = 0
+        self._last = last
         self._put_down = {}  # when each unit was put down last [s]
         self._lost = set()  # units whose robots were lost: to be stored, wherever they are
         self._shortest = {}  # of the journey that a robot is on, in cells

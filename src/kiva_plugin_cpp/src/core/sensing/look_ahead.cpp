@@ -7,6 +7,7 @@
 
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
@@ -96,12 +97,6 @@ void lookAhead(WorldState& world) {
       f.tasks[i].sighting = look(world, i);
     }
   });
-}
-
-double alongSegment(const FleetState& f, int i) {
-  const MotionSegment& segment = f.tasks[i].segments.front();
-  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
-         std::sin(segment.yaw) * (f.y[i] - segment.y);
 }
 
 double reachOfInterest(const WorldState& world, int robot) {

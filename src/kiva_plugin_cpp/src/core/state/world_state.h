@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a world in one place. The rooms above this one are functions over it, in the order
-// in which World::step calls them; none includes one that stands behind it here:
+// The state of a world in one place. The rooms above this one are functions over it; none includes
+// one that stands behind it here, which scripts/check_includes holds them to:
+//   sensing     scans, and what lies ahead
 //   motion      wheels on the floor, references that are followed, until when a way is free
 //   contact     who is stepped by Bullet and who in arrays, collisions, forces from outside
 //   models      what comes and goes: robots, storage units, items, all else
-//   sensing     scans, and what lies ahead
 //   control     what robots are asked for, and what becomes of it
 //   checkpoint  all of it as bytes, and back
 #pragma once

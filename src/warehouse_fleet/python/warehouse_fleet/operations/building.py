@@ -14,7 +14,7 @@ def world_of(site, seed=1):
 
     Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x.
     """
-    from kiva_plugin_cpp import World, _worlds
+    from kiva_plugin_cpp import World, worlds_folder
     from warehouse_sim import layout, models
 
     plan = replace(site.plan, origin=(0.0, 0.0))
@@ -30,7 +30,7 @@ def world_of(site, seed=1):
         units=points(site.units),
         plan=plan,
     )
-    folder = _worlds()
+    folder = worlds_folder()
     with tempfile.TemporaryDirectory() as made:
         world_file = Path(made, "instance.sdf")
         text = (folder / "empty.sdf").read_text(encoding="utf-8")

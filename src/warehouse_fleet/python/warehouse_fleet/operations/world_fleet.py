@@ -4,15 +4,10 @@
 import numpy as np
 
 from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.traffic import Motion
 from warehouse_fleet.transport import Task
 from warehouse_fleet.travel import Travel
 
 STUCK = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
-
-
-def _motion(kinematics):
-    return Motion(kinematics.speed, kinematics.acceleration, kinematics.quarter_turn)
 
 
 class WorldFleet:
@@ -21,7 +16,7 @@ class WorldFleet:
     def __init__(self, world, site, seed):
         self.world, self.robots = world, len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
-        self._driver = FleetDriver(world, seed=seed, motion=_motion(site.kinematics))
+        self._driver = FleetDriver(world, seed=seed, kinematics=site.kinematics)
         self.transports = self._driver.transports
 
     def set_hooks(self, hooks):

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the bindings of one world and of many share.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "kiva_plugin_cpp/world.h"
+#include "kiva_plugin_cpp/world_file.h"
+
+namespace kiva::python {
+
+namespace py = pybind11;
+
+/// A row of World.storage_units.
+struct UnitRow {
+  std::int32_t shelf_id;
+  double x, y, z, yaw, mass;
+  std::int32_t kiva_id;
+};
+
+/// A world that one thread uses at a time: a second one is told so.
+class Host {
+ public:
+  Host(const WorldDescription& description, const WorldOptions& options, ModelPaths paths)
+      : world(description, options), model_paths(std::move(paths)) {}
+
+  std::unique_lock<std::mutex> use() {
+    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock) throw std::runtime_error("the world is in use by another thread");
+    return lock;
+  }
+
+  World world;
+  ModelPaths model_paths;
+  Column<float> ranges;  // of the last scans()
+
+ private:
+  std::mutex mutex_;
+};
+
+using HostPtr = std::shared_ptr<Host>;
+
+/// Throws ValueError with the number of the command in its row.
+void checkCommand(const Host& host, const Command& command, std::size_t i);
+/// Commands of dtype COMMAND, or TypeError and ValueError.
+py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
+UnitRow unitRow(const World& world, int unit);
+
+void defineWorlds(py::module_& m);
+
+}  // namespace kiva::python

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Policies to measure others by. Each is a function of observations (…, size) and action masks
+(…, 5) that returns actions (…,)."""
+
+import numpy as np
+
+from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.stations import PICK
+from warehouse_fleet.transports import Kind
+from warehouse_learning import building, fields
+from warehouse_learning.observing import Observer
+from warehouse_learning.options import Options
+from warehouse_learning.warehouses import Action, Warehouses
+
+IMPATIENCE = 0.2  # of robots that can't go on: how often they try something else
+
+
+def random_policy(seed=0):
+    """Any of the possible actions."""
+    random = np.random.default_rng(seed)
+
+    def act(_observations, masks):
+        return (masks * random.random(masks.shape)).argmax(-1)
+
+    return act
+
+
+def greedy_policy(options, seed=0):
+    """To the goal by the shortest way, whoever is in it."""
+    random = np.random.default_rng(seed)
+    robot_fields = fields.robot_fields(options)
+    turns = np.array([Action.FORWARD, Action.LEFT, Action.LEFT, Action.RIGHT])
+
+    def act(observations, masks):
+        see = fields.split(observations, robot_fields)
+        nearer = see["way"]
+        out = turns[nearer.argmax(-1)]
+        out = np.where(nearer.max(-1) <= 0, Action.WAIT, out)
+        is_there = see["distance"][..., 0] == 0
+        carries_asked = see["load"][..., 1] > 0
+        has_goal = (see["goal"] != 0).any(-1) | is_there
+        lifts = is_there & has_goal & ~carries_asked & (masks[..., Action.LIFT] > 0)
+        useless = (see["load"][..., 0] > 0) & ~_beneath_a_request(see)
+        out = np.where(lifts & ~useless, Action.LIFT, out)
+        possible = np.take_along_axis(masks, out[..., None].astype(int), -1)[..., 0] > 0
+        other = (masks[..., :4] * random.random((*masks.shape[:-1], 4))).argmax(-1)
+        impatient = ~possible & (random.random(possible.shape) < IMPATIENCE)
+        return np.where(possible, out, np.where(impatient, other, Action.WAIT))
+
+    return act
+
+
+def _beneath_a_request(see):
+    here = see["neighbourhood"]
+    middle = here.shape[-2] // 2
+    return here[..., middle, middle, fields.LAYERS.index("requested")] > 0
+
+
+def measure(policy, options, episodes=8, seed=0, threads=0):
+    """(episodes,) units delivered in each, and the simulated seconds of each."""
+    warehouses = Warehouses(episodes, options, threads)
+    observer = Observer(warehouses)
+    warehouses.reset(np.arange(episodes), [seed + i for i in range(episodes)])
+    for _ in range(options.max_cycles):
+        warehouses.step(policy(observer.observations(), warehouses.masks()))
+    seconds = np.array([warehouses.worlds[i].time for i in range(episodes)])
+    return warehouses.delivered.sum(1), seconds
+
+
+def measure_planner(options, seconds, seed=0):
+    """Units that the fleet's own planner brings to stations in so many simulated seconds, with as
+    many open requests, none of which is served for longer than it takes to let go."""
+    world = building.build(1, options, threads=1)[0][0]
+    driver = FleetDriver(world, seed=seed)
+    random = np.random.default_rng(seed)
+    transports = driver.transports
+    stations = [s.name for s in driver.plan.stations if s.kind == PICK]
+    delivered = asked = 0
+    while world.time < seconds:
+        while asked < options.requests:
+            units = sorted(set(transports.cell_of_unit) - {t.shelf for t in transports})
+            transports.submit(int(random.choice(units)), str(random.choice(stations)))
+            asked += 1
+        driver.step()
+        for event in transports.take_events():
+            if event.kind == Kind.ARRIVED:
+                delivered, asked = delivered + 1, asked - 1
+                transports.release(event.transport_id)
+    driver.close()
+    return delivered
+
+
+def main():
+    """python3 -m warehouse_learning.baselines [size]: prints what each delivers."""
+    import sys
+
+    options = Options.of({"size": sys.argv[1] if len(sys.argv) > 1 else "tiny"})
+    for name, policy in (("random", random_policy()), ("greedy", greedy_policy(options))):
+        delivered, seconds = measure(policy, options)
+        hourly = 3600 * delivered.sum() / seconds.sum()
+        print(f"{name:8} {delivered.mean():7.1f} units an episode, {hourly:7.1f} an hour")
+    delivered = measure_planner(options, 1800)
+    print(f"{'planner':8} {'':7} {'':19} {2 * delivered:7.1f} an hour")
+
+
+if __name__ == "__main__":
+    main()

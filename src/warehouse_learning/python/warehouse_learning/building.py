@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Worlds to learn in: robots with or without lasers, quick or slow, and as many worlds as asked
+for, all alike."""
+
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from kiva_plugin_cpp import World, Worlds, worlds_folder
+
+
+def build(n, options, threads=0):
+    """(Worlds, checkpoint): n worlds as they are before an episode, and what brings them back."""
+    with tempfile.TemporaryDirectory() as folder:
+        _write_kiva(Path(folder), options)
+        first = World.create(
+            robots=options.robots, shelves=options.shelves, model_paths=[folder], seed=1
+        )
+    first.step_size = options.physics_step
+    checkpoint = first.checkpoint()
+    others = [World() for _ in range(n - 1)]
+    for world in others:
+        world.restore(checkpoint)
+    return Worlds.of([first, *others], threads), checkpoint
+
+
+def _write_kiva(folder, options):
+    """The Kiva of worlds/models with another lift, another acceleration, and maybe no laser."""
+    own = worlds_folder() / "models" / "kiva"
+    document = ElementTree.parse(own / "model.sdf")
+    model = document.getroot().find("model")
+    plugins = {plugin.get("name"): plugin for plugin in model.findall("plugin")}
+    plugins["motion"].find("acceleration").text = repr(float(options.acceleration))
+    plugins["lift"].find("time").text = repr(float(options.lift_time))
+    if not options.lasers:
+        model.remove(plugins["laser"])
+    (folder / "kiva").mkdir()
+    document.write(folder / "kiva" / "model.sdf", encoding="unicode")
+    (folder / "kiva" / "model.config").write_text((own / "model.config").read_text())

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A dispatcher as a Gymnasium environment: it says which task goes to which robot, and the fleet's
+own planner (warehouse_fleet) drives them there."""
+
+from types import SimpleNamespace
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.stations import PICK
+from warehouse_fleet.transports import NOWHERE, Kind
+from warehouse_learning import building, fields
+from warehouse_learning.fields import Field
+from warehouse_learning.grid import Grid
+from warehouse_learning.options import Options
+from warehouse_learning.picture import Picture
+from warehouse_learning.screen import RENDER_MODES, Screen
+from warehouse_learning.warehouses import ActionError
+
+DECISION = 5.0  # unless options say otherwise [s]
+SERVICE = 10.0  # of a unit at its station [s]
+OLD = 300.0  # a task's age that counts as 1 [s]
+
+
+class KivaDispatcherEnv(gymnasium.Env):
+    """Action 0 waits; 1 + task * robots + robot gives that task to that robot, if it has none.
+
+    A task is a storage unit that is to be brought to a picking station, served there for 10 s and
+    stored again; `requests` tasks are open at any time. A decision lasts 5 simulated seconds, or
+    `decision`. Reward: "delivered" for each unit that arrives, "refused" for a robot that is at
+    work already, "step", "collided". Options as of warehouse_learning.Options; those about single
+    robots' actions say nothing here. info["action_mask"] is (actions,) int8.
+    """
+
+    metadata = {"render_modes": RENDER_MODES, "render_fps": 4}
+
+    def __init__(self, render_mode=None, **options):
+        if options.get("continuous"):
+            raise ValueError("continuous is for robots; a dispatcher gives tasks")
+        options.setdefault("decision", DECISION)
+        self.options = Options.of(options)
+        worlds, self._checkpoint = building.build(1, self.options, threads=1)
+        self._world = worlds[0]
+        self._driver = None
+        robots, tasks = self.options.robots, self.options.requests
+        self.fields = [
+            Field("robot_position", (robots, 2), 0, 1, "floor", "1 is the last column or row"),
+            Field("robot_free", (robots,), 0, 1, "", "1: it has no task"),
+            Field("robot_loaded", (robots,), 0, 1, "", "1: it carries a unit"),
+            Field("task_unit", (tasks, 2), 0, 1, "floor", "where the unit stands"),
+            Field("task_station", (tasks, 2), 0, 1, "floor", "where it is to be brought"),
+            Field("task_age", (tasks,), 0, 1, f"{OLD:g} s", "since it was asked for"),
+        ]
+        self.observation_space = spaces.Box(*fields.bounds(self.fields))
+        self.action_space = spaces.Discrete(1 + robots * tasks)
+        self.render_mode = render_mode
+        self._grid = Grid(FloorPlan.of_world(self._world), 0)
+        self._scene = SimpleNamespace(worlds=[self._world], robots=robots, grid=self._grid)
+        self._screen = Screen(render_mode, lambda: Picture(self._scene))
+
+    def reset(self, *, seed=None, options=None):
+        """A new episode: the same seed, the same episode."""
+        super().reset(seed=seed)
+        if self._driver:
+            self._driver.close()
+        self._world.restore(self._checkpoint)
+        self._driver = FleetDriver(self._world, choose_robot=self._choose_robot)
+        self._stations = [s for s in self._driver.plan.stations if s.kind == PICK]
+        self._tasks, self._released, self._wishes = [], {}, {}
+        self._cycle = self.delivered = 0
+        while len(self._tasks) < self.options.requests:
+            self._ask()
+        self._show()
+        return self._observation(), self._info()
+
+    def step(self, action):
+        """ActionError if the action is none."""
+        if not self._driver:
+            raise gymnasium.error.ResetNeeded("reset() begins the first episode")
+        given = np.asarray(action)
+        if given.shape != () or given.dtype.kind not in "iu" or not 0 <= given < self.action_space.n:
+            raise ActionError(
+                f"dispatcher: action {action!r}; a whole number from 0 to"
+                f" {self.action_space.n - 1} was expected"
+            )
+        refused = not self._assign(int(given))
+        collisions, before = self._driver.collisions, self.delivered
+        end = self._driver.time + self.options.decision
+        while self._driver.time < end - 1e-9:
+            self._driver.step()
+            self._hear()
+        self._cycle += 1
+        reward = self.options.rewards
+        earned = (
+            reward["step"]
+            + reward["delivered"] * (self.delivered - before)
+            + reward["refused"] * refused
+            + reward["collided"] * (self._driver.collisions - collisions)
+        )
+        self._show()
+        ends = self._cycle >= self.options.max_cycles
+        return self._observation(), float(earned), False, ends, self._info()
+
+    def action_masks(self):
+        """(actions,) bool, as sb3_contrib's MaskablePPO asks for."""
+        free = np.tile(self._free(), self.options.requests)
+        return np.concatenate([[True], free])
+
+    def render(self):
+        units = self._world.storage_units["shelf_id"]
+        asked = [task["shelf"] for task in self._tasks]
+        self._scene.requested = np.isin(units, asked)[None]
+        self._scene.busy = ~self._free()[None]
+        return self._screen.render()
+
+    def _show(self):
+        if self.render_mode == "human":
+            self.render()
+
+    def close(self):
+        self._screen.close()
+        if self._driver:
+            self._driver.close()
+            self._driver = None
+
+    def _choose_robot(self, cell, free):
+        """Who was told to fetch the unit in that cell; the nearest, if that one is stuck."""
+        robot = self._wishes.pop(cell, NOWHERE)
+        if robot in free:
+            return robot
+        width = self._driver.plan.width
+        row, column = np.divmod(self._driver.traffic.cell[free], width)
+        return free[np.abs(row - cell // width).argmin()] if len(row) else free[0]
+
+    def _free(self):
+        """(robots,) bool: without a task."""
+        free = np.ones(self.options.robots, bool)
+        for transport in self._driver.transports:
+            if transport.robot != NOWHERE:
+                free[transport.robot] = False
+        free[list(self._wishes.values())] = False
+        return free
+
+    def _assign(self, action):
+        """Whether that was possible."""
+        if action == 0:
+            return True
+        number, robot = divmod(action - 1, self.options.robots)
+        if not self._free()[robot]:
+            return False
+        task = self._tasks[number]
+        cell = self._driver.transports.cell_of_unit[task["shelf"]]
+        answer = self._driver.transports.submit(task["shelf"], task["station"].name)
+        if not answer.accepted:
+            return False
+        self._wishes[cell] = robot
+        del self._tasks[number]
+        self._ask()
+        return True
+
+    def _ask(self):
+        """One more task: a unit that stands in storage, to any station."""
+        transports = self._driver.transports
+        taken = {task["shelf"] for task in self._tasks} | {t.shelf for t in transports}
+        units = [u for u, c in sorted(transports.cell_of_unit.items()) if c != NOWHERE]
+        free = [u for u in units if u not in taken]
+        if not free:  # all others are on the way: one that is comes again
+            free = [u for u in sorted(transports.cell_of_unit) if u not in taken] or units
+        self._tasks.append(
+            {
+                "shelf": free[self.np_random.integers(len(free))],
+                "station": self._stations[self.np_random.integers(len(self._stations))],
+                "since": self._driver.time,
+            }
+        )
+
+    def _hear(self):
+        time, transports = self._driver.time, self._driver.transports
+        for event in transports.take_events():
+            if event.kind == Kind.ARRIVED:
+                self.delivered += 1
+                self._released[event.transport_id] = time + SERVICE
+        for number in [n for n, until in self._released.items() if time >= until]:
+            del self._released[number]
+            transports.release(number)
+
+    def _observation(self):
+        grid, fleet = self._grid, self._world.fleet
+        units = self._driver.transports.cell_of_unit
+        at = [max(units[task["shelf"]], 0) for task in self._tasks]
+        stations = [task["station"].service_cell for task in self._tasks]
+        age = [(self._driver.time - task["since"]) / OLD for task in self._tasks]
+        parts = (
+            np.clip(grid.share_of(grid.cell_of(fleet.x, fleet.y)), 0, 1),
+            self._free(),
+            fleet.shelf_id > 0,
+            grid.share_of(np.array(at)),
+            grid.share_of(np.array(stations)),
+            np.minimum(age, 1),
+        )
+        return np.concatenate([np.ravel(part) for part in parts]).astype(np.float32)
+
+    def _info(self):
+        return {
+            "action_mask": self.action_masks().astype(np.int8),
+            "delivered": self.delivered,
+            "time": self._driver.time,
+        }

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All robots of a warehouse under one policy: a Gymnasium environment, and many of it at once."""
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+
+from warehouse_learning import episodes, fields
+from warehouse_learning.observing import Observer
+from warehouse_learning.options import Options
+from warehouse_learning.picture import Picture
+from warehouse_learning.screen import RENDER_MODES, Screen
+from warehouse_learning.spaces import WHEELS, joint_action_space
+from warehouse_learning.warehouses import ActionError, Warehouses
+
+FRAMES = 4  # a second
+
+
+def _joint_space(robot_fields, robots):
+    low, high = fields.bounds(robot_fields)
+    return spaces.Box(np.tile(low, robots), np.tile(high, robots))
+
+
+class KivaRobotsEnv(gymnasium.Env):
+    """One policy moves every robot; options as of warehouse_learning.Options.
+
+    Observations are those of the robots in a row, (robots * size,) float32; the reward is the sum
+    of theirs, which info["rewards"] has one by one; info["action_mask"] is (robots, 5) int8.
+    """
+
+    metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
+
+    def __init__(self, render_mode=None, **options):
+        self.options = Options.of(options)
+        self._in = Warehouses(1, self.options, threads=1)
+        self._see = Observer(self._in)
+        self.fields, self.state_fields = self._see.fields, self._see.state_fields
+        self.observation_space = _joint_space(self.fields, self.options.robots)
+        self.action_space = joint_action_space(self.options)
+        self.render_mode = render_mode
+        self._screen = Screen(render_mode, lambda: Picture(self._in))
+        self._seed, self._actions = None, []
+
+    def reset(self, *, seed=None, options=None):
+        """A new episode: the same seed, the same episode."""
+        super().reset(seed=seed)
+        self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
+        self._actions = []
+        self._in.reset([0], [self._seed])
+        self._screen.stepped()
+        return self._observation(), self._info(None, {})
+
+    def step(self, action):
+        """ActionError if the action is none."""
+        if self._seed is None:
+            raise gymnasium.error.ResetNeeded("reset() begins the first episode")
+        chosen = _by_robot(action, 1, self.options)
+        rewards, happened = self._in.step(chosen)
+        self._actions.append(chosen[0])
+        ends = bool(self._in.cycle[0] >= self.options.max_cycles)
+        self._screen.stepped()
+        info = self._info(rewards, happened)
+        return self._observation(), float(rewards.sum()), False, ends, info
+
+    def action_masks(self):
+        """(robots * 5,) bool, as sb3_contrib's MaskablePPO asks for."""
+        return self._in.masks()[0].ravel()
+
+    def state(self):
+        """(size,) float32: the whole warehouse, as `state_fields` says."""
+        return self._see.state()[0]
+
+    def render(self):
+        return self._screen.render()
+
+    def close(self):
+        self._screen.close()
+
+    def save_episode(self, path):
+        """The episode up to now as a file; `python3 -m warehouse_learning.watch` plays it."""
+        if self._seed is None:
+            raise ValueError("there is no episode yet: reset() begins one")
+        episodes.save(path, self.options, self._seed, self._actions)
+
+    def _observation(self):
+        return self._see.observations().reshape(-1)
+
+    def _info(self, rewards, happened):
+        info = {"action_mask": self._in.masks()[0].astype(np.int8)}
+        if rewards is not None:
+            info["rewards"] = rewards[0].copy()
+        return info | {name: events[0].copy() for name, events in happened.items()}
+
+
+class KivaRobotsVectorEnv(VectorEnv):
+    """num_envs warehouses, stepped on all cores in one call.
+
+    Options as of KivaRobotsEnv; `threads` as of kiva_plugin_cpp.Worlds. Observations are
+    (num_envs, robots * size) float32, rewards (num_envs,); infos hold "rewards", (num_envs, robots),
+    "action_mask", (num_envs, robots, 5), and what happened, each with its "_" mask.
+    """
+
+    def __init__(
+        self,
+        num_envs=1,
+        render_mode=None,
+        threads=0,
+        autoreset_mode=AutoresetMode.NEXT_STEP,
+        **options,
+    ):
+        self.num_envs, self.options = num_envs, Options.of(options)
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {**KivaRobotsEnv.metadata, "autoreset_mode": self.autoreset_mode}
+        self.render_mode = render_mode
+        self._in = Warehouses(num_envs, self.options, threads)
+        self._see = Observer(self._in)
+        self.fields, self.state_fields = self._see.fields, self._see.state_fields
+        self.single_observation_space = _joint_space(self.fields, self.options.robots)
+        self.single_action_space = joint_action_space(self.options)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self._screen = Screen(render_mode, lambda: Picture(self._in))
+        self._ended = np.zeros(num_envs, bool)
+        self._begun = False
+
+    def reset(self, *, seed=None, options=None):
+        """New episodes in all, or in those of options["reset_mask"], (num_envs,) bool.
+
+        seed: a number, and environment i gets seed + i, or one for each; None: the next ones.
+        """
+        mask = (options or {}).get("reset_mask")
+        which = np.arange(self.num_envs) if mask is None else np.flatnonzero(mask)
+        if not self._begun and len(which) < self.num_envs:
+            raise gymnasium.error.ResetNeeded("all are to be reset at first")
+        super().reset(seed=seed if isinstance(seed, int) else None)
+        if seed is None:
+            seeds = self._next_seeds(len(which))
+        elif isinstance(seed, int):
+            seeds = [seed + int(i) for i in which]
+        else:
+            given = list(seed)
+            if len(given) != self.num_envs:
+                raise ValueError(f"seed has {len(given)} entries; {self.num_envs} were expected")
+            seeds = [self._next_seeds(1)[0] if given[i] is None else given[i] for i in which]
+        self._begin(which, seeds)
+        self._begun = True
+        self._screen.stepped()
+        return self._observations(), self._infos(None, {})
+
+    def step(self, actions):
+        """ActionError if the action of an environment is none."""
+        if not self._begun:
+            raise gymnasium.error.ResetNeeded("reset() begins the first episodes")
+        chosen = _by_robot(actions, self.num_envs, self.options)
+        begins = np.zeros(self.num_envs, bool)
+        if self.autoreset_mode == AutoresetMode.NEXT_STEP:
+            begins = self._ended.copy()
+        elif self.autoreset_mode == AutoresetMode.DISABLED and self._ended.any():
+            ended = int(np.flatnonzero(self._ended)[0])
+            raise gymnasium.error.ResetNeeded(f"environment {ended} has ended and was not reset")
+        if begins.all():
+            rewards = np.zeros((self.num_envs, self.options.robots), np.float32)
+            happened = {}
+        else:
+            rewards, happened = self._in.step(chosen)
+        if begins.any():
+            which = np.flatnonzero(begins)
+            self._begin(which, self._next_seeds(len(which)))
+            rewards[begins] = 0
+        ends = (self._in.cycle >= self.options.max_cycles) & ~begins
+        self._ended = ends.copy()
+        infos = self._infos(rewards, happened)
+        observations = self._observations()
+        if self.autoreset_mode == AutoresetMode.SAME_STEP and ends.any():
+            observations, infos = self._begin_at_once(ends, observations, infos)
+        self._screen.stepped()
+        none = np.zeros(self.num_envs, bool)
+        return observations, rewards.sum(1).astype(np.float64), none, ends, infos
+
+    def state(self):
+        """(num_envs, size) float32: each whole warehouse, as `state_fields` says."""
+        return self._see.state()
+
+    def render(self):
+        """The first one's picture."""
+        picture = self._screen.render()
+        return None if picture is None else (picture,)
+
+    def close_extras(self, **_):
+        self._screen.close()
+
+    def _next_seeds(self, count):
+        return self.np_random.integers(2**62, size=count).tolist()
+
+    def _begin(self, which, seeds):
+        self._in.reset(which, seeds)
+        self._ended[which] = False
+
+    def _begin_at_once(self, ends, observations, infos):
+        which = np.flatnonzero(ends)
+        final = np.full(self.num_envs, None, object)
+        for i in which:
+            final[i] = observations[i].copy()
+        self._begin(which, self._next_seeds(len(which)))
+        fresh = self._observations()
+        mask = self._in.masks().astype(np.int8)
+        infos = infos | {
+            "final_obs": final,
+            "_final_obs": ends.copy(),
+            "final_info": {name: value for name, value in infos.items()},
+            "_final_info": ends.copy(),
+            "action_mask": mask,
+        }
+        return fresh, infos
+
+    def _observations(self):
+        return self._see.observations().reshape(self.num_envs, -1)
+
+    def _infos(self, rewards, happened):
+        infos = {"action_mask": self._in.masks().astype(np.int8)}
+        if rewards is not None:
+            infos["rewards"] = rewards.copy()
+        infos |= happened
+        everybody = np.ones(self.num_envs, bool)
+        return infos | {f"_{name}": everybody for name in infos}
+
+
+def _by_robot(actions, n, options):
+    """(n, robots) or, of wheels, (n, robots, 3); ActionError for another shape."""
+    given = np.asarray(actions)
+    last = options.robots * (WHEELS if options.continuous else 1)
+    if given.shape not in ((n, last), (last,) if n == 1 else None):
+        raise ActionError(f"actions: shape {(n, last)} was expected, not {given.shape}")
+    shape = (n, options.robots) + ((WHEELS,) if options.continuous else ())
+    return given.reshape(shape)
