@@ -33,6 +33,7 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
+	@scripts/learning_packages
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
 

@@ -17,7 +17,7 @@ from warehouse_learning.options import Options
 from warehouse_learning.warehouses import Warehouses
 
 # What leads there; "delivered" alone is what counts.
-REWARDS = {"lifted": 0.3, "stored": 0.3, "approached": 0.05, "step": -0.01}
+REWARDS = {"lifted": 0.3, "dropped": -0.3, "stored": 0.3, "approached": 0.05, "step": -0.01}
 
 
 @dataclass(frozen=True)
