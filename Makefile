@@ -38,8 +38,8 @@ test: deps build lint  ## build and run every test; make test ARGS="-L unit" onl
 	@scripts/test -j$(JOBS) $(ARGS)
 
 test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
-	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS); . devel/setup.bash; cd tests; \
-	exec /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py $(ARGS)
+	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
+	exec /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py unit/python/test_rawsim.py unit/python/test_kills.py $(ARGS)
 
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 	@scripts/fuzz_api $(ARGS)

@@ -62,7 +62,7 @@ class Browser:
         return f"{said}; {self.complaints()}"
 
     def text(self, element):
-        return self.read(f"document.getElementById('{element}').textContent")
+        return self.read(f"document.getElementById('{element}')?.textContent")
 
     def pixel(self, x, y, z=0.0):
         """Where in the window a point of the world is drawn [px]."""

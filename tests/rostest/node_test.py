@@ -18,7 +18,7 @@ from warehouse_msgs.msg import Event
 from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim.script_executor import ScriptExecutor, command
 
-PATIENCE = 30.0  # [s, wall]
+PATIENCE = 60.0  # [s, wall]
 
 
 class Listener:
@@ -45,6 +45,10 @@ class Listener:
                     raise AssertionError(f"{self.topic}: not what was waited for: {last}")
                 self._came.wait(left)
             return self.messages[-1]
+
+    def connections(self):
+        """How many publishers it hears."""
+        return self._subscriber.get_num_connections()
 
     def close(self):
         self._subscriber.unregister()
@@ -76,9 +80,12 @@ def pid(node):
         return None
 
 
-def kill(node):
-    """Kills a node without a chance to say goodbye, and waits for the next of that name."""
+def kill(node, meanwhile=lambda: None):
+    """Kills a node without a chance to say goodbye, and waits for the next of that name. What is
+    done meanwhile it does not see."""
     before = pid(node)
+    os.kill(before, signal.SIGSTOP)
+    meanwhile()
     os.kill(before, signal.SIGKILL)
     wait_until(lambda: pid(node) not in (None, before), f"{node} comes back")
 

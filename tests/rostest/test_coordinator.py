@@ -203,7 +203,8 @@ class Fleet(unittest.TestCase):
         for _ in range(300):
             for robot, x, y in self.without_command(self.now()):
                 answer = commander.ask("/mov", kiva_id=robot, x=x, y=y)
-                if answer.kind == Event.ACCEPTED:
+                # Not the answer to the coordinator, which may have been quicker.
+                if answer.kind == Event.ACCEPTED and answer.text.startswith("go to"):
                     return robot
         raise AssertionError("all robots are at work all the time")
 
@@ -224,11 +225,23 @@ class Fleet(unittest.TestCase):
         self.fleet.clear()
         fleet = self.fleet.first(lambda f: len(loaded(f)) >= 3 and max(map(abs, f.vx)) > 1)
         carriers, before = loaded(fleet), pid(NODE)
+        begun = lambda messages: sorted(  # noqa: E731
+            {e.transport_id for e in messages if e.kind == TransportEvent.RECEIVED}
+            - {e.transport_id for e in messages if e.kind > TransportEvent.ASSIGNED}
+        )
+        asked = begun(self.transports.wait_for(begun, PATIENCE))
         os.kill(before, signal.SIGKILL)
         self.state.clear()
         wait_until(lambda: pid(NODE) not in (None, before), "the next coordinator")
         state = self.state.first(lambda state: state.automatic == 20)
         self.assertLessEqual(state.delivered, 1)
+        # Who has asked the first one for something is told, and no number comes twice.
+        lost = lambda messages: {  # noqa: E731
+            e.transport_id for e in messages if e.text == "the coordinator began anew"
+        }
+        seen = self.transports.wait_for(lambda messages: lost(messages) >= set(asked), PATIENCE)
+        numbers = [e.transport_id for e in seen if e.kind == TransportEvent.RECEIVED]
+        self.assertEqual(len(numbers), len(set(numbers)))
         # What they carry is put down, all of it.
         self.fleet.clear()
         free = set()

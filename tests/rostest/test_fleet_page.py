@@ -3,63 +3,38 @@
 """Page and HTTP API show a coordinated fleet, and give its robots to a person and back."""
 
 import json
-import unittest
-import urllib.error
-import urllib.request
 
 import rospy
 import rostest
-from browser import browser
-from node_test import PATIENCE, Listener, wait_until
+from node_test import Listener, wait_until
+from page_test import PageTest, ask
 
 from warehouse_msgs.msg import CoordinatorState, Scenery
 
 MODE = "document.querySelector('#modes [aria-pressed=\"true\"]')?.dataset.mode"
 
 
-def address():
-    wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
-    return rospy.get_param("/viewer/address")
+class FleetPage(PageTest):
+    ready = "page.world.scene.robots.length === 4 && page.fleet.runs"
 
-
-def ask(path, body=None):
-    """(status, answer) of the API."""
-    data = None if body is None else json.dumps(body).encode()
-    headers = {"content-type": "application/json"}
-    request = urllib.request.Request(f"{address()}api/v1/{path}", data, headers)
-    try:
-        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-            return answer.status, json.load(answer)
-    except urllib.error.HTTPError as error:
-        return error.code, json.load(error)
-
-
-class FleetPage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.state = Listener("/warehouse/coordinator", CoordinatorState)
         cls.state.until(lambda state: state.automatic == 4)
-        cls._browser = browser(PATIENCE)
-        cls.page = cls._browser.__enter__()
-        cls.page.open(address())
-        cls.page.until("page.world.scene.robots.length === 4 && page.fleet.runs")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._browser.__exit__(None, None, None)
+        super().setUpClass()
 
     def tearDown(self):
         self.page.read("page.select(null)")
-        self.assertEqual(self.page.complaints(), [])
+        super().tearDown()
 
     def submit(self, unit, **where):
-        status, answer = ask("transports", {"storage_unit": unit, **where})
+        status, answer = ask("/transports", {"storage_unit": unit, **where})
         self.assertEqual(status, 201, answer)
         return answer["transport_id"]
 
     def wait_for(self, transport, state):
         """The transport, once it is so far."""
-        found = lambda: ask(f"transports/{transport}")[1]  # noqa: E731
+        found = lambda: ask(f"/transports/{transport}")[1]  # noqa: E731
         wait_until(lambda: found()["state"] == state, f"transport {transport} {state}")
         return found()
 
@@ -79,9 +54,9 @@ class FleetPage(unittest.TestCase):
         self.page.until(
             "document.getElementById('fleet-facts').textContent.includes('1 delivered')"
         )
-        self.assertEqual(ask(f"transports/{transport}/release", {})[0], 200)
+        self.assertEqual(ask(f"/transports/{transport}/release", {})[0], 200)
         self.wait_for(transport, "STORED")
-        status, state = ask("coordinator")
+        status, state = ask("/coordinator")
         self.assertEqual((status, state["robots"]["automatic"]), (200, 4))
         self.page.click_on("ways")
         self.page.until("!page.overlays.ways.released.visible")
@@ -93,8 +68,8 @@ class FleetPage(unittest.TestCase):
             self.page.driver.find_element("css selector", f"[data-mode={mode}]").click()
             self.page.until(f"{MODE} === '{mode}'")
             self.assertEqual(list(getattr(self.state.until(), f"{ids}_kiva")), [3])
-            self.assertEqual(ask("coordinator")[1][ids], [3])
-        self.assertEqual(ask("robots/3/mode", {"mode": "AUTOMATIC"})[0], 200)
+            self.assertEqual(ask("/coordinator")[1][ids], [3])
+        self.assertEqual(ask("/robots/3/mode", {"mode": "AUTOMATIC"})[0], 200)
         self.page.until(f"{MODE} === 'AUTOMATIC'")
 
     def test_who_is_commanded_from_the_page_becomes_manual(self):
@@ -111,14 +86,14 @@ class FleetPage(unittest.TestCase):
 
     def test_what_is_refused_says_why(self):
         for path, body, status, text in (
-            ("transports", {"storage_unit": 999, "station": "pick1"}, 409, "no storage unit 999"),
-            ("transports", {"storage_unit": 1, "station": "moon"}, 409, "no station 'moon'"),
-            ("transports", {"storage_unit": 1}, 422, "either a station or both x and y"),
-            ("transports", {"storage_unit": 1, "x": 1000, "y": 0}, 409, "no robot can stand"),
-            ("transports/77/release", {}, 409, "no transport 77"),
-            ("transports/77", None, 404, "no transport 77"),
-            ("robots/77/mode", {"mode": "MANUAL"}, 404, "no robot kiva77"),
-            ("robots/1/mode", {"mode": "LAZY"}, 422, "mode"),
+            ("/transports", {"storage_unit": 999, "station": "pick1"}, 409, "no storage unit 999"),
+            ("/transports", {"storage_unit": 1, "station": "moon"}, 409, "no station 'moon'"),
+            ("/transports", {"storage_unit": 1}, 422, "either a station or both x and y"),
+            ("/transports", {"storage_unit": 1, "x": 1000, "y": 0}, 409, "no robot can stand"),
+            ("/transports/77/release", {}, 409, "no transport 77"),
+            ("/transports/77", None, 404, "no transport 77"),
+            ("/robots/77/mode", {"mode": "MANUAL"}, 404, "no robot kiva77"),
+            ("/robots/1/mode", {"mode": "LAZY"}, 422, "mode"),
         ):
             answer = ask(path, body)
             self.assertEqual(answer[0], status, answer)

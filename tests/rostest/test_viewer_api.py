@@ -7,35 +7,15 @@ import csv
 import io
 import json
 import unittest
-import urllib.error
-import urllib.request
 
 import rospy
 import rostest
 import websockets
 from node_test import PATIENCE, wait_until
+from page_test import address, ask, fetch
 from warehouse_test import place
 
 POSES = 1e-3  # [m]
-
-
-def fetch(path, data=None, method=None, **headers):
-    """(status, body) of a request; POST where there are data."""
-    url = rospy.get_param("/viewer/address") + path
-    headers = {"content-type": "application/json"} | headers
-    request = urllib.request.Request(url, data, headers, method=method)
-    try:
-        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-            return answer.status, answer.read()
-    except urllib.error.HTTPError as error:
-        return error.code, error.read()
-
-
-def ask(path, body=None, method=None, **headers):
-    """(status, body) of a request to /api/v1, as JSON; POST where there is a body."""
-    data = None if body is None else json.dumps(body).encode()
-    status, told = fetch("api/v1" + path, data, method, **headers)
-    return status, json.loads(told)
 
 
 def command(robot, name, wait="end", **fields):
@@ -45,7 +25,6 @@ def command(robot, name, wait="end", **fields):
 class ViewerTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
         wait_until(lambda: ask("/warehouse")[1].get("items") == 96, "the small warehouse")
         wait_until(lambda: "create" not in ask("/warehouse")[1]["lacks"], "who builds others")
 
@@ -249,8 +228,8 @@ class ViewerApi(ViewerTest):
         asyncio.run(self.stream())
 
     async def stream(self):
-        address = rospy.get_param("/viewer/address").replace("http", "ws")
-        async with websockets.connect(f"{address}api/v1/stream?rate=10") as socket:
+        there = address().replace("http", "ws")
+        async with websockets.connect(f"{there}api/v1/stream?rate=10") as socket:
             first = json.loads(await asyncio.wait_for(socket.recv(), PATIENCE))
             self.assertEqual(
                 [r["name"] for r in first["robots"]], [f"kiva{i}" for i in range(1, 5)]

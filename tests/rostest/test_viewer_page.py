@@ -8,12 +8,11 @@ import json
 import math
 import os
 import tempfile
-import unittest
 
 import rospy
 import rostest
-from browser import browser
-from node_test import PATIENCE, Robot, wait_until
+from node_test import Robot, wait_until
+from page_test import PageTest
 from PIL import Image
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -51,26 +50,12 @@ SMALL = """[...document.querySelectorAll('button, a, select, input, .row, .event
   }).map((e) => `${e.id || e.className || e.textContent} ${e.offsetWidth} x ${e.offsetHeight}`)"""
 
 
-def address():
-    wait_until(lambda: rospy.has_param("/viewer/address"), "the viewer")
-    return rospy.get_param("/viewer/address")
-
-
-class ViewerPage(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls._browser = browser(PATIENCE)
-        cls.page = cls._browser.__enter__()
-        cls.page.open(address())
-        cls.page.until(f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._browser.__exit__(None, None, None)
+class ViewerPage(PageTest):
+    ready = f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2"
 
     def tearDown(self):
         self.page.read("page.select(null)")
-        self.assertEqual(self.page.complaints(), [])
+        super().tearDown()
 
     def drawn(self, robot):
         """[x, y] of a robot in the picture."""
@@ -91,6 +76,8 @@ class ViewerPage(unittest.TestCase):
 
     def test_a_click_selects_and_another_sends(self):
         x, y, _ = place("kiva1")
+        shown = f"Math.hypot(page.world.shown[0] - {x}, page.world.shown[1] - {y}) < 0.01"
+        self.page.until(shown)  # it is drawn where it stands
         self.page.click(x, y, 0.4)
         self.page.until("page.selected === 'kiva1'")
         # Off its street's end, where nothing stands between the camera and the floor.
@@ -236,10 +223,10 @@ class ViewerPage(unittest.TestCase):
         self.until_link("live")
 
     def test_goes_back_to_a_checkpoint(self):
-        robot, status = Robot(3), "document.getElementById('tip').dataset.kind"
+        robot, tip = Robot(3), "document.getElementById('tip').textContent"
         self.page.read("document.getElementById('checkpoint').click()")
-        self.page.until(f"{status} === 'done'")
-        x, y, _ = place("kiva3")
+        self.page.until(f"{tip} === 'checkpoint kept'")
+        x = place("kiva3")[0]
         robot.do("/movx", distance=1.0)
         self.page.until(f"Math.abs(page.world.shown[6] - {x + 1}) < 0.01")
         self.page.read("document.getElementById('restore').click()")
@@ -300,20 +287,10 @@ class ViewerPage(unittest.TestCase):
         self.assertIn(("kiva3", "DONE"), [(row["model"], row["kind"]) for row in rows])
 
 
-class Phone(unittest.TestCase):
+class Phone(PageTest):
     """The same in a small window that is tapped at."""
 
-    @classmethod
-    def setUpClass(cls):
-        cls._browser = browser(PATIENCE)
-        cls.page = cls._browser.__enter__()
-        cls.page.be_phone()
-        cls.page.open(address())
-        cls.page.until(f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._browser.__exit__(None, None, None)
+    ready, is_phone = ViewerPage.ready, True
 
     def test_a_tap_on_a_robot_opens_what_is_known_of_it(self):
         self.page.tap(*self.page.pixel(*place("kiva3")[:2], 0.3))

@@ -247,6 +247,67 @@ TEST_F(ExecutionTest, ACellIsNotPassedOnBeforeItWasLeft) {
   EXPECT_GT(robots_[second].x, 0.9);
 }
 
+TEST_F(ExecutionTest, ACellIsPassedOnAsSoonAsItWasLeftThoughTheNextMiddleIsStillAhead) {
+  const int first = add(1, 1), second = add(0, 1);
+  observe();
+  plan({straight(4), straight(4, 1)});
+  for (const Message& message : release()) deliver(message);
+  robots_[first].is_stopped = true;  // on the last centimetres, say
+  robots_[first].x = 1.95;
+  robots_[first].left = 1;
+  tick();
+  EXPECT_EQ(execution_.cellOf(first), cell(2, 1));
+  EXPECT_EQ(execution_.holder(cell(1, 1)), second);
+}
+
+TEST_F(ExecutionTest, NobodyTurnsBesideALoadThatIsShortOfTheMiddleOfItsCell) {
+  const int first = add(1, 1), second = add(0, 1);
+  reports_[first].is_loaded = true;
+  observe();
+  std::vector<Action> around{Action::kWait, Action::kForward, Action::kTurnPositive,
+                             Action::kForward};
+  around.resize(8, Action::kWait);
+  plan({straight(4), around});
+  for (const Message& message : release()) deliver(message);
+  robots_[first].is_stopped = true;
+  robots_[first].x = 1.95;
+  robots_[first].left = 1;
+  for (int i = 0; i < 30; ++i) tick();
+  EXPECT_EQ(execution_.released(second), std::vector<Cell>{cell(1, 1)});
+  robots_[first].x = 2;
+  robots_[first].reached = 2;
+  tick();
+  EXPECT_EQ(execution_.released(second).back(), cell(1, 2));
+}
+
+TEST_F(ExecutionTest, OneThatHasBecomeBusySinceItsReportIsNotSentOn) {
+  add(1, 1);
+  observe();
+  plan({straight(3)});
+  execution_.setWork({1}, {0});
+  EXPECT_TRUE(release().empty());
+  execution_.setWork({0}, {0});
+  EXPECT_FALSE(release().empty());
+}
+
+TEST_F(ExecutionTest, ATurnAndAWaitThatWerePlannedAreNoDelay) {
+  const int robot = add(1, 1);
+  observe();
+  std::vector<Action> turn_and_wait(8, Action::kWait);
+  turn_and_wait[0] = Action::kTurnPositive;
+  plan({turn_and_wait});
+  for (int i = 0; i < 10; ++i) tick();
+  Journey waited = execution_.takeJourney(robot);
+  EXPECT_GT(waited.planned, 0.8);
+  EXPECT_NEAR(waited.planned, waited.driven, 1e-9);
+  turn_and_wait[1] = Action::kForward;
+  plan({turn_and_wait});
+  for (int i = 0; i < 20; ++i) tick();
+  const Journey driven = execution_.takeJourney(robot);
+  EXPECT_NEAR(driven.planned, Motion{}.quarter + 2 * std::sqrt(1 / Motion{}.acceleration), 1e-9)
+      << "the first turn is a part of it";
+}
+
 TEST_F(ExecutionTest, TheOrderOfThePlanIsKept) {
   // Both pass (3, 3); by the plan the later comes first, though the other stands nearer.
   const int near = add(2, 3, 0), far = add(3, 1, 1);

@@ -104,6 +104,29 @@ TEST(Epibt, KeepsWhatIsCommittedAndGoesOnFromWhereRobotsAre) {
   EXPECT_GT(shift.arrivals, 25 * 300 / 150);
 }
 
+TEST(Epibt, NobodyIsPushedPastItsGoalByWhoGoesThereToo) {
+  const Floor floor(drawn({"........"}));
+  Fleet fleet;
+  fleet.cell = {0, 1};
+  fleet.heading = {0, 0};
+  fleet.goal = {3, 7};
+  fleet.stopped = {1, 1};
+  const auto planner = makeEpibt();
+  planner->start(floor, {}, 1);
+  Plan plan;
+  for (int tick = 0; tick < 20; ++tick) planner->plan(fleet, {}, plan);
+  fleet.stopped = {0, 0};
+  fleet.goal = {3, 3};  // the one behind has waited for long, the other not at all
+  for (int tick = 0; tick < 5; ++tick) {
+    planner->plan(fleet, {}, plan);
+    for (int robot = 0; robot < 2; ++robot) {
+      if (plan.at(robot, 0) == Action::kForward) ++fleet.cell[robot];
+    }
+    EXPECT_LE(fleet.cell[1], 3);
+  }
+  EXPECT_EQ(fleet.cell[1], 3);
+}
+
 TEST(Epibt, SearchChangesPlansAndIsRepeatable) {
   std::vector<std::vector<Cell>> cells;
   for (const int attempts : {0, 300, 300}) {

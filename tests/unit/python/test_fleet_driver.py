@@ -9,7 +9,7 @@ import pytest
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.transports import STAY, Kind
+from warehouse_fleet.transports import STAY, Kind, Step
 
 EXAMPLES = pathlib.Path(__file__).parents[3] / "src/warehouse_fleet/examples"
 
@@ -28,11 +28,14 @@ def drive():
 
 
 def work(driver, seconds, exchange=12.0, seed=1):
-    """Keeps all stations busy."""
+    """Keeps all stations busy. Units that are served stand where they are to be, always."""
     demand = RandomTransports(driver.transports, seed, exchange)
     while driver.time < seconds:
         demand.advance(driver.time, driver.transports.take_events())
         driver.step()
+        for transport in driver.transports:
+            if transport.step == Step.WAITING:
+                assert driver.traffic.cell[transport.robot] == transport.cell
 
 
 def assert_clean(driver):
@@ -45,7 +48,7 @@ def test_units_are_brought_and_stored_without_contact(drive):
     totals = driver.transports.totals
     assert totals.delivered > 40 and totals.stored > 25 and totals.failed == 0
     assert_clean(driver)
-    assert driver.executed_over_planned < 1.2
+    assert driver.executed_over_planned < 1.15
     assert totals.cells < 1.25 * totals.shortest
 
 

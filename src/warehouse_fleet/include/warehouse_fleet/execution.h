@@ -60,6 +60,9 @@ class Execution {
   /// number changes, or at the first call, all is taken anew from where they are.
   void observe(double time, const std::vector<Report>& reports);
 
+  /// Who is busy, and who is loaded, if that has changed since the reports. An element a robot.
+  void setWork(const std::vector<std::uint8_t>& busy, const std::vector<std::uint8_t>& loaded);
+
   /// What the planner is to see: where robots are, what they can no longer take back. Robots that
   /// are not controlled are no part of it: their cells are closed. `goal` and `home` by robot, as
   /// in Fleet.
@@ -132,6 +135,7 @@ class Execution {
     double sent = 0;            ///< when a release was sent last [s]
     std::vector<Cell> cells;    ///< points 0 to released - 1; where it stands if there is no path
     int reached = 1, left = 0;
+    bool is_short = false;       ///< of the middle of the last of those that it reached
     std::vector<Step> plan;      ///< beyond those
     int committed = 0;           ///< cells that it had before it when the plan was asked for
     std::vector<Cell> granted;   ///< what it was released since then
@@ -146,7 +150,7 @@ class Execution {
     double still_since = 0, blocked_since = -1;
     double moved = 0;  ///< when it moved last, or had nothing before it [s]
     Journey journey;
-    int run = 0, run_heading = -1;  ///< cells that it has driven straight on
+    int run = 0, run_heading = 0;  ///< cells that it has driven straight on, and where to
   };
   struct Claim {
     Cell cell;
@@ -176,6 +180,7 @@ class Execution {
   bool mayHave(int robot, Cell cell);
   bool needs(int robot) const;
   bool mayTurn(int robot) const;
+  bool keepsFromTurning(int robot, Cell in, Cell from) const;
   void extend(int robot);
   void recentre(int robot);
   bool isAtEnd(int robot) const;

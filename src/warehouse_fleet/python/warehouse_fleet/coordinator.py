@@ -3,18 +3,23 @@
 
 import math
 import threading
+import time as clock
 from types import SimpleNamespace
 
 import numpy as np
+import rosgraph
 import rospy
 from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
 from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
+from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Motion, Traffic
-from warehouse_fleet.transports import NOWHERE, Answer, Step, Transports
+from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
+from warehouse_fleet.transport import ENDS
+from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
+from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -29,6 +34,8 @@ from warehouse_msgs.msg import (
 )
 from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 from warehouse_msgs.srv import (
+    CancelTransport,
+    CancelTransportResponse,
     ReleaseTransport,
     ReleaseTransportResponse,
     SetRobotMode,
@@ -40,6 +47,7 @@ from warehouse_msgs.srv import (
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
 OVERTAKEN = 1.0  # a report that is older by more comes from a world that began anew [s]
 WAITS_LONG = 10.0  # [s]
+CONNECTING = 5.0  # wall time that listeners of this node's events get to hear it [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
 STEP_NAMES = {
@@ -69,6 +77,8 @@ class Coordinator:
         self._scenery = self._objects = self._units = None
         self._plan_of = None  # the Scenery that the plan was made of
         self._ids = None
+        self._ledger = Ledger()
+        self._abandoned = []  # transports that were open when this began, until it was told
         self._refused, self._collisions = [], 0
         self._next_state = self._next_paths = 0.0
         self._fleet, self._news = None, threading.Event()
@@ -77,10 +87,12 @@ class Coordinator:
         self._lift = publish("/lift", Lift, queue_size=1000)
         self._cancel = publish("/cancel", Cancel, queue_size=1000)
         self._events = publish("/warehouse/transports", TransportEventMessage, queue_size=1000)
+        self._heard_by = clock.monotonic() + CONNECTING
         self._state = publish("/warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
         self._paths = publish("/warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
         rospy.Service("/warehouse/transport", Transport, self._on_transport)
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
+        rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
         rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         rospy.Subscriber(
@@ -131,6 +143,8 @@ class Coordinator:
                 request.then,
                 request.priority,
             )
+            if answer.accepted:
+                self._ledger.add(answer.transport_id, request.shelf_id, request.station)
             return TransportResponse(*answer)
 
     def _on_release(self, request):
@@ -138,6 +152,12 @@ class Coordinator:
             if self._transports is None:
                 return ReleaseTransportResponse(False, self._alarm or NOT_YET)
             return ReleaseTransportResponse(*self._transports.release(request.transport_id))
+
+    def _on_cancel(self, request):
+        with self._lock:
+            if self._transports is None:
+                return CancelTransportResponse(False, self._alarm or NOT_YET)
+            return CancelTransportResponse(*self._transports.cancel(request.transport_id))
 
     def _on_mode(self, request):
         with self._lock:
@@ -179,7 +199,7 @@ class Coordinator:
         self._send(traffic.releases())
         events = transports.take_events()
         for event in events:
-            self._events.publish(_event_message(event))
+            self._tell(event)
         if self._random:
             self._random.advance(time, events)
         if time >= self._next_paths and self._paths.get_num_connections():
@@ -188,6 +208,33 @@ class Coordinator:
         if self._is_new_state(time):
             self._next_state = time + STATE_PERIOD
             self._state.publish(self._state_message(time))
+            if self._abandoned and self._is_heard():
+                self._tell_abandoned(time)
+
+    def _tell(self, event):
+        if event.kind == Kind.RECEIVED:
+            self._ledger.add(event.transport_id, event.shelf_id, event.station)
+        self._events.publish(_event_message(event))
+        # One that was cancelled with its unit lifted is over when that is stored.
+        is_cancelled = event.kind == Kind.CANCELLED and event.transport_id not in self._transports
+        if event.kind in ENDS or is_cancelled:
+            self._ledger.remove(event.transport_id)
+
+    def _tell_abandoned(self, time):
+        """Whoever has asked for transports of a coordinator that is no more is to know of it."""
+        for entry in self._abandoned:
+            text = "the coordinator began anew"
+            self._tell(TransportEvent(time, entry.number, Kind.FAILED, 0, *entry[1:], text))
+        self._abandoned = []
+
+    def _is_heard(self):
+        """Whether all who listen to its events are connected, as far as they still live."""
+        if clock.monotonic() > self._heard_by:
+            return True
+        listening = rosgraph.Master(rospy.get_name()).getSystemState()[1]
+        topic = self._events.resolved_name
+        wanted = sum(len(nodes) for name, nodes in listening if name == topic)
+        return self._events.get_num_connections() >= wanted
 
     def _is_new_state(self, time):
         return not self._next_state - STATE_PERIOD <= time < self._next_state
@@ -196,6 +243,9 @@ class Coordinator:
         """Whether this is the warehouse that the plan is of; looks at it anew if not."""
         if None in (self._scenery, self._objects, self._units):
             return False
+        min_x, _, max_x, _ = self._scenery.floor
+        if max_x <= min_x or not len(report.kiva_id):
+            return False  # the warehouse is still to be built
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
         is_same = self._is_known_floor() and self._are_known(report.kiva_id)
@@ -247,14 +297,15 @@ class Coordinator:
         self._traffic = Traffic(
             plan,
             report.kiva_id,
-            Motion(latency=LATENCY),
             seed=self._seed,
             planner=self._planner,
+            latency=LATENCY,
             lag=0.05,
         )
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
-        self._transports = Transports(plan, self._traffic, {}, self._send_lift)
+        self._abandoned = list(self._ledger)
+        self._transports = Transports(plan, self._traffic, self._send_lift, last=self._ledger.last)
         self._see_units()
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)
@@ -275,13 +326,9 @@ class Coordinator:
         objects, states = self._objects, self._units
         if objects.revision != states.revision:
             return
-        poses = np.reshape(states.pose, (-1, 7))
-        ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
         self._transports.look(
-            np.array(ids, int),
-            poses[:, 0],
-            poses[:, 1],
-            2 * np.arctan2(poses[:, 5], poses[:, 6]),
+            np.array(unit_ids(objects), int),
+            *unit_poses(states),
             np.asarray(states.carrier) != 0,
             states.header.stamp.to_sec(),
         )

@@ -8,32 +8,40 @@ from types import SimpleNamespace
 import numpy as np
 import rospy
 from nav_msgs.srv import GetMap
+from std_msgs.msg import Header
 
+from warehouse_fleet.changes import ChangeJournal
+from warehouse_fleet.floor_heat import FloorHeat
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
+from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
-LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
+SHOWN = 60  # intervals of the throughput: an hour
+WAITS = (msg.KivaStatus.STATE_WAITING, msg.KivaStatus.STATE_BLOCKED)  # robots under way
+UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
 
 class Coordinator:
     """The coordinator of another node, with the face of transport.Requests."""
 
     def __init__(self):
-        self._heard, self._told = [], []
-        self._open = {}  # unit and station of what was asked for, by id
+        self._heard = []
+        self._open = set()  # transports that this run asked for
         self._left = set()  # transports that an earlier run asked for
-        self._asked = 0.0
+        self._last_left = None  # the newest of them that is known, until this run asks for one
         self._lock = threading.Lock()
         self.state = None
         self._submit = rospy.ServiceProxy("/warehouse/transport", srv.Transport)
         self._release = rospy.ServiceProxy("/warehouse/release_transport", srv.ReleaseTransport)
+        self._cancel = rospy.ServiceProxy("/warehouse/cancel_transport", srv.CancelTransport)
         rospy.Subscriber("/warehouse/transports", msg.TransportEvent, self._hear, queue_size=10000)
         rospy.Subscriber("/warehouse/coordinator", msg.CoordinatorState, self._see, queue_size=1)
 
@@ -43,39 +51,48 @@ class Coordinator:
         except rospy.ServiceException as error:
             return Answer(0, False, str(error))
         if answer.accepted:
-            if answer.transport_id in self._open:
-                self._lost()  # it counts anew: another coordinator
-            self._asked = rospy.get_time()
-            self._open[answer.transport_id] = shelf_id, station
+            self._release_unknown(answer.transport_id)
+            self._open.add(answer.transport_id)
         return Answer(answer.transport_id, answer.accepted, answer.message)
 
     def release(self, transport_id):
+        return self._call(self._release, transport_id)
+
+    def cancel(self, transport_id):
+        return self._call(self._cancel, transport_id)
+
+    @staticmethod
+    def _call(service, transport_id):
         try:
-            answer = self._release(transport_id)
+            answer = service(transport_id)
         except rospy.ServiceException as error:
             return False, str(error)
         return answer.success, answer.message
 
-    def cancel(self, transport_id):
-        return False, "the coordinator brings what it has begun with"
-
     def set_open(self, station, is_open):
-        """The coordinator is not told: nothing is asked for at a closed station."""
+        """The coordinator is not told: a shift asks for nothing at a closed station, and cancels
+        what it has asked for."""
 
-    def release_left(self, transports):
-        """Lets go what an earlier run asked for: at once, or when it arrives."""
-        self._left = {number for number in transports if not self.release(number)[0]}
+    def release_left(self, transports, last):
+        """Lets go what an earlier run asked for, the newest known `last`: at once, or when it
+        arrives."""
+        self._left.update(number for number in transports if not self.release(number)[0])
+        self._last_left = last
+
+    def _release_unknown(self, first):
+        """What the earlier run was killed over before it was kept: all up to this run's `first`."""
+        if self._last_left is not None:
+            self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 
     def take_events(self):
         with self._lock:
-            heard, self._heard = self._told + self._heard, []
-            self._told = []
+            heard, self._heard = self._heard, []
         known = []
         for event in heard:
             if event.transport_id in self._open:
                 known.append(event)
-                if event.kind in (Kind.STORED, Kind.FAILED):
-                    del self._open[event.transport_id]
+                if event.kind in ENDS:
+                    self._open.discard(event.transport_id)
             elif event.transport_id in self._left and event.kind == Kind.ARRIVED:
                 self._left.discard(event.transport_id)
                 self.release(event.transport_id)
@@ -97,27 +114,15 @@ class Coordinator:
 
     def _see(self, state):
         self.state = state
-        since = state.header.stamp.to_sec() - self._asked
-        if self._open and not (state.open or state.under_way) and since > LOST_AFTER:
-            self._lost()
-
-    def _lost(self):
-        """The coordinator has begun anew: what it was asked for will not come."""
-        rospy.logwarn(f"the coordinator has lost {len(self._open)} transports")
-        now = rospy.get_time()
-        with self._lock:
-            self._told += [
-                TransportEvent(now, number, Kind.FAILED, 0, shelf, station, "lost")
-                for number, (shelf, station) in self._open.items()
-            ]
 
 
 class Warehouse:
-    """What the other nodes tell about the warehouse; `distance_m` that all robots have driven."""
+    """What the other nodes tell about the warehouse; `distance_m` that all robots have driven, and
+    the FloorHeat that they leave, once somebody has set it."""
 
     def __init__(self):
         self.fleet = self.objects = self.units = self.scenery = None
-        self.distance_m = 0.0
+        self.distance_m, self.heat = 0.0, None
         for topic, kind, name in (
             ("objects", msg.WarehouseObjects, "objects"),
             ("unit_states", msg.UnitStates, "units"),
@@ -135,6 +140,9 @@ class Warehouse:
             dx, dy = np.subtract(message.x, before.x), np.subtract(message.y, before.y)
             moved = np.hypot(dx, dy)
             self.distance_m += float(moved[moved < 1.0].sum())  # farther: it was put there
+        if self.heat:
+            waits = np.isin(np.frombuffer(bytes(message.state), np.uint8), WAITS)
+            self.heat.see(message.stamp.to_sec(), message.x, message.y, waits)
 
     @property
     def is_known(self):
@@ -146,7 +154,7 @@ class Warehouse:
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
         plan = FloorPlan.of_messages(floor_map, self.scenery)
         robots = self.fleet
-        units = self._unit_ids()
+        units = unit_ids(self.objects)
         return Site(
             plan,
             dict(zip(robots.kiva_id, plan.cell_of(robots.x, robots.y).tolist())),
@@ -163,15 +171,12 @@ class Warehouse:
         """The cells of the units that nobody carries, by id."""
         if not self.is_known:
             return {}
-        told = zip(self._unit_ids(), self._unit_cells(plan), self.units.carrier)
+        told = zip(unit_ids(self.objects), self._unit_cells(plan), self.units.carrier)
         return {unit: cell for unit, cell, carrier in told if not carrier and cell >= 0}
 
-    def _unit_ids(self):
-        return [int(name.removeprefix("storage_unit")) for name in self.objects.storage_units]
-
     def _unit_cells(self, plan):
-        places = np.reshape(self.units.pose, (-1, 7))
-        return plan.cell_of(places[:, 0], places[:, 1]).tolist()
+        x, y, _ = unit_poses(self.units)
+        return plan.cell_of(x, y).tolist()
 
 
 class OperationsNode:
@@ -182,11 +187,15 @@ class OperationsNode:
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
         self._stations = _publisher("/warehouse/stations", msg.StationStates)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
+        self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
+        self._heat = _publisher("/warehouse/heat", msg.HeatMap)
+        self._orders = _queued("/warehouse/order_changes", msg.OrderStatuses)
+        self._stock = _queued("/warehouse/stock_changes", msg.StockPlaces)
         self._events = rospy.Publisher("/warehouse/order_events", msg.OrderEvent, queue_size=10000)
         self._wait_for_warehouse()
         self._site = self._warehouse.site()
         self._database = Database(database)
-        self._coordinator.release_left(stored.open_transports(self._database.engine))
+        self._coordinator.release_left(*stored.transports_left(self._database.engine))
         self._shift = open_shift(
             self._site,
             self._coordinator,
@@ -197,6 +206,8 @@ class OperationsNode:
             now=rospy.get_time(),
         )
         self._shift.on_order_event = self._tell
+        self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
+        self._warehouse.heat = FloorHeat(self._site.plan, rospy.get_time())
         self._began = clock()
         self._next_stations = self._next_kpis = rospy.get_time()
         for name, kind, call in (
@@ -242,12 +253,15 @@ class OperationsNode:
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
         self._shift.advance(now)
+        self._tell_changes(now)
         if now >= self._next_stations:
             self._next_stations = now + STATIONS_PERIOD
             self._stations.publish(self._stations_message(now))
         if now >= self._next_kpis:
             self._next_kpis = now + KPIS_PERIOD
             self._kpis.publish(self._kpis_message(now))
+            self._throughput.publish(self._throughput_message(now))
+            self._heat.publish(self._heat_message(now))
 
     # Services.
 
@@ -286,18 +300,15 @@ class OperationsNode:
             None if request.state < 0 else request.state,
             request.limit,
             request.offset,
+            self._shift.now if request.late else None,
         )
-        return srv.FindOrdersResponse(total, [_order_status(*one) for one in found])
+        return srv.FindOrdersResponse(total, [_stored_order(*one) for one in found])
 
     def _find_stock(self, request):
         total, pieces, found = queries.find_stock(
             self._database.engine, request.sku, request.limit, request.offset
         )
-        places = [
-            msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
-            for one in found
-        ]
-        return srv.FindStockResponse(total, pieces, places)
+        return srv.FindStockResponse(total, pieces, [_place(one) for one in found])
 
     def _do(self, act, *arguments):
         """Does it and keeps it; success and message."""
@@ -321,6 +332,29 @@ class OperationsNode:
         )
         event.header.stamp = rospy.Time.from_sec(self._shift.now)
         self._events.publish(event)
+
+    def _tell_changes(self, now):
+        """Publishes orders and bins as they are now, if they have changed."""
+        for publisher, kind, rows in (
+            (self._orders, msg.OrderStatuses, map(_order, self._changes.take_orders())),
+            (self._stock, msg.StockPlaces, map(_place, self._changes.take_bins())),
+        ):
+            if rows := list(rows):
+                publisher.publish(kind(_header(now), rows))
+
+    def _throughput_message(self, now):
+        tally, last = self._shift.tally, int(now // kpis.INTERVAL)
+        first = max(int(self._shift.began // kpis.INTERVAL), last + 1 - SHOWN)
+        counts = (tally.picked_in, tally.stored_in, tally.completed_in)
+        series = ([of.get(i, 0) for i in range(first, last + 1)] for of in counts)
+        begin = max(first * kpis.INTERVAL, self._shift.began)
+        return msg.Throughput(_header(now), kpis.INTERVAL, begin, now, *series)
+
+    def _heat_message(self, now):
+        plan, heat = self._site.plan, self._warehouse.heat
+        x, y = plan.point_of(0)
+        size = plan.spacing, plan.passable.shape[1]
+        return msg.HeatMap(_header(now), heat.seconds(now), x, y, *size, *heat.maps())
 
     def _stations_message(self, now):
         message = msg.StationStates()
@@ -347,6 +381,7 @@ class OperationsNode:
     def _kpis_message(self, now):
         figures = self._figures()
         planning = figures.pop("plan_ms")
+        orders = self._shift.orders.values()
         for name in ("order_turnover_s", "order_throughput_s"):
             figures[name] = msg.Quantiles(**figures[name])
         message = msg.Kpis(
@@ -354,15 +389,26 @@ class OperationsNode:
             **{f"plan_{name}": value for name, value in planning.items()},
             orders_waiting=len(self._shift.backlog),
             orders_at_stations=len(self._shift.orders) - len(self._shift.backlog),
+            orders_late=sum(0 < order.due < self._shift.now for order in orders),
             stock_level=self._shift.inventory.level,
         )
         message.header.stamp = rospy.Time.from_sec(now)
         return message
 
 
-def _order_status(order, lines):
+def _stored_order(row, lines):
+    """An OrderStatus of rows of the database."""
+    return _order_status(row, row.id, lines)
+
+
+def _order(order):
+    """An OrderStatus of an Order."""
+    return _order_status(order, order.order_id, order.lines)
+
+
+def _order_status(order, order_id, lines):
     return msg.OrderStatus(
-        order_id=order.id,
+        order_id=order_id,
         reference=order.reference,
         state=order.state,
         station=order.station,
@@ -375,8 +421,21 @@ def _order_status(order, lines):
     )
 
 
+def _place(one):
+    """A StockPlace of a Bin, or of its row in the database."""
+    return msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
+
+
+def _header(now):
+    return Header(stamp=rospy.Time.from_sec(now))
+
+
 def _publisher(topic, kind):
     return rospy.Publisher(topic, kind, latch=True, queue_size=1)
+
+
+def _queued(topic, kind):
+    return rospy.Publisher(topic, kind, queue_size=10000)
 
 
 def _station_state(station, elapsed):

@@ -13,7 +13,6 @@ released.
 import collections
 import concurrent.futures
 import time as clock
-from dataclasses import dataclass
 from enum import IntEnum
 from types import SimpleNamespace
 
@@ -22,6 +21,7 @@ import numpy as np
 from warehouse_fleet import Execution, Rules, epibt
 from warehouse_fleet.door import PlanRefusedError, make_planner
 from warehouse_fleet.floor_plan import is_taken
+from warehouse_fleet.kinematics import Kinematics
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
@@ -30,6 +30,7 @@ GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by mea
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
+MOVES_UP = 10.0  # who has moved in a lane within this is about to be served, or leaves [s]
 LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
 REPORTED = (  # of FleetState, beside kiva_id
@@ -46,29 +47,31 @@ class Mode(IntEnum):
     OUT_OF_SERVICE = 2
 
 
-@dataclass(frozen=True)
-class Motion:
-    """What robots can do. The defaults are those of the Kiva."""
-
-    speed: float = 1.5  # [m/s]
-    acceleration: float = 1.0  # [m/s²]
-    quarter: float = 0.625  # of a turn [s]
-    latency: float = 0.25  # from a report to what is released for it [s]
-
-
 class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
     work: it stays), `mode`, `gone` (it was deleted). `planner` is what a YAML file says of one, see
-    warehouse_fleet.door; None: the one of the house. A plan is begun every tick on a thread of its
+    warehouse_fleet.door; None: the one of the house. `latency` [s] passes from a report until what
+    is released for it has reached the robot. A plan is begun every tick on a thread of its
     own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
     machine.
     """
 
-    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
+    def __init__(
+        self,
+        plan,
+        kiva_ids,
+        kinematics=None,
+        seed=1,
+        planner=None,
+        *,
+        latency=0.25,
+        attempts=0,
+        lag=0.1,
+    ):
         self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
-        self.motion = motion or Motion()
+        kinematics = kinematics or Kinematics()
         self.floor = plan.floor()
         # Whose turn it is to turn, Execution decides: robots turn when they may drive on.
         rules = Rules(turning=True)
@@ -80,7 +83,7 @@ class Traffic:
         self.refused_plans = 0
         self.alarm = ""  # why the last plan was refused
         self.attempts, self.lag = attempts, lag
-        self.tick = plan.spacing / self.motion.speed
+        self.tick = plan.spacing / kinematics.speed
         count = len(self.kiva_ids)
         self.goal = np.full(count, NOWHERE, np.int32)
         self.home = np.full(count, NOWHERE, np.int32)
@@ -100,15 +103,16 @@ class Traffic:
         self._settled = np.zeros(count, bool)  # has been idle since this began
         self._foreign = np.zeros(count, np.uint8)  # reports in a row
         self._stuck = np.zeros(count, bool)
+        self._excused = np.full(count, -np.inf)  # when it was seen to wait for work last [s]
         self.time = 0.0
         self._execution = Execution(
             self.floor,
             origin=plan.origin,
             spacing=plan.spacing,
-            speed=self.motion.speed,
-            acceleration=self.motion.acceleration,
-            quarter=self.motion.quarter,
-            latency=self.motion.latency,
+            speed=kinematics.speed,
+            acceleration=kinematics.acceleration,
+            quarter=kinematics.quarter_turn,
+            latency=latency,
         )
         self._after = {}  # the next cell of a lane, by cell
         for station in plan.stations:
@@ -195,11 +199,18 @@ class Traffic:
 
     def _watch(self):
         """Counts who makes no progress; waiting for who is at work in a station is none of it."""
-        stuck = self.time - self.still_since > STUCK
-        for robot in np.flatnonzero(stuck):
-            stuck[robot] = not self._waits_for_work(robot)
+        for robot in np.flatnonzero(self.stuck_for > STUCK):
+            if self._waits_for_work(robot):
+                self._excused[robot] = self.time
+        stuck = self.stuck_for > STUCK
         self.watchdog += int(np.count_nonzero(stuck & ~self._stuck))
         self._stuck = stuck
+
+    @property
+    def stuck_for(self):
+        """How long each has made no progress although it waits for nobody at work [s]; STUCK is
+        the first moment at which that is looked at."""
+        return self.time - np.maximum(self.still_since, self._excused)
 
     def _avoid_trapped(self):
         """Loaded robots can't turn back in a one-way street that ends before an obstacle. Whoever
@@ -221,7 +232,14 @@ class Traffic:
             robot = ahead
             if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
                 return True
+            if robot != NOWHERE and self._moves_up(robot):
+                return True
         return False
+
+    def _moves_up(self, robot):
+        """Whether it has just moved in a lane, which all pass in their order."""
+        in_lane = self.plan.lane.flat[self.cell[robot]]
+        return in_lane and self.time - self.still_since[robot] < MOVES_UP
 
     def _before(self, robot):
         """Who holds the next cell of its lane; NOWHERE beyond lanes."""
@@ -290,6 +308,7 @@ class Traffic:
     def releases(self):
         """What is to be sent now, as the arrays of FleetFollow: kiva_id, path_id, first, points, x,
         y, released. Plans as well, when it is time."""
+        self._execution.set_work(self.busy, self.loaded)
         if self._plan is not None and self.time >= self._due - 1e-9:
             actions = self._take_plan()
             if actions is not None:

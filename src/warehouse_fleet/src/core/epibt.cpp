@@ -8,6 +8,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <tuple>
 
 #include "candidates.h"
 #include "distance_tables.h"
@@ -59,6 +60,7 @@ class Epibt : public Planner {
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
   void prioritise(const Fleet& fleet);
+  void nearestFirst(const std::vector<int>& distance, std::vector<int>& key) const;
   void improve(const Budget& budget, double deadline);
   void answer(const Fleet& fleet, Plan& plan);
 
@@ -271,17 +273,15 @@ void Epibt::prioritise(const Fleet& fleet) {
   constexpr int kWaitingWorth = 2;  // of kTickCost, a tick
   constexpr int kFirst = std::numeric_limits<int>::min();
   constexpr int kLast = std::numeric_limits<int>::max();
-  std::vector<int> key(fleet.size());
+  std::vector<int> distance(fleet.size()), key(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Wish& wish = wishes_[robot];
-    if (way_->isTold(robot)) {
-      key[robot] = kFirst;
-      continue;
-    }
-    key[robot] = wish.goal == kNowhere ? kLast
-                                       : candidates_->distance(wish, wish.state) -
-                                             kWaitingWorth * memory_[robot].waiting;
+    const bool has_goal = wish.goal != kNowhere;
+    distance[robot] = has_goal ? candidates_->distance(wish, wish.state) : kLast;
+    key[robot] = distance[robot] - (has_goal ? kWaitingWorth * memory_[robot].waiting : 0);
+    if (way_->isTold(robot)) key[robot] = kFirst;
   }
+  nearestFirst(distance, key);
   order_.resize(fleet.size());
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](int one, int other) {
@@ -298,6 +298,27 @@ void Epibt::prioritise(const Fleet& fleet) {
   visits_.assign(fleet.size(), 0);
   settled_.assign(fleet.size(), 0);
   pass_ = search_ = 0;
+}
+
+/// Of those who go to the same cell the nearest inherits the first place, and so on. Whoever has
+/// waited longer behind it would else push it past where both go. Those who make way are told
+/// something else.
+void Epibt::nearestFirst(const std::vector<int>& distance, std::vector<int>& key) const {
+  std::vector<int> by_distance;
+  for (int robot = 0; robot < static_cast<int>(key.size()); ++robot) {
+    if (!way_->isTold(robot)) by_distance.push_back(robot);
+  }
+  std::vector<int> by_key = by_distance;
+  const auto sort = [this](std::vector<int>& robots, const std::vector<int>& value) {
+    std::sort(robots.begin(), robots.end(), [&](int one, int other) {
+      return std::tie(wishes_[one].goal, value[one], one) <
+             std::tie(wishes_[other].goal, value[other], other);
+    });
+  };
+  sort(by_distance, distance);
+  sort(by_key, key);
+  const std::vector<int> keys = key;
+  for (std::size_t i = 0; i < by_key.size(); ++i) key[by_distance[i]] = keys[by_key[i]];
 }
 
 void Epibt::visit(int robot) {

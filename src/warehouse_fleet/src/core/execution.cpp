@@ -86,6 +86,14 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
   }
 }
 
+void Execution::setWork(const std::vector<std::uint8_t>& busy,
+                        const std::vector<std::uint8_t>& loaded) {
+  for (int robot = 0; robot < robots(); ++robot) {
+    reports_[robot].is_busy = busy.at(robot);
+    reports_[robot].is_loaded = loaded.at(robot);
+  }
+}
+
 /// It drives as it is told from now on, if it stands in a cell that nobody else has.
 void Execution::admit(int robot) {
   Course& course = courses_[robot];
@@ -102,6 +110,7 @@ void Execution::admit(int robot) {
   course.cells = {at};
   course.is_off = true;
   course.still_since = course.moved = now_;
+  course.run_heading = headingOf(robot);
   hold(at, robot);
 }
 
@@ -219,11 +228,13 @@ bool Execution::hasTurned(int robot) const {
 void Execution::pass(int robot, int reached, int left) {
   Course& course = courses_[robot];
   const int points = static_cast<int>(course.cells.size());
-  reached = std::clamp(reached, course.reached, points);
+  // Who has left a cell wholly is in the next one, before it comes to the middle of that.
+  course.is_short = left >= reached;
+  reached = std::clamp(std::max(reached, left + 1), course.reached, points);
   for (int point = course.reached; point < reached; ++point) {
     const int heading = headingTo(course.cells[point - 1], course.cells[point]);
     if (heading != course.run_heading) {
-      const int quarters = course.run_heading < 0 ? 0 : (heading - course.run_heading) & 3;
+      const int quarters = (heading - course.run_heading) & 3;
       endRun(course);
       course.journey.alone += motion_.quarter * (quarters == 3 ? 1 : quarters);
       course.run_heading = heading;
@@ -262,6 +273,7 @@ void Execution::finish(int robot) {
   course.reached = 1;
   course.left = 0;
   course.is_active = course.is_accepted = course.is_refused = course.is_withdrawn = false;
+  course.is_short = false;
   course.turning = kNowhere;
   course.blocked_since = -1;
 }
@@ -329,7 +341,7 @@ void Execution::measure(int robot, double elapsed) {
 Journey Execution::takeJourney(int robot) {
   Course& course = courses_.at(robot);
   endRun(course);
-  course.run_heading = -1;
+  course.run_heading = headingOf(robot);
   Journey journey = course.journey;
   journey.planned += journey.alone;
   course.journey = {};
@@ -432,10 +444,8 @@ void Execution::take(int robot, const Plan& plan, int index) {
   if (course.is_off || course.is_withdrawn) return;
   State state{asked_.cell[index], asked_.heading[index]};
   std::vector<Step> steps;
-  int first = plan.horizon;  // when it moves or turns by its own will
   for (int tick = 0; tick < plan.horizon; ++tick) {
     const Action action = plan.at(index, tick);
-    if (asked_.commitments(index) <= tick && action != Action::kWait) first = std::min(first, tick);
     state = after(floor_, state, action);
     if (action == Action::kForward && state.cell != kNowhere) steps.push_back({state.cell, tick});
   }
@@ -443,8 +453,14 @@ void Execution::take(int robot, const Plan& plan, int index) {
   for (std::size_t i = course.committed; i < known; ++i) {
     if (i >= steps.size() || steps[i].cell != course.granted[i - course.committed]) return;
   }
-  if (steps.size() > known) course.plan.assign(steps.begin() + known, steps.end());
-  course.waits_by_plan = first > asked_.commitments(index) && course.granted.empty();
+  if (steps.size() < known) return;
+  course.plan.assign(steps.begin() + known, steps.end());
+  // A robot that is to turn and to wait then waits first: it turns when it may drive on.
+  const int from = std::max(asked_.commitments(index), known > 0 ? steps[known - 1].tick + 1 : 0);
+  const int until = course.plan.empty() ? plan.horizon : course.plan.front().tick;
+  for (int tick = from; tick < until; ++tick) {
+    if (plan.at(index, tick) == Action::kWait) course.waits_by_plan = true;
+  }
 }
 
 /// For each cell, who passes it first.
@@ -567,15 +583,23 @@ bool Execution::needs(int robot) const {
 /// Two side by side, one with a load, must not turn at once, and nobody is released around a corner
 /// before it comes to it.
 bool Execution::mayTurn(int robot) const {
-  const Course& course = courses_[robot];
+  const Cell tip = courses_[robot].cells.back();
   if (toGo(robot) > kTurnsSoon) return false;
   for (int heading = 0; heading < kHeadings; ++heading) {
-    const Cell beside = floor_.beside(course.cells.back(), heading);
+    const Cell beside = floor_.beside(tip, heading);
     const int other = beside == kNowhere ? kNobody : holder_[beside];
-    if (other == kNobody || other == robot || courses_[other].turning != beside) continue;
+    if (other == kNobody || other == robot || !keepsFromTurning(other, beside, tip)) continue;
     if (reports_[robot].is_loaded || reports_[other].is_loaded) return false;
   }
   return true;
+}
+
+/// Whether one in a cell turns there, or has just come there `from` the cell beside it: whoever
+/// turns in that would touch it, as long as it is short of the middle.
+bool Execution::keepsFromTurning(int robot, Cell in, Cell from) const {
+  const Course& course = courses_[robot];
+  if (course.turning == in) return true;
+  return course.is_short && course.at == in && course.cells[course.reached - 2] == from;
 }
 
 /// Points from `first` on, and what comes next by the plan.

@@ -98,6 +98,13 @@ void bindExecution(py::module_& module) {
            py::arg("reached"), py::arg("left"), py::arg("controlled"), py::arg("busy"),
            py::arg("loaded"))
       .def(
+          "set_work",
+          [](Run& run, const Bytes& busy, const Bytes& loaded) {
+            run.execution.setWork({busy.data(), busy.data() + busy.size()},
+                                  {loaded.data(), loaded.data() + loaded.size()});
+          },
+          py::arg("busy"), py::arg("loaded"))
+      .def(
           "fleet",
           [](Run& run, const Array<Cell>& goal, const Array<Cell>& home, int horizon) {
             const std::vector<Cell> goals(goal.data(), goal.data() + goal.size());

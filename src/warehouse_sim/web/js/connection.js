@@ -11,7 +11,7 @@ export class Connection {
   constructor(handlers) {
     this.handlers = handlers;
     this.failures = 0;
-    this.bytes = this.updates = 0; // received since the start
+    this.bytes = this.updates = 0; // of updates, since the start
     this.wishes = null;
     this.open();
   }
@@ -37,12 +37,12 @@ export class Connection {
   }
 
   take(data) {
-    this.bytes += data.byteLength ?? data.length;
     if (typeof data === 'string') {
       const message = JSON.parse(data);
       this.handlers[message.type](message);
       return;
     }
+    this.bytes += data.byteLength;
     const message = decode(data);
     this.handlers[message.kind](message);
     // The next ones come only to who has seen these.

@@ -13,6 +13,20 @@ async function show() {
       $('operations').append(section(api, path, method, operation));
     }
   }
+  for (const [path, about] of Object.entries(api['x-websockets'])) $('operations').append(socket(api, path, about));
+}
+
+/** A WebSocket, with what it sends. */
+function socket(api, path, { description, parameters, messages = [] }) {
+  const lines = parameters.map(({ name, enum: some, description: text }) => (
+    make('li', {}, make('code', { textContent: name }), ` ${[text, some?.join(' | ')].filter(Boolean).join(': ')}`)));
+  const sent = messages.map((message) => make('li', {}, make('code', { textContent: told(api, message) })));
+  return make('details', {},
+    make('summary', {},
+      make('span', { className: 'method ws', textContent: 'WS' }),
+      make('code', { textContent: path }),
+      make('span', { className: 'dim', textContent: description.split('\n')[0] })),
+    make('pre', { textContent: description }), make('ul', {}, ...lines), make('ul', {}, ...sent));
 }
 
 function section(api, path, method, operation) {
@@ -90,7 +104,7 @@ function told(api, schema) {
   const { anyOf, properties = {}, required = [] } = resolve(api, schema);
   if (anyOf) return anyOf.map((variant) => told(api, variant)).join(' or ');
   const fields = Object.entries(properties).map(([name, property]) => (
-    `${name}${required.includes(name) ? '' : '?'}: ${property.enum?.join(' | ') ?? property.type}`));
+    `${name}${required.includes(name) ? '' : '?'}: ${property.enum?.join(' | ') ?? property.type ?? property.$ref?.split('/').at(-1)}`));
   return `{ ${fields.join(', ')} }`;
 }
 

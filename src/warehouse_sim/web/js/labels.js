@@ -11,8 +11,9 @@ export class Labels {
     Object.assign(this, { stage, world, box });
   }
 
-  /** Draws them anew, for a View; `wanted`: a set of indices of robots to name. */
-  draw(view, wanted) {
+  /** Draws them anew, for a View; `wanted`: a set of indices of robots to name; `more` labels
+   *  {text, kind, at [x, y, z]}. */
+  draw(view, wanted, more) {
     const { names, numbers } = labelled(this.world, view, wanted);
     const { robots, stations } = this.world.scene;
     const { shown, status } = this.world;
@@ -23,6 +24,7 @@ export class Labels {
     for (const { name, x, y } of namedStations(stations, view)) {
       labels.push({ text: name, kind: 'station', at: [x, y, 0] });
     }
+    labels.push(...more);
     const spans = this.box.children;
     while (spans.length < labels.length) this.box.append(make('span'));
     labels.forEach((label, k) => this.place(spans[k], label));

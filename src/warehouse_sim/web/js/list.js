@@ -8,9 +8,10 @@ import { STATE, STATUS } from './world.js';
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in style.css
 
 export class RobotList {
-  /** `select(name)` is called for what was clicked. */
-  constructor(world, select) {
-    Object.assign(this, { world, select, filter: '', text: '', chosen: null, rows: [] });
+  /** `select(name)` is called for what was clicked, `unknown(text)` for what is the name of nothing
+   *  ('': nothing is searched that way). */
+  constructor(world, select, unknown) {
+    Object.assign(this, { world, select, unknown, filter: '', text: '', chosen: null, rows: [] });
     this.box = $('robots');
     this.inside = make('div');
     this.box.append(this.inside);
@@ -44,6 +45,18 @@ export class RobotList {
       make('button', { textContent: name, click: () => this.select(name) }))));
     $('found').hidden = names.length === 0;
     this.refresh();
+    this.unknown(names.length || this.rows.length ? '' : text);
+  }
+
+  /** Pieces of a SKU by the number of the unit on which they lie, in place of what was found. */
+  showPieces(sku, units) {
+    if (!sku) return;
+    const all = [...units.values()].reduce((sum, pieces) => sum + pieces, 0);
+    $('found').replaceChildren(make('p', { className: 'dim', textContent: all
+      ? `${sku}: ${all} pieces on ${units.size} units` : `no pieces of ${sku}` }),
+    ...[...units].map(([number, pieces]) => make('button', {
+      textContent: `unit ${number}: ${pieces}`, click: () => this.select(`storage_unit${number}`) })));
+    $('found').hidden = false;
   }
 
   takeFirst() {

@@ -8,6 +8,7 @@ import { Connection } from './connection.js';
 import { Details } from './details.js';
 import { $, isPressed, on, press } from './dom.js';
 import { FleetPanel } from './fleet.js';
+import { HeatMap } from './heat.js';
 import { Keys } from './keys.js';
 import { Labels } from './labels.js';
 import { RobotList } from './list.js';
@@ -20,9 +21,11 @@ import { Pointer } from './pointer.js';
 import { VERSION } from './protocol.js';
 import { Stage } from './stage.js';
 import { Tip } from './tip.js';
+import { skuIn, Where } from './where.js';
 import { World } from './world.js';
 
 const PANELS_EVERY = 250; // [ms]
+const TYPING = 300; // after a key, what is typed may be whole [ms]
 
 class Page {
   constructor() {
@@ -31,7 +34,7 @@ class Page {
     const select = (name) => this.select(name);
     const say = (text, kind, at) => this.tip.say(text, kind, at);
     this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
-    this.list = new RobotList(this.world, select);
+    this.list = new RobotList(this.world, select, (text) => this.lookFor(text));
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
@@ -44,6 +47,7 @@ class Page {
     this.paths = {};
     this.scans = new Map();
     this.openStage();
+    this.where = new Where(this.stage, this.world, (...found) => this.list.showPieces(...found));
     this.addButtons();
     this.keys = new Keys((step) => this.next(step), () => this.leave());
     setInterval(() => this.refreshPanels(), PANELS_EVERY);
@@ -71,6 +75,7 @@ class Page {
     this.actors = new Actors(this.stage, this.world);
     this.labels = new Labels(this.stage, this.world, $('labels'));
     this.overlays = new Overlays(this.stage, this.world);
+    this.heat = new HeatMap(this.stage);
     this.picker = new Picker(this.stage, this.actors);
     this.navigator = new Navigator(this.stage);
     this.pointer = new Pointer(this, this.picker, this.overlays);
@@ -135,6 +140,7 @@ class Page {
     this.fleet.take(fleet);
     if (!came) return;
     if (!fleet) this.takeWays(new Map());
+    this.list.search($('search').value);
     this.watch();
     this.fitPanels();
   }
@@ -162,7 +168,7 @@ class Page {
     }
     this.drawn = now;
     this.actors.fill(this.stage.camera, innerHeight);
-    this.labels.draw(this.actors.view, this.named());
+    this.labels.draw(this.actors.view, this.named(), this.where.draw());
     return moved.length > 0;
   }
 
@@ -235,6 +241,14 @@ class Page {
     this.select(name);
   }
 
+  /** What is the name of nothing that stands there may be a SKU. */
+  lookFor(text) {
+    clearTimeout(this.typing);
+    const sku = skuIn(text);
+    if (sku && !this.fleet.runs) return; // nobody knows what lies where
+    this.typing = setTimeout(() => this.where.ask(sku), sku ? TYPING : 0);
+  }
+
   leave() {
     if (this.builder.wantsCell) this.builder.want(false);
     else this.select(null);
@@ -273,6 +287,7 @@ class Page {
       });
     }
     toggle('trails', (wanted) => this.showTrails(wanted));
+    toggle('heat', (wanted) => this.heat?.want(wanted));
     toggle('xray', (wanted) => this.actors?.setSeeThrough(wanted));
     on($('home'), 'click', () => this.see(false));
     on($('top'), 'click', () => this.see(true));
@@ -321,3 +336,5 @@ function halfOf({ min, max }) {
 }
 
 window.page = new Page(); // for a look from the console
+// /#sku-17 asks at once where that is.
+$('search').value = decodeURIComponent(location.hash.slice(1));

@@ -1,160 +1,159 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of the warehouse: figures, stations, orders, stock; and a station's screen for a person.
+// The work of the warehouse: figures, robots, stations, orders, stock; and a station's screen for a
+// person. What changes comes by itself.
 
-import { get, post, put, remove } from './api.js';
+import { get, remove } from './api.js';
+import { Changes } from './changes.js';
+import { draw } from './chart.js';
 import { $, make, on } from './dom.js';
+import { OrderList } from './order_list.js';
+import { Stations } from './stations.js';
+import { WorkScreen } from './work_screen.js';
 
-const PERIOD = 1000; // [ms]
-const KEPT = 3600; // simulated [s] of the chart
-const ROWS = 50;
+const PLACES = 200;
 const FIGURES = [
-  ['item_throughput_per_hour', 'pieces an hour', (v) => Math.round(v).toLocaleString('en')],
+  ['item_throughput_per_hour', 'pieces an hour', count],
   ['item_score', 'of the upper bound', percent],
-  ['orders_completed', 'orders complete', String],
-  ['orders_waiting', 'orders waiting', String],
-  ['late_orders_fraction', 'late', percent],
+  ['orders_completed', 'orders complete', count],
+  ['orders_waiting', 'orders waiting', count],
+  ['orders_at_stations', 'at stations', count],
+  ['orders_late', 'late now', count],
+  ['late_orders_fraction', 'were or are late', percent],
   ['pile_on', 'pieces a unit', (v) => v.toFixed(1)],
   ['station_idle_fraction', 'picking idle', percent],
   ['stock_level', 'stock', percent],
-  ['collisions', 'collisions', String],
+  ['real_time_factor', 'real-time factor', (v) => v.toFixed(2)],
+  ['collisions', 'collisions', count],
 ];
+// Of the palette of Okabe and Ito (2008), light to dark within what belongs together.
+const WORK = { fetching: '#56b4e9', ready: '#a6d8f5', lifting: '#0072b2', bringing: '#009e73', waiting: '#f0e442', storing: '#66c2a5',
+  dropping: '#005c8f', idle: '#9aa4b1', manual: '#cc79a7', out_of_service: '#d55e00' };
 
-const history = []; // of {time, pieces}
-let screen = ''; // the station whose screen is shown
+function count(value) {
+  return Math.round(value).toLocaleString('en');
+}
 
 function percent(value) {
   return `${Math.round(100 * value)} %`;
 }
 
-/** Does it, shows what the answer was if it was no, and looks anew. */
-async function act(sent) {
-  try {
-    await sent;
-    await look();
-  } catch (error) {
-    $('link').textContent = error.message;
+class Page {
+  constructor() {
+    this.kpis = this.throughput = null;
+    this.stations = new Stations((sent) => this.act(sent));
+    this.screen = new WorkScreen();
+    this.orders = new OrderList((id) => this.act(remove(`/orders/${id}`)), (error) => this.say(error.message));
+    on(window, 'hashchange', () => this.screen.choose(location.hash.slice(1)));
+    this.screen.choose(location.hash.slice(1));
+    on($('where'), 'submit', (event) => {
+      event.preventDefault();
+      this.where();
+    });
+    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator'], {
+      state: (live) => this.showLink(live ? 'live' : 'away'),
+      shift: ({ runs }) => this.takeShift(runs),
+      stations: ({ stations }) => {
+        this.stations.take(stations);
+        this.screen.take(stations);
+      },
+      kpis: ({ kpis }) => {
+        this.kpis = kpis;
+        this.showFigures();
+        this.showChart();
+      },
+      throughput: ({ throughput }) => {
+        this.throughput = throughput;
+        this.showChart();
+      },
+      orders: (message) => this.orders.take(message),
+      coordinator: ({ coordinator }) => this.showFleet(coordinator),
+    });
+  }
+
+  takeShift(runs) {
+    this.showLink(runs ? 'live' : 'idle');
+    if (runs) this.orders.look();
+  }
+
+  showLink(state) {
+    $('link').dataset.state = state;
+    $('link').textContent = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
+  }
+
+  /** Waits for what was asked of the server, and says so if the answer was no. */
+  async act(sent) {
+    this.say('');
+    try {
+      await sent;
+    } catch (error) {
+      this.say(error.message);
+    }
+  }
+
+  say(text) {
+    Object.assign($('answer'), { hidden: !text, textContent: text });
+  }
+
+  showFigures() {
+    $('figures').replaceChildren(...FIGURES.map(([name, text, told]) => (
+      make('div', {}, make('b', { textContent: told(this.kpis[name]) }), make('span', { className: 'dim', textContent: text })))));
+  }
+
+  showChart() {
+    if (this.kpis && this.throughput) draw(this.throughput, this.kpis.item_upper_bound_per_hour);
+  }
+
+  // --- robots
+  showFleet(fleet) {
+    $('fleet').textContent = fleet ? '' : 'no coordinator runs';
+    if (!fleet) return;
+    this.orders.now = fleet.time;
+    $('time').textContent = clock(fleet.time);
+    const { manual, out_of_service } = fleet.robots;
+    const doing = { ...fleet.work, manual, out_of_service };
+    const shown = Object.entries(WORK).filter(([name]) => doing[name]);
+    $('robots').replaceChildren(...shown.map(([name, colour]) => {
+      const bar = make('div', { title: `${doing[name]} ${words(name)}` });
+      Object.assign(bar.style, { flex: doing[name], background: colour });
+      return bar;
+    }));
+    $('robots-legend').replaceChildren(...shown.map(([name, colour]) => {
+      const dot = make('i');
+      dot.style.background = colour;
+      return make('li', {}, dot, make('b', { textContent: doing[name] }), ` ${words(name)}`);
+    }));
+    const { transports } = fleet;
+    $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; plans take `
+      + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
+    $('alarms').replaceChildren(...fleet.alarms.map((text) => make('li', { textContent: text })));
+    $('alarms').hidden = fleet.alarms.length === 0;
+    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, waits_for: other, since }) => (
+      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s for ${other ? `kiva${other}` : 'nobody known'}` }))));
+  }
+
+  // --- stock
+  async where() {
+    const sku = $('sku').value.trim();
+    try {
+      const { total, pieces, places } = await get(`/stock?limit=${PLACES}&sku=${encodeURIComponent(sku)}`);
+      $('found').textContent = `${count(pieces)} pieces in ${count(total)} bins`;
+      Object.assign($('on-floor'), { hidden: !sku || !total, href: `/#${encodeURIComponent(sku)}` });
+      $('places').replaceChildren(...places.map(({ item, shelf_id: unit, sku: held, quantity, reserved }) => (
+        make('li', { textContent: `storage unit ${unit}: ${quantity}${sku ? '' : ` ${held}`} in ${item}${reserved ? `, ${reserved} promised` : ''}` }))));
+    } catch (error) {
+      $('found').textContent = error.message;
+    }
   }
 }
 
-function showFigures(kpis) {
-  $('figures').replaceChildren(...FIGURES.map(([name, words, told]) =>
-    make('div', {}, make('b', { textContent: told(kpis[name]) }), make('span', { className: 'dim', textContent: words }))));
-  const last = history.at(-1);
-  if (!last || kpis.simulated_s > last.time) history.push({ time: kpis.simulated_s, pieces: kpis.items_picked });
-  else if (kpis.simulated_s < last.time) history.length = 0;
-  while (history.length && history[0].time < kpis.simulated_s - KEPT) history.shift();
-  draw(kpis.item_upper_bound_per_hour);
+function words(name) {
+  return name.replaceAll('_', ' ');
 }
 
-function draw(bound) {
-  const points = history.slice(1).map(({ time, pieces }, i) => {
-    const before = history[Math.max(0, i - 5)]; // over a minute
-    return [time, 3600 * (pieces - before.pieces) / (time - before.time)];
-  });
-  const top = Math.max(bound, ...points.map(([, rate]) => rate), 1) * 1.1;
-  const begin = points[0]?.[0] ?? 0;
-  const span = Math.max((points.at(-1)?.[0] ?? 1) - begin, 60);
-  const at = ([time, rate]) => `${(600 * (time - begin) / span).toFixed(1)},${(120 - 120 * rate / top).toFixed(1)}`;
-  const y = (120 - 120 * bound / top).toFixed(1);
-  $('chart').innerHTML = `<line x1="0" x2="600" y1="${y}" y2="${y}"/><polyline points="${points.map(at).join(' ')}"/>`;
+const pad = (n) => String(Math.floor(n)).padStart(2, '0');
+
+function clock(seconds) {
+  return `${Math.floor(seconds / 3600)}:${pad(seconds / 60 % 60)}:${pad(seconds % 60)}`;
 }
 
-function showStations(stations) {
-  $('stations').replaceChildren(...stations.map(card));
-  const shown = stations.find(({ name, mode }) => name === screen && mode === 'MANUAL');
-  $('work').hidden = !shown;
-  if (shown) showScreen(shown);
-}
-
-function card(one) {
-  const set = (open, mode) => act(put(`/stations/${one.name}`, { open, mode }));
-  const byHand = one.mode === 'MANUAL';
-  const gate = make('button', { textContent: one.open ? 'Close' : 'Open', click: () => set(!one.open, one.mode) });
-  const hand = make('button', { textContent: byHand ? 'Automatic' : 'By hand' });
-  on(hand, 'click', () => {
-    screen = byHand ? '' : one.name;
-    set(one.open, byHand ? 'AUTOMATIC' : 'MANUAL');
-  });
-  const work = one.kind === 'PICK' ? `${one.orders.length} of ${one.slots} orders` : 'new stock';
-  const buttons = make('footer', {}, gate, hand);
-  if (byHand) buttons.append(make('button', { textContent: 'Screen', click: () => { screen = one.name; } }));
-  return make('div', { className: one.open ? 'station' : 'station shut' },
-    make('header', {}, make('strong', { textContent: one.name }), make('span', { textContent: percent(one.busy_fraction) })),
-    make('div', { className: 'dim', textContent: `${work}, ${one.pieces} pieces` }),
-    make('div', { textContent: one.shelf_id ? `unit ${one.shelf_id}, ${one.inbound.length} on the way` : `${one.inbound.length} on the way` }),
-    buttons);
-}
-
-/** What is to be done with the unit that is there, big enough for a finger. */
-function showScreen(station) {
-  const [task] = station.picks;
-  const key = JSON.stringify([station.name, station.shelf_id, task]);
-  if ($('work').dataset.task === key) return; // a finger may be on its way to a button
-  $('work').dataset.task = key;
-  if (!task) {
-    $('work').replaceChildren(make('h2', { textContent: station.name }),
-      make('p', { textContent: station.inbound.length ? 'The next unit is on its way.' : 'Nothing to be done.' }));
-    return;
-  }
-  const { sku, quantity, item, reference } = task;
-  const verb = station.kind === 'PICK' ? 'Take' : 'Put in';
-  const button = (text, path, body) => make('button', {
-    textContent: text, click: () => act(post(`/stations/${station.name}/${path}`, body)),
-  });
-  const buttons = make('div', { className: 'buttons' }, button('Confirm', 'confirm', { sku, quantity }));
-  if (station.kind === 'PICK') {
-    buttons.append(button('Short', 'short', { sku, quantity, damaged: false }),
-      button('Damaged', 'short', { sku, quantity, damaged: true }));
-  }
-  $('work').replaceChildren(
-    make('h2', { textContent: `${station.name}: storage unit ${station.shelf_id}` }),
-    make('p', { className: 'task', textContent: `${verb} ${quantity} × ${sku}` }),
-    make('p', { textContent: reference ? `bin ${item}, for ${reference}` : `bin ${item}` }), buttons);
-}
-
-function row(order) {
-  const cancel = make('button', { textContent: 'Cancel', click: () => act(remove(`/orders/${order.order_id}`)) });
-  const lines = order.lines.map(({ sku, quantity, picked }) => `${picked}/${quantity} ${sku}`).join(', ');
-  const over = order.state === 'COMPLETED' || order.state === 'CANCELLED';
-  return make('tr', {}, ...[order.reference, order.state, order.station, lines].map((text) => make('td', { textContent: text })),
-    make('td', {}, ...over ? [] : [cancel]));
-}
-
-async function showOrders() {
-  const query = new URLSearchParams({ limit: ROWS });
-  if ($('search').value) query.set('search', $('search').value);
-  if ($('state').value) query.set('state', $('state').value);
-  const { total, orders } = await get(`/orders?${query}`);
-  $('total').textContent = `${total} orders`;
-  $('orders').replaceChildren(...orders.map(row));
-}
-
-async function look() {
-  const [kpis, { stations }] = await Promise.all([get('/kpis'), get('/stations'), showOrders()]);
-  showFigures(kpis);
-  showStations(stations);
-  $('link').textContent = '';
-}
-
-async function watch() {
-  try {
-    if (!document.hidden) await look();
-  } catch (error) {
-    $('link').textContent = error.message;
-  }
-  setTimeout(watch, PERIOD);
-}
-
-on($('find'), 'submit', (event) => event.preventDefault());
-on($('where'), 'submit', async (event) => {
-  event.preventDefault();
-  try {
-    const { total, pieces, places } = await get(`/stock?limit=${ROWS}&sku=${encodeURIComponent($('sku').value)}`);
-    $('found').textContent = `${pieces} pieces in ${total} bins`;
-    $('places').replaceChildren(...places.map(({ item, shelf_id: unit, quantity, reserved }) =>
-      make('li', { textContent: `storage unit ${unit}: ${quantity} in ${item}${reserved ? `, ${reserved} promised` : ''}` })));
-  } catch (error) {
-    $('found').textContent = error.message;
-  }
-});
-watch();
+window.page = new Page(); // for a look from the console

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a database is asked by people: orders, and where pieces lie. Rows of the schema's tables."""
 
-from sqlalchemy import exists, func, or_, select
+from sqlalchemy import and_, exists, func, or_, select
 
 from warehouse_fleet.operations import schema
+from warehouse_fleet.operations.orders import OrderState
 
 
-def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0):
+def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0, late_at=None):
     """(how many there are, [(row of orders, rows of its lines)]), the newest first.
 
-    search: a part of the reference, or a whole SKU.
+    search: a part of the reference, or a whole SKU. late_at: those alone that are past their due
+    time at this one [s], or were completed after it.
     """
     orders, lines = schema.orders, schema.order_line
     query = select(orders)
@@ -17,6 +19,8 @@ def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0):
         query = query.where(orders.c.id == order_id)
     if state is not None:
         query = query.where(orders.c.state == state)
+    if late_at is not None:
+        query = query.where(_late(orders.c, late_at))
     if search:
         with_sku = exists().where(lines.c.order_id == orders.c.id, lines.c.sku == search)
         query = query.where(or_(orders.c.reference.contains(search, autoescape=True), with_sku))
@@ -29,6 +33,11 @@ def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0):
         for line in connection.execute(of_them.order_by(lines.c.order_id, lines.c.number)):
             by_order[line.order_id].append(line)
     return total, [(row, by_order[row.id]) for row in rows]
+
+
+def _late(order, now):
+    waits = order.state.in_((int(OrderState.OPEN), int(OrderState.ASSIGNED)))
+    return and_(order.due > 0, or_(order.completed > order.due, and_(waits, order.due < now)))
 
 
 def find_stock(engine, sku="", limit=100, offset=0):

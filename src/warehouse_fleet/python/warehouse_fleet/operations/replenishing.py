@@ -140,14 +140,30 @@ class Replenishing:
 
     def confirm(self, station, sku, quantity):
         """A person has put in the bundle of a SKU; returns success and why not."""
-        visit = station.here
-        bundle = next((b for b in visit.puts if b.sku == sku), None) if visit else None
+        visit, bundle = self._asked(station, sku)
         if not bundle or bundle.quantity != quantity:
             asked = f"{bundle.quantity} of {sku}" if bundle else f"none of {sku}"
             return False, f"{asked} are to be put in at {station.name} now"
         self.put(visit, bundle)
         self._leave_if_done(station)
         return True, ""
+
+    def short(self, station, sku, lacking, _reason):
+        """So many pieces of a bundle did not come, or are damaged: they were never in the stock."""
+        visit, bundle = self._asked(station, sku)
+        there = bundle.quantity if bundle else 0
+        if not 0 < lacking <= there:
+            return False, f"{there} of {sku} are to be put in at {station.name} now"
+        self.shift.inventory.unexpect(bundle.bin, sku, lacking)
+        bundle.quantity -= lacking
+        if not bundle.quantity:
+            visit.puts.remove(bundle)
+        self._leave_if_done(station)
+        return True, ""
+
+    def _asked(self, station, sku):
+        visit = station.here
+        return visit, next((b for b in visit.puts if b.sku == sku), None) if visit else None
 
     def drop_visit(self, visit):
         """The unit does not come, or leaves early: its bundles are at the door again."""
@@ -171,3 +187,4 @@ class Replenishing:
         if visit and not visit.puts:
             self.shift.release(visit)
             self._look = True
+            self.next_bundle(station)

@@ -292,10 +292,10 @@ class Shift:
     def report_short(self, name, sku, lacking, damaged=False):
         """Pieces are not there, or damaged; returns success and why not."""
         station = self._stations.get(name)
-        if not station or station.kind != "PICK":
-            return False, f"there is no picking station '{name}'"
+        if not station:
+            return False, f"there is no station '{name}'"
         reason = Reason.DAMAGED if damaged else Reason.SHORT
-        return self.picking.short(station, sku, lacking, reason)
+        return self._part(station).short(station, sku, lacking, reason)
 
     def set_unit(self, unit, in_service):
         """Takes a unit out of service, or back; returns success and why not."""

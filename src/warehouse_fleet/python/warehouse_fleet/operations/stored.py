@@ -42,11 +42,14 @@ def read(engine, now=0.0):
         )
 
 
-def open_transports(engine):
-    """The ids of transports that a run which was killed had asked for."""
-    query = select(schema.visit.c.transport_id).where(schema.visit.c.ended.is_(None))
+def transports_left(engine):
+    """(ids, last): transports that a run which was killed had open, and the last that is known of
+    it; None if it has asked for none."""
+    visit = schema.visit.c
+    last = select(visit.transport_id).order_by(visit.id.desc()).limit(1)
     with engine.connect() as connection:
-        return set(connection.execute(query).scalars())
+        still_open = select(visit.transport_id).where(visit.ended.is_(None))
+        return set(connection.execute(still_open).scalars()), connection.execute(last).scalar()
 
 
 def _bins(connection):

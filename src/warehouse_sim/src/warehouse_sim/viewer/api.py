@@ -18,6 +18,7 @@ from warehouse_sim.viewer.coordination import NONE_RUNS
 from warehouse_sim.viewer.journal import KEPT
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 
+GLANCE = ("coordinator", "fleet", "performance")  # of the feed's topics
 PATIENCE = 3.0  # for messages that are on their way [s, wall]
 ANSWER, END = 10.0, 300.0  # for the answer to a command, and for its end [s, wall]
 
@@ -44,17 +45,31 @@ class ApiBackend:
     """What the API's answers are made from."""
 
     def __init__(
-        self, feed, model, journal, simulation, commander, coordination, transports, operations
+        self,
+        feed,
+        model,
+        journal,
+        simulation,
+        commander,
+        coordination,
+        transports,
+        operations,
+        changes,
     ):
         self.feed, self.model, self.journal = feed, model, journal
         self.simulation, self.commander, self.work = simulation, commander, operations
-        self.coordination, self.transports = coordination, transports
+        self.coordination, self.transports, self.changes = coordination, transports, changes
 
     async def look(self):
         """Waits until the world has told enough. Raises HTTPException."""
         self.feed.look()
         if not await _until(lambda: self.feed.tells_all):
             raise HTTPException(503, "the world tells nothing; does it run?")
+
+    async def glance(self):
+        """Waits until coordinator and world have told what they tell, for a moment at most."""
+        self.feed.look(GLANCE)
+        await _until(lambda: self.feed["fleet"] and self.feed["performance"])
 
     async def change(self, action, *args):
         """Calls a method of Simulation by which models come or go.

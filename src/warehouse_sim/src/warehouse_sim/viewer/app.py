@@ -8,12 +8,13 @@ import threading
 from contextlib import suppress
 
 import uvicorn
-from fastapi import FastAPI, WebSocket
-from fastapi.responses import FileResponse
+from fastapi import FastAPI, Request, WebSocket
+from fastapi.responses import FileResponse, Response
 from fastapi.staticfiles import StaticFiles
 
-from warehouse_sim.viewer import api, stream
+from warehouse_sim.viewer import api, changes, metrics, sockets, stream
 from warehouse_sim.viewer.access import AccessControl
+from warehouse_sim.viewer.change_book import ChangeBook
 from warehouse_sim.viewer.commander import Commander
 from warehouse_sim.viewer.connections import BoundedConnection
 from warehouse_sim.viewer.coordination import Coordination
@@ -21,6 +22,7 @@ from warehouse_sim.viewer.feed import Feed
 from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
+from warehouse_sim.viewer.shift_feed import ShiftFeed
 from warehouse_sim.viewer.simulation import Simulation
 from warehouse_sim.viewer.transport_book import TransportBook
 from warehouse_sim.viewer.work import Work
@@ -29,7 +31,9 @@ THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
 MOST_SOCKETS = 50
 MOST_MESSAGE = 64 * 1024  # from a page [bytes]
 FRESH = {"cache-control": "no-cache"}
-TRY_AGAIN = 1013  # a WebSocket's close code
+TRY_AGAIN, UNSUPPORTED = 1013, 1003  # a WebSocket's close codes
+MOST_REASON = 120  # characters beside one
+METRICS = {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}}
 
 
 class Viewer:
@@ -39,11 +43,15 @@ class Viewer:
         self.journal, self.model = Journal(), Model()
         self.simulation, self.commander = Simulation(ros), Commander(ros)
         self.coordination, self.transports = Coordination(ros), TransportBook()
-        self._loop = None
-        self.feed = Feed(ros, self._on_event, self.transports.add, self._on_news)
+        self._loop, self.changes = None, ChangeBook()
+        self.feed = Feed(ros, self._on_event, self._on_transport, self._on_news)
         self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
-        self.backend = api.ApiBackend(*parts, self.coordination, self.transports, Work(ros))
+        work = Work(ros, ShiftFeed(ros, self.changes))
+        self.metrics = metrics.Metrics(self.feed, work)
+        self.backend = api.ApiBackend(
+            *parts, self.coordination, self.transports, work, self.changes
+        )
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):
@@ -56,6 +64,9 @@ class Viewer:
         self.commander.note(entry)
         self.hub.news()
 
+    def _on_transport(self, event):
+        self.changes.note("transports", event.transport_id, self.transports.add(event))
+
     def _on_news(self):
         self.hub.news()
 
@@ -65,12 +76,13 @@ class Viewer:
             title="Kiva warehouse",
             version="1",
             description="The simulated warehouse over HTTP. States and events come as JSON over "
-            "the WebSocket /api/v1/stream?rate=2.",
+            "WebSockets, and figures for Prometheus at /metrics.",
             docs_url=None,
             redoc_url=None,
             openapi_url="/openapi.json",
         )
         app.include_router(api.router(self.backend))
+        app.openapi = lambda: sockets.described(app)
         app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
         app.add_exception_handler(405, api.not_allowed)
         self._add_sockets(app)
@@ -89,8 +101,19 @@ class Viewer:
 
         @app.websocket("/api/v1/stream")
         async def json_stream(socket: WebSocket, rate: float = 2.0):
-            rate = min(10.0, max(0.1, rate)) if rate == rate else 2.0
+            rate = _bounded(rate)
             await self._admit(socket, lambda s: stream.serve(s, self.backend, rate))
+
+        @app.websocket("/api/v1/changes")
+        async def json_changes(socket: WebSocket, of: str = "", rate: float = 2.0):
+            try:
+                topics = changes.topics(of)
+            except ValueError as error:
+                await socket.accept()
+                await socket.close(UNSUPPORTED, str(error)[:MOST_REASON])
+                return
+            rate = _bounded(rate)
+            await self._admit(socket, lambda s: changes.serve(s, self.backend, topics, rate))
 
     async def _admit(self, socket, serve):
         await socket.accept()
@@ -111,11 +134,24 @@ class Viewer:
                 f"{self._web}/{name}", headers={"cache-control": "no-cache"}
             )
 
+        @app.get("/metrics", response_class=Response, responses=METRICS)
+        async def get_metrics(request: Request):
+            """Figures for Prometheus."""
+            await self.backend.glance()
+            accepted = request.headers.get("accept", "")
+            text, kind = await asyncio.to_thread(self.metrics.text, accepted)
+            return Response(text, headers={"content-type": kind})
+
         app.get("/", include_in_schema=False)(page("index.html"))
         app.get("/operations", include_in_schema=False)(page("operations.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", FreshFiles(directory=self._web))
+
+
+def _bounded(rate):
+    """Messages a second."""
+    return min(10.0, max(0.1, rate)) if rate == rate else 2.0
 
 
 class Files(StaticFiles):

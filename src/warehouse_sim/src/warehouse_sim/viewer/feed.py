@@ -73,11 +73,11 @@ class Feed:
         is_silent = min(behind, time.monotonic() - self._coordinated) > SILENT
         return None if is_silent and (state.automatic or not state.alarms) else state
 
-    def look(self):
-        """Somebody looks: what is published is heard for a while."""
+    def look(self, names=tuple(TOPICS)):
+        """Somebody looks at these TOPICS: they are heard for a while."""
         with self._lock:
             self._looked = time.monotonic()
-            for name in TOPICS.keys() - self._subscribers.keys():
+            for name in set(names) - self._subscribers.keys():
                 self._subscribers[name] = self._subscribe(name, *TOPICS[name])
 
     def hear_anew(self, name):

@@ -21,7 +21,7 @@ from starlette.websockets import WebSocketDisconnect
 
 async def serve(socket, desk, rate):
     """One client, from its coming to its going. `socket` was accepted; `desk` is api.ApiBackend."""
-    listener = asyncio.create_task(_until_gone(socket))
+    listener = asyncio.create_task(until_gone(socket))
     known, event = {}, desk.journal.last_id
     with suppress(WebSocketDisconnect, RuntimeError):
         while not listener.done():
@@ -34,7 +34,8 @@ async def serve(socket, desk, rate):
     listener.cancel()
 
 
-async def _until_gone(socket):
+async def until_gone(socket):
+    """Reads, and forgets, what a client says until it goes."""
     with suppress(WebSocketDisconnect, RuntimeError):
         while True:
             await socket.receive_text()

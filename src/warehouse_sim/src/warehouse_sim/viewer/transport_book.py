@@ -16,15 +16,16 @@ class TransportBook:
         self._lock, self._kept, self._transports = threading.Lock(), kept, {}
 
     def add(self, event):
-        """Takes a warehouse_msgs/TransportEvent in."""
-        number = event.transport_id
+        """Takes a warehouse_msgs/TransportEvent in; returns its entry."""
+        number, entry = event.transport_id, entry_of(event)
         with self._lock:
             # A coordinator counts from 1; one that begins anew knows nothing of the others.
             if event.kind == TransportEvent.RECEIVED and number in self._transports:
                 self._transports.clear()
-            self._transports[number] = entry_of(event)
+            self._transports[number] = entry
             while len(self._transports) > self._kept:
                 del self._transports[min(self._transports)]
+        return entry
 
     def get(self, number):
         """One of them, or None."""

@@ -2,133 +2,42 @@
 """The work of the warehouse over HTTP: orders, stock, stations and figures."""
 
 import asyncio
+import time
 from typing import Literal
 
 import genpy
 from fastapi import APIRouter, HTTPException, Path, Query
-from pydantic import BaseModel, Field, StrictBool, conint, conlist, constr
 
 from warehouse_msgs import msg, srv
 from warehouse_sim.viewer import schemas
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
+from warehouse_sim.viewer.work_schemas import (
+    MODES,
+    STATES,
+    Accepted,
+    Confirmation,
+    Heat,
+    NewOrder,
+    Order,
+    Orders,
+    SetStation,
+    Short,
+    Stations,
+    Stock,
+    Throughput,
+)
 
 PATIENCE = 3.0  # for a topic's latest message [s, wall]
-STATES = ("OPEN", "ASSIGNED", "COMPLETED", "CANCELLED")
-MODES = ("AUTOMATIC", "MANUAL")
-
-Sku = constr(min_length=1, max_length=80, regex=r"^[ -~]+$", strict=True)
-Pieces = conint(ge=1, le=schemas.INT32, strict=True)
-
-
-class Moment(schemas.Number):
-    ge, le = 0, 4e9
-
-
-class Line(schemas._Body):
-    sku: Sku
-    quantity: Pieces
-
-
-class NewOrder(schemas._Body):
-    """An order; `due` in simulated time, 0 = none."""
-
-    reference: constr(max_length=200, regex=r"^[ -~]*$", strict=True) = ""
-    lines: conlist(Line, min_items=1, max_items=100)
-    due: Moment = Field(0.0, description="[s], simulated time")
-    priority: conint(ge=0, le=255, strict=True) = 0
-
-
-class Accepted(BaseModel):
-    order_id: int
-    message: str
-
-
-class OrderLine(BaseModel):
-    sku: str
-    quantity: int
-    picked: int
-
-
-class Order(BaseModel):
-    """Times are simulated seconds of the run in which it came; 0 = none, not yet."""
-
-    order_id: int
-    reference: str
-    state: Literal[STATES]
-    station: str
-    priority: int
-    created: float
-    due: float
-    completed: float
-    lines: list[OrderLine]
-
-
-class Orders(BaseModel):
-    total: int
-    orders: list[Order]
-
-
-class Place(BaseModel):
-    item: str
-    shelf_id: int
-    sku: str
-    quantity: int
-    reserved: int
-    capacity: int
-
-
-class Stock(BaseModel):
-    total: int
-    pieces: int
-    places: list[Place]
-
-
-class Pick(BaseModel):
-    sku: str
-    quantity: int
-    item: str
-    order_id: int
-    reference: str
-
-
-class Station(BaseModel):
-    name: str
-    kind: str
-    open: bool
-    mode: Literal[MODES]
-    shelf_id: int
-    inbound: list[int]
-    orders: list[int]
-    slots: int
-    picks: list[Pick]
-    pieces: int
-    busy_fraction: float
-
-
-class Stations(BaseModel):
-    stations: list[Station]
-
-
-class SetStation(schemas._Body):
-    open: StrictBool
-    mode: Literal[MODES] = "AUTOMATIC"
-
-
-class Confirmation(Line):
-    """So many pieces were taken out, or a bundle of so many was put in."""
-
-
-class Short(Line):
-    """So many pieces are not there, or are damaged."""
-
-    damaged: StrictBool = False
+NO_SHIFT = "is a shift running (operations.launch)?"
+ANY = srv.FindOrdersRequest.ANY
 
 
 class Work:
-    """One client of the operations' services and topics; calls block. `ros` is rospy."""
+    """One client of the operations' services and topics; calls block. `ros` is rospy, `feed` a
+    ShiftFeed."""
 
-    def __init__(self, ros):
-        self._ros = ros
+    def __init__(self, ros, feed):
+        self._ros, self.feed = ros, feed
 
     def call(self, service, kind, *fields):
         """A service's answer; raises AwayError, or RefusedError where it says no."""
@@ -136,19 +45,24 @@ class Work:
         try:
             answer = self._ros.ServiceProxy(name, kind)(*fields)
         except (self._ros.ServiceException, self._ros.ROSException, OSError) as error:
-            raise AwayError(f"{name}: {error}; is a shift running (operations.launch)?") from error
+            raise AwayError(f"{name}: {error}; {NO_SHIFT}") from error
         if not getattr(answer, "success", getattr(answer, "accepted", True)):
             raise RefusedError(answer.message)
         return answer
 
-    def latest(self, topic, kind):
-        """A latched topic's message; raises AwayError."""
-        name = f"/warehouse/{topic}"
-        try:
-            return self._ros.wait_for_message(name, kind, PATIENCE)
-        except self._ros.ROSException as error:
-            text = f"{name} tells nothing; is a shift running (operations.launch)?"
-            raise AwayError(text) from error
+    def latest(self, name):
+        """What the ShiftFeed has of that name, as JSON has it; raises AwayError."""
+        end = time.monotonic() + PATIENCE
+        while (told := self.feed[name]) is None:
+            if time.monotonic() > end:
+                raise AwayError(f"/warehouse/{name} tells nothing; {NO_SHIFT}")
+            time.sleep(0.05)
+        return SHOWN[name](told)
+
+    def find_orders(self, number=0, search="", state=ANY, late=False, limit=1, offset=0):
+        """A FindOrdersResponse; raises AwayError."""
+        wanted = number, search, state, late, limit, offset
+        return self.call("find_orders", srv.FindOrders, *wanted)
 
     def time(self, seconds):
         return self._ros.Time.from_sec(seconds)
@@ -177,22 +91,22 @@ def add(out: APIRouter, work, problems):
             "", max_length=200, regex=r"^[ -~]*$", description="a part of the reference, or a SKU"
         ),
         state: Literal[STATES] | None = None,
+        late: bool = Query(False, description="those past their due time alone"),
         limit: int = limit,
         offset: int = offset,
     ):
         """Orders, the newest first."""
-        which = srv.FindOrdersRequest.ANY if state is None else STATES.index(state)
-        found = await do(work.call, "find_orders", srv.FindOrders, 0, search, which, limit, offset)
-        return {"total": found.total, "orders": [_order(one) for one in found.orders]}
+        which = ANY if state is None else STATES.index(state)
+        found = await do(work.find_orders, 0, search, which, late, limit, offset)
+        return {"total": found.total, "orders": [order(one) for one in found.orders]}
 
     @out.get("/orders/{number}", response_model=Order, responses=problems(404))
     async def get_order(number: int = number):
         """One order."""
-        any_state = srv.FindOrdersRequest.ANY
-        found = await do(work.call, "find_orders", srv.FindOrders, number, "", any_state, 1, 0)
+        found = await do(work.find_orders, number)
         if not found.orders:
             raise HTTPException(404, f"no order {number}")
-        return _order(found.orders[0])
+        return order(found.orders[0])
 
     @out.post("/orders", status_code=201, response_model=Accepted, responses=problems(*sent))
     async def submit_order(wanted: NewOrder):
@@ -220,8 +134,7 @@ def add(out: APIRouter, work, problems):
     @out.get("/stations", response_model=Stations, responses=problems())
     async def get_stations():
         """The stations: what unit is there, what is to be done with it, what is on its way."""
-        told = await do(work.latest, "stations", msg.StationStates)
-        return {"stations": [plain(one) | {"mode": MODES[one.mode]} for one in told.stations]}
+        return {"stations": await do(work.latest, "stations")}
 
     @out.put("/stations/{name}", response_model=schemas.Done, responses=problems(*sent))
     async def set_station(wanted: SetStation, name: str = name):
@@ -237,14 +150,25 @@ def add(out: APIRouter, work, problems):
 
     @out.post("/stations/{name}/short", response_model=schemas.Done, responses=problems(*sent))
     async def report_short(found: Short, name: str = name):
-        """Pieces are missing or damaged: they are written off and brought from elsewhere."""
+        """Pieces are missing or damaged: they are written off and brought from elsewhere, or, where
+        they should be put in, stay out."""
         fields = name, found.sku, found.quantity, found.damaged
         return {"message": (await do(work.call, "report_short", srv.ReportShort, *fields)).message}
 
     @out.get("/kpis", responses=problems())
     async def get_kpis():
         """The figures of the shift so far, named as in kpis.json."""
-        return plain(await do(work.latest, "kpis", msg.Kpis))
+        return await do(work.latest, "kpis")
+
+    @out.get("/throughput", response_model=Throughput, responses=problems())
+    async def get_throughput():
+        """The last hour, a minute a row."""
+        return await do(work.latest, "throughput")
+
+    @out.get("/heat", response_model=Heat, responses=problems())
+    async def get_heat():
+        """Traffic and waiting over the floor."""
+        return await do(work.latest, "heat")
 
 
 def plain(message):
@@ -256,9 +180,21 @@ def plain(message):
     return message
 
 
-def _order(one):
+def order(one):
+    """An OrderStatus as JSON has it."""
     lines = zip(one.lines, one.picked)
-    return plain(one) | {
+    out = plain(one)
+    del out["picked"]
+    return out | {
         "state": STATES[one.state],
         "lines": [plain(line) | {"picked": picked} for line, picked in lines],
     }
+
+
+def stations(told):
+    """StationStates likewise."""
+    return [plain(one) | {"mode": MODES[one.mode]} for one in told.stations]
+
+
+# How what a shift tells is shown.
+SHOWN = {"stations": stations, "kpis": plain, "throughput": plain, "heat": plain}

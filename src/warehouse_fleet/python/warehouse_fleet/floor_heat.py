@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where on the floor robots drive and where they wait, over the last hour."""
+
+import numpy as np
+
+WINDOW, SLICES = 3600.0, 12  # what is older than the window is forgotten a slice at a time [s]
+TRAFFIC, WAITING = range(2)
+GAP = 1.0  # reports further apart tell no more of the time between than that [s]
+
+
+class FloorHeat:
+    """Counts on the cells of a FloorPlan."""
+
+    def __init__(self, plan, now):
+        self._plan, self._began = plan, now
+        self._slices = np.zeros((SLICES, 2, plan.passable.size), np.float32)
+        self._slice = self._slice_of(now)
+        self._cells, self._time = None, now
+
+    def see(self, now, x, y, waits):
+        """Takes in where all robots are [m], and which of them wait (bool), at a time [s]."""
+        self._turn(now)
+        counts = self._slices[self._slice % SLICES]
+        cells = self._plan.cell_of(x, y)
+        inside = cells >= 0
+        np.add.at(counts[WAITING], cells[inside & waits], min(now - self._time, GAP))
+        if self._cells is not None and len(self._cells) == len(cells):
+            np.add.at(counts[TRAFFIC], cells[inside & (cells != self._cells)], 1)
+        self._cells, self._time = cells, now
+
+    def seconds(self, now):
+        """That the maps cover."""
+        oldest = (self._slice_of(now) + 1 - SLICES) * (WINDOW / SLICES)
+        return now - max(self._began, oldest)
+
+    def maps(self):
+        """(traffic, waiting), each an array by cell: robots that came in; robot-seconds."""
+        return self._slices.sum(axis=0)
+
+    def _turn(self, now):
+        """Empties the slices whose time begins anew."""
+        current = self._slice_of(now)
+        for number in range(self._slice + 1, min(current, self._slice + SLICES) + 1):
+            self._slices[number % SLICES] = 0
+        self._slice = current
+
+    @staticmethod
+    def _slice_of(now):
+        return int(now // (WINDOW / SLICES))

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What has changed last, for readers that each follow at the pace they keep up with."""
+
+import threading
+from collections import defaultdict
+
+KEPT = 5000  # rows of a topic
+
+
+class ChangeBook:
+    """The newest row of each key of a topic, in the order of changing.
+
+    Any thread may note, any may read. A reader keeps the number up to which it has read.
+    """
+
+    def __init__(self, kept=KEPT):
+        self._lock, self._kept, self.last = threading.Lock(), kept, 0
+        self._rows, self._forgotten = defaultdict(dict), defaultdict(int)
+
+    def note(self, topic, key, row):
+        """A row is new, or another than before."""
+        with self._lock:
+            self.last += 1
+            rows = self._rows[topic]
+            rows.pop(key, None)
+            rows[key] = self.last, row
+            if len(rows) > self._kept:
+                self._forgotten[topic], _ = rows.pop(next(iter(rows)))
+
+    def miss(self, topic):
+        """Changes got lost: whoever follows has to read all anew."""
+        with self._lock:
+            self.last += 1
+            self._forgotten[topic] = self.last
+
+    def since(self, topic, number):
+        """(rows that changed after that number, whether others did that are not known any more)."""
+        with self._lock:
+            rows = []
+            for changed, row in reversed(self._rows[topic].values()):
+                if changed <= number:
+                    break
+                rows.append(row)
+            return rows[::-1], self._forgotten[topic] > number

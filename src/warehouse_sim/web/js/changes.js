@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What changes in the work of the warehouse, over the WebSocket /api/v1/changes, which comes back by
+// itself.
+
+import { on } from './dom.js';
+
+const RETRY = 1000; // [ms]
+
+export class Changes {
+  /** handlers: for each of `topics`, and `shift`, what takes its message; `state(live)`, called once
+   *  it is open too: whoever reads a list from then on misses nothing. */
+  constructor(topics, handlers) {
+    Object.assign(this, { topics, handlers });
+    this.open();
+  }
+
+  open() {
+    const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
+    this.socket = new WebSocket(`${scheme}://${location.host}/api/v1/changes?of=${this.topics}`);
+    on(this.socket, 'open', () => this.handlers.state?.(true));
+    on(this.socket, 'message', ({ data }) => {
+      const message = JSON.parse(data);
+      this.handlers[message.type]?.(message);
+    });
+    on(this.socket, 'close', () => {
+      if (this.isOver) return;
+      this.handlers.state?.(false);
+      setTimeout(() => this.open(), RETRY);
+    });
+  }
+
+  close() {
+    this.isOver = true;
+    this.socket.close();
+  }
+}

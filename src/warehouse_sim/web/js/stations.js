@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cards of the stations: their queues, open or closed, by themselves or by hand.
+
+import { put } from './api.js';
+import { $, make } from './dom.js';
+
+export class Stations {
+  /** `act(promise)` waits for what was asked of the server. */
+  constructor(act) {
+    Object.assign(this, { act, cards: new Map() });
+  }
+
+  take(stations) {
+    const names = stations.map(({ name }) => name);
+    if (String(names) !== String([...this.cards.keys()])) {
+      this.cards = new Map(names.map((name) => [name, new Card(this.act)]));
+      $('stations').replaceChildren(...[...this.cards.values()].map(({ element }) => element));
+    }
+    for (const station of stations) this.cards.get(station.name).show(station);
+  }
+}
+
+/** One that stays where it is: a finger may be on its way to a button. */
+class Card {
+  constructor(act) {
+    this.name = make('strong');
+    this.busy = make('span', { className: 'dim', title: 'busy, of the time since the shift began' });
+    this.work = make('div', { className: 'dim' });
+    this.queue = make('div', { className: 'queue' });
+    this.gate = make('button', { click: () => act(this.set(!this.station.open, this.station.mode)) });
+    this.hand = make('button', { click: () => act(this.set(this.station.open, this.isByHand ? 'AUTOMATIC' : 'MANUAL')) });
+    this.screen = make('a', { className: 'button', textContent: 'Screen', title: 'For a person at the station' });
+    this.element = make('div', {}, make('header', {}, this.name, this.busy), this.work, this.queue,
+      make('footer', {}, this.gate, this.hand, this.screen));
+  }
+
+  get isByHand() {
+    return this.station.mode === 'MANUAL';
+  }
+
+  set(open, mode) {
+    return put(`/stations/${this.station.name}`, { open, mode });
+  }
+
+  show(station) {
+    const before = this.station;
+    this.station = station;
+    if (JSON.stringify(before) === JSON.stringify(station)) return;
+    const { name, kind, open, orders, slots, pieces, shelf_id: unit, inbound } = station;
+    this.name.textContent = name;
+    this.element.className = open ? 'station' : 'station shut';
+    this.element.dataset.station = name;
+    this.busy.textContent = `${Math.round(100 * station.busy_fraction)} % busy`;
+    const work = kind === 'PICK' ? `${orders.length} of ${slots} orders, ${pieces} pieces` : `${pieces} pieces put in`;
+    this.work.textContent = open ? work : `closed; ${work}`;
+    this.queue.replaceChildren(...unit ? [chip(unit, 'here')] : [], ...inbound.map((other) => chip(other)));
+    this.queue.title = `storage units: ${unit ? `${unit} is there, ` : ''}${inbound.length} on their way`;
+    this.gate.textContent = open ? 'Close' : 'Open';
+    this.hand.textContent = this.isByHand ? 'By itself' : 'By hand';
+    this.screen.href = `#${name}`;
+  }
+}
+
+function chip(text, className = '') {
+  return make('span', { textContent: text, className });
+}

@@ -1,0 +1,191 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The pages show a shift as it goes on, and a person works at its stations."""
+
+import asyncio
+import json
+
+import rospy
+import rostest
+import websockets
+from node_test import wait_until
+from page_test import PageTest, address, ask, fetch
+from prometheus_client.parser import text_string_to_metric_families
+from sqlalchemy import insert
+
+from warehouse_fleet.operations import schema
+from warehouse_fleet.operations.database import open_engine
+
+LONG = 120.0  # for what robots do [s, wall]
+MANY = 10_000  # orders
+FIRST = 10**6  # their ids
+
+ROW = """[...document.querySelectorAll('.order-rows .order')]
+  .map((row) => row.textContent).find((text) => text.startsWith('{}'))"""
+TASK = "document.querySelector('#screen .task')?.textContent"
+LIT = "document.querySelector('#screen .shelf .lit')"
+CARD = "[data-station={}] {}"
+
+
+def submit(reference, sku, quantity):
+    wanted = {"reference": reference, "lines": [{"sku": sku, "quantity": quantity}]}
+    status, answer = ask("/orders", wanted)
+    assert status == 201, answer
+    return answer["order_id"]
+
+
+def pieces(sku):
+    """On each storage unit that holds some, by its number."""
+    out = {}
+    for place in ask(f"/stock?sku={sku}")[1]["places"]:
+        out[place["shelf_id"]] = out.get(place["shelf_id"], 0) + place["quantity"]
+    return out
+
+
+class OperationsPage(PageTest):
+    """In this order: what one test leaves the next one finds."""
+
+    path, ready = "operations", "page.kpis && document.querySelectorAll('.station').length === 3"
+
+    def setUp(self):
+        self.page.read("(location.hash = '')")  # no station's screen
+
+    def click(self, selector):
+        self.page.driver.find_element("css selector", selector).click()
+
+    def press(self, name, button):
+        """A button of a station's card: 1 opens or closes it, 2 is for by hand or by itself."""
+        self.click(CARD.format(name, f"button:nth-of-type({button})"))
+
+    def wait_for(self, expression):
+        """Until something comes true that robots do."""
+        wait_until(lambda: self.page.read(f"page && ({expression})"), expression, LONG)
+
+    def test_1_an_order_is_followed_to_its_end(self):
+        seen = asyncio.run(self.follow("page-1"))
+        self.assertEqual(seen["orders"][-1]["lines"][0]["picked"], 2)
+        self.assertTrue(any(place["sku"] == "sku-3" for place in seen["stock"]))
+        self.assertIn("ARRIVED", {transport["state"] for transport in seen["transports"]})
+        self.assertTrue(seen["stations"])
+        self.page.until(f"({ROW.format('page-1')})?.includes('done')")
+        self.page.until("document.querySelectorAll('#chart rect').length > 0")
+        self.page.until("document.getElementById('robots-legend').textContent.length > 0")
+
+    async def follow(self, reference):
+        """{kind: rows} of what changes until a new order is complete."""
+        seen = {"orders": [], "stock": [], "transports": [], "stations": []}
+        socket_address = address().replace("http", "ws") + f"api/v1/changes?of={','.join(seen)}"
+        async with websockets.connect(socket_address) as socket:
+            self.assertEqual(json.loads(await socket.recv()), {"type": "shift", "runs": True})
+            number = await asyncio.to_thread(submit, reference, "sku-3", 2)
+            while not any(
+                (o["order_id"], o["state"]) == (number, "COMPLETED") for o in seen["orders"]
+            ):
+                message = json.loads(await asyncio.wait_for(socket.recv(), LONG))
+                self.assertFalse(message.get("missed"), message)
+                seen[message["type"]] += message[message["type"]]
+        return seen
+
+    def test_2_a_person_picks_and_finds_too_few(self):
+        self.press("pick2", 1)
+        self.press("pick1", 2)
+        self.page.until("document.querySelector('[data-station=pick2]').classList.contains('shut')")
+        number = submit("page-2", "sku-4", 3)
+        self.click(CARD.format("pick1", "a"))
+        self.wait_for(f"{TASK} === 'Take 3 × sku-4' && {LIT}")
+        unit = ask("/stations")[1]["stations"][0]["shelf_id"]
+        self.click("[aria-label='one piece fewer']")
+        self.click("#screen .confirm")
+        self.page.until(f"{TASK} === 'Take 1 × sku-4'")
+        self.click("#screen .short")
+        self.page.until(f"{TASK} !== 'Take 1 × sku-4'")
+        self.click("#screen header .button")
+        self.press("pick1", 2)
+        self.press("pick2", 1)
+        self.assertEqual(pieces("sku-4").get(unit, 0), 0)
+        done = lambda: ask(f"/orders/{number}")[1]["state"] == "COMPLETED"  # noqa: E731
+        wait_until(done, "what was missing is brought from elsewhere", LONG)
+
+    def test_3_a_person_puts_new_stock_in(self):
+        self.press("replenish1", 2)
+        self.click(CARD.format("replenish1", "a"))
+        self.wait_for(f"{TASK}?.startsWith('Put in') && {LIT}")
+        pick = ask("/stations")[1]["stations"][-1]["picks"][0]
+        told = f"Put in {{}} × {pick['sku']}"
+        self.assertEqual(self.page.read(TASK), told.format(pick["quantity"]))
+        self.click("#screen .damaged")  # of a bundle, all that the counter says
+        self.page.until(f"{TASK} !== '{told.format(pick['quantity'])}'")
+        self.click("#screen header .button")
+        self.press("replenish1", 2)
+
+    def test_4_ten_thousand_orders_are_no_burden(self):
+        engine = open_engine(rospy.get_param("~database"))
+        with engine.begin() as connection:
+            rows = [
+                {
+                    "id": FIRST + i,
+                    "run": 1,
+                    "reference": f"many-{i}",
+                    "created": 0.0,
+                    "due": 1.0,
+                    "priority": 0,
+                    "state": 2,
+                    "station": "pick1",
+                    "completed": 2.0,
+                }
+                for i in range(MANY)
+            ]
+            connection.execute(insert(schema.orders), rows)
+            lines = [
+                {"order_id": row["id"], "number": 0, "sku": "sku-1", "quantity": 1, "picked": 1}
+                for row in rows
+            ]
+            connection.execute(insert(schema.order_line), lines)
+        engine.dispose()
+        self.click("[data-filter='late=true']")
+        self.page.until(f"page.orders.total === {MANY}")
+        self.page.until(ROW.format(f"many-{MANY - 1}"))
+        self.page.read("document.getElementById('orders').scrollTo(0, 1e9)")
+        self.page.until(ROW.format("many-0"))
+        self.assertLess(self.page.read("document.querySelectorAll('.order').length"), 50)
+        self.page.type("many-777", "search")
+        self.page.until("page.orders.total === 11")  # many-777 and many-7770 to 7779
+        self.click("[data-filter='']")
+        self.page.read("document.getElementById('search').value = 'sku-4'")
+        self.page.type(" ", "search")
+        self.page.until(f"page.orders.total === 1 && {ROW.format('page-2')}")
+
+    def test_5_the_floor_shows_where_pieces_are_and_where_robots_drive(self):
+        before = pieces("sku-5")
+        self.page.open(f"{address()}#sku-5")
+        self.page.until("page.where?.units.size > 0 && page.stage.frames > 2")
+        self.assertEqual(dict(self.page.read("[...page.where.units]")), before)
+        self.page.until("document.querySelectorAll('.labels .pieces:not([hidden])').length > 0")
+        total = sum(before.values())
+        submit("page-5", "sku-5", 1)
+        shown = "[...page.where.units.values()].reduce((sum, pieces) => sum + pieces, 0)"
+        self.wait_for(f"{shown} === {total - 1}")
+        self.page.click_on("heat")
+        self.page.until("Boolean(page.heat.object)")
+        self.click("[data-heat=waiting]")
+        self.page.until("document.getElementById('heat-text').textContent.includes('waited')")
+        self.page.click_on("heat")
+        self.page.until("!page.heat.object && document.getElementById('heat-panel').hidden")
+
+    def test_6_prometheus_gets_the_same_figures(self):
+        status, text = fetch("metrics")
+        families = text_string_to_metric_families(text.decode())
+        told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}
+        self.assertEqual((status, told["warehouse_shift_up",]), (200, 1))
+        kpis = ask("/kpis")[1]
+        self.assertGreater(told["warehouse_items_picked_total",], 0)
+        self.assertLessEqual(told["warehouse_items_picked_total",], kpis["items_picked"])
+        self.assertGreaterEqual(told["warehouse_orders", "completed"], MANY)
+        self.assertEqual(told["warehouse_station_open", "PICK", "pick2"], 1)
+        robots = [value for (name, *_), value in told.items() if name == "warehouse_robots"]
+        self.assertEqual(sum(robots), 4)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_operations_page")
+    rostest.rosrun("warehouse_tests", "operations_page", OperationsPage)
