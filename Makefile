@@ -65,7 +65,7 @@ deps:  ## install the Debian packages that are missing
 bench: build  ## run the benchmarks
 	@$(DEVEL) bench/run $(ARGS)
 
-wheel: packages  ## the world and its environments for Python without ROS, into dist/
+wheel: build  ## the world and its environments for Python without ROS, into dist/
 	@JOBS=$(JOBS) scripts/wheel
 
 lint: deps  ## check format and style

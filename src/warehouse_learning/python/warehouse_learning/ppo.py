@@ -84,11 +84,12 @@ class Adam:
         scale = min(1.0, 0.5 / (norm + 1e-8))
         self.steps += 1
         c1, c2 = 1 - 0.9**self.steps, 1 - 0.999**self.steps
-        for p, g, m, v in zip(self.parameters, slopes, self.mean, self.square):
-            g = g * scale
-            m += 0.1 * (g - m)
-            v += 0.001 * (g * g - v)
-            p -= rate * (m / c1) / (np.sqrt(v / c2) + 1e-8)
+        for i, slope in enumerate(slopes):
+            scaled = slope * scale
+            self.mean[i] += 0.1 * (scaled - self.mean[i])
+            self.square[i] += 0.001 * (scaled * scaled - self.square[i])
+            step = self.mean[i] / c1 / (np.sqrt(self.square[i] / c2) + 1e-8)
+            self.parameters[i] -= rate * step
 
 
 def probabilities(logits, masks):
