@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo operate test test-long test-api test-sanitizers test-install build packages deps bench wheel lint format install clean
+.PHONY: help run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
