@@ -41,6 +41,9 @@ test-long: build  ## fleets at work, with and without faults, seed after seed; h
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
 	exec /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py unit/python/test_rawsim.py unit/python/test_kills.py $(ARGS)
 
+test-wheel: wheel  ## use the wheel in an environment with nothing else, with Stable-Baselines3 and Ray
+	@scripts/test-wheel $(ARGS)
+
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 	@scripts/fuzz_api $(ARGS)
 
