@@ -82,7 +82,11 @@ class KivaDispatcherEnv(gymnasium.Env):
         if not self._driver:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
         given = np.asarray(action)
-        if given.shape != () or given.dtype.kind not in "iu" or not 0 <= given < self.action_space.n:
+        if (
+            given.shape != ()
+            or given.dtype.kind not in "iu"
+            or not 0 <= given < self.action_space.n
+        ):
             raise ActionError(
                 f"dispatcher: action {action!r}; a whole number from 0 to"
                 f" {self.action_space.n - 1} was expected"
