@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
 #include "kiva_plugin_cpp/world_file.h"
+#include "warehouse.h"
 
 namespace kiva {
 namespace {
