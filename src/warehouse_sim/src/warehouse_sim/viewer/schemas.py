@@ -138,6 +138,18 @@ class NewTransport(_Body):
     )
     priority: conint(ge=0, le=255, strict=True) = Field(0, description="higher ones come first")
 
+    class Config(_Body.Config):
+        schema_extra = {
+            "oneOf": [
+                {
+                    "required": ["station"],
+                    "properties": {"station": {"minLength": 1}},
+                    "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
+                },
+                {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
+            ]
+        }
+
     @root_validator(skip_on_failure=True)
     def _has_one_destination(cls, values):  # noqa: N805 (pydantic's)
         at = [values["x"], values["y"]]
