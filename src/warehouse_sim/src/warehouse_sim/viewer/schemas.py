@@ -17,6 +17,7 @@ from pydantic.errors import DictError
 
 INT32 = 2**31 - 1
 MOST_ROWS = 1000  # of a list, in one answer
+MOST = 1e300  # of a number
 
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
@@ -31,6 +32,7 @@ class Number(ConstrainedFloat):
     """A finite number; no text that looks like one."""
 
     allow_inf_nan = False
+    ge, le = -MOST, MOST
 
     @classmethod
     def __get_validators__(cls):
@@ -40,7 +42,7 @@ class Number(ConstrainedFloat):
     @classmethod
     def _check(cls, value):
         # An integer too large for a float would be an error of ours further on.
-        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > 1e300:
+        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > MOST:
             raise ValueError("a finite number was expected")
         return value
 
