@@ -48,6 +48,12 @@ export class RobotList {
     this.unknown(names.length || this.rows.length ? '' : text);
   }
 
+  /** Searches for what an address asks for; '': for what is typed. */
+  ask(encoded) {
+    if (encoded) $('search').value = decoded(encoded);
+    this.search($('search').value);
+  }
+
   /** Pieces of a SKU by the number of the unit on which they lie, in place of what was found. */
   showPieces(sku, units) {
     if (!sku) return;
@@ -121,5 +127,13 @@ export class RobotList {
     this.select(this.nameOf(this.rows[next]));
     this.box.scrollTop = Math.max(Math.min(this.box.scrollTop, next * this.rowHeight),
       (next + 1) * this.rowHeight - this.box.clientHeight);
+  }
+}
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch { // a lone %
+    return text;
   }
 }

@@ -337,4 +337,6 @@ function halfOf({ min, max }) {
 
 window.page = new Page(); // for a look from the console
 // /#sku-17 asks at once where that is.
-$('search').value = decodeURIComponent(location.hash.slice(1));
+const askHash = () => window.page.list.ask(location.hash.slice(1));
+on(window, 'hashchange', askHash);
+askHash();

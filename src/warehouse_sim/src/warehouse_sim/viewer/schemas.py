@@ -17,6 +17,7 @@ from pydantic.errors import DictError
 
 INT32 = 2**31 - 1
 MOST_ROWS = 1000  # of a list, in one answer
+MOST = 1e300  # of a number
 
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
@@ -31,6 +32,7 @@ class Number(ConstrainedFloat):
     """A finite number; no text that looks like one."""
 
     allow_inf_nan = False
+    ge, le = -MOST, MOST
 
     @classmethod
     def __get_validators__(cls):
@@ -40,7 +42,7 @@ class Number(ConstrainedFloat):
     @classmethod
     def _check(cls, value):
         # An integer too large for a float would be an error of ours further on.
-        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > 1e300:
+        if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > MOST:
             raise ValueError("a finite number was expected")
         return value
 
@@ -137,6 +139,18 @@ class NewTransport(_Body):
         "STORE", description="what becomes of the unit once it is released; STAY: put down there"
     )
     priority: conint(ge=0, le=255, strict=True) = Field(0, description="higher ones come first")
+
+    class Config(_Body.Config):
+        schema_extra = {
+            "oneOf": [
+                {
+                    "required": ["station"],
+                    "properties": {"station": {"minLength": 1}},
+                    "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
+                },
+                {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
+            ]
+        }
 
     @root_validator(skip_on_failure=True)
     def _has_one_destination(cls, values):  # noqa: N805 (pydantic's)
