@@ -7,15 +7,18 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from kiva_plugin_cpp import World, Worlds, worlds_folder
+from warehouse_sim import layout, models, request
 
 
 def build(n, options, threads=0):
     """(Worlds, checkpoint): n worlds as they are before an episode, and what brings them back."""
     with tempfile.TemporaryDirectory() as folder:
         _write_kiva(Path(folder), options)
-        first = World.create(
-            robots=options.robots, shelves=options.shelves, model_paths=[folder], seed=1
-        )
+        first = World(model_paths=[folder], seed=1)
+        first.delete(models.FLOOR)
+        wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
+        first.spawn(models.document(models.of_layout(layout.plan(wanted, seed=1))))
+        first.events()
     first.step_size = options.physics_step
     checkpoint = first.checkpoint()
     others = [World() for _ in range(n - 1)]
