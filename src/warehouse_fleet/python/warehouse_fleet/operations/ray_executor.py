@@ -11,7 +11,8 @@ class RayExecutor(Executor):
     """A task of Ray for each call; address: "local" starts a cluster on this machine."""
 
     def __init__(self, address="local"):
-        ray.init(address=None if address == "local" else address, log_to_driver=False)
+        options = {"include_dashboard": False} if address == "local" else {"address": address}
+        ray.init(log_to_driver=False, **options)
 
     def submit(self, function, /, *args, **kwargs):
         future = Future()
