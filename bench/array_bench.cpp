@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The ceiling: the fleet's workload without any engine, in arrays. A planar integrator with two
-// wheel servos, and lasers on a grid of boxes. Nothing can touch, lift or be told anything.
+// wheel servos, and lasers on a grid of boxes. Nothing can touch, lift or be told anything. With
+// --default the lasers have a default robot's rays: 121 over 120°.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr char kHelp[] = "array_bench [--no-lasers] [--seconds S] N…\n";
+constexpr char kHelp[] = "array_bench [--no-lasers] [--default] [--seconds S] N…\n";
 constexpr double kWheelAcceleration = 1e6;  // [rad/s²], beyond any need: speed changes at once
 
 struct Fleet {
@@ -143,13 +143,25 @@ class Grid {
   std::vector<std::vector<int>> cells_;
 };
 
+/// Angles of a laser's rays against the robot's heading [rad].
+std::vector<double> rayAngles(bool default_robot) {
+  std::vector<double> angles;
+  if (default_robot) {
+    for (int k = 0; k < 121; ++k) angles.push_back((k - 60) * M_PI / 180);
+  } else {
+    for (int k = 0; k < bench::kRays; ++k) angles.push_back(bench::rayAngle(k));
+  }
+  return angles;
+}
+
 class Lasers {
  public:
-  explicit Lasers(int robots) : grid_(robots), ranges_(robots) {
-    for (int k = 0; k < bench::kRays; ++k) {
-      c_[k] = std::cos(bench::rayAngle(k));
-      s_[k] = std::sin(bench::rayAngle(k));
+  Lasers(int robots, const std::vector<double>& angles) : grid_(robots) {
+    for (double angle : angles) {
+      c_.push_back(std::cos(angle));
+      s_.push_back(std::sin(angle));
     }
+    ranges_.assign(robots, std::vector<float>(angles.size()));
   }
 
   void scan(const Fleet& fleet, long step) {
@@ -164,20 +176,20 @@ class Lasers {
   void scanOne(const Fleet& fleet, int i) {
     const double c = fleet.c[i], s = fleet.s[i];
     const double x = fleet.x[i] + bench::kLaserAhead * c, y = fleet.y[i] + bench::kLaserAhead * s;
-    for (int k = 0; k < bench::kRays; ++k) {
+    for (std::size_t k = 0; k < c_.size(); ++k) {
       const double dx = c * c_[k] - s * s_[k], dy = s * c_[k] + c * s_[k];
       ranges_[i][k] = static_cast<float>(grid_.cast(fleet, i, x, y, dx, dy));
     }
   }
 
   Grid grid_;
-  std::vector<std::array<float, bench::kRays>> ranges_;
-  std::array<double, bench::kRays> c_, s_;
+  std::vector<std::vector<float>> ranges_;  // by robot
+  std::vector<double> c_, s_;
 };
 
-void run(const bench::Options& options, int robots) {
+void run(const bench::Options& options, bool default_robot, int robots) {
   Fleet fleet(robots);
-  Lasers lasers(robots);
+  Lasers lasers(robots, rayAngles(default_robot));
   long step = 0, samples = 0;
   double speed = 0;
   const auto factors = bench::measure(options.seconds, [&] {
@@ -188,7 +200,7 @@ void run(const bench::Options& options, int robots) {
       if (step % 10 == 0) speed += fleet.meanSpeed(), ++samples;
     }
   });
-  bench::print("arrays", robots, options.lasers, factors,
+  bench::print(default_robot ? "arrays, 121 rays" : "arrays", robots, options.lasers, factors,
                ", \"speed\": " + std::to_string(speed / static_cast<double>(samples)));
 }
 
@@ -196,5 +208,7 @@ void run(const bench::Options& options, int robots) {
 
 int main(int argc, char** argv) {
   const bench::Options options = bench::parse(argc, argv, kHelp);
-  for (int robots : options.robots) run(options, robots);
+  const bool default_robot = options.others == std::vector<std::string>{"--default"};
+  if (!default_robot && !options.others.empty()) bench::usage(kHelp);
+  for (int robots : options.robots) run(options, default_robot, robots);
 }

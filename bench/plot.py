@@ -8,10 +8,12 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 # In the plot's order; colours of Okabe and Ito, which colour-blind people can tell apart.
 STYLES = {
-    "traction": ("this world, traction", "#0072B2", "o-", 2.5),
-    "traction, no lasers": ("this world, traction, no lasers", "#56B4E9", "o-", 1.5),
+    "default": ("this world, default robots, 121 rays", "#0072B2", "o-", 2.5),
+    "default, no scan read": ("this world, default robots, no scan read", "#56B4E9", "o-", 2.5),
+    "arrays, 121 rays": ("bare arrays, no engine, 121 rays", "#666666", "^--", 1),
+    "at_once": ("this world, at full speed at once, 20 rays", "#0072B2", "o:", 1.5),
     "jointed": ("this world, jointed", "#D55E00", "s-", 2.5),
-    "arrays": ("bare arrays, no engine", "#000000", "^--", 1),
+    "arrays": ("bare arrays, no engine, 20 rays", "#000000", "^--", 1),
     "Bullet kinematic": ("Bullet, kinematic bodies", "#009E73", "v--", 1),
     "Bullet hinges": ("Bullet, hinged wheels", "#CC79A7", "v--", 1),
     "pybullet": ("pybullet, wheel joints", "#E69F00", "x:", 1.5),
@@ -24,7 +26,8 @@ def draw(figures, path):
     """`figures`: dicts with engine, robots, lasers and rtf_cpu."""
     lines = {}
     for figure in figures:
-        key = figure["engine"] + ("" if figure["lasers"] else ", no lasers")
+        read = "" if figure.get("read", True) else ", no scan read"
+        key = figure["engine"] + (read if figure["lasers"] else ", no lasers")
         lines.setdefault(key, {})[figure["robots"]] = figure["rtf_cpu"]
     plt.figure(figsize=(8, 5.5))
     for key, (label, colour, style, width) in STYLES.items():

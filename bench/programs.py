@@ -12,7 +12,7 @@ VENV = BENCH.parent / ".venv"
 
 # Simulated seconds of a chunk: less where a second takes a minute. Below 0.1 s no laser scans.
 SHORT = {
-    ("--drive jointed", 1000): 0.4,
+    ("--robot jointed", 1000): 0.4,
     ("--hinges", 1000): 0.2,
     ("with_pybullet.py", 100): 0.4,
     ("with_pybullet.py", 1000): 0.1,

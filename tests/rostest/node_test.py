@@ -46,6 +46,10 @@ class Listener:
                 self._came.wait(left)
             return self.messages[-1]
 
+    def connections(self):
+        """How many publishers it hears."""
+        return self._subscriber.get_num_connections()
+
     def close(self):
         self._subscriber.unregister()
 

@@ -7,8 +7,9 @@ import unittest
 import actionlib
 import rospy
 import rostest
-from actionlib_msgs.msg import GoalStatus
-from node_test import PATIENCE, create, wait_until
+from actionlib_msgs.msg import GoalStatus, GoalStatusArray
+from node_test import PATIENCE, Listener, create, wait_until
+from std_srvs.srv import Empty
 from warehouse_test import place
 
 from warehouse_msgs.msg import CarryAction, CarryFeedback, CarryGoal, Event, MoveAction, MoveGoal
@@ -93,6 +94,15 @@ class Actions(unittest.TestCase):
         self.ended(self.carry, GoalStatus.PREEMPTED)
         self.assert_near("kiva1", self.unit)
         self.assert_near("storage_unit1", self.unit)
+        self.send(self.move, MoveGoal(1, *self.street))
+        self.ended(self.move, GoalStatus.SUCCEEDED)
+
+    def test_the_servers_live_on_when_time_goes_back(self):
+        wait_until(lambda: rospy.get_time() > 1, "time that can go back")
+        rospy.ServiceProxy("/gazebo/reset_simulation", Empty)()
+        status = Listener("/warehouse/move/status", GoalStatusArray)
+        status.until(lambda _: len(status.messages) > 2)  # the first of them is the latched one
+        status.close()
         self.send(self.move, MoveGoal(1, *self.street))
         self.ended(self.move, GoalStatus.SUCCEEDED)
 

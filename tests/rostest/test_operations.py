@@ -56,6 +56,7 @@ class Operations(unittest.TestCase):
     def setUp(self):
         self.events = Listener("/warehouse/order_events", OrderEvent)
         rospy.wait_for_service("/warehouse/submit_order", LONG)
+        wait_until(self.events.connections, "whoever tells of orders", LONG)
 
     def tearDown(self):
         self.events.close()

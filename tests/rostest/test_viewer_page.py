@@ -76,6 +76,8 @@ class ViewerPage(PageTest):
 
     def test_a_click_selects_and_another_sends(self):
         x, y, _ = place("kiva1")
+        shown = f"Math.hypot(page.world.shown[0] - {x}, page.world.shown[1] - {y}) < 0.01"
+        self.page.until(shown)  # it is drawn where it stands
         self.page.click(x, y, 0.4)
         self.page.until("page.selected === 'kiva1'")
         # Off its street's end, where nothing stands between the camera and the floor.

@@ -98,6 +98,36 @@ TEST(Arrays, MoveAFleetAsBulletDoes) {
   EXPECT_GT(arrays.w.count(Event::Kind::kLifted), 3);
 }
 
+TEST(Arrays, CruiseWhileTheySpeedUpBrakeAndTurn) {
+  for (const bool loaded : {false, true}) {
+    Warehouse w;
+    w.spawn("kiva", "kiva1", 0, 0);
+    if (loaded) {
+      w.spawnText(unitOfMass(300), "storage_unit1", 0, 0);
+      w.carry(1, 1);
+      w.runUntilIdle(1);
+    }
+    const auto& cruising = insideOf(w.world).fleet.cruising;
+    const auto share = [&](double seconds) {
+      int steps = 0, cruised = 0;
+      w.run(seconds, [&] {
+        ++steps;
+        cruised += cruising[0] != 0;
+      });
+      return static_cast<double>(cruised) / steps;
+    };
+    w.rot(1, kLeft);
+    EXPECT_GT(share(0.6), 0.9) << "turning";
+    w.runUntilIdle(1);
+    EXPECT_NEAR(w.yaw(1), kQuarter, 1e-9);
+    w.movy(1, 3);
+    EXPECT_GT(share(1.4), 0.9) << "speeding up";
+    EXPECT_GT(share(1.8), 0.9) << "braking";
+    w.runUntilIdle(1);
+    EXPECT_NEAR(w.y(1), 3, 1e-9);
+  }
+}
+
 /// A loose box of 5 kg.
 std::string parcel(double edge) {
   const std::string e = std::to_string(edge), size = e + " " + e + " " + e;

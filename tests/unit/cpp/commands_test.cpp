@@ -395,9 +395,12 @@ TEST(Grid, WithoutAWorldPluginIsOfOneMetre) {
   EXPECT_EQ(World(empty).gridSpacing(), 1.0);
 }
 
-TEST(Grid, RefusesASpacingThatIsNone) {
-  EXPECT_THROW(Warehouse(Floorplan{20, 0}), DescriptionError);
-  EXPECT_THROW(Warehouse(Floorplan{20, -1}), DescriptionError);
+TEST(Grid, IsOfOneMetreWhereItsSpacingIsNone) {
+  for (const double spacing : {0, -1}) {
+    Warehouse w(Floorplan{20, spacing});
+    EXPECT_EQ(w.world.gridSpacing(), 1.0);
+    EXPECT_EQ(w.world.takeWarnings().size(), 1u);
+  }
 }
 
 }  // namespace

@@ -125,6 +125,47 @@ TEST(CorpusDetails, FaultsCostNothingElse) {
   EXPECT_EQ(model(world, "wrapped").links[0].name, "own");
 }
 
+/// Well-formed, but nothing that can stand in a world: it is left out by the world, not its file.
+TEST(CorpusDetails, MisfitsCostNothingElse) {
+  const std::string box =
+      "<link name='l'><collision name='c'><geometry><box><size>1 1 1</size></box></geometry>"
+      "</collision></link>";
+  const std::string text =
+      "<sdf version='1.6'><world name='w'>\n"
+      "<model name='a::b'>" +
+      box +
+      "</model>\n"
+      "<model name='far'><pose>1e9 0 0 0 0 0</pose>" +
+      box +
+      "</model>\n"
+      "<include><uri>model://kiva</uri></include>\n"
+      "<model name='kiva7'><link name='l'/><plugin name='m' "
+      "filename='libkiva_motion.so'/></model>\n"
+      "<model name='kiva8'>" +
+      box +
+      "<plugin name='m' filename='libkiva_motion.so'>"
+      "<sped>1</sped></plugin></model>\n"
+      "<plugin name='g' filename='libkiva_grid.so'><spacing>0</spacing></plugin>\n"
+      "<include><uri>model://kiva</uri><name>kiva1</name></include>\n"
+      "<model name='box'><pose>9 0 0.5 0 0 0</pose>" +
+      box + "</model></world></sdf>";
+  Warehouse w(parseWorld(text, kPaths, "their.world"));
+  EXPECT_EQ(w.world.modelNames(), (std::vector<std::string>{"kiva1", "box"}));
+  EXPECT_EQ(w.world.gridSpacing(), 1);
+  const char* const expected[] = {"model 'a::b': '::' can't be part of a name",
+                                  "model 'far': its pose must be finite and within 100 km",
+                                  "model 'kiva': a robot is called kiva<id>",
+                                  "model 'kiva7': a robot needs a collision shape",
+                                  "unknown parameter 'sped'",
+                                  "their.world:7: world 'w', plugin 'g': parameter 'spacing'"};
+  const std::vector<std::string> warnings = w.world.takeWarnings();
+  ASSERT_EQ(warnings.size(), std::size(expected));
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    EXPECT_PRED2(contains, warnings[i], "left out: ");
+    EXPECT_PRED2(contains, warnings[i], expected[i]);
+  }
+}
+
 TEST(CorpusDetails, JointsWeKnowAreThere) {
   EXPECT_EQ(model(load("joints"), "chain").joints.size(), 5u);
   EXPECT_EQ(model(load("joints"), "chain").links.size(), 10u);

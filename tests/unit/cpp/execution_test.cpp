@@ -260,6 +260,26 @@ TEST_F(ExecutionTest, ACellIsPassedOnAsSoonAsItWasLeftThoughTheNextMiddleIsStill
   EXPECT_EQ(execution_.holder(cell(1, 1)), second);
 }
 
+TEST_F(ExecutionTest, NobodyTurnsBesideALoadThatIsShortOfTheMiddleOfItsCell) {
+  const int first = add(1, 1), second = add(0, 1);
+  reports_[first].is_loaded = true;
+  observe();
+  std::vector<Action> around{Action::kWait, Action::kForward, Action::kTurnPositive,
+                             Action::kForward};
+  around.resize(8, Action::kWait);
+  plan({straight(4), around});
+  for (const Message& message : release()) deliver(message);
+  robots_[first].is_stopped = true;
+  robots_[first].x = 1.95;
+  robots_[first].left = 1;
+  for (int i = 0; i < 30; ++i) tick();
+  EXPECT_EQ(execution_.released(second), std::vector<Cell>{cell(1, 1)});
+  robots_[first].x = 2;
+  robots_[first].reached = 2;
+  tick();
+  EXPECT_EQ(execution_.released(second).back(), cell(1, 2));
+}
+
 TEST_F(ExecutionTest, OneThatHasBecomeBusySinceItsReportIsNotSentOn) {
   add(1, 1);
   observe();

@@ -87,17 +87,20 @@ class Triangles {
 /// angles.
 class Scene {
  public:
-  explicit Scene(unsigned seed) : random_(seed) {
+  explicit Scene(unsigned seed, const std::string& robot = modelText("kiva")) : random_(seed) {
     for (int cell = 0; cell < kSide * kSide; ++cell) cells_.push_back(cell);
     std::shuffle(cells_.begin(), cells_.end(), random_);
     for (int i = 1; i <= 12; ++i) {
       const std::string number = std::to_string(i), laden = std::to_string(i + 12);
-      for (const char* kind : {"kiva", "storage_unit", "conveyor_belt", "wall", "person"}) {
+      for (const char* kind : {"storage_unit", "conveyor_belt", "wall", "person"}) {
         const Pose at = place();
         w.spawn(kind, kind + number, at.X(), at.Y(), at.Rot().Yaw());
       }
-      const Pose at = place();
-      w.spawn("kiva", "kiva" + laden, at.X(), at.Y(), at.Rot().Yaw());
+      for (const std::string& id : {number, laden}) {
+        const Pose at = place();
+        w.spawnText(robot, "kiva" + id, at.X(), at.Y(), at.Rot().Yaw());
+      }
+      const Pose at = w.world.state("kiva" + laden)->pose;
       w.spawn("storage_unit", "storage_unit" + laden, at.X(), at.Y(), at.Rot().Yaw());
       w.carry(i + 12, i + 12);
     }
@@ -186,6 +189,52 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
   EXPECT_GT(rays, 100000);
   EXPECT_GT(hits, 30000);
   EXPECT_LT(edges, rays / 5000);
+}
+
+/// Compares each range of a robot's scan with that of its ray alone. Returns how many met anything.
+int compareScan(const Warehouse& w, int id) {
+  const Robot& robot = w.robot(id);
+  const LaserParameters& laser = robot.laser;
+  const EntityState at = *w.world.state(robot.name);
+  const double yaw = at.pose.Rot().Yaw();
+  const Vector3 ahead(std::cos(yaw), std::sin(yaw), 0);
+  const Vector3 from = at.pose.Pos() + ahead * laser.x + Vector3(0, 0, laser.z);
+  std::vector<float> ranges;
+  w.world.scan(w.index(id), &ranges);
+  int hits = 0;
+  for (int k = 0; k < laser.rays; ++k) {
+    const double turn =
+        laser.min_angle + (laser.max_angle - laser.min_angle) * k / std::max(1, laser.rays - 1);
+    // At an edge what is a rounding error aside counts as well.
+    const auto isSeen = [&](double aside) {
+      const double ray = w.world.rayCast(from, yaw + turn + aside, laser.max_range, robot.name);
+      const bool is_near = ray < laser.min_range;
+      return is_near ? ranges[k] == -kInfinity
+                     : ranges[k] == ray || std::abs(ranges[k] - ray) < 1e-5;
+    };
+    EXPECT_TRUE(isSeen(0) || isSeen(1e-9) || isSeen(-1e-9))
+        << robot.name << ", ray " << k << ": " << ranges[k] << ", alone "
+        << w.world.rayCast(from, yaw + turn, laser.max_range, robot.name);
+    hits += std::isfinite(ranges[k]);
+  }
+  return hits;
+}
+
+TEST(Laser, ScansWhatItsRaysMeetOneByOne) {
+  const Changes lasers[] = {
+      {},  // 120° ahead
+      {{"min_angle", "-3.14159265358979"}, {"max_angle", "3.14159265358979"}, {"rays", "721"}},
+      {{"min_angle", "0.3"}, {"max_angle", "3"}, {"rays", "50"}, {"z", "0.05"}},
+      {{"min_angle", "-1"}, {"max_angle", "-1"}, {"rays", "1"}, {"x", "0.1"}}};
+  int hits = 0;
+  unsigned seed = 0;
+  for (const Changes& laser : lasers) {
+    for (int round = 0; round < 3; ++round) {
+      Scene scene(++seed, kivaText(laser));
+      for (int id = 1; id <= 24; ++id) hits += compareScan(scene.w, id);
+    }
+  }
+  EXPECT_GT(hits, 10000);
 }
 
 // --- round and tilted shapes, against what their own equations say

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
 #include "kiva_plugin_cpp/world_file.h"
+#include "warehouse.h"
 
 namespace kiva {
 namespace {
@@ -117,6 +119,10 @@ const std::map<std::string, Loss> kWarnings = {
      {0,
       {":5: world 'w', gravity: this gravity is left out: '0 0 down' is no value for <gravity>; "
        "expected three numbers"}}},
+    {"gravity_huge",
+     {0,
+      {":5: world 'w', gravity: this gravity is left out: expected a gravity of 1000 m/s² at "
+       "most"}}},
     {"heightmap",
      {1,
       {":9:" + kGeometry + "/heightmap" + kNoCollision + "<heightmap> is not supported; " +
@@ -150,16 +156,26 @@ const std::map<std::string, Loss> kWarnings = {
        "joints of type 'screw' are not supported; expected fixed, revolute, continuous, prismatic "
        "or ball"}}},
     {"mass_nan",
-     {1, {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found nan" + kKilogram}}},
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found nan" +
+       kKilogram}}},
+    {"mass_huge",
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found 1e308" +
+       kKilogram}}},
     {"mass_negative",
-     {1, {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found -1" + kKilogram}}},
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found -1" +
+       kKilogram}}},
     {"mass_text",
      {1,
       {":8:" + kLink +
        ", inertial/mass: this mass is left out: 'heavy' is no value for <mass>; expected a "
        "number"}}},
     {"mass_zero",
-     {1, {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, found 0" + kKilogram}}},
+     {1,
+      {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found 0" +
+       kKilogram}}},
     {"mesh",
      {1, {":9:" + kGeometry + "/mesh" + kNoCollision + "there is no mesh 'model://m/m.dae'"}}},
     {"nested_include_missing", {1, {":8: world 'w', model 'm', include/uri" + kNowhere}}},
@@ -235,12 +251,12 @@ const std::map<std::string, Loss> kWarnings = {
        "true or false"}}},
     {"step_size",
      {0,
-      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size above 0 "
-       "s"}}},
+      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size from 1e-6 "
+       "to 1 s"}}},
     {"step_size_infinite",
      {0,
-      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size above 0 "
-       "s"}}},
+      {":5: world 'w', physics 'p': this physics is left out: expected a max_step_size from 1e-6 "
+       "to 1 s"}}},
     {"transparency",
      {1,
       {":8:" + kLink +
@@ -318,6 +334,38 @@ TEST(WorldFileWarnings, EndWhenTheMissingModelComes) {
   EXPECT_EQ(nestedModels(), 0u);
   fs::copy(fs::path(kModels) / "item", folder / "late", fs::copy_options::recursive);
   EXPECT_EQ(nestedModels(), 1u);
+  fs::remove_all(folder);
+}
+
+/// libsdformat would end the process at some of them.
+TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
+  const fs::path folder = fs::temp_directory_path() / ("config_" + std::to_string(getpid()));
+  fs::create_directories(folder / "m");
+  std::ofstream(folder / "m" / "model.sdf")
+      << "<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>";
+  const std::map<std::string, std::string> faults = {
+      {"<model/>", "expected a <name>"},
+      {"<model><sdf>model.sdf</sdf></model>", "expected a <name>"},
+      {"<model><sdf version='1.6'/></model>", "expected a <name>"},
+      {"<model><sdf version='99'>model.sdf</sdf></model>", "expected a <name>"},
+      {"<model><name>m</name><sdf version='1.x'>model.sdf</sdf></model>", "'1.x' is no number"},
+      {"<model><sdf version='1.6'>model.sdf</sdf></model>", ""},
+      {"<model><name>m</name><sdf>model.sdf</sdf></model>", ""}};
+  const std::string include = "<include><uri>model://m</uri></include>";
+  const std::string wrapped = "<model name='o'><link name='l'/>" + include + "</model>";
+  for (const auto& [config, fault] : faults) {
+    SCOPED_TRACE(config);
+    std::ofstream(folder / "m" / "model.config") << config;
+    for (const std::string& part : {include, wrapped}) {
+      std::vector<std::string> warnings;
+      parseWorld("<sdf version='1.6'><world name='w'>" + part + "</world></sdf>", {folder.string()},
+                 "text", &warnings);
+      if (fault.empty()) continue;
+      ASSERT_EQ(warnings.size(), 1u);
+      EXPECT_PRED2(test::contains, warnings[0], "m/model.config:1: ");
+      EXPECT_PRED2(test::contains, warnings[0], fault);
+    }
+  }
   fs::remove_all(folder);
 }
 

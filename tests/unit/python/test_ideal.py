@@ -6,8 +6,9 @@ import pytest
 from operations_site import site
 
 from warehouse_fleet.ideal import IdealFleet
+from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.transports import STAY, Kind
-from warehouse_fleet.travel import Kinematics, Travel
+from warehouse_fleet.travel import Travel
 
 
 def run(fleet, until):

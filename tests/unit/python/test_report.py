@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from instance_file import write_instance
 
+from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.operations import Settings, comparison, report, runs, sweep
 from warehouse_fleet.operations.kpis import upper_bound
 from warehouse_fleet.operations.simulation import Description, simulate
-from warehouse_fleet.travel import Kinematics
 
 NODES = Path(__file__).resolve().parents[3] / "src" / "warehouse_fleet" / "nodes"
 KPIS = re.findall(

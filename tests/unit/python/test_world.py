@@ -206,6 +206,41 @@ def test_a_world_file_that_is_wrong_names_its_line():
         World(worlds / "invalid_no_world.sdf")
 
 
+def test_what_a_world_leaves_out_is_a_warning(tmp_path):
+    file = tmp_path / "their.world"
+    file.write_text(
+        '<sdf version="1.6"><world name="w">\n'
+        '<plugin name="p" filename="libnowhere.so"/>\n'
+        "<include><uri>model://kiva</uri></include>\n"
+        "<include><uri>model://wall</uri></include></world></sdf>"
+    )
+    with pytest.warns(UserWarning) as warnings:
+        assert World(file).names == ["wall"]
+    told = "\n".join(str(warning.message) for warning in warnings)
+    assert "libnowhere.so" in told
+    assert "left out: model 'kiva': a robot is called kiva<id>" in told
+
+
+def test_models_of_a_world_that_are_called_like_ours_are_no_robots(tmp_path):
+    (tmp_path / "kiva").mkdir()
+    (tmp_path / "kiva" / "model.config").write_text(
+        '<model><name>kiva</name><sdf version="1.6">model.sdf</sdf></model>'
+    )
+    (tmp_path / "kiva" / "model.sdf").write_text(
+        '<sdf version="1.6"><model name="kiva"><static>1</static><link name="l"/></model></sdf>'
+    )
+    file = tmp_path / "their.world"
+    file.write_text(
+        '<sdf version="1.6"><world name="w"><include><uri>model://kiva</uri></include>'
+        "</world></sdf>"
+    )
+    world = World(file, model_paths=[tmp_path])
+    assert world.names == ["kiva"]
+    world.spawn_model("kiva", "kiva1", 0, 0)
+    assert world.fleet.kiva_id.tolist() == [1]
+    assert len(World.preset("small", model_paths=[tmp_path]).fleet.kiva_id) == 4
+
+
 # --- views
 
 

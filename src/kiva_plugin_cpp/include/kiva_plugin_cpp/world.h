@@ -139,8 +139,13 @@ struct WorldOptions {
   std::optional<Drive> drive;  ///< Overrides the drive model that the robots' files name.
   /// Every robot is a Bullet body at all times, slowly: the reference that the arrays are held to.
   bool always_in_bullet = false;
+  /// On which robots are stepped, look ahead and scan, with the same result however many there are;
+  /// 1 to kMostThreads. A checkpoint keeps to those of the world that restores it.
+  int threads = 1;
   PluginFactory plugins;  ///< Asked before libraries are looked for.
 };
+
+constexpr int kMostThreads = 256;
 
 class World {
  public:
@@ -249,6 +254,8 @@ class World {
   // --- sensing
   /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117).
   void scan(int robot, std::vector<float>* ranges) const;
+  /// The same of several robots that have lasers, a row each, on the world's threads.
+  void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;
   /// Robots whose scan is due at this step, in the fleet's order; scans are staggered over the
   /// fleet. Valid until the next step or until a robot is removed.
   const std::vector<int>& scansDue() const;

@@ -15,6 +15,7 @@ import sys
 from enum import IntEnum
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 _built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
 if _built and not set(_built) & set(EXTENSION_SUFFIXES):
@@ -111,6 +112,11 @@ def worlds_folder():
     return next((place for place in places if place.is_dir()), places[-1])
 
 
+def _ours(text):
+    """SDF that includes models of worlds/models, whatever else is called like them."""
+    return text.replace("model://", escape(f"file://{worlds_folder()}/models/"))
+
+
 def _find(world):
     tried = [Path(world), worlds_folder() / world, worlds_folder() / f"{world}.sdf"]
     for path in tried:
@@ -123,13 +129,15 @@ class World(_core.World):
     """A simulated warehouse, from an SDF world file: its path, or its name in worlds/.
 
     seed: of everything random. drive: "traction" or "jointed" instead of what the robots' models
-    say. model_paths: folders in which to look for `model://` before the project's own.
-    FileNotFoundError, or DescriptionError that names file, line and what is wrong.
+    say. model_paths: folders in which to look for `model://` before the project's own. threads: on
+    which a large fleet is stepped and scans, with the same result however many; 1 to 256.
+    What is faulty in it is left out with a warning. FileNotFoundError, or DescriptionError that
+    names file, line and what is wrong where no world would be left.
     """
 
-    def __init__(self, world="empty", *, seed=1, drive="", model_paths=()):
+    def __init__(self, world="empty", *, seed=1, drive="", model_paths=(), threads=1):
         models = [*map(str, model_paths), str(worlds_folder() / "models")]
-        super().__init__(str(_find(world)), False, models, seed, drive)
+        super().__init__(str(_find(world)), False, models, seed, drive, threads)
 
     @classmethod
     def preset(cls, name, **options):
@@ -151,7 +159,7 @@ class World(_core.World):
         plan = layout.plan(wanted, options.get("seed", layout.SEED))
         world = cls(**options)
         world.delete(models.FLOOR)
-        world.spawn(models.document(models.of_layout(plan)))
+        world.spawn(_ours(models.document(models.of_layout(plan))))
         world.events()
         return world
 
@@ -181,7 +189,7 @@ class World(_core.World):
         """
         include = f"<include><uri>model://{model}</uri><name>{name}</name></include>"
         text = f'<sdf version="1.9"><world name="models">{include}</world></sdf>'
-        return self.spawn(text, name, (x, y, z, yaw))[0]
+        return self.spawn(_ours(text), name, (x, y, z, yaw))[0]
 
     def carry(self, kiva_id, shelf_id):
         """Carry that storage unit. Arguments and errors as of mov()."""

@@ -99,6 +99,7 @@ class World:
         seed: int = 1,
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
     ) -> None: ...
     @classmethod
     def preset(
@@ -109,6 +110,7 @@ class World:
         seed: int = 1,
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
     ) -> World: ...
     @classmethod
     def create(
@@ -122,6 +124,7 @@ class World:
         seed: int = 1,
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
     ) -> World: ...
     @property
     def fleet(self) -> Fleet: ...

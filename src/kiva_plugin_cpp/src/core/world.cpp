@@ -33,16 +33,33 @@ constexpr double kMostStep = 1;                       // [s]
 constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
 constexpr double kLeastMoment = 1e-12;                // [kg m²]
 constexpr double kMostArm = 1000;                     // [m]
+constexpr int kScansTogether = 8;                     // on one thread
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-void loadWorldPlugins(WorldState& world, const std::vector<PluginDescription>& plugins) {
-  for (const PluginDescription& plugin : plugins) {
-    if (plugin.filename == kGridPlugin) {
-      world.grid_spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
-      plugin.parameters.rejectUnread();
-    } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
-      world.world_plugins.push_back(std::move(own));
-      world.world_plugin_descriptions.push_back(plugin);
-    }
+const WorldOptions& checked(const WorldOptions& options) {
+  if (options.threads >= 1 && options.threads <= kMostThreads) return options;
+  throw std::invalid_argument("threads is " + std::to_string(options.threads) + "; 1 to " +
+                              std::to_string(kMostThreads) + " was expected");
+}
+
+/// A faulty part of a world costs that part and a warning.
+template <typename Add>
+void addOrLeaveOut(WorldState& world, Add add) {
+  try {
+    add();
+  } catch (const DescriptionError& error) {
+    world.warn(error.what(), std::string("left out: ") + error.what());
+  }
+}
+
+void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
+  if (plugin.filename == kGridPlugin) {
+    const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
+    plugin.parameters.rejectUnread();
+    world.grid_spacing = spacing;
+  } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
+    world.world_plugins.push_back(std::move(own));
+    world.world_plugin_descriptions.push_back(plugin);
   }
 }
 
@@ -95,12 +112,16 @@ void beginAnew(WorldState& world) {
 }  // namespace
 
 World::World(const WorldDescription& description, const WorldOptions& options)
-    : state_(std::make_unique<WorldState>(description, options)) {
+    : state_(std::make_unique<WorldState>(description, checked(options))) {
   state_->owner = this;
   state_->fleet_plugins = makeFleetPlugins();
   for (const Light& light : description.lights) setLight(light);
-  spawn(description.models);
-  loadWorldPlugins(*state_, description.plugins);
+  for (const ModelInstance& model : description.models) {
+    addOrLeaveOut(*state_, [&] { spawn(model); });
+  }
+  for (const PluginDescription& plugin : description.plugins) {
+    addOrLeaveOut(*state_, [&] { loadWorldPlugin(*state_, plugin); });
+  }
 }
 
 World::~World() = default;
@@ -377,14 +398,22 @@ const Floor& World::floor() const { return state_->floor; }
 double World::gridSpacing() const { return state_->grid_spacing; }
 
 void World::scan(int robot, std::vector<float>* ranges) const {
-  std::vector<RayHit> hits;
-  castScan(*state_, robot, &hits);
-  const double nearest = state_->fleet.robots[robot].laser.min_range;
-  ranges->resize(hits.size());
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    (*ranges)[i] = hits[i].range < nearest ? -std::numeric_limits<float>::infinity()
-                                           : static_cast<float>(hits[i].range);
+  static thread_local FanHits hits;
+  const LaserParameters& laser = state_->fleet.robots[robot].laser;
+  castRays(*state_, robot, {laser.max_range, kInfinity}, &hits);
+  ranges->assign(laser.rays, static_cast<float>(kInfinity));
+  for (int ray = hits.first; ray <= hits.last; ++ray) {
+    if (hits.model[ray] < 0) continue;
+    const double range = hits.range[ray];
+    (*ranges)[ray] = static_cast<float>(range < laser.min_range ? -kInfinity : range);
   }
+}
+
+void World::scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const {
+  ranges->resize(robots.size());
+  state_->workers->share(static_cast<int>(robots.size()), kScansTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) scan(robots[k], &(*ranges)[k]);
+  });
 }
 
 const std::vector<int>& World::scansDue() const { return state_->scans_due; }
@@ -411,6 +440,8 @@ void World::restore(const std::string& checkpoint) {
   const std::vector<PluginState> before = savePlugins(*state_);
   next.world->owner = this;
   next.world->options.plugins = state_->options.plugins;
+  next.world->options.threads = state_->options.threads;
+  next.world->workers = state_->workers;
   next.world->warned = state_->warned;
   next.world->fleet_plugins = makeFleetPlugins();
   next.world->models_revision = state_->models_revision + 1;

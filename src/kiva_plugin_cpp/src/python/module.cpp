@@ -41,9 +41,10 @@ void warn(const std::vector<std::string>& warnings) {
 }
 
 HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
-                 std::uint64_t seed, const std::string& drive) {
+                 std::uint64_t seed, const std::string& drive, int threads) {
   WorldOptions options;
   options.seed = seed;
+  options.threads = threads;
   options.drive = driveOf(drive);
   std::vector<std::string> warnings;
   HostPtr host;
@@ -54,6 +55,7 @@ HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std:
                                   options, models);
   }
   warn(warnings);
+  warn(host->world.takeWarnings());
   return host;
 }
 
@@ -295,15 +297,18 @@ std::vector<int> robotsOf(const Host& host, const py::object& kiva_id) {
 
 /// One row a robot, filled up with NaN.
 void scanInto(Host& host, const std::vector<int>& robots, std::size_t rays) {
-  std::vector<float> ranges;
-  for (std::size_t row = 0; row < robots.size(); ++row) {
-    float* const out = host.ranges.data() + row * rays;
-    ranges.clear();
-    if (host.world.fleet().robots[robots[row]].laser.fitted) {
-      host.world.scan(robots[row], &ranges);
-    }
-    std::fill(std::copy(ranges.begin(), ranges.end(), out), out + rays,
-              std::numeric_limits<float>::quiet_NaN());
+  std::vector<int> fitted;
+  for (int robot : robots) {
+    if (host.world.fleet().robots[robot].laser.fitted) fitted.push_back(robot);
+  }
+  std::vector<std::vector<float>> ranges;
+  host.world.scan(fitted, &ranges);
+  std::fill(host.ranges.begin(), host.ranges.end(), std::numeric_limits<float>::quiet_NaN());
+  std::size_t next = 0;  // of those that scan
+  for (std::size_t row = 0; row < robots.size() && next < fitted.size(); ++row) {
+    if (robots[row] != fitted[next]) continue;
+    std::copy(ranges[next].begin(), ranges[next].end(), host.ranges.data() + row * rays);
+    ++next;
   }
 }
 
@@ -558,7 +563,7 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
   world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"));
+            py::arg("seed"), py::arg("drive"), py::arg("threads"));
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 

@@ -3,11 +3,13 @@
 
 #include <ros/package.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace kiva_ros {
 namespace {
@@ -101,6 +103,14 @@ std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string&
   refuse(node, name, XmlRpc::XmlRpcValue(drive), "traction, jointed or nothing");
 }
 
+/// The rest of the machine sends what the world tells.
+int threads(const ros::NodeHandle& node) {
+  const auto asked = static_cast<int>(
+      wholeNumber(node, "threads", 0, kiva::kMostThreads, "a whole number from 0 to 256"));
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  return asked > 0 ? asked : std::clamp(cores - 1, 1, kiva::kMostThreads);
+}
+
 /// Where the worlds of package warehouse_sim are: in the source tree, or where it was installed.
 std::string packagedWorlds() {
   const std::string package = ros::package::getPath("warehouse_sim");
@@ -155,6 +165,7 @@ Settings readSettings(const ros::NodeHandle& node) {
   const std::string whole = "a whole number, 0 or more,";
   out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));
   out.world.drive = drive(node, "drive");
+  out.world.threads = threads(node);
   out.lockstep = flag(node, "lockstep");
   out.autosave =
       static_cast<int>(wholeNumber(node, "autosave", 0, 1e5, "a whole number from 0 to 100000"));

@@ -25,6 +25,8 @@ namespace kiva_ros {
 ///                            the world file says
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say
+///   ~threads                 on which a large fleet is stepped, looks ahead and scans; default 0:
+///                            the machine's cores but one. The result is the same
 ///   ~lockstep                true: time advances by ~step alone; default false
 ///   ~autosave                how many checkpoints to keep for /warehouse/undo, one a simulated
 ///                            second; default 0: only that before the last reset

@@ -97,7 +97,7 @@ IncludeGraph::Cost IncludeGraph::follow(const std::string& uri) {
     open_.erase(file);
   } catch (const SdfError& error) {
     open_.erase(file);
-    cost.fault = describe(error.error(), file.empty() ? place : file);
+    cost.fault = describe(error.error(), file.empty() ? place + "/model.config" : file);
   } catch (const std::exception& error) {
     open_.erase(file);
     cost.fault = error.what();

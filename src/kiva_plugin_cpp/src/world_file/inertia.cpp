@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/inertia.h"
 
-#include <cmath>
-
 #include "world_file/errors.h"
 
 namespace kiva {
@@ -10,12 +8,17 @@ namespace {
 
 using ignition::math::MassMatrix3d;
 
-bool isMass(double mass) { return std::isfinite(mass) && mass > 0; }
+// Beyond, impulses are no finite numbers any more.
+constexpr double kMostMass = 1e9;     // [kg]
+constexpr double kMostMoment = 1e12;  // [kg m²]
+
+bool isMass(double mass) { return mass > 0 && mass <= kMostMass; }
 
 /// A body's moments are positive, and none exceeds the sum of the other two.
 bool isPossible(const MassMatrix3d& inertia) {
   return inertia.DiagonalMoments().IsFinite() && inertia.OffDiagonalMoments().IsFinite() &&
-         inertia.PrincipalMoments().Min() > 0 && inertia.IsValid();
+         inertia.PrincipalMoments().Min() > 0 && inertia.PrincipalMoments().Max() <= kMostMoment &&
+         inertia.IsValid();
 }
 
 bool hasPossibleMoments(const sdf::ElementPtr& inertial) {
@@ -37,7 +40,7 @@ void repairInertial(const sdf::ElementPtr& link, sdf::Errors* warnings) {
   if (!inertial) return;
   if (!isMass(inertial->Get<double>("mass", 1.0).first)) {
     warnings->push_back(
-        noteAt(inertial->FindElement("mass"), "expected a mass above 0 kg, found " +
+        noteAt(inertial->FindElement("mass"), "expected a mass above 0 kg, 1e9 at most, found " +
                                                   inertial->Get<std::string>("mass") +
                                                   "; this link has 1 kg and 1 kg m² instead"));
     link->RemoveChild(inertial);

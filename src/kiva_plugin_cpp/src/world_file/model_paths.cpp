@@ -2,9 +2,12 @@
 #include "world_file/model_paths.h"
 
 #include <filesystem>
+#include <regex>
 #include <sdf/parser.hh>
 
 #include "world_file/errors.h"
+#include "world_file/files.h"
+#include "world_file/xml.h"
 
 namespace kiva {
 namespace {
@@ -34,6 +37,28 @@ std::string absolutePath(const std::string& uri) {
 bool isModel(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path / "model.config", ignored) || fs::is_regular_file(path, ignored);
+}
+
+/// libsdformat 12 ends the process where it wants to tell the name of a model that has none, and
+/// throws a bare "stoi" at versions that are no numbers. Throws SdfError before it comes to that.
+void checkConfig(const std::string& file) {
+  static const std::regex kVersion("[0-9]{0,4}(\\.[0-9]{1,4}){0,2}");
+  const auto document = parseXml(readText(file, kMostBytes));
+  const XmlElement* const model = document->FirstChildElement("model");
+  if (!model) return;
+  const XmlElement* sdf = model->FirstChildElement("sdf");
+  bool has_all = sdf != nullptr;
+  for (; sdf; sdf = sdf->NextSiblingElement("sdf")) {
+    const std::string version = attributeOf(*sdf, "version");
+    if (!std::regex_match(version, kVersion)) {
+      throw SdfError(noteAt(*sdf, "version '" + version + "' is no number"));
+    }
+    has_all = has_all && !contentOf(sdf).empty() && sdf->Attribute("version") &&
+              std::atof(version.c_str()) <= std::atof(SDF_VERSION);
+  }
+  if (!has_all && !model->FirstChildElement("name")) {
+    throw SdfError(noteAt(*model, "expected a <name>, and an <sdf> with a version, in <model>"));
+  }
 }
 
 }  // namespace
@@ -80,6 +105,7 @@ std::string leftOut(const std::string& uri, const ModelPaths& paths) {
 
 std::string modelFile(const std::string& folder) {
   if (!fs::is_directory(folder)) return folder;
+  checkConfig((fs::path(folder) / "model.config").string());
   ConsoleCapture console;
   const std::string file = sdf::getModelFilePath(folder);
   sdf::Errors warnings;

@@ -23,6 +23,10 @@
 namespace kiva {
 namespace {
 
+// What World::setStepSize and World::setGravity take.
+constexpr double kLeastStep = 1e-6, kMostStep = 1;  // [s]
+constexpr double kMostGravity = 1000;               // [m/s²]
+
 /// What libsdformat's part of a text came to.
 struct ParsedText {
   bool is_world = false;
@@ -45,8 +49,8 @@ void addModel(const sdf::Model& model, const Origin& origin, std::vector<ModelIn
 
 void setPhysics(const sdf::Physics& from, WorldDescription* world) {
   const double step = from.MaxStepSize(), factor = from.RealTimeFactor();
-  if (!std::isfinite(step) || step <= 0) {
-    failAt(from.Element(), "expected a max_step_size above 0 s");
+  if (!(step >= kLeastStep && step <= kMostStep)) {
+    failAt(from.Element(), "expected a max_step_size from 1e-6 to 1 s");
   }
   if (!std::isfinite(factor) || factor < 0) {
     failAt(from.Element(), "expected a real_time_factor of 0 or above");
@@ -56,7 +60,9 @@ void setPhysics(const sdf::Physics& from, WorldDescription* world) {
 }
 
 void setGravity(const sdf::World& from, WorldDescription* world) {
-  if (!from.Gravity().IsFinite()) failAt(from.Element(), "expected a finite gravity");
+  if (!(from.Gravity().Length() <= kMostGravity)) {
+    failAt(from.Element()->FindElement("gravity"), "expected a gravity of 1000 m/s² at most");
+  }
   world->gravity = from.Gravity();
 }
 

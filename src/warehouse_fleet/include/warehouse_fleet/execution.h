@@ -135,6 +135,7 @@ class Execution {
     double sent = 0;            ///< when a release was sent last [s]
     std::vector<Cell> cells;    ///< points 0 to released - 1; where it stands if there is no path
     int reached = 1, left = 0;
+    bool is_short = false;       ///< of the middle of the last of those that it reached
     std::vector<Step> plan;      ///< beyond those
     int committed = 0;           ///< cells that it had before it when the plan was asked for
     std::vector<Cell> granted;   ///< what it was released since then
@@ -179,6 +180,7 @@ class Execution {
   bool mayHave(int robot, Cell cell);
   bool needs(int robot) const;
   bool mayTurn(int robot) const;
+  bool keepsFromTurning(int robot, Cell in, Cell from) const;
   void extend(int robot);
   void recentre(int robot);
   bool isAtEnd(int robot) const;

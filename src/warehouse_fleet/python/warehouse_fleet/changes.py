@@ -3,7 +3,7 @@
 
 
 class ChangeJournal:
-    """Passes all that a shift writes down on to another Journal, and remembers what it was about."""
+    """Passes what a shift writes down on to another Journal, and remembers what it was about."""
 
     def __init__(self, journal):
         self._journal = journal

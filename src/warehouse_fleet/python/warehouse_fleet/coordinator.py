@@ -16,7 +16,7 @@ from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Motion, Traffic
+from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
 from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
@@ -243,8 +243,7 @@ class Coordinator:
         """Whether this is the warehouse that the plan is of; looks at it anew if not."""
         if None in (self._scenery, self._objects, self._units):
             return False
-        min_x, _, max_x, _ = self._scenery.floor
-        if max_x <= min_x or not len(report.kiva_id):
+        if not len(report.kiva_id):
             return False  # the warehouse is still to be built
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
@@ -286,7 +285,10 @@ class Coordinator:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
         try:
-            plan = FloorPlan.of_messages(_map(), self._scenery)
+            grid = _map()
+            if not grid.data:
+                return  # the floor is being built
+            plan = FloorPlan.of_messages(grid, self._scenery)
             plan.check(obstructed=False)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
@@ -297,17 +299,15 @@ class Coordinator:
         self._traffic = Traffic(
             plan,
             report.kiva_id,
-            Motion(latency=LATENCY),
             seed=self._seed,
             planner=self._planner,
+            latency=LATENCY,
             lag=0.05,
         )
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
         self._abandoned = list(self._ledger)
-        self._transports = Transports(
-            plan, self._traffic, {}, self._send_lift, last=self._ledger.last
-        )
+        self._transports = Transports(plan, self._traffic, self._send_lift, last=self._ledger.last)
         self._see_units()
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)

@@ -9,7 +9,7 @@ driver.step_until(3600)
 import numpy as np
 
 from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_fleet.traffic import NOWHERE, STAYS, Traffic
+from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
 
 UPDATE = 0.1  # between two releases [s]
@@ -23,12 +23,13 @@ class FleetDriver:
     something else than driving go to `events`, if that is a list.
     """
 
-    def __init__(self, world, seed=1, planner=None, motion=None):
+    def __init__(self, world, seed=1, planner=None, kinematics=None):
         self.world = world
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
-        self.traffic = Traffic(self.plan, world.fleet.kiva_id, motion, seed, planner)
-        self.transports = Transports(self.plan, self.traffic, self._cells_of_units(), self._lift)
+        self.traffic = Traffic(self.plan, world.fleet.kiva_id, kinematics, seed, planner)
+        self.transports = Transports(self.plan, self.traffic, self._lift)
+        self._see_units()
         self.traffic.loaded[:] = world.fleet.shelf_id != 0
         for cell in np.flatnonzero(self.plan.obstructed):
             self.traffic.shut(int(cell), STAYS)
@@ -82,12 +83,6 @@ class FleetDriver:
         """Goes on until that simulated time [s]."""
         while self.world.time < time - 1e-9:
             self.step()
-
-    def _cells_of_units(self):
-        units = self.world.storage_units
-        cells = self.plan.cell_of(units["x"], units["y"])
-        cells = np.where(units["kiva_id"] == 0, cells, NOWHERE)
-        return dict(zip(units["shelf_id"].tolist(), cells.tolist()))
 
     def _see_units(self):
         """Takes in where units stand, when somebody else may have moved some."""

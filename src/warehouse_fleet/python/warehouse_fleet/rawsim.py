@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.operations.shift import Settings
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.stations import PICK, REPLENISH, STEPS, Station
-from warehouse_fleet.travel import Kinematics
 
 PIECE = 5.0  # mean weight of a piece, in the unit of a pod's capacity
 BIN = 100.0  # capacity of a pod that one bin stands for

@@ -13,7 +13,6 @@ released.
 import collections
 import concurrent.futures
 import time as clock
-from dataclasses import dataclass
 from enum import IntEnum
 from types import SimpleNamespace
 
@@ -22,6 +21,7 @@ import numpy as np
 from warehouse_fleet import Execution, Rules, epibt
 from warehouse_fleet.door import PlanRefusedError, make_planner
 from warehouse_fleet.floor_plan import is_taken
+from warehouse_fleet.kinematics import Kinematics
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
@@ -47,29 +47,31 @@ class Mode(IntEnum):
     OUT_OF_SERVICE = 2
 
 
-@dataclass(frozen=True)
-class Motion:
-    """What robots can do. The defaults are those of the Kiva."""
-
-    speed: float = 1.5  # [m/s]
-    acceleration: float = 1.0  # [m/s²]
-    quarter: float = 0.625  # of a turn [s]
-    latency: float = 0.25  # from a report to what is released for it [s]
-
-
 class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
     work: it stays), `mode`, `gone` (it was deleted). `planner` is what a YAML file says of one, see
-    warehouse_fleet.door; None: the one of the house. A plan is begun every tick on a thread of its
+    warehouse_fleet.door; None: the one of the house. `latency` [s] passes from a report until what
+    is released for it has reached the robot. A plan is begun every tick on a thread of its
     own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
     machine.
     """
 
-    def __init__(self, plan, kiva_ids, motion=None, seed=1, planner=None, attempts=0, lag=0.1):
+    def __init__(
+        self,
+        plan,
+        kiva_ids,
+        kinematics=None,
+        seed=1,
+        planner=None,
+        *,
+        latency=0.25,
+        attempts=0,
+        lag=0.1,
+    ):
         self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
-        self.motion = motion or Motion()
+        kinematics = kinematics or Kinematics()
         self.floor = plan.floor()
         # Whose turn it is to turn, Execution decides: robots turn when they may drive on.
         rules = Rules(turning=True)
@@ -81,7 +83,7 @@ class Traffic:
         self.refused_plans = 0
         self.alarm = ""  # why the last plan was refused
         self.attempts, self.lag = attempts, lag
-        self.tick = plan.spacing / self.motion.speed
+        self.tick = plan.spacing / kinematics.speed
         count = len(self.kiva_ids)
         self.goal = np.full(count, NOWHERE, np.int32)
         self.home = np.full(count, NOWHERE, np.int32)
@@ -107,10 +109,10 @@ class Traffic:
             self.floor,
             origin=plan.origin,
             spacing=plan.spacing,
-            speed=self.motion.speed,
-            acceleration=self.motion.acceleration,
-            quarter=self.motion.quarter,
-            latency=self.motion.latency,
+            speed=kinematics.speed,
+            acceleration=kinematics.acceleration,
+            quarter=kinematics.quarter_turn,
+            latency=latency,
         )
         self._after = {}  # the next cell of a lane, by cell
         for station in plan.stations:

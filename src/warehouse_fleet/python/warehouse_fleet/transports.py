@@ -113,23 +113,23 @@ def _urgency(transport):
 class Transports:
     """All transports and who does them.
 
-    `units` maps a unit's number to the storage cell where it stands. `lift(kiva_id, shelf_id,
-    up)` sends the command. Three decisions can be made by others: `match_robots(asked, free)`
-    yields pairs of a Transport of those `asked` for and a robot of the indices `free`;
-    `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that is in `cell`;
-    `park(robot)` is the cell for a robot that has no more work, or None: it waits where it is.
-    Transports get the numbers after `last`.
+    `lift(kiva_id, shelf_id, up)` sends the command. Three decisions can be made by others:
+    `match_robots(asked, free)` yields pairs of a Transport of those `asked` for and a robot of the
+    indices `free`; `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that
+    is in `cell`; `park(robot)` is the cell for a robot that has no more work, or None: it waits
+    where it is. Transports get the numbers after `last`. Nothing is known of units until look() is
+    told.
     """
 
-    def __init__(self, plan, traffic, units, lift, last=0):
+    def __init__(self, plan, traffic, lift, last=0):
         self.plan, self.traffic, self._lift = plan, traffic, lift
         self.match_robots, self.choose_place = self._nearest_robots, self._nearest_place
         self.park = lambda robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
         self.totals = Totals()
-        self.cell_of_unit = dict(units)  # of those that stand; NOWHERE: not on a storage place
-        self._unit_in = {cell: unit for unit, cell in self.cell_of_unit.items() if cell != NOWHERE}
+        self.cell_of_unit = {}  # NOWHERE: not in a cell, or carried
+        self._unit_in = {}  # those that stand, by cell
         self._places = np.flatnonzero(plan.storage)
         self._aside = (plan.storage | plan.parking).ravel()  # where nobody is in the way
         self._ready = []  # transports at step READY, in the order in which they came to it

@@ -229,6 +229,7 @@ void Execution::pass(int robot, int reached, int left) {
   Course& course = courses_[robot];
   const int points = static_cast<int>(course.cells.size());
   // Who has left a cell wholly is in the next one, before it comes to the middle of that.
+  course.is_short = left >= reached;
   reached = std::clamp(std::max(reached, left + 1), course.reached, points);
   for (int point = course.reached; point < reached; ++point) {
     const int heading = headingTo(course.cells[point - 1], course.cells[point]);
@@ -272,6 +273,7 @@ void Execution::finish(int robot) {
   course.reached = 1;
   course.left = 0;
   course.is_active = course.is_accepted = course.is_refused = course.is_withdrawn = false;
+  course.is_short = false;
   course.turning = kNowhere;
   course.blocked_since = -1;
 }
@@ -581,15 +583,23 @@ bool Execution::needs(int robot) const {
 /// Two side by side, one with a load, must not turn at once, and nobody is released around a corner
 /// before it comes to it.
 bool Execution::mayTurn(int robot) const {
-  const Course& course = courses_[robot];
+  const Cell tip = courses_[robot].cells.back();
   if (toGo(robot) > kTurnsSoon) return false;
   for (int heading = 0; heading < kHeadings; ++heading) {
-    const Cell beside = floor_.beside(course.cells.back(), heading);
+    const Cell beside = floor_.beside(tip, heading);
     const int other = beside == kNowhere ? kNobody : holder_[beside];
-    if (other == kNobody || other == robot || courses_[other].turning != beside) continue;
+    if (other == kNobody || other == robot || !keepsFromTurning(other, beside, tip)) continue;
     if (reports_[robot].is_loaded || reports_[other].is_loaded) return false;
   }
   return true;
+}
+
+/// Whether one in a cell turns there, or has just come there `from` the cell beside it: whoever
+/// turns in that would touch it, as long as it is short of the middle.
+bool Execution::keepsFromTurning(int robot, Cell in, Cell from) const {
+  const Course& course = courses_[robot];
+  if (course.turning == in) return true;
+  return course.is_short && course.at == in && course.cells[course.reached - 2] == from;
 }
 
 /// Points from `first` on, and what comes next by the plan.

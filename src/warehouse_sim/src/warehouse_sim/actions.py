@@ -110,6 +110,7 @@ class RobotActions:
                 ("/warehouse/carry", CarryAction, self._begin_carry),
             )
         ]
+        ros.set_param("~actionlib_status_frequency", 0)  # its timer ends when time goes back
         for server in self._servers:
             server.start()
 
@@ -132,6 +133,8 @@ class RobotActions:
                 act(what)
             except queue.Empty:
                 self._tell()
+                for server in self._servers:
+                    server.publish_status()
 
     # --- goals
     def _begin_move(self, handle):

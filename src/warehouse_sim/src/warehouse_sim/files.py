@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where the package's own files are, in the source tree or where it was installed; without ROS."""
 
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 _HERE = Path(__file__).resolve()
@@ -18,3 +19,9 @@ def share():
 def model(name):
     """The SDF file of one of worlds/models."""
     return share() / "worlds" / "models" / name / "model.sdf"
+
+
+def box_size(name):
+    """Edges of the one box that a model's collision is (x, y, z) [m]."""
+    size = ElementTree.parse(model(name)).findtext(".//collision/geometry/box/size")
+    return tuple(map(float, size.split()))

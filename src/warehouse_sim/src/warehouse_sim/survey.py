@@ -3,10 +3,10 @@
 
 from dataclasses import dataclass, field
 
-from warehouse_sim import models, routes
+from warehouse_sim import files, models, routes
 from warehouse_sim.cells import Cells
 
-BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
+BELT = files.box_size("conveyor_belt")[:2]  # length and width [m]
 
 
 @dataclass

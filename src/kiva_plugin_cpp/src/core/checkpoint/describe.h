@@ -450,8 +450,8 @@ void describe(A& a, Floor& f) {
 
 template <class A>
 void describe(A& a, WorldOptions& o) {
-  DESCRIBED(WorldOptions, 4);
-  FIELDS(o.seed, o.drive, o.always_in_bullet);  // the table of plugins stays the world's own
+  DESCRIBED(WorldOptions, 5);
+  FIELDS(o.seed, o.drive, o.always_in_bullet);  // plugins and threads stay the world's own
 }
 
 #undef DESCRIBED

@@ -139,6 +139,7 @@ void updateActivation(WorldState& world) {
     for (int i = 0; i < f.size(); ++i) activate(world, world.modelOf(i));
   }
   findSteppedSingly(world);
+  const std::size_t before = world.activated.size();
   const auto now = static_cast<double>(world.total_steps);
   for (int i : world.stepped_singly) {
     if (f.clear_until[i] <= now && isMoving(world, i)) lookAround(world, i);
@@ -148,8 +149,9 @@ void updateActivation(WorldState& world) {
   for (int slot : activated) {
     if (world.models[slot]->disturbed) lookAroundBody(world, *world.models[slot]);
   }
+  const bool has_more = world.activated.size() > before;
   release(world);
-  findSteppedSingly(world);  // who was activated has woken
+  if (has_more) findSteppedSingly(world);  // who was activated has woken
 }
 
 }  // namespace kiva

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/ray.h"
+#include "core/geometry/footprint_ray.h"
 #include "core/geometry/triangle_footprint.h"
 
 namespace kiva {
@@ -40,74 +40,6 @@ double gapToCircle(const Footprint& box, const Footprint& circle) {
   const double across = std::abs(-dx * box.s + dy * box.c) - box.hy;
   if (along < 0 || across < 0) return std::max(along, across) - circle.hx;
   return std::hypot(along, across) - circle.hx;
-}
-
-/// Distance along the ray (x, y) + t (dx, dy) to a circle, from outside or inside, or +inf.
-double castCircle(const Footprint& f, double radius, double x, double y, double dx, double dy) {
-  const double ox = x - f.x, oy = y - f.y;
-  const double b = ox * dx + oy * dy;
-  const double c = ox * ox + oy * oy - radius * radius;
-  const double discriminant = b * b - c;
-  if (discriminant < 0 || (c > 0 && b > 0)) return kInfinity;
-  return c > 0 ? -b - std::sqrt(discriminant) : -b + std::sqrt(discriminant);
-}
-
-/// The slab test (Kay and Kajiya 1986) in the box's own axes.
-double castBox(const Footprint& f, double x, double y, double dx, double dy) {
-  const double ox = x - f.x, oy = y - f.y;
-  const double px = ox * f.c + oy * f.s, py = -ox * f.s + oy * f.c;
-  const double vx = dx * f.c + dy * f.s, vy = -dx * f.s + dy * f.c;
-  double enter = -kInfinity, leave = kInfinity;
-  const double p[2] = {px, py}, v[2] = {vx, vy}, h[2] = {f.hx, f.hy};
-  for (int axis = 0; axis < 2; ++axis) {
-    if (v[axis] == 0) {
-      if (std::abs(p[axis]) > h[axis]) return kInfinity;
-      continue;
-    }
-    const double inverse = 1 / v[axis];
-    const double t0 = (-h[axis] - p[axis]) * inverse, t1 = (h[axis] - p[axis]) * inverse;
-    enter = std::max(enter, std::min(t0, t1));
-    leave = std::min(leave, std::max(t0, t1));
-  }
-  if (enter > leave || leave < 0) return kInfinity;
-  return enter >= 0 ? enter : leave;
-}
-
-double castSolid(const Footprint& f, double x, double y, double z, double dx, double dy) {
-  const double ox = x - f.x, oy = y - f.y, up = z - 0.5 * (f.z_min + f.z_max);
-  return f.solid->cast({ox * f.c + oy * f.s, -ox * f.s + oy * f.c, up},
-                       {dx * f.c + dy * f.s, -dx * f.s + dy * f.c, 0});
-}
-
-/// Bullet sees bodies from outside; from inside one looks back from the far end.
-double castHull(const btCollisionObject& body, const Vector3& from, const Vector3& direction,
-                double range) {
-  const double outside = castBody(body, from, direction, range);
-  if (outside < kInfinity) return outside;
-  const double back = castBody(body, from + direction * range, -direction, range);
-  return back < kInfinity ? range - back : kInfinity;
-}
-
-double castOne(const Footprint& f, double x, double y, double z, double dx, double dy,
-               double range) {
-  switch (f.kind) {
-    case Footprint::Kind::kBox:
-      return castBox(f, x, y, dx, dy);
-    case Footprint::Kind::kCircle:
-      return castCircle(f, f.hx, x, y, dx, dy);
-    case Footprint::Kind::kSphere: {
-      const double up = z - 0.5 * (f.z_min + f.z_max);
-      return castCircle(f, std::sqrt(std::max(0.0, f.hx * f.hx - up * up)), x, y, dx, dy);
-    }
-    case Footprint::Kind::kTriangle:
-      return castTriangle(*f.triangle, x, y, z, dx, dy);
-    case Footprint::Kind::kOther:
-      if (f.solid) return castSolid(f, x, y, z, dx, dy);
-      // What has no body now, as a unit that nobody is near, is seen as its circle.
-      if (!f.body) return castCircle(f, f.hx, x, y, dx, dy);
-      return castHull(*f.body, {x, y, z}, {dx, dy, 0}, range);
-  }
-  return kInfinity;
 }
 
 }  // namespace
@@ -324,8 +256,8 @@ void Obstacles::castMover(int robot, double x, double y, double z, double dx, do
   if (std::abs(across) > radius || along < -radius || along - radius > hit->range) return;
   for (const Footprint& f : footprints(robot)) {
     if (z < f.z_min || z > f.z_max) continue;
-    const double t = castOne(f, x, y, z, dx, dy, hit->range);
-    if (t < hit->range) *hit = {t, f.model};
+    const double t = castFootprint(f, x, y, z, dx, dy, hit->range);
+    hit->meet(t, f.model);
   }
 }
 
@@ -339,8 +271,8 @@ RayHit Obstacles::cast(double x, double y, double z, double dx, double dy, doubl
     }
     const Footprint& f = entries_[handle].footprint;
     if (z < f.z_min || z > f.z_max || (group >= 0 && f.group == group)) return;
-    const double t = castOne(f, x, y, z, dx, dy, range);
-    if (t < hit.range) hit = {t, f.model};
+    const double t = castFootprint(f, x, y, z, dx, dy, range);
+    hit.meet(t, f.model);
   };
   for (int handle : everywhere_) test(handle);
 

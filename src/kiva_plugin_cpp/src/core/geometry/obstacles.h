@@ -4,12 +4,14 @@
 // It answers two questions quickly: what is near, and what does a horizontal ray meet.
 #pragma once
 
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/geometry/footprint.h"
+#include "core/geometry/ray_fan.h"
 #include "kiva_plugin_cpp/fleet.h"
 
 namespace kiva {
@@ -27,6 +29,12 @@ inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b)
 struct RayHit {
   double range = 0;  ///< [m]; +inf = nothing
   int model = -1;
+  /// Something is at that distance: the nearest counts, of several as near the first model, so that
+  /// it is the same in whatever order they come.
+  void meet(double distance, int other) {
+    const bool is_nearer = distance < range || (distance == range && model >= 0 && other < model);
+    if (is_nearer) *this = {distance, other};
+  }
 };
 
 /// A robot and what it carries are a mover: footprints that move as one with it. They are indexed
@@ -57,8 +65,7 @@ class Obstacles {
   /// In world, now.
   const std::vector<Footprint>& footprints(int robot) const;
 
-  /// Calls visit(footprint) for each one whose box lies within `reach` [m] of (x, y), once or more
-  /// often each.
+  /// Calls visit(footprint) for each one whose box lies within `reach` [m] of (x, y).
   template <typename Visit>
   void near(double x, double y, double reach, Visit visit) const {
     const auto see = [&](const Footprint& footprint) {
@@ -79,27 +86,18 @@ class Obstacles {
   /// mover.
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
-    const auto ask = [&](int handle) {
+    return anyHandle({x - reach, x + reach, y - reach, y + reach}, [&](int handle) {
       return handle >= 0 ? meets(entries_[handle].footprint)
                          : approaches(~handle, radius_[~handle]);
-    };
-    const Range r = range(x - reach, x + reach, y - reach, y + reach);
-    for (int cy = r.y0; cy <= r.y1; ++cy) {
-      for (int cx = r.x0; cx <= r.x1; ++cx) {
-        for (int handle : cells_[cell(cx, cy)]) {
-          if (ask(handle)) return true;
-        }
-      }
-    }
-    for (int handle : everywhere_) {
-      if (ask(handle)) return true;
-    }
-    return false;
+    });
   }
 
   /// The first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but for
   /// those of `group`: of what it begins in, the inside.
   RayHit cast(double x, double y, double z, double dx, double dy, double range, int group) const;
+  /// The same for the rays of a fan.
+  void cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
+            FanHits* hits) const;
 
  private:
   struct Range {  // of cells, inclusive
@@ -129,6 +127,26 @@ class Obstacles {
     mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
   };
 
+  /// Whether ask(handle) is true for any that is indexed in a cell of that box, asked once each.
+  template <typename Ask>
+  bool anyHandle(const Box& box, Ask ask) const {
+    const Range r = range(box);
+    for (int cy = r.y0; cy <= r.y1; ++cy) {
+      for (int cx = r.x0; cx <= r.x1; ++cx) {
+        for (int handle : cells_[cell(cx, cy)]) {
+          // In the first of its cells that is one of these.
+          const Range& own = placeOf(handle).range;
+          const bool is_first = cx == std::max(own.x0, r.x0) && cy == std::max(own.y0, r.y0);
+          if (is_first && ask(handle)) return true;
+        }
+      }
+    }
+    return std::any_of(everywhere_.begin(), everywhere_.end(), ask);
+  }
+
+  const Place& placeOf(int handle) const {
+    return handle >= 0 ? entries_[handle].place : movers_[~handle].place;
+  }
   static Box boxOf(const Footprint& footprint);
   Box boxOfMover(int robot) const;
   Range range(double min_x, double max_x, double min_y, double max_y) const;

@@ -44,7 +44,9 @@ void checkPose(const Model& model) {
 
 Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   const Bounds box = bounds(description);
-  if (box.empty()) throw DescriptionError("a robot needs a collision shape");
+  if (box.empty()) {
+    throw DescriptionError("model '" + robot->name + "': a robot needs a collision shape");
+  }
   const double reach_x = std::max(box.max.X(), -box.min.X());
   const double reach_y = std::max(box.max.Y(), -box.min.Y());
   robot->half_length = reach_x;

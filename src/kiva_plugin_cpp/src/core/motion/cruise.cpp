@@ -11,8 +11,6 @@
 namespace kiva {
 namespace {
 
-constexpr double kMargin = 2;  // of force to spare: a profile's last steps are uneven
-
 /// Whether the chassis is just as fast as its reference says.
 bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
   const double v = f.reference_speed[i];
@@ -20,18 +18,39 @@ bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
          isExact(f.yaw_rate[i] - per.yaw * v);
 }
 
-bool hasForce(const Robot& robot, const ReferenceMotion& per, double deceleration,
-              const Ground& ground) {
-  if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
-  if (per.acceleration == 0) return false;
-  const double hardest = kMargin * std::max(per.acceleration, deceleration);
-  const Vehicle vehicle = vehicleOf(robot, ground);
-  if (per.yaw == 0) return hardest < std::min(drivingLimit(vehicle), brakingLimit(vehicle));
-  return std::max(turningEffort(vehicle, hardest, per.top_speed),
-                  turningEffort(vehicle, -hardest, per.top_speed)) < 1;
+/// Of the reference, from now to its goal, at most.
+double peakSpeed(const FleetState& f, int i, const ReferenceMotion& per) {
+  const double way = std::abs(f.goal[i] - f.reference[i]), v = f.reference_speed[i];
+  const double peak = std::sqrt(v * v / 2 + per.acceleration * way);
+  return std::min(per.top_speed, std::max(std::abs(v), peak));
 }
 
-constexpr int kBlock = 16;  // robots that are stepped together
+bool hasForce(const FleetState& f, int i, const ReferenceMotion& per, const Ground& ground) {
+  const Robot& robot = f.robots[i];
+  if (robot.drive.acceleration == 0) return true;  // grip and motors are without limit
+  if (per.acceleration == 0) return false;
+  const double hardest = std::max(per.acceleration, f.deceleration[i]);
+  const Vehicle vehicle = vehicleOf(robot, ground);
+  if (per.yaw == 0) return hardest < std::min(drivingLimit(vehicle), brakingLimit(vehicle));
+  const double peak = peakSpeed(f, i, per);
+  return std::max(turningEffort(vehicle, hardest, peak), turningEffort(vehicle, -hardest, peak)) <
+         1;
+}
+
+/// What a reference with an acceleration leaves of its way to the robot's motors [m, rad]: its last
+/// steps, which are uneven.
+inline double endOf(double acceleration, double deceleration, double speed, double dt) {
+  const double end = std::abs(speed) * dt + deceleration * dt * dt;
+  return acceleration > 0 ? end : 0.0;
+}
+
+bool hasEnded(const FleetState& f, int i, double dt) {
+  return std::abs(f.goal[i] - f.reference[i]) <=
+         endOf(f.acceleration[i], f.deceleration[i], f.reference_speed[i], dt);
+}
+
+constexpr int kBlock = 16;           // robots that are stepped together
+constexpr int kBlocksTogether = 64;  // on one thread: less is not worth waking another
 
 /// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
 /// reference has ended, or step `now` is the one that it waits for.
@@ -83,7 +102,8 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
     yaw_rate[i] = cruises ? per_yaw[i] * v : was_yaw_rate;
     left_speed[i] = cruises ? per_left[i] * v : was_left;
     right_speed[i] = cruises ? per_right[i] * v : was_right;
-    const std::int64_t ended = profile.position == goal[i] ? -1 : 0;
+    const double end = endOf(acceleration[i], deceleration[i], v, dt);
+    const std::int64_t ended = std::abs(goal[i] - profile.position) <= end ? -1 : 0;
     const std::int64_t due = until[i] <= now ? -1 : 0;
     attention |= cruises & (ended | due);
   }
@@ -114,11 +134,33 @@ void planAttention(WorldState& world, int i, double after) {
 
 void attend(WorldState& world, int i, double now) {
   FleetState& f = world.fleet;
-  const bool ended = f.reference[i] == f.goal[i];
+  const bool ended = hasEnded(f, i, world.dt);
   if (!ended && f.attend_at[i] > now) return;
   if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) return moved(f, i);
   planAttention(world, i, now);
+}
+
+enum : char { kNeedsALook = 1, kCarries = 2 };
+
+/// One step of those of block `b` that cruise; tells what is to be done for it then.
+char advanceBlock(FleetState& f, int b, double dt, double now) {
+  const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
+  std::int64_t any = 0, loaded = 0;
+  for (int i = begin; i < end; ++i) {
+    any |= f.cruising[i];
+    loaded |= f.cruising[i] & (f.unit[i] >= 0);
+  }
+  if (any == 0) return 0;
+  const bool needs_a_look = advance(f, begin, end, dt, now);
+  return static_cast<char>((needs_a_look ? kNeedsALook : 0) | (loaded ? kCarries : 0));
+}
+
+void attendBlock(WorldState& world, int b, double now) {
+  const int begin = b * kBlock, end = std::min(begin + kBlock, world.fleet.size());
+  for (int i = begin; i < end; ++i) {
+    if (world.fleet.cruising[i] != 0) attend(world, i, now);
+  }
 }
 
 }  // namespace
@@ -126,10 +168,12 @@ void attend(WorldState& world, int i, double now) {
 bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
+  const double way = std::abs(f.goal[i] - f.reference[i]);
+  const double end = endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.dt);
   if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
-      f.reference[i] == f.goal[i] || (f.tower[i] > 0 && f.unit[i] < 0) ||
+      way <= end || (f.tower[i] > 0 && f.unit[i] < 0) ||
       std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
-      !keepsUp(f, i, per) || !hasForce(r, per, f.deceleration[i], groundOf(world))) {
+      !keepsUp(f, i, per) || !hasForce(f, i, per, groundOf(world))) {
     return false;
   }
   const double turn = per.yaw * r.drive.wheel_separation / 2;
@@ -165,20 +209,17 @@ void setGoal(WorldState& world, int i, double goal) {
 void cruise(WorldState& world) {
   FleetState& f = world.fleet;
   const auto next = static_cast<double>(world.total_steps + 1);
-  bool any_loaded = false;
-  for (int begin = 0; begin < f.size(); begin += kBlock) {
-    const int end = std::min(begin + kBlock, f.size());
-    std::int64_t any = 0;
-    for (int i = begin; i < end; ++i) {
-      any |= f.cruising[i];
-      any_loaded |= f.cruising[i] != 0 && f.unit[i] >= 0;
-    }
-    if (any == 0 || !advance(f, begin, end, world.dt, next)) continue;
-    for (int i = begin; i < end; ++i) {
-      if (f.cruising[i] != 0) attend(world, i, next);
-    }
+  world.cruised.resize((f.size() + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<int>(world.cruised.size());
+  world.workers->share(blocks, kBlocksTogether, [&](int begin, int end) {
+    for (int b = begin; b < end; ++b) world.cruised[b] = advanceBlock(f, b, world.dt, next);
+  });
+  char any = 0;
+  for (int b = 0; b < blocks; ++b) {
+    any |= world.cruised[b];
+    if (world.cruised[b] & kNeedsALook) attendBlock(world, b, next);  // where all have gone
   }
-  if (any_loaded) world.unitsMoved();
+  if (any & kCarries) world.unitsMoved();
 }
 
 }  // namespace kiva

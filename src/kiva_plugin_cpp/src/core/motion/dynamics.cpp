@@ -10,7 +10,6 @@
 #include "core/motion/jointed.h"
 #include "core/motion/joints.h"
 #include "core/motion/traction.h"
-#include "core/sensing/look_ahead.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
 

@@ -7,6 +7,7 @@
 
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
@@ -17,6 +18,7 @@ constexpr double kSideMargin = 0.03;  // [m]
 // Kept to what stands or turns beyond a path's released end; a loaded robot that turns in the next
 // cell comes as near as 1 − 0.566 − 0.4 m.
 constexpr double kEndMargin = 0.02;  // [m]
+constexpr int kLooksTogether = 16;   // on one thread
 constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
 
 bool stops(const WorldState& world, int model, int robot) {
@@ -29,25 +31,27 @@ Sighting look(const WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const RayFan& fan = world.ray_fans[r.ray_fan];
   const double half = halfWidth(r) + kSideMargin;
-  static thread_local std::vector<RayHit> hits;
-  // A ray is of interest until it leaves the corridor.
+  static thread_local FanHits hits;
   Sighting seen;
   seen.taken = true;
   seen.along = alongSegment(world.fleet, robot);
   const double reach = reachOfInterest(world, robot) - seen.along - r.laser.x;
   const double farthest = std::min(r.laser.max_range, std::hypot(std::max(0.0, reach), half));
-  const auto limit = [&](int ray) {
-    return std::min(farthest, half / std::max(1e-9, std::abs(fan.s[ray])));
-  };
-  castRays(world, robot, limit, &hits);
+  // A ray is of interest until it leaves the corridor.
+  castRays(world, robot, {farthest, half}, &hits);
   seen.distance = std::numeric_limits<double>::infinity();
   int before = -1;  // what the ray before this one met
   double before_distance = 0;
-  for (int ray = 0; ray < r.laser.rays; ++ray) {
-    const RayHit& hit = hits[ray];
-    const int model = hit.model >= 0 && stops(world, hit.model, robot) ? hit.model : -1;
-    const double distance = r.laser.x + hit.range * fan.c[ray];
-    const bool faces = model == before && std::abs(distance - before_distance) < kFlat;
+  int stopping = -1, passed = -1;  // models of which that is known
+  for (int ray = hits.first; ray <= hits.last; ++ray) {
+    int model = static_cast<int>(hits.model[ray]);
+    if (model >= 0 && model != stopping) {
+      if (model != passed) (stops(world, model, robot) ? stopping : passed) = model;
+      if (model != stopping) model = -1;
+    }
+    const double distance = r.laser.x + hits.range[ray] * fan.c[ray];
+    const bool faces =
+        model >= 0 && model == before && std::abs(distance - before_distance) < kFlat;
     if (model >= 0 && distance < seen.distance) {
       seen.distance = distance;
       seen.model = model;
@@ -67,30 +71,32 @@ bool isOnGuard(const FleetState& f, int robot) {
          !task.segments.front().reverse;
 }
 
-void watch(WorldState& world, int robot) {
+/// It looks in this step.
+void alert(WorldState& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   task.last_sighting = task.sighting;
-  task.sighting = look(world, robot);
+  task.sighting.taken = true;
   world.sighted.push_back(robot);
 }
 
 }  // namespace
 
 void lookAhead(WorldState& world) {
-  const FleetState& f = world.fleet;
+  FleetState& f = world.fleet;
   world.sighted.clear();
   for (int i : world.scans_due) {
-    if (isOnGuard(f, i)) watch(world, i);
+    if (isOnGuard(f, i)) alert(world, i);
   }
   for (int i : world.stepped_singly) {
-    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) watch(world, i);
+    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) alert(world, i);
   }
-}
-
-double alongSegment(const FleetState& f, int i) {
-  const MotionSegment& segment = f.tasks[i].segments.front();
-  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
-         std::sin(segment.yaw) * (f.y[i] - segment.y);
+  const auto robots = static_cast<int>(world.sighted.size());
+  world.workers->share(robots, kLooksTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const int i = world.sighted[k];
+      f.tasks[i].sighting = look(world, i);
+    }
+  });
 }
 
 double reachOfInterest(const WorldState& world, int robot) {

@@ -14,9 +14,6 @@ void lookAhead(WorldState& world);
 /// Whether the robot, standing or turning at (x, y), would touch anything.
 bool isFree(const WorldState& world, int robot, double x, double y);
 
-/// Along its segment, seen from where that is measured from [m].
-double alongSegment(const FleetState& fleet, int robot);
-
 /// How far along its segment something is in the robot's way: on a path up to what it takes to
 /// stand at the end of the run as it is released [m]; +inf = wherever it is.
 double reachOfInterest(const WorldState& world, int robot);

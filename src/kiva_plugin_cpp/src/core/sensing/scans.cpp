@@ -72,10 +72,11 @@ void setRays(WorldState& world, Robot* robot) {
   const auto at = std::find_if(world.ray_fans.begin(), world.ray_fans.end(), same);
   robot->ray_fan = static_cast<int>(at - world.ray_fans.begin());
   if (at != world.ray_fans.end()) return;
-  RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}};
+  RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}, {}};
   for (int ray = 0; ray < laser.rays; ++ray) {
     fan.c.push_back(std::cos(rayAngle(laser, ray)));
     fan.s.push_back(std::sin(rayAngle(laser, ray)));
+    fan.per_aside.push_back(1 / std::max(1e-9, std::abs(fan.s.back())));
   }
   world.ray_fans.push_back(std::move(fan));
 }
@@ -87,10 +88,9 @@ Sensor sensorOf(const WorldState& world, int robot) {
   return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.z + laser.z, c, s};
 }
 
-void castScan(const WorldState& world, int robot, std::vector<RayHit>* hits) {
-  const double range = world.fleet.robots[robot].laser.max_range;
-  castRays(
-      world, robot, [range](int) { return range; }, hits);
+void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits) {
+  const RayFan& fan = world.ray_fans[world.fleet.robots[robot].ray_fan];
+  world.obstacles.cast(fan, sensorOf(world, robot), reach, robot, hits);
 }
 
 }  // namespace kiva

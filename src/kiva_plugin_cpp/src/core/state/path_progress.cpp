@@ -70,6 +70,12 @@ MotionSegment nextSegment(const WorldState& world, int robot) {
   return faces_it ? driveAlong(world, path, heading) : turnTo(heading);
 }
 
+double alongSegment(const FleetState& f, int i) {
+  const MotionSegment& segment = f.tasks[i].segments.front();
+  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
+         std::sin(segment.yaw) * (f.y[i] - segment.y);
+}
+
 double alongRun(const Task& task, std::uint32_t point) { return onRun(task, point).along; }
 
 void countPoints(WorldState& world, int robot, double along) {

@@ -11,6 +11,8 @@ namespace kiva {
 /// that one, or the drive to the run's end.
 MotionSegment nextSegment(const WorldState& world, int robot);
 
+/// Where the robot is along its segment, seen from where that is measured from [m].
+double alongSegment(const FleetState& fleet, int robot);
 /// Where a point of the path lies along the present run, seen from its origin [m].
 double alongRun(const Task& task, std::uint32_t point);
 /// Counts what the robot has come to and left, its centre being `along` the present run [m].

@@ -16,7 +16,8 @@ WorldState::WorldState(const WorldDescription& description, const WorldOptions& 
       gravity(description.gravity),
       options(world_options),
       dt(description.step_size),
-      physics(description.gravity) {}
+      physics(description.gravity),
+      workers(std::make_shared<Workers>(options.threads)) {}
 
 WorldState::~WorldState() {
   for (auto& model : models) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a world in one place. The rooms above this one are functions over it, in the order
-// in which World::step calls them; none includes one that stands behind it here:
+// The state of a world in one place. The rooms above this one are functions over it; none includes
+// one that stands behind it here, which scripts/check_includes holds them to:
+//   sensing     scans, and what lies ahead
 //   motion      wheels on the floor, references that are followed, until when a way is free
 //   contact     who is stepped by Bullet and who in arrays, collisions, forces from outside
 //   models      what comes and goes: robots, storage units, items, all else
-//   sensing     scans, and what lies ahead
 //   control     what robots are asked for, and what becomes of it
 //   checkpoint  all of it as bytes, and back
 #pragma once
@@ -22,6 +22,7 @@
 #include "core/physics/physics.h"
 #include "core/state/fleet_state.h"
 #include "core/state/model.h"
+#include "core/state/workers.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
@@ -41,13 +42,6 @@ struct TouchingPair {
 struct Crash {
   int kiva_id = 0;
   std::string with;  ///< A model's name.
-};
-
-/// Directions of a laser's rays in the frame of its robot, as (cos, sin).
-struct RayFan {
-  int rays = 0;
-  double min_angle = 0, max_angle = 0;  // [rad]
-  std::vector<double> c, s;
 };
 
 /// Robots whose scans have the same period, by the step within it.
@@ -108,10 +102,12 @@ struct WorldState {
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;
   std::vector<Contact> contacts;   // scratch
+  std::vector<char> cruised;       // scratch: what is to be done for each block of robots
   std::vector<int> sighted;        // robots whose lasers looked ahead in the last step
   std::vector<Crash> crashes;      // of the last step
   std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
+  std::shared_ptr<Workers> workers;
   std::vector<std::string> warnings;
   std::set<std::string> warned;
 

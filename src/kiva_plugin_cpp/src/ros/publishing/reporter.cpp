@@ -254,11 +254,15 @@ void Reporter::addTransforms(const kiva::World& world, Snapshot* out) const {
 }
 
 void Reporter::addScans(const kiva::World& world, Snapshot* out) const {
+  std::vector<int> heard;
   for (int i : world.scansDue()) {
     const int id = world.fleet().robots[i].id;
-    if (!std::binary_search(scan_ids_.begin(), scan_ids_.end(), id)) continue;
-    out->scans.push_back({id, {}});
-    world.scan(i, &out->scans.back().ranges);
+    if (std::binary_search(scan_ids_.begin(), scan_ids_.end(), id)) heard.push_back(i);
+  }
+  std::vector<std::vector<float>> ranges;
+  world.scan(heard, &ranges);
+  for (std::size_t k = 0; k < heard.size(); ++k) {
+    out->scans.push_back({world.fleet().robots[heard[k]].id, std::move(ranges[k])});
   }
 }
 

@@ -4,9 +4,9 @@
 from dataclasses import dataclass, field
 
 from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.operations.assortment import INITIAL_LEVEL
 from warehouse_fleet.operations.shift import Settings
-from warehouse_fleet.travel import Kinematics
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from warehouse_fleet.travel import Kinematics, Travel
+from warehouse_fleet.kinematics import Kinematics
+from warehouse_fleet.travel import Travel
 
 
 class Whereabouts:

@@ -6,16 +6,11 @@ from collections import Counter
 import numpy as np
 
 from warehouse_fleet.fleet_driver import UPDATE, FleetDriver
-from warehouse_fleet.traffic import Motion
 from warehouse_fleet.transport import Task
 from warehouse_fleet.travel import Travel
 
 STUCK = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
 ROUNDING = 1e-9  # [s]
-
-
-def _motion(kinematics):
-    return Motion(kinematics.speed, kinematics.acceleration, kinematics.quarter_turn)
 
 
 class WorldFleet:
@@ -24,7 +19,7 @@ class WorldFleet:
     def __init__(self, world, site, seed):
         self.world, self.plan, self.robots = world, site.plan, len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
-        self._driver = FleetDriver(world, seed=seed, motion=_motion(site.kinematics))
+        self._driver = FleetDriver(world, seed=seed, kinematics=site.kinematics)
         self.transports = self._driver.transports
         self._cells = self._driver.traffic.cell
         self._traffic, self._waiting = np.zeros((2, site.plan.passable.size))

@@ -119,8 +119,8 @@ class Short(Line):
 
 
 class Throughput(BaseModel):
-    """What the stations did in each interval of the last hour, the oldest first. They begin at whole
-    multiples of their length; the last one goes on."""
+    """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
+    whole multiples of their length; the last one goes on."""
 
     interval: float = Field(description="[s], simulated")
     begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A world is the same on however many threads it is stepped.
+#include <atomic>
+#include <random>
+
+#include "core/state/world_state.h"
+#include "warehouse.h"
+
+namespace kiva::test {
+namespace {
+
+constexpr int kRobots = 20, kUnits = 160;  // as in the preset `medium`
+constexpr double kTime = 60;               // [s]
+
+/// Robots, a third of them without a laser, and units close to one another, and random commands:
+/// many end in collisions.
+class Crowd {
+ public:
+  explicit Crowd(int threads) : w(plan(threads)) {
+    if (threads > 1) insideOf(w.world).workers->shareAll();
+    for (int i = 0; i < kUnits; ++i) {
+      w.spawn("storage_unit", "storage_unit" + std::to_string(i + 1), i % 16 - 8, i / 16 - 5);
+    }
+    const std::string sees = modelText("kiva"), blind = withoutPlugin(sees, "laser");
+    for (int i = 0; i < kRobots; ++i) {  // each under a unit, and commanded to carry that
+      const int unit = 8 * i;
+      w.spawnText(i % 3 ? sees : blind, "kiva" + std::to_string(i + 1), unit % 16 - 8,
+                  unit / 16 - 5);
+      if (i % 2) w.carry(i + 1, unit + 1);
+    }
+  }
+
+  /// The state, and what was seen, after the whole run.
+  std::uint64_t run() {
+    std::uint64_t seen = 0;
+    std::vector<std::vector<float>> ranges;
+    for (int command = 0; command < kTime * 10; ++command) {
+      post();
+      w.run(0.1, [&] {
+        w.world.scan(w.world.scansDue(), &ranges);
+        for (const auto& scan : ranges) {
+          for (float range : scan) seen = 31 * seen + std::hash<float>()(range);
+        }
+      });
+    }
+    return seen ^ w.world.stateHash();
+  }
+
+  Warehouse w;
+
+ private:
+  static Floorplan plan(int threads) {
+    Floorplan plan;
+    plan.size = 24;
+    plan.step = 0.005;
+    plan.options.threads = threads;
+    return plan;
+  }
+  int uniform(int from, int to) { return std::uniform_int_distribution<int>(from, to)(random_); }
+  void post() {
+    const int id = uniform(1, kRobots);
+    switch (uniform(0, 4)) {
+      case 0:
+        return w.rot(id, uniform(0, 1) ? 1 : -1);
+      case 1:
+        return w.movx(id, uniform(-5, 5));
+      case 2:
+        return w.movy(id, uniform(-5, 5));
+      case 3:
+        return w.carry(id, uniform(1, kUnits));
+      default:
+        return w.mov(id, uniform(-8, 8), uniform(-6, 6));
+    }
+  }
+
+  std::mt19937 random_{3};
+};
+
+TEST(Threads, ChangeNothingInACrowd) {
+  Crowd one(1);
+  const std::uint64_t expected = one.run();
+  EXPECT_GT(one.w.count(Event::Kind::kCollision), 10);
+  EXPECT_GT(one.w.count(Event::Kind::kDone), 50);
+  EXPECT_GT(one.w.count(Event::Kind::kBlocked), 10);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(Crowd(threads).run(), expected) << threads;
+}
+
+TEST(Threads, TakeEachTurnOnce) {
+  Workers workers(3);
+  std::vector<std::atomic<int>> turns(1000);
+  for (int round = 1; round <= 200; ++round) {
+    workers.share(static_cast<int>(turns.size()), 7, [&](int begin, int end) {
+      for (int k = begin; k < end; ++k) ++turns[k];
+    });
+    for (const auto& times : turns) ASSERT_EQ(times, round);
+  }
+}
+
+TEST(Threads, AreOfANumberThatThereCanBe) {
+  Floorplan plan;
+  for (const int threads : {0, -1, 257}) {
+    plan.options.threads = threads;
+    EXPECT_THROW(Warehouse w(plan), std::invalid_argument) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace kiva::test
