@@ -66,6 +66,8 @@ class Warehouse:
             self.start()
 
     def stop(self):
+        if not self.runs():
+            return
         processes = _descendants(self._launch.pid)
         self._launch.send_signal(signal.SIGINT)
         try:
@@ -113,7 +115,7 @@ def work(engine, warehouse, pieces):
     before, end = None, time.monotonic() + PATIENCE
     while before is None or _moved(engine) < before + pieces:
         before = _moved(engine) if before is None else before
-        assert warehouse.runs(), "the launch has ended"
+        assert warehouse.runs(), f"the launch has ended: {warehouse.folder}/launch.log"
         assert time.monotonic() < end, f"no {pieces} pieces in {PATIENCE} s"
         time.sleep(0.05)
 

@@ -168,6 +168,20 @@ def test_a_sweep_compares_and_goes_on_after_an_interruption(tmp_path, instance):
     assert (tmp_path / "results" / "report.html").read_text().count("<svg") >= 10
 
 
+def test_a_sweep_on_a_local_ray_cluster_is_the_same(tmp_path, instance):
+    pytest.importorskip("ray", reason="it needs pip install ray 'pydantic>=2'")
+    text = SWEEP.replace("seeds: 4", "seeds: 1").replace("minutes: 20", "minutes: 5")
+    hashes = []
+    for name, *options in (("here",), ("ray", "--ray")):
+        (tmp_path / f"{name}.yaml").write_text(text.replace("results", name))
+        done = node("sweep", tmp_path / f"{name}.yaml", *options)
+        assert done.returncode == 0, done.stderr
+        found, left = sweep.read(tmp_path / f"{name}.yaml").done()
+        assert len(found) == 2 and not left
+        hashes.append([run.kpis["state_hash"] for run in found])
+    assert hashes[0] == hashes[1]
+
+
 @pytest.mark.parametrize(
     "text, message",
     [

@@ -11,16 +11,24 @@ class RayExecutor(Executor):
     """A task of Ray for each call; address: "local" starts a cluster on this machine."""
 
     def __init__(self, address="local"):
-        ray.init(address=None if address == "local" else address, log_to_driver=False)
+        options = {"include_dashboard": False} if address == "local" else {"address": address}
+        ray.init(log_to_driver=False, **options)
+        self._threads = []
 
     def submit(self, function, /, *args, **kwargs):
         future = Future()
         future.set_running_or_notify_cancel()
         reference = ray.remote(function).remote(*args, **kwargs)
-        Thread(target=self._finish, args=(future, reference), daemon=True).start()
+        thread = Thread(target=self._finish, args=(future, reference), daemon=True)
+        thread.start()
+        self._threads.append(thread)
         return future
 
     def shutdown(self, wait=True, *, cancel_futures=False):
+        # A reference to a result that is dropped after ray.shutdown() ends the process.
+        for thread in self._threads:
+            thread.join()
+        self._threads.clear()
         ray.shutdown()
 
     @staticmethod
