@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo operate test test-long test-api test-sanitizers test-install build packages deps bench wheel lint format install clean
+.PHONY: help run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -33,12 +33,16 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
+	@scripts/learning_packages
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
 
 test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
-	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS); . devel/setup.bash; cd tests; \
-	exec /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py $(ARGS)
+	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
+	exec /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py unit/python/test_rawsim.py unit/python/test_kills.py $(ARGS)
+
+test-wheel: wheel  ## use the wheel in an environment with nothing else, with Stable-Baselines3 and Ray
+	@scripts/test-wheel $(ARGS)
 
 test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 	@scripts/fuzz_api $(ARGS)
@@ -64,7 +68,7 @@ deps:  ## install the Debian packages that are missing
 bench: build  ## run the benchmarks
 	@$(DEVEL) bench/run $(ARGS)
 
-wheel: packages  ## the world and its environments for Python without ROS, into dist/
+wheel: build  ## the world and its environments for Python without ROS, into dist/
 	@JOBS=$(JOBS) scripts/wheel
 
 lint: deps  ## check format and style

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Instance files in RAWSim-O's format: one-way streets around blocks two deep, picking stations on
-the right, replenishing stations on the left."""
+the right, replenishing stations on the left, with straight lanes or with halls and winding ones."""
 
+import itertools
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -18,11 +19,8 @@ def write_instance(
     """
     street_x = LANE + np.arange(blocks + 1) * (BLOCK + 1)
     street_y = np.arange(rows + 1) * 3
-    edges, storage, queues = {}, set(), {}
-
-    def join(a, b):
-        edges.setdefault(a, []).append(b)
-        edges.setdefault(b, [])
+    storage, queues = set(), {}
+    edges, join = _graph()
 
     for i, y in enumerate(street_y):
         for x in range(street_x[0], street_x[-1]):
@@ -51,13 +49,92 @@ def write_instance(
         back = [(x, y - 1) for x, _ in there[::-1]]
         queues["InputStation", k] = there[::-1]
         _chain(join, [(street_x[0], y), *there, *back, (street_x[0], y - 1)])
-
-    places = np.random.default_rng(3).permutation(sorted(storage))
-    pods = [tuple(place) for place in places[: int(filled * len(places))]]
-    number = {place: i for i, place in enumerate(sorted(edges))}
     lanes = {place for queue in queues.values() for place in queue}
     lanes |= {(x, y + 1) for (tag, _), q in queues.items() if tag[0] == "O" for x, y in q}
     lanes |= {(x, y - 1) for (tag, _), q in queues.items() if tag[0] == "I" for x, y in q}
+    return _write(path, edges, storage, queues, lanes, bots, spacing, filled, old)
+
+
+HALL, BUFFER, CROSSING = 2, 4, 4  # streets before the stations; cells before those; units a block
+
+
+def write_hall_instance(path, stations=2, blocks=5, bots=16, filled=0.85):
+    """As those of MaTi kind: so many picking and replenishing stations.
+
+    Their queues wind over three rows, with a way to cut them short; before them are a hall of two
+    streets, one up and one down, and a buffer of one-way rows. Robots stand in the streets at
+    first, and are slow: 0.5 m/s², 3 s a lift. blocks is odd, so that the outermost streets go
+    round.
+    """
+    rows = 6 * stations + 4
+    first = LANE + HALL + BUFFER  # the first street of the storage
+    street_x = first + np.arange(blocks + 1) * (CROSSING + 1)
+    right = street_x[-1] + 1 + BUFFER  # the hall there
+    storage, queues = set(), {}
+    edges, join = _graph()
+    for y in range(0, rows, 3):
+        _chain(join, _directed([(x, y) for x in range(street_x[0], street_x[-1] + 1)], y % 2 == 0))
+    for i, x in enumerate(street_x):
+        _chain(join, _directed([(x, y) for y in range(rows)], i % 2 == 1))
+    for x, y in itertools.product(range(street_x[0], street_x[-1]), range(rows)):
+        if x not in street_x and y % 3:
+            storage.add((x, y))
+    for x, y in storage:
+        for other in ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)):
+            join((x, y), other)
+            if other not in storage:
+                join(other, (x, y))
+    for y in range(rows):
+        for begin in (street_x[-1], first - BUFFER - 1):
+            way = [(x, y) for x in range(begin, begin + BUFFER + 2)]
+            _chain(join, _directed(way, y % 2 == 0))
+        join(*_directed([(right, y), (right + 1, y)], y % 2 == 0))
+        join(*_directed([(LANE, y), (LANE + 1, y)], y % 2 == 0))
+    for up, down in ((right + 1, right), (LANE + 1, LANE)):
+        _chain(join, [(up, y) for y in range(rows)])
+        _chain(join, [(down, y) for y in range(rows)][::-1])
+    lanes = set()
+    for k in range(stations):
+        bottom = 6 * k + 3
+        out = [(right + 2 + i, bottom) for i in range(LANE)]
+        rising = [[(x, bottom + j) for x, _ in out] for j in range(4)]
+        queue = [*rising[3], *rising[2][::-1], *rising[1]]
+        lane = [*queue, *out[::-1]]
+        _chain(join, [(right + 1, bottom + 3), *lane, (right + 1, bottom)])
+        join(rising[2][-1], rising[1][-1])
+        queues["OutputStation", k] = [out[-1], *queue[::-1]]
+        # The same turned by half a turn.
+        turned = [(LANE - 1 - (x - right - 2), rows - 1 - y) for x, y in lane]
+        entry, leave = rows - 1 - (bottom + 3), rows - 1 - bottom
+        _chain(join, [(LANE, entry), *turned, (LANE, leave)])
+        count = len(queue) + 1
+        queues["InputStation", k] = turned[:count][::-1]
+        lanes |= {*lane, *turned}
+    free = sorted(edges.keys() - storage - lanes)
+    starts = [free[i] for i in np.random.default_rng(4).permutation(len(free))[:bots]]
+    kind = {"MaxAcceleration": "0.5", "MaxDeceleration": "0.5", "PodTransferTime": "3"}
+    return _write(path, edges, storage, queues, lanes, starts, 1.0, filled, False, kind)
+
+
+def _graph():
+    edges = {}
+
+    def join(a, b):
+        edges.setdefault(a, []).append(b)
+        edges.setdefault(b, [])
+
+    return edges, join
+
+
+def _directed(way, ahead):
+    return way if ahead else way[::-1]
+
+
+def _write(path, edges, storage, queues, lanes, bots, spacing, filled, old, kind=None):
+    """bots: where they stand, or how many stand beneath the first pods."""
+    places = np.random.default_rng(3).permutation(sorted(storage))
+    pods = [tuple(place) for place in places[: int(filled * len(places))]]
+    number = {place: i for i, place in enumerate(sorted(edges))}
     own = {queue[0]: key for key, queue in queues.items()}
 
     root = ElementTree.Element("Instance", Name="test")
@@ -74,8 +151,9 @@ def write_instance(
 
     bot = {"PodTransferTime": "2.2", "MaxAcceleration": "1", "MaxDeceleration": "1"}
     bot |= {"MaxVelocity": "1.5", "TurnSpeed": "2.5", "Radius": "0.35", "Orientation": "0"}
-    for n in range(bots):
-        add("Bots", "Bot", n, pods[n], **bot)
+    bot |= kind or {}
+    for n, place in enumerate(pods[:bots] if isinstance(bots, int) else bots):
+        add("Bots", "Bot", n, place, **bot)
     for n, place in enumerate(pods):
         add("Pods", "Pod", n, place, Radius="0.4", Orientation="0", Capacity="500")
     for (tag, n), queue in queues.items():

@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from operations_site import site
 from postgres import server
@@ -347,6 +348,25 @@ def test_the_worlds_own_robots_work_and_repeat(tmp_path):
         assert check.faults(open_engine(tmp_path / name)) == []
         assert figures["items_picked"] > 60 and figures["collisions"] == 0
     assert hashes[0] == hashes[1]
+
+
+def test_policies_decide_for_simulated_robots():
+    """Robots go back to where they parked, and units to where they stood."""
+    chosen = {"idle": "park", "storage": "fixed", "robots": "balanced", "replenishment": "never"}
+    ops = Operations(World.preset("small"), orders="none", policies=chosen)
+    parked = np.column_stack([ops.fleet.world.fleet.x, ops.fleet.world.fleet.y])
+    for i in range(1, 9):
+        ops.shift.submit([(f"sku-{i}", 1)])
+    ops.run(minutes=8)
+    assert not ops.shift.orders and len(ops.shift.free_units) == len(ops.site.units)
+    now = np.column_stack([ops.fleet.world.fleet.x, ops.fleet.world.fleet.y])
+    assert np.allclose(now, parked, atol=0.05)
+    assert ops.shift.floor.cells == ops.site.units
+    lanes = {one.name: one.cells for one in ops.site.plan.stations}
+    passed = ops.fleet.traffic().ravel()
+    assert sum(passed[cells].min() for cells in lanes.values()) == ops.kpis()["trips"] > 0
+    assert ops.fleet.waiting_map().sum() > 0
+    ops.close()
 
 
 @pytest.mark.parametrize("seed", [2, 7, 15, 16])

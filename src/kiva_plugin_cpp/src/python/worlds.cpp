@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 
 #include "arrays.h"
 #include "core/motion/wheels.h"
@@ -94,12 +95,19 @@ class Worlds {
     }
   }
 
+  std::unique_lock<std::mutex> use() const {
+    std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock) throw std::runtime_error("the worlds are in use by another thread");
+    return lock;
+  }
+
   std::size_t size() const { return hosts_.size(); }
   unsigned threads() const { return crew_.threads(); }
 
   /// How many steps each world made: all, or, if `until_idle`, as many as it took.
   py::array_t<std::int64_t> step(std::int64_t steps, bool until_idle) {
     if (steps < 0) throw py::value_error("steps is " + std::to_string(steps) + "; 0 or more");
+    const auto own = use();
     std::vector<std::int64_t> made(size(), 0);
     std::vector<char> ready(size(), 0);
     std::fill(rows_.counts.begin(), rows_.counts.end(), 0);
@@ -119,6 +127,7 @@ class Worlds {
   }
 
   void post(const py::object& which, const py::array& commands) {
+    const auto own = use();
     const Numbers<std::int32_t> worlds("world", which);
     const auto rows = commandRows(commands);
     if (!worlds.isOne() && worlds.size() != rows.size()) {
@@ -135,6 +144,7 @@ class Worlds {
   }
 
   void restore(const py::object& which, const py::object& checkpoints) {
+    const auto own = use();
     const Numbers<std::int32_t> worlds("world", which);
     const auto count = static_cast<std::size_t>(worlds.size());
     std::vector<std::string> bytes;
@@ -162,6 +172,7 @@ class Worlds {
 
   void place(const py::object& which, const py::object& kiva_id, const py::object& x,
              const py::object& y, const py::object& yaw) {
+    const auto own = use();
     const Numbers<std::int32_t> worlds("world", which), ids("kiva_id", kiva_id);
     const Numbers<double> xs("x", x), ys("y", y), yaws("yaw", yaw);
     for (const py::ssize_t size : {ids.size(), xs.size(), ys.size(), yaws.size()}) {
@@ -186,6 +197,7 @@ class Worlds {
   py::array_t<bool> drive(
       const py::array_t<double, py::array::c_style | py::array::forcecast>& left,
       const py::array_t<double, py::array::c_style | py::array::forcecast>& right) {
+    const auto own = use();
     const std::size_t all = size() * static_cast<std::size_t>(robots_);
     for (const auto* speeds : {&left, &right}) {
       const bool fits = speeds->ndim() == 2 &&
@@ -212,6 +224,7 @@ class Worlds {
   }
 
   py::array scans() {
+    const auto own = use();
     std::size_t rays = 0;
     for (const HostPtr& host : hosts_) {
       for (const Robot& robot : host->world.fleet().robots) {
@@ -228,6 +241,7 @@ class Worlds {
   }
 
   py::array_t<UnitRow> storageUnits() const {
+    const auto own = use();
     const std::size_t units = hosts_[0]->world.storageUnits().size();
     py::array_t<UnitRow> out({size(), units});
     for (std::size_t i = 0; i < size(); ++i) {
@@ -245,6 +259,7 @@ class Worlds {
   }
 
   py::array_t<std::uint64_t> stateHash() {
+    const auto own = use();
     py::array_t<std::uint64_t> out(static_cast<py::ssize_t>(size()));
     std::uint64_t* const hashes = out.mutable_data();
     py::gil_scoped_release release;
@@ -257,6 +272,7 @@ class Worlds {
 
   /// (world, time, kind, model, other, text, command) of the last step().
   py::list events() const {
+    const auto own = use();
     py::list out;
     for (std::size_t i = 0; i < size(); ++i) {
       for (const Event& e : events_[i]) {
@@ -343,6 +359,7 @@ class Worlds {
     }
   }
 
+  mutable std::mutex mutex_;
   std::vector<HostPtr> hosts_;
   Crew crew_;
   int robots_;

@@ -17,7 +17,9 @@ from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
+from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
+from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -32,6 +34,8 @@ from warehouse_msgs.msg import (
 )
 from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 from warehouse_msgs.srv import (
+    CancelTransport,
+    CancelTransportResponse,
     ReleaseTransport,
     ReleaseTransportResponse,
     SetRobotMode,
@@ -88,6 +92,7 @@ class Coordinator:
         self._paths = publish("/warehouse/coordinator_paths", CoordinatorPaths, queue_size=1)
         rospy.Service("/warehouse/transport", Transport, self._on_transport)
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
+        rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
         rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         rospy.Subscriber(
@@ -148,6 +153,12 @@ class Coordinator:
                 return ReleaseTransportResponse(False, self._alarm or NOT_YET)
             return ReleaseTransportResponse(*self._transports.release(request.transport_id))
 
+    def _on_cancel(self, request):
+        with self._lock:
+            if self._transports is None:
+                return CancelTransportResponse(False, self._alarm or NOT_YET)
+            return CancelTransportResponse(*self._transports.cancel(request.transport_id))
+
     def _on_mode(self, request):
         with self._lock:
             if self._traffic is None:
@@ -204,7 +215,9 @@ class Coordinator:
         if event.kind == Kind.RECEIVED:
             self._ledger.add(event.transport_id, event.shelf_id, event.station)
         self._events.publish(_event_message(event))
-        if event.kind in (Kind.STORED, Kind.FAILED, Kind.CANCELLED):
+        # One that was cancelled with its unit lifted is over when that is stored.
+        is_cancelled = event.kind == Kind.CANCELLED and event.transport_id not in self._transports
+        if event.kind in ENDS or is_cancelled:
             self._ledger.remove(event.transport_id)
 
     def _tell_abandoned(self, time):
@@ -230,8 +243,7 @@ class Coordinator:
         """Whether this is the warehouse that the plan is of; looks at it anew if not."""
         if None in (self._scenery, self._objects, self._units):
             return False
-        min_x, _, max_x, _ = self._scenery.floor
-        if max_x <= min_x or not len(report.kiva_id):
+        if not len(report.kiva_id):
             return False  # the warehouse is still to be built
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
@@ -273,7 +285,10 @@ class Coordinator:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
         try:
-            plan = FloorPlan.of_messages(_map(), self._scenery)
+            grid = _map()
+            if not grid.data:
+                return  # the floor is being built
+            plan = FloorPlan.of_messages(grid, self._scenery)
             plan.check(obstructed=False)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
@@ -313,13 +328,9 @@ class Coordinator:
         objects, states = self._objects, self._units
         if objects.revision != states.revision:
             return
-        poses = np.reshape(states.pose, (-1, 7))
-        ids = [int(name.removeprefix("storage_unit")) for name in objects.storage_units]
         self._transports.look(
-            np.array(ids, int),
-            poses[:, 0],
-            poses[:, 1],
-            2 * np.arctan2(poses[:, 5], poses[:, 6]),
+            np.array(unit_ids(objects), int),
+            *unit_poses(states),
             np.asarray(states.carrier) != 0,
             states.header.stamp.to_sec(),
         )

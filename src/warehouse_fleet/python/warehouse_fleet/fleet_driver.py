@@ -23,16 +23,12 @@ class FleetDriver:
     something else than driving go to `events`, if that is a list.
     """
 
-    def __init__(
-        self, world, seed=1, planner=None, choose_robot=None, choose_place=None, kinematics=None
-    ):
+    def __init__(self, world, seed=1, planner=None, kinematics=None):
         self.world = world
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
         self.traffic = Traffic(self.plan, world.fleet.kiva_id, kinematics, seed, planner)
-        self.transports = Transports(
-            self.plan, self.traffic, self._lift, choose_robot, choose_place
-        )
+        self.transports = Transports(self.plan, self.traffic, self._lift)
         self._see_units()
         self.traffic.loaded[:] = world.fleet.shelf_id != 0
         for cell in np.flatnonzero(self.plan.obstructed):

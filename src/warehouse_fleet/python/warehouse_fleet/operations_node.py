@@ -17,14 +17,15 @@ from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
+from warehouse_fleet.transport import ENDS
 from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 SHOWN = 60  # intervals of the throughput: an hour
 WAITS = (msg.KivaStatus.STATE_WAITING, msg.KivaStatus.STATE_BLOCKED)  # robots under way
-LOST_AFTER = 3.0  # the coordinator knows of no transport although it should [s]
 UNKEPT = 100  # most transports that a run asks for between two writes to the database
 
 
@@ -32,15 +33,15 @@ class Coordinator:
     """The coordinator of another node, with the face of transport.Requests."""
 
     def __init__(self):
-        self._heard, self._told = [], []
-        self._open = {}  # unit and station of what was asked for, by id
+        self._heard = []
+        self._open = set()  # transports that this run asked for
         self._left = set()  # transports that an earlier run asked for
         self._last_left = None  # the newest of them that is known, until this run asks for one
-        self._asked = 0.0
         self._lock = threading.Lock()
         self.state = None
         self._submit = rospy.ServiceProxy("/warehouse/transport", srv.Transport)
         self._release = rospy.ServiceProxy("/warehouse/release_transport", srv.ReleaseTransport)
+        self._cancel = rospy.ServiceProxy("/warehouse/cancel_transport", srv.CancelTransport)
         rospy.Subscriber("/warehouse/transports", msg.TransportEvent, self._hear, queue_size=10000)
         rospy.Subscriber("/warehouse/coordinator", msg.CoordinatorState, self._see, queue_size=1)
 
@@ -50,25 +51,27 @@ class Coordinator:
         except rospy.ServiceException as error:
             return Answer(0, False, str(error))
         if answer.accepted:
-            if answer.transport_id in self._open:
-                self._lost()  # it counts anew: another coordinator
             self._release_unknown(answer.transport_id)
-            self._asked = rospy.get_time()
-            self._open[answer.transport_id] = shelf_id, station
+            self._open.add(answer.transport_id)
         return Answer(answer.transport_id, answer.accepted, answer.message)
 
     def release(self, transport_id):
+        return self._call(self._release, transport_id)
+
+    def cancel(self, transport_id):
+        return self._call(self._cancel, transport_id)
+
+    @staticmethod
+    def _call(service, transport_id):
         try:
-            answer = self._release(transport_id)
+            answer = service(transport_id)
         except rospy.ServiceException as error:
             return False, str(error)
         return answer.success, answer.message
 
-    def cancel(self, transport_id):
-        return False, "the coordinator brings what it has begun with"
-
     def set_open(self, station, is_open):
-        """The coordinator is not told: nothing is asked for at a closed station."""
+        """The coordinator is not told: a shift asks for nothing at a closed station, and cancels
+        what it has asked for."""
 
     def release_left(self, transports, last):
         """Lets go what an earlier run asked for, the newest known `last`: at once, or when it
@@ -77,20 +80,19 @@ class Coordinator:
         self._last_left = last
 
     def _release_unknown(self, first):
-        """What the earlier run was killed over before it kept it: all up to the `first` of this."""
+        """What the earlier run was killed over before it was kept: all up to this run's `first`."""
         if self._last_left is not None:
             self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
 
     def take_events(self):
         with self._lock:
-            heard, self._heard = self._told + self._heard, []
-            self._told = []
+            heard, self._heard = self._heard, []
         known = []
         for event in heard:
             if event.transport_id in self._open:
                 known.append(event)
-                if event.kind in (Kind.STORED, Kind.FAILED):
-                    del self._open[event.transport_id]
+                if event.kind in ENDS:
+                    self._open.discard(event.transport_id)
             elif event.transport_id in self._left and event.kind == Kind.ARRIVED:
                 self._left.discard(event.transport_id)
                 self.release(event.transport_id)
@@ -112,19 +114,6 @@ class Coordinator:
 
     def _see(self, state):
         self.state = state
-        since = state.header.stamp.to_sec() - self._asked
-        if self._open and not (state.open or state.under_way) and since > LOST_AFTER:
-            self._lost()
-
-    def _lost(self):
-        """The coordinator has begun anew: what it was asked for will not come."""
-        rospy.logwarn(f"the coordinator has lost {len(self._open)} transports")
-        now = rospy.get_time()
-        with self._lock:
-            self._told += [
-                TransportEvent(now, number, Kind.FAILED, 0, shelf, station, "lost")
-                for number, (shelf, station) in self._open.items()
-            ]
 
 
 class Warehouse:
@@ -165,7 +154,7 @@ class Warehouse:
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
         plan = FloorPlan.of_messages(floor_map, self.scenery)
         robots = self.fleet
-        units = self._unit_ids()
+        units = unit_ids(self.objects)
         return Site(
             plan,
             dict(zip(robots.kiva_id, plan.cell_of(robots.x, robots.y).tolist())),
@@ -182,15 +171,12 @@ class Warehouse:
         """The cells of the units that nobody carries, by id."""
         if not self.is_known:
             return {}
-        told = zip(self._unit_ids(), self._unit_cells(plan), self.units.carrier)
+        told = zip(unit_ids(self.objects), self._unit_cells(plan), self.units.carrier)
         return {unit: cell for unit, cell, carrier in told if not carrier and cell >= 0}
 
-    def _unit_ids(self):
-        return [int(name.removeprefix("storage_unit")) for name in self.objects.storage_units]
-
     def _unit_cells(self, plan):
-        places = np.reshape(self.units.pose, (-1, 7))
-        return plan.cell_of(places[:, 0], places[:, 1]).tolist()
+        x, y, _ = unit_poses(self.units)
+        return plan.cell_of(x, y).tolist()
 
 
 class OperationsNode:
@@ -199,7 +185,6 @@ class OperationsNode:
     def __init__(self, database, orders="fill", policies=None, seed=1):
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
-        self._stations = _publisher("/warehouse/stations", msg.StationStates)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
         self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
         self._heat = _publisher("/warehouse/heat", msg.HeatMap)
@@ -234,6 +219,8 @@ class OperationsNode:
             ("find_stock", srv.FindStock, self._find_stock),
         ):
             rospy.Service(f"/warehouse/{name}", kind, call)
+        # Last of all: whoever hears it finds the services there.
+        self._stations = _publisher("/warehouse/stations", msg.StationStates)
         rospy.loginfo(
             f"{len(self._site.units)} storage units, {len(self._site.items)} bins, "
             f"{len(self._shift.orders)} orders to go on with"

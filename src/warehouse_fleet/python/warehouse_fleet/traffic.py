@@ -30,6 +30,7 @@ GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by mea
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
+MOVES_UP = 10.0  # who has moved in a lane within this is about to be served, or leaves [s]
 LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
 REPORTED = (  # of FleetState, beside kiva_id
@@ -102,6 +103,7 @@ class Traffic:
         self._settled = np.zeros(count, bool)  # has been idle since this began
         self._foreign = np.zeros(count, np.uint8)  # reports in a row
         self._stuck = np.zeros(count, bool)
+        self._excused = np.full(count, -np.inf)  # when it was seen to wait for work last [s]
         self.time = 0.0
         self._execution = Execution(
             self.floor,
@@ -197,11 +199,18 @@ class Traffic:
 
     def _watch(self):
         """Counts who makes no progress; waiting for who is at work in a station is none of it."""
-        stuck = self.time - self.still_since > STUCK
-        for robot in np.flatnonzero(stuck):
-            stuck[robot] = not self._waits_for_work(robot)
+        for robot in np.flatnonzero(self.stuck_for > STUCK):
+            if self._waits_for_work(robot):
+                self._excused[robot] = self.time
+        stuck = self.stuck_for > STUCK
         self.watchdog += int(np.count_nonzero(stuck & ~self._stuck))
         self._stuck = stuck
+
+    @property
+    def stuck_for(self):
+        """How long each has made no progress although it waits for nobody at work [s]; STUCK is
+        the first moment at which that is looked at."""
+        return self.time - np.maximum(self.still_since, self._excused)
 
     def _avoid_trapped(self):
         """Loaded robots can't turn back in a one-way street that ends before an obstacle. Whoever
@@ -223,7 +232,14 @@ class Traffic:
             robot = ahead
             if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
                 return True
+            if robot != NOWHERE and self._moves_up(robot):
+                return True
         return False
+
+    def _moves_up(self, robot):
+        """Whether it has just moved in a lane, which all pass in their order."""
+        in_lane = self.plan.lane.flat[self.cell[robot]]
+        return in_lane and self.time - self.still_since[robot] < MOVES_UP
 
     def _before(self, robot):
         """Who holds the next cell of its lane; NOWHERE beyond lanes."""

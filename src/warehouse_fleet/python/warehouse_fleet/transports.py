@@ -113,16 +113,18 @@ def _urgency(transport):
 class Transports:
     """All transports and who does them.
 
-    `lift(kiva_id, shelf_id, up)` sends the command. Two decisions can be made by others:
-    `choose_robot(cell, free)` of the indices `free` for a unit in `cell`, and
-    `choose_place(shelf_id, cell, free)` of the cells `free` for a unit that is in `cell`.
-    Transports get the numbers after `last`. Nothing is known of units until look() is told.
+    `lift(kiva_id, shelf_id, up)` sends the command. Three decisions can be made by others:
+    `match_robots(asked, free)` yields pairs of a Transport of those `asked` for and a robot of the
+    indices `free`; `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that
+    is in `cell`; `park(robot)` is the cell for a robot that has no more work, or None: it waits
+    where it is. Transports get the numbers after `last`. Nothing is known of units until look() is
+    told.
     """
 
-    def __init__(self, plan, traffic, lift, choose_robot=None, choose_place=None, last=0):
+    def __init__(self, plan, traffic, lift, last=0):
         self.plan, self.traffic, self._lift = plan, traffic, lift
-        self.choose_robot = choose_robot or self._nearest_robot
-        self.choose_place = choose_place or self._nearest_place
+        self.match_robots, self.choose_place = self._nearest_robots, self._nearest_place
+        self.park = lambda robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
         self.totals = Totals()
@@ -141,6 +143,7 @@ class Transports:
         self._last = last
         self._put_down = {}  # when each unit was put down last [s]
         self._lost = set()  # units whose robots were lost: to be stored, wherever they are
+        self._freed = []  # robots that have ended a transport since somebody looked
         self._shortest = {}  # of the journey that a robot is on, in cells
 
     # What is asked of it.
@@ -242,6 +245,9 @@ class Transports:
 
     def __iter__(self):
         return iter(self._transports.values())
+
+    def __contains__(self, transport_id):
+        return transport_id in self._transports
 
     def look(self, shelf_id, x, y, yaw, carried, stamp):
         """Where all units stood at that time: arrays in world [m, rad], [s]; others move units as
@@ -514,6 +520,7 @@ class Transports:
             self._open.remove(transport)
         if transport.robot != NOWHERE:
             self._of_robot.pop(transport.robot, None)
+            self._freed.append(transport.robot)
             self.traffic.goal[transport.robot] = NOWHERE
             self.traffic.home[transport.robot] = NOWHERE
         if self._of_unit.get(transport.shelf) is transport:
@@ -561,34 +568,41 @@ class Transports:
 
     def _assign(self):
         """Robots for what waits, a few more than stations have room for."""
-        traffic = self.traffic
         if not self._open:
             return
-        is_free = self._without_work() & ~traffic.stalled
-        for transport in list(self._open):
-            if not is_free.any():
-                return
-            station = transport.station
-            if station and self._fetched[station] >= FETCHED:
-                continue
-            cell = self.cell_of_unit[transport.shelf]
-            if cell == NOWHERE:
-                continue
-            robot = int(self.choose_robot(cell, np.flatnonzero(is_free)))
-            is_free[robot] = False
+        free = np.flatnonzero(self._without_work() & ~self.traffic.stalled)
+        asked = self._fetchable() if free.size else []
+        for transport, robot in self.match_robots(asked, free) if asked else ():
             self._open.remove(transport)
-            transport.robot, transport.step = robot, Step.FETCHING
-            transport.since = traffic.time
-            self._of_robot[robot] = transport
-            self._fetched[station] += 1
+            transport.robot, transport.step = int(robot), Step.FETCHING
+            transport.since = self.traffic.time
+            self._of_robot[transport.robot] = transport
+            self._fetched[transport.station] += 1
             self._tell(transport, Kind.ASSIGNED)
-            self._send(transport, cell)
+            self._send(transport, self.cell_of_unit[transport.shelf])
+
+    def _fetchable(self):
+        """Transports without a robot that may have one now, the most urgent first."""
+        found, fetched = [], self._fetched.copy()
+        for transport in self._open:
+            station = transport.station
+            is_full = station and fetched[station] >= FETCHED
+            if not is_full and self.cell_of_unit[transport.shelf] != NOWHERE:
+                fetched[station] += 1
+                found.append(transport)
+        return found
 
     def _park(self):
-        """Robots without work that stand in a street or a lane go beneath a stored unit."""
+        """Robots without work go where they are to wait; those that stand in a street or a lane go
+        beneath a stored unit."""
         traffic = self.traffic
         idle = self._without_work()
         traffic.goal[idle & (traffic.goal == traffic.cell)] = NOWHERE
+        freed, self._freed = self._freed, []
+        for robot in freed:
+            cell = self.park(robot) if idle[robot] else None
+            if cell is not None and cell != traffic.cell[robot] and self._aside[cell]:
+                traffic.send(robot, cell)
         in_the_way = idle & (traffic.goal == NOWHERE) & ~self._aside[traffic.cell]
         if not in_the_way.any():
             return
@@ -611,8 +625,12 @@ class Transports:
         (y, x), (ys, xs) = divmod(cell, width), np.divmod(cells, width)
         return np.abs(xs - x) + np.abs(ys - y)
 
-    def _nearest_robot(self, cell, free):
-        return free[self._far(cell, self.traffic.cell[free]).argmin()]
+    def _nearest_robots(self, asked, free):
+        for transport in asked[: len(free)]:
+            far = self._far(self.cell_of_unit[transport.shelf], self.traffic.cell[free])
+            robot = free[far.argmin()]
+            free = free[free != robot]
+            yield transport, robot
 
     def _nearest_place(self, _shelf_id, cell, free):
         return self._nearest(cell, free)

@@ -33,7 +33,9 @@ def robot_fields(options, rays=0):
         Field("heading", (4,), 0, 1, "", "one-hot: +x, +y, -x, -y in world"),
         Field("load", (3,), 0, 1, "", "one-hot: none, a requested unit, another unit"),
         Field("busy", (1,), 0, 1, "", "1: it is still at an action, and another one is not heard"),
-        Field("goal", (2,), -1, 1, "floor", "its goal, ahead and to the left; 1 is the floor's edge"),
+        Field(
+            "goal", (2,), -1, 1, "floor", "its goal, ahead and to the left; 1 is the floor's edge"
+        ),
         Field("distance", (1,), 0, 1, "floor", "the way to its goal; 1 is twice the floor's edge"),
         Field(
             "way", (4,), -1, 1, "cells", "how much nearer the cells ahead, left, behind, right are"
@@ -55,7 +57,9 @@ def robot_fields(options, rays=0):
         fields.append(Field("turned", (2,), -1, 1, "", "sine and cosine of its heading in world"))
         fields.append(Field("wheels", (2,), -1, 1, "top speed", "left and right wheel's speeds"))
     if rays:
-        fields.append(Field("laser", (rays,), 0, 1, f"{LASER_RANGE:g} m", "ranges, from right to left"))
+        fields.append(
+            Field("laser", (rays,), 0, 1, f"{LASER_RANGE:g} m", "ranges, from right to left")
+        )
     return fields
 
 
@@ -66,7 +70,9 @@ def state_fields(options):
         Field("robot_heading", (options.robots, 4), 0, 1, "", "as heading"),
         Field("robot_load", (options.robots, 3), 0, 1, "", "as load"),
         Field("robot_busy", (options.robots, 1), 0, 1, "", "as busy"),
-        Field("unit_position", (options.shelves, 2), 0, 1, "floor", "of storage units; as position"),
+        Field(
+            "unit_position", (options.shelves, 2), 0, 1, "floor", "of storage units; as position"
+        ),
         Field("unit_requested", (options.shelves,), 0, 1, "", "1: it is asked for"),
         Field("unit_carried", (options.shelves,), 0, 1, "", "1: a robot carries it"),
     ]

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 REWARDS = {
     "delivered": 1.0,  # a requested unit stands at a station: its robot
     "lifted": 0.0,  # a robot has lifted a requested unit
+    "dropped": 0.0,  # a robot has put down a requested unit
     "stored": 0.0,  # a robot has put back a unit that was delivered
     "approached": 0.0,  # a cell nearer to the goal; minus as much for a cell farther
     "refused": 0.0,  # an action that was not possible

@@ -112,7 +112,9 @@ class KivaParallelEnv(ParallelEnv):
     def _chosen(self, actions):
         missing = [a for a in self.agents if a not in actions]
         if missing:
-            raise ActionError(f"{missing[0]} has no action; one for each of {len(self.agents)} robots")
+            raise ActionError(
+                f"{missing[0]} has no action; one for each of {len(self.agents)} robots"
+            )
         for agent in actions:
             if agent not in self.possible_agents:
                 raise ActionError(f"there is no agent {agent!r}")

@@ -7,6 +7,7 @@ enough to train on a CPU in minutes.
 
 import argparse
 import json
+import multiprocessing
 import time
 from dataclasses import dataclass
 
@@ -17,7 +18,7 @@ from warehouse_learning.options import Options
 from warehouse_learning.warehouses import Warehouses
 
 # What leads there; "delivered" alone is what counts.
-REWARDS = {"lifted": 0.3, "stored": 0.3, "approached": 0.05, "step": -0.01}
+REWARDS = {"lifted": 0.3, "dropped": -0.3, "stored": 0.3, "approached": 0.05, "step": -0.01}
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ class Settings:
     entropy: float = 0.01
     value: float = 0.5
     hidden: int = 64
+    threads: int = 0  # that step the worlds; 0: as many as there are cores
 
 
 class Network:
@@ -84,11 +86,12 @@ class Adam:
         scale = min(1.0, 0.5 / (norm + 1e-8))
         self.steps += 1
         c1, c2 = 1 - 0.9**self.steps, 1 - 0.999**self.steps
-        for p, g, m, v in zip(self.parameters, slopes, self.mean, self.square):
-            g = g * scale
-            m += 0.1 * (g - m)
-            v += 0.001 * (g * g - v)
-            p -= rate * (m / c1) / (np.sqrt(v / c2) + 1e-8)
+        for i, slope in enumerate(slopes):
+            scaled = slope * scale
+            self.mean[i] += 0.1 * (scaled - self.mean[i])
+            self.square[i] += 0.001 * (scaled * scaled - self.square[i])
+            step = self.mean[i] / c1 / (np.sqrt(self.square[i] / c2) + 1e-8)
+            self.parameters[i] -= rate * step
 
 
 def probabilities(logits, masks):
@@ -124,7 +127,7 @@ def train(options, decisions, seed=0, settings=Settings(), report=None):  # noqa
     units delivered an episode). `report(row)` hears each."""
     random = np.random.default_rng(seed)
     n, rollout = settings.worlds, settings.rollout
-    warehouses = Warehouses(n, options)
+    warehouses = Warehouses(n, options, settings.threads)
     observer = Observer(warehouses)
     robots = warehouses.robots
     network = Network(observer.size, 5, settings.hidden, random)
@@ -222,19 +225,32 @@ def main():
     parser.add_argument("--size", default="tiny")
     parser.add_argument("--decisions", type=int, default=600_000, help="of all robots (600,000)")
     parser.add_argument("--seeds", type=int, default=1, help="so many trainings, from seed 0")
+    parser.add_argument("--jobs", type=int, default=1, help="trainings at once (1)")
     parser.add_argument("--out", default="", help="the learning curves as PNG, and as JSON beside")
     wanted = parser.parse_args()
     options = Options.of({"size": wanted.size, "max_cycles": 200, "rewards": REWARDS})
-    curves = []
-    for seed in range(wanted.seeds):
-        begin = time.process_time()
-        report = lambda row: print(f"  {row[0]:9,.0f} decisions  {row[1]:6.2f} units", flush=True)  # noqa: E731
-        _, curve = train(options, wanted.decisions, seed, report=report)
-        curves.append(curve)
-        spent = time.process_time() - begin
-        print(f"seed {seed}: {curve[-5:, 1].mean():.2f} units an episode, {spent:.0f} s of CPU")
+    settings = Settings(threads=0 if wanted.jobs == 1 else 1)
+    jobs = [(options, wanted.decisions, seed, settings) for seed in range(wanted.seeds)]
+    if wanted.jobs == 1:
+        curves = [_trained(job) for job in jobs]
+    else:
+        with multiprocessing.get_context("spawn").Pool(wanted.jobs) as pool:
+            curves = pool.map(_trained, jobs, chunksize=1)
     if wanted.out:
         draw(wanted.out, options, curves)
+
+
+def _trained(job):
+    """The curve of a training, told as it grows."""
+    options, decisions, seed, settings = job
+    begin = time.process_time()
+
+    def report(row):
+        print(f"seed {seed}: {row[0]:9,.0f} decisions {row[1]:6.2f} units an episode", flush=True)
+
+    _, curve = train(options, decisions, seed, settings, report)
+    print(f"seed {seed}: {time.process_time() - begin:.0f} s of CPU", flush=True)
+    return curve
 
 
 def draw(path, options, curves):

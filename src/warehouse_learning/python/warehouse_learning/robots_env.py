@@ -98,8 +98,9 @@ class KivaRobotsVectorEnv(VectorEnv):
     """num_envs warehouses, stepped on all cores in one call.
 
     Options as of KivaRobotsEnv; `threads` as of kiva_plugin_cpp.Worlds. Observations are
-    (num_envs, robots * size) float32, rewards (num_envs,); infos hold "rewards", (num_envs, robots),
-    "action_mask", (num_envs, robots, 5), and what happened, each with its "_" mask.
+    (num_envs, robots * size) float32, rewards (num_envs,); infos hold "rewards",
+    (num_envs, robots), "action_mask", (num_envs, robots, 5), and what happened, each with its "_"
+    mask.
     """
 
     def __init__(
@@ -209,7 +210,7 @@ class KivaRobotsVectorEnv(VectorEnv):
         infos = infos | {
             "final_obs": final,
             "_final_obs": ends.copy(),
-            "final_info": {name: value for name, value in infos.items()},
+            "final_info": dict(infos),
             "_final_info": ends.copy(),
             "action_mask": mask,
         }

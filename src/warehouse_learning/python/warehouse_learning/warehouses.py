@@ -64,6 +64,7 @@ class Warehouses:
         self.unit_cell = np.zeros((n, self.units), np.int32)  # -1 = carried
         self.unit_at = np.zeros((n, grid.cells), np.int32)  # standing there, -1 = none
         self.requested = np.zeros((n, self.units), bool)
+        self._served = np.zeros((n, self.units), bool)  # and not yet put back
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros(shape, np.int64)  # in this episode
         self.goals = Goals(self)
@@ -106,6 +107,7 @@ class Warehouses:
         self.unit_at[which[:, None], self._first_cells] = np.arange(self.units)
         self.cycle[which] = 0
         self.delivered[which] = 0
+        self._served[which] = False
         self._see(which)
         self.bound_for[which] = self.cell[which]
         self.turning[which] = False
@@ -165,8 +167,7 @@ class Warehouses:
     def _complaint(self, given, bad, expected="a whole number from 0 to 4"):
         w, robot = np.argwhere(bad)[0]
         return (
-            f"robot_{robot + 1} of world {w}: action {given[w, robot]!r};"
-            f" {expected} was expected"
+            f"robot_{robot + 1} of world {w}: action {given[w, robot]!r}; {expected} was expected"
         )
 
     def step(self, actions):
@@ -306,7 +307,7 @@ class Warehouses:
     def _tasks(self, load):
         """Lifts, deliveries, returns, by what robots carried before."""
         shape = (self.n, self.robots)
-        lifted, stored, delivered = (np.zeros(shape, bool) for _ in range(3))
+        lifted, dropped, stored, delivered = (np.zeros(shape, bool) for _ in range(4))
         for w, robot in np.argwhere(self.load != load):
             unit = self.load[w, robot]
             cell = self.cell[w, robot]
@@ -316,17 +317,19 @@ class Warehouses:
             else:
                 unit = load[w, robot]
                 self.unit_cell[w, unit], self.unit_at[w, cell] = cell, unit
-                stored[w, robot] = not self.requested[w, unit]
+                dropped[w, robot] = self.requested[w, unit]
+                stored[w, robot] = self._served[w, unit]
+                self._served[w, unit] = False
             self.goals.end(w, robot)
         there = self.grid.is_station[self.cell] & (self.load >= 0) & ~self.busy
         for w, robot in np.argwhere(there):
             unit = self.load[w, robot]
             if self.requested[w, unit]:
-                delivered[w, robot] = True
+                delivered[w, robot] = self._served[w, unit] = True
                 self.delivered[w, robot] += 1
                 self._ask_for_another(w, unit)
                 self.goals.end(w, robot)
-        return {"delivered": delivered, "lifted": lifted, "stored": stored}
+        return {"delivered": delivered, "lifted": lifted, "dropped": dropped, "stored": stored}
 
     def _ask_for_another(self, w, unit):
         others = ~self.requested[w]

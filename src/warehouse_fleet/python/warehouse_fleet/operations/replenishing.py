@@ -187,3 +187,4 @@ class Replenishing:
         if visit and not visit.puts:
             self.shift.release(visit)
             self._look = True
+            self.next_bundle(station)

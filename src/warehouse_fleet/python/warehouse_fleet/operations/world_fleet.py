@@ -1,43 +1,84 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated robots of a world, as a shift drives them; ideal.IdealFleet is the other fleet."""
 
+from collections import Counter
+
 import numpy as np
 
-from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.fleet_driver import UPDATE, FleetDriver
 from warehouse_fleet.transport import Task
 from warehouse_fleet.travel import Travel
 
 STUCK = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
+ROUNDING = 1e-9  # [s]
 
 
 class WorldFleet:
     """A FleetDriver whose decisions are made by policies, with the figures that a report wants."""
 
     def __init__(self, world, site, seed):
-        self.world, self.robots = world, len(site.robots)
+        self.world, self.plan, self.robots = world, site.plan, len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
         self._driver = FleetDriver(world, seed=seed, kinematics=site.kinematics)
         self.transports = self._driver.transports
+        self._cells = self._driver.traffic.cell
+        self._traffic, self._waiting = np.zeros((2, site.plan.passable.size))
 
     def set_hooks(self, hooks):
         """Who decides from now on; see transport.Hooks."""
         self._hooks = hooks
-        self.transports.choose_robot = self._choose_robot
+        self.transports.match_robots = self._match_robots
         self.transports.choose_place = self._choose_place
+        self.transports.park = self._park
 
-    def _choose_robot(self, cell, free):
-        traffic = self._driver.traffic
-        seconds, _ = self.travel.unloaded([cell], traffic.cell[free])
-        task = Task(0, 0, "", 0, 0)
-        matched = self._hooks.match_robots([task], traffic.kiva_ids[free].tolist(), seconds)
-        return next((free[robot] for _, robot in matched), free[0])
+    def _match_robots(self, asked, free):
+        traffic, transports = self._driver.traffic, self.transports
+        cells = [transports.cell_of_unit[one.shelf] for one in asked]
+        seconds, _ = self.travel.unloaded(cells, traffic.cell[free])
+        waiting = Counter(one.station for one in asked)
+        tasks = [
+            Task(
+                one.number,
+                one.shelf,
+                one.station,
+                one.priority,
+                transports.waiting(one.station) + waiting[one.station],
+            )
+            for one in asked
+        ]
+        robots = traffic.kiva_ids[free].tolist()
+        for task, robot in self._hooks.match_robots(tasks, robots, seconds):
+            yield asked[task], free[robot]
 
     def _choose_place(self, shelf_id, cell, free):
         metres = self.travel.loaded_from(int(cell)).metres[free]
         return self._hooks.choose_place(shelf_id, free, metres)
 
+    def _park(self, robot):
+        traffic = self._driver.traffic
+        return self._hooks.park(int(traffic.kiva_ids[robot]), int(traffic.cell[robot]))
+
     def step_until(self, time):
-        self._driver.step_until(time)
+        while self.time < time - ROUNDING:
+            self._driver.step()
+            self._see()
+
+    def _see(self):
+        """Where loaded robots come through, and where robots wait."""
+        traffic = self._driver.traffic
+        cells, inside = traffic.cell, traffic.cell >= 0
+        came = inside & traffic.loaded & (cells != self._cells)
+        np.add.at(self._traffic, cells[came], 1)
+        np.add.at(self._waiting, cells[inside & (traffic.still_since < traffic.time)], UPDATE)
+        self._cells = cells
+
+    def traffic(self):
+        """How often a robot with a load came through each cell, (h, w)."""
+        return self._traffic.reshape(self.plan.shape)
+
+    def waiting_map(self):
+        """Robot-seconds spent in each cell by those who stood on their way, (h, w)."""
+        return self._waiting.reshape(self.plan.shape)
 
     def close(self):
         """Ends the planner's thread."""
@@ -77,7 +118,7 @@ class WorldFleet:
         """Robots that stand still for long though they have somewhere to go."""
         traffic = self._driver.traffic
         going = (traffic.goal >= 0) & (traffic.goal != traffic.cell) & ~traffic.busy
-        return int(np.count_nonzero(going & (traffic.time - traffic.still_since > STUCK)))
+        return int(np.count_nonzero(going & (traffic.stuck_for > STUCK)))
 
     def state_hash(self):
         """Of the world."""

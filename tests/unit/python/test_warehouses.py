@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The task that learning is about: rules, rewards, seeds; without any learning package."""
+
+import numpy as np
+import pytest
+
+from warehouse_learning import Action, ActionError, OptionError, Options, Warehouses, episodes
+from warehouse_learning.observing import Observer
+
+TURNS = {0: [], 1: [Action.LEFT], 2: [Action.LEFT, Action.LEFT], 3: [Action.RIGHT]}
+DELIVERY = {"lifted": 0.5, "stored": 0.25, "approached": 0.0}
+
+
+def one(**options):
+    """One robot, for which all others' ways are free."""
+    return Warehouses(1, Options.of({"robots": 1, "shelves": 6, "requests": 1} | options), 1)
+
+
+def act(warehouses, action):
+    return warehouses.step(np.array([[action]]))
+
+
+def drive_to_goal(warehouses):
+    """By the shortest way; returns the rewards earned."""
+    earned = 0.0
+    grid, goals = warehouses.grid, warehouses.goals
+    goal = int(goals.cell[0, 0])
+    for _ in range(200):
+        cell = int(warehouses.cell[0, 0])
+        if cell == goal:
+            return earned
+        far = grid.far[goals.row[0, 0], cell + grid.steps]
+        turn = (int(far.argmin()) - int(warehouses.heading[0, 0])) % 4
+        for action in [*TURNS[turn], Action.FORWARD]:
+            reward, happened = act(warehouses, action)
+            assert not happened["refused"].any()
+            earned += reward.sum()
+    raise AssertionError("it never came to its goal")
+
+
+def test_a_unit_is_fetched_delivered_and_stored_again():
+    warehouses = one(rewards=DELIVERY)
+    warehouses.reset([0], [3])
+    unit = int(np.flatnonzero(warehouses.requested[0])[0])
+    assert drive_to_goal(warehouses) == 0
+    assert warehouses.unit_cell[0, unit] == warehouses.cell[0, 0]
+    assert act(warehouses, Action.LIFT)[0] == 0.5
+    assert warehouses.load[0, 0] == unit
+    assert drive_to_goal(warehouses) == 1.0
+    assert warehouses.delivered[0, 0] == 1
+    assert not warehouses.requested[0, unit] and warehouses.requested[0].sum() == 1
+    drive_to_goal(warehouses)
+    assert act(warehouses, Action.LIFT)[0] == 0.25
+    assert warehouses.grid.storage[warehouses.unit_cell[0, unit]]
+    # The physics agrees.
+    row = warehouses.worlds[0].storage_units[unit]
+    assert row["kiva_id"] == 0
+    assert warehouses.grid.cell_of(row["x"], row["y"]) == warehouses.unit_cell[0, unit]
+
+
+def random_run(seed, decisions=40, n=3, **options):
+    warehouses = Warehouses(n, Options.of({"robots": 6, "shelves": 24} | options))
+    observer = Observer(warehouses)
+    warehouses.reset(np.arange(n), [seed + i for i in range(n)])
+    random = np.random.default_rng(seed)
+    seen, collisions = [], 0
+    for _ in range(decisions):
+        masks = warehouses.masks()
+        actions = (masks * random.random(masks.shape)).argmax(-1)
+        rewards, happened = warehouses.step(actions)
+        collisions += int(happened["collided"].sum())
+        seen += [observer.observations(), rewards, observer.state()]
+    return warehouses, seen, collisions
+
+
+def test_the_same_seed_is_the_same_episode_bit_by_bit():
+    first, seen, _ = random_run(5)
+    again, same, _ = random_run(5)
+    assert (first.worlds.state_hash() == again.worlds.state_hash()).all()
+    assert all((a == b).all() for a, b in zip(seen, same))
+    # In a world that has been used before, and alone, too.
+    saved = first.worlds.state_hash()
+    first.reset([1], [5])
+    assert first.worlds.state_hash()[0] == saved[0]
+    alone = Warehouses(1, first.options, 1)
+    alone.reset([0], [5])
+    assert alone.worlds.state_hash()[0] == first.worlds.state_hash()[1]
+
+
+def test_reservations_keep_robots_apart():
+    warehouses, seen, collisions = random_run(1, decisions=150)
+    assert collisions == 0
+    x, y = warehouses.grid.point_of(warehouses.cell)
+    np.testing.assert_allclose(warehouses.worlds.x, x, atol=1e-3)
+    np.testing.assert_allclose(warehouses.worlds.y, y, atol=1e-3)
+    # What robots carry and where units stand is what the physics says.
+    for w in range(warehouses.n):
+        rows = warehouses.worlds[w].storage_units
+        cells = np.where(rows["kiva_id"] > 0, -1, warehouses.grid.cell_of(rows["x"], rows["y"]))
+        np.testing.assert_array_equal(cells, warehouses.unit_cell[w])
+
+
+def test_without_them_physics_keeps_robots_apart():
+    *_, collisions = random_run(1, decisions=60, reserve=False)
+    assert collisions > 0
+
+
+@pytest.mark.parametrize("options", [{}, {"decision": 0.5}, {"lasers": True}])
+def test_observations_stay_within_their_bounds(options):
+    _, seen, _ = random_run(2, decisions=20, **options)
+    for observations in seen[::3]:
+        assert observations.dtype == np.float32
+        assert observations.min() >= -1 and observations.max() <= 1
+
+
+def test_a_robot_at_an_action_goes_on_with_it():
+    warehouses = one(decision=0.5, acceleration=1.0)
+    warehouses.reset([0], [0])
+    while not warehouses.masks()[0, 0, Action.FORWARD]:
+        act(warehouses, Action.LEFT)
+    before = warehouses.worlds.x.copy(), warehouses.worlds.y.copy()
+    act(warehouses, Action.FORWARD)
+    assert warehouses.busy[0, 0]
+    assert warehouses.masks()[0, 0].tolist() == [True, False, False, False, False]
+    for _ in range(4):
+        act(warehouses, Action.LEFT)  # not heard
+    moved = np.hypot(warehouses.worlds.x - before[0], warehouses.worlds.y - before[1])
+    assert moved[0, 0] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_larger_steps_of_physics_end_in_the_same_places():
+    fine, _, _ = random_run(7, decisions=30, physics_step=0.005)
+    coarse, _, _ = random_run(7, decisions=30, physics_step=0.05)
+    np.testing.assert_allclose(fine.worlds.x, coarse.worlds.x, atol=1e-3)
+    np.testing.assert_allclose(fine.worlds.y, coarse.worlds.y, atol=1e-3)
+    np.testing.assert_array_equal(fine.load, coarse.load)
+
+
+def test_a_saved_episode_is_played_again(tmp_path):
+    warehouses = one()
+    warehouses.reset([0], [4])
+    actions = [Action.LEFT, Action.FORWARD, Action.RIGHT, Action.WAIT]
+    for action in actions:
+        act(warehouses, action)
+    file = tmp_path / "episode.json"
+    episodes.save(file, warehouses.options, 4, [[int(a)] for a in actions])
+    options, seed, saved = episodes.load(file)
+    again = Warehouses(1, options, 1)
+    again.reset([0], [seed])
+    for action in saved:
+        again.step(action[None])
+    assert again.worlds.state_hash()[0] == warehouses.worlds.state_hash()[0]
+    file.write_text("{}")
+    with pytest.raises(episodes.EpisodeError, match="episode.json"):
+        episodes.load(file)
+
+
+def test_bad_actions_name_the_robot():
+    warehouses = Warehouses(2, Options.of({"robots": 2, "shelves": 6}), 1)
+    warehouses.reset([0, 1], [0, 1])
+    for actions, said in (
+        ([[0, 0]], r"shape \(2, 2\) was expected"),
+        ([[0, 5], [0, 0]], "robot_2 of world 0: action .*5.*0 to 4 was expected"),
+        ([[0, 0], [-1, 0]], "robot_1 of world 1"),
+        ([[0, np.nan], [0, 0]], "robot_2 of world 0: action .*nan"),
+        ([[0, 0.5], [0, 0]], "robot_2 of world 0"),
+    ):
+        with pytest.raises(ActionError, match=said):
+            warehouses.step(np.array(actions))
+    wheels = Warehouses(1, Options.of({"robots": 1, "shelves": 6, "continuous": True}), 1)
+    wheels.reset([0], [0])
+    with pytest.raises(ActionError, match="robot_1 of world 0.*three numbers"):
+        wheels.step(np.array([[[0.0, np.inf, 0.0]]]))
+
+
+def test_bad_options_are_named():
+    for given, said in (
+        ({"size": "vast"}, "size is 'vast'; one of tiny"),
+        ({"robots": -1, "shelves": 3}, "robots is -1"),
+        ({"requests": 99, "size": "tiny"}, "requests is 99; a whole number from 1 to 11"),
+        ({"max_cycles": 0}, "max_cycles"),
+        ({"decision": float("nan")}, "decision is nan"),
+        ({"rewards": {"profit": 1}}, "rewards has 'profit'"),
+        ({"colour": "red"}, "colour is no option"),
+    ):
+        with pytest.raises(OptionError, match=said):
+            Options.of(given)
