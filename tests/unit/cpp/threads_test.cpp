@@ -13,7 +13,8 @@ namespace {
 constexpr int kRobots = 20, kUnits = 160;  // as in the preset `medium`
 constexpr double kTime = 60;               // [s]
 
-/// Robots and units close to one another, and random commands: many end in collisions.
+/// Robots, a third of them without a laser, and units close to one another, and random commands:
+/// many end in collisions.
 class Crowd {
  public:
   explicit Crowd(int threads) : w(plan(threads)) {
@@ -21,8 +22,12 @@ class Crowd {
     for (int i = 0; i < kUnits; ++i) {
       w.spawn("storage_unit", "storage_unit" + std::to_string(i + 1), i % 16 - 8, i / 16 - 5);
     }
-    for (int i = 0; i < kRobots; ++i) {
-      w.spawn("kiva", "kiva" + std::to_string(i + 1), i % 7 * 2 - 7, i / 7 * 4 - 6);
+    const std::string sees = modelText("kiva"), blind = withoutPlugin(sees, "laser");
+    for (int i = 0; i < kRobots; ++i) {  // each under a unit, and commanded to carry that
+      const int unit = 8 * i;
+      w.spawnText(i % 3 ? sees : blind, "kiva" + std::to_string(i + 1), unit % 16 - 8,
+                  unit / 16 - 5);
+      if (i % 2) w.carry(i + 1, unit + 1);
     }
   }
 
@@ -55,7 +60,7 @@ class Crowd {
   int uniform(int from, int to) { return std::uniform_int_distribution<int>(from, to)(random_); }
   void post() {
     const int id = uniform(1, kRobots);
-    switch (uniform(0, 5)) {
+    switch (uniform(0, 4)) {
       case 0:
         return w.rot(id, uniform(0, 1) ? 1 : -1);
       case 1:

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 
 #include "kiva_plugin_cpp/world_file.h"
+#include "warehouse.h"
 
 namespace kiva {
 namespace {
@@ -360,8 +362,8 @@ TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
                  "text", &warnings);
       if (fault.empty()) continue;
       ASSERT_EQ(warnings.size(), 1u);
-      EXPECT_PRED2(contains, warnings[0], "m/model.config:1: ");
-      EXPECT_PRED2(contains, warnings[0], fault);
+      EXPECT_PRED2(test::contains, warnings[0], "m/model.config:1: ");
+      EXPECT_PRED2(test::contains, warnings[0], fault);
     }
   }
   fs::remove_all(folder);

@@ -223,7 +223,9 @@ def test_what_a_world_leaves_out_is_a_warning(tmp_path):
 
 def test_models_of_a_world_that_are_called_like_ours_are_no_robots(tmp_path):
     (tmp_path / "kiva").mkdir()
-    (tmp_path / "kiva" / "model.config").write_text("<model><sdf>model.sdf</sdf></model>")
+    (tmp_path / "kiva" / "model.config").write_text(
+        '<model><name>kiva</name><sdf version="1.6">model.sdf</sdf></model>'
+    )
     (tmp_path / "kiva" / "model.sdf").write_text(
         '<sdf version="1.6"><model name="kiva"><static>1</static><link name="l"/></model></sdf>'
     )

@@ -243,8 +243,7 @@ class Coordinator:
         """Whether this is the warehouse that the plan is of; looks at it anew if not."""
         if None in (self._scenery, self._objects, self._units):
             return False
-        min_x, _, max_x, _ = self._scenery.floor
-        if max_x <= min_x or not len(report.kiva_id):
+        if not len(report.kiva_id):
             return False  # the warehouse is still to be built
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
@@ -286,7 +285,10 @@ class Coordinator:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
         try:
-            plan = FloorPlan.of_messages(_map(), self._scenery)
+            grid = _map()
+            if not grid.data:
+                return  # the floor is being built
+            plan = FloorPlan.of_messages(grid, self._scenery)
             plan.check(obstructed=False)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))

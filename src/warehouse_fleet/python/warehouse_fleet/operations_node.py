@@ -185,7 +185,6 @@ class OperationsNode:
     def __init__(self, database, orders="fill", policies=None, seed=1):
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
-        self._stations = _publisher("/warehouse/stations", msg.StationStates)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
         self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
         self._heat = _publisher("/warehouse/heat", msg.HeatMap)
@@ -220,6 +219,8 @@ class OperationsNode:
             ("find_stock", srv.FindStock, self._find_stock),
         ):
             rospy.Service(f"/warehouse/{name}", kind, call)
+        # Last of all: whoever hears it finds the services there.
+        self._stations = _publisher("/warehouse/stations", msg.StationStates)
         rospy.loginfo(
             f"{len(self._site.units)} storage units, {len(self._site.items)} bins, "
             f"{len(self._shift.orders)} orders to go on with"

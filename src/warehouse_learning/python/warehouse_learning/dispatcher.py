@@ -67,7 +67,8 @@ class KivaDispatcherEnv(gymnasium.Env):
         if self._driver:
             self._driver.close()
         self._world.restore(self._checkpoint)
-        self._driver = FleetDriver(self._world, choose_robot=self._choose_robot)
+        self._driver = FleetDriver(self._world)
+        self._driver.transports.match_robots = self._match
         self._stations = [s for s in self._driver.plan.stations if s.kind == PICK]
         self._tasks, self._released, self._wishes = [], {}, {}
         self._cycle = self.delivered = 0
@@ -130,14 +131,13 @@ class KivaDispatcherEnv(gymnasium.Env):
             self._driver.close()
             self._driver = None
 
-    def _choose_robot(self, cell, free):
-        """Who was told to fetch the unit in that cell; the nearest, if that one is stuck."""
-        robot = self._wishes.pop(cell, NOWHERE)
-        if robot in free:
-            return robot
-        width = self._driver.plan.width
-        row, column = np.divmod(self._driver.traffic.cell[free], width)
-        return free[np.abs(row - cell // width).argmin()] if len(row) else free[0]
+    def _match(self, asked, free):
+        """Transports and who was told to do them; one that is stuck does it when it is free."""
+        for transport in asked:
+            robot = self._wishes.get(transport.shelf, NOWHERE)
+            if robot in free:
+                del self._wishes[transport.shelf]
+                yield transport, robot
 
     def _free(self):
         """(robots,) bool: without a task."""
@@ -156,11 +156,10 @@ class KivaDispatcherEnv(gymnasium.Env):
         if not self._free()[robot]:
             return False
         task = self._tasks[number]
-        cell = self._driver.transports.cell_of_unit[task["shelf"]]
         answer = self._driver.transports.submit(task["shelf"], task["station"].name)
         if not answer.accepted:
             return False
-        self._wishes[cell] = robot
+        self._wishes[task["shelf"]] = robot
         del self._tasks[number]
         self._ask()
         return True

@@ -4,6 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 import { Changes } from './changes.js';
 import { $, make, on, press } from './dom.js';
+import { behind } from './paint.js';
 
 const HEIGHT = 0.004; // over the floor, beneath robots [m]
 const TOLD = { traffic: 'robots through a cell', waiting: 'seconds that robots waited in a cell' };
@@ -78,7 +79,7 @@ export class HeatMap {
     const map = new THREE.DataTexture(coloursOf(values, top), width, rows, THREE.RGBAFormat);
     map.needsUpdate = true;
     this.object = new THREE.Mesh(new THREE.PlaneBufferGeometry(width * spacing, rows * spacing),
-      new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false }));
+      new THREE.MeshBasicMaterial({ map, transparent: true, depthWrite: false, ...behind(-1) }));
     this.object.position.set(x + (width - 1) * spacing / 2, y + (rows - 1) * spacing / 2, HEIGHT);
     this.stage.scene.add(this.object);
     $('heat-text').textContent = `${TOLD[this.kind]}, last ${Math.max(1, Math.round(seconds / 60))} min: 0 to ${Math.round(top)}`;

@@ -57,6 +57,7 @@ export class RobotList {
     ...[...units].map(([number, pieces]) => make('button', {
       textContent: `unit ${number}: ${pieces}`, click: () => this.select(`storage_unit${number}`) })));
     $('found').hidden = false;
+    this.refresh();
   }
 
   takeFirst() {
@@ -84,6 +85,7 @@ export class RobotList {
       button.querySelector('b').textContent = filter === '' ? status.length : counts[filter];
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
+    this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
     this.inside.style.height = `${this.rowHeight * this.rows.length}px`;
     this.draw();
   }

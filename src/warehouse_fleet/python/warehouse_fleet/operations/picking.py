@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Picking: orders to stations, units for their lines, and piece by piece into the totes."""
 
+import math
 from collections import defaultdict
 
 from warehouse_fleet.operations.inventory import Reason
@@ -8,6 +9,7 @@ from warehouse_fleet.operations.orders import OrderEventKind, OrderState
 from warehouse_fleet.operations.stations import Mode, Pick
 
 RETRY = 1.0  # after the fleet refused a unit [s]
+LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
 
 
 class Picking:
@@ -16,11 +18,22 @@ class Picking:
     def __init__(self, shift, stations):
         self.shift, self.stations = shift, stations
         self._to_assign, self._to_fetch = dict.fromkeys(stations), {}
+        self._is_to_look, self._next_look = False, -math.inf
         self._missing = defaultdict(dict)  # lines without a unit, with their station, by SKU
 
     # What makes work.
 
     def backlog_changed(self):
+        """Orders that come one after the other are looked at together: each look costs as much as
+        there are orders and stations."""
+        if self.shift.now >= self._next_look:
+            self._look(None)
+        elif not self._is_to_look:
+            self._is_to_look = True
+            self.shift.at(self._next_look, self._look, None)
+
+    def _look(self, _):
+        self._is_to_look, self._next_look = False, self.shift.now + LOOK
         for station in self.stations:
             if station.free_slots and station.is_open:
                 self._to_assign[station] = None

@@ -4,6 +4,7 @@
 import asyncio
 import csv
 import io
+from contextlib import suppress
 from typing import Literal
 
 from fastapi import APIRouter, Body, Depends, HTTPException, Path, Query, Request, Response
@@ -69,7 +70,10 @@ class ApiBackend:
     async def glance(self):
         """Waits until coordinator and world have told what they tell, for a moment at most."""
         self.feed.look(GLANCE)
-        await _until(lambda: self.feed["fleet"] and self.feed["performance"])
+        with suppress(AwayError):
+            runs = await asyncio.to_thread(self.coordination.runs)
+            names = GLANCE if runs else set(GLANCE) - {"coordinator"}
+            await _until(lambda: all(self.feed[name] for name in names))
 
     async def change(self, action, *args):
         """Calls a method of Simulation by which models come or go.
