@@ -33,7 +33,7 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 	@$(DEVEL) roslaunch --sigint-timeout=5 --sigterm-timeout=1 warehouse_sim operations.launch $(ARGS)
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
-	@scripts/learning_packages
+	@scripts/learning_packages || true  # their tests are skipped then, and say so
 	@$(BUILD) tests
 	@scripts/test -j$(JOBS) $(ARGS)
 
