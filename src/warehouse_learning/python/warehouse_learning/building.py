@@ -7,15 +7,19 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from kiva_plugin_cpp import World, Worlds, worlds_folder
+from warehouse_sim import layout, models, request
 
 
 def build(n, options, threads=0):
     """(Worlds, checkpoint): n worlds as they are before an episode, and what brings them back."""
+    wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
     with tempfile.TemporaryDirectory() as folder:
         _write_kiva(Path(folder), options)
-        first = World.create(
-            robots=options.robots, shelves=options.shelves, model_paths=[folder], seed=1
-        )
+        first = World(model_paths=[folder])
+        first.delete(models.FLOOR)
+        # Not by World.create(): that takes the project's own robot, whatever model_paths say.
+        first.spawn(models.document(models.of_layout(layout.plan(wanted))))
+    first.events()
     first.step_size = options.physics_step
     checkpoint = first.checkpoint()
     others = [World() for _ in range(n - 1)]
