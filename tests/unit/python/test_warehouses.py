@@ -100,9 +100,22 @@ def test_reservations_keep_robots_apart():
         np.testing.assert_array_equal(cells, warehouses.unit_cell[w])
 
 
-def test_without_them_physics_keeps_robots_apart():
-    *_, collisions = random_run(1, decisions=60, reserve=False)
-    assert collisions > 0
+@pytest.mark.parametrize("reserve", [True, False])
+def test_without_reservations_physics_keeps_robots_apart(reserve):
+    options = Options.of({"robots": 2, "shelves": 6, "reserve": reserve})
+    warehouses = Warehouses(1, options, 1)
+    warehouses.reset([0], [0])
+    grid = warehouses.grid
+    cells = np.flatnonzero(grid.street & np.roll(grid.street, -1))[0] + np.array([0, 1])
+    x, y = grid.point_of(cells)
+    warehouses.worlds.place([0, 0], [1, 2], x, y, [0.0, np.pi])  # face to face
+    warehouses.worlds.step(0)
+    warehouses._see(slice(None))
+    warehouses.bound_for = warehouses.cell.copy()
+    _, happened = warehouses.step(np.full((1, 2), Action.FORWARD))
+    assert happened["collided"].all() != reserve
+    assert happened["refused"].all() == reserve
+    assert abs(np.diff(warehouses.worlds.x[0])[0]) > 0.75
 
 
 @pytest.mark.parametrize("options", [{}, {"decision": 0.5}, {"lasers": True}])

@@ -12,13 +12,14 @@ from warehouse_sim import layout, models, request
 
 def build(n, options, threads=0):
     """(Worlds, checkpoint): n worlds as they are before an episode, and what brings them back."""
+    wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
     with tempfile.TemporaryDirectory() as folder:
         _write_kiva(Path(folder), options)
-        first = World(model_paths=[folder], seed=1)
+        first = World(model_paths=[folder])
         first.delete(models.FLOOR)
-        wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
-        first.spawn(models.document(models.of_layout(layout.plan(wanted, seed=1))))
-        first.events()
+        # Not by World.create(): that takes the project's own robot, whatever model_paths say.
+        first.spawn(models.document(models.of_layout(layout.plan(wanted))))
+    first.events()
     first.step_size = options.physics_step
     checkpoint = first.checkpoint()
     others = [World() for _ in range(n - 1)]
