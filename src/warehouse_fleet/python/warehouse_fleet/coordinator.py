@@ -373,9 +373,10 @@ class Coordinator:
         state.executed_over_planned = totals.executed_over_planned
         state.station = list(transports.stations)
         state.queue = [transports.waiting(name) for name in state.station]
-        long = np.flatnonzero(time - traffic.still_since > WAITS_LONG)
+        # Who is at work in a station waits for nobody.
+        long = np.flatnonzero((time - traffic.still_since > WAITS_LONG) & ~traffic.busy)
         state.waiting_kiva = traffic.kiva_ids[long].tolist()
-        state.waiting_for = self._ids_of(traffic.waits_for[long])
+        state.waiting_for = self._ids_of([traffic.ahead_of(robot) for robot in long.tolist()])
         state.waiting_since = traffic.still_since[long].tolist()
         state.collisions, state.blocked = self._collisions, traffic.blocked
         state.watchdog = traffic.watchdog

@@ -226,10 +226,7 @@ class Traffic:
         seen = set()
         while robot != NOWHERE and robot not in seen:
             seen.add(robot)
-            ahead = int(self.waits_for[robot])
-            if ahead == NOWHERE and not self.busy[robot]:
-                ahead = self._before(robot)
-            robot = ahead
+            robot = self.ahead_of(robot)
             if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
                 return True
             if robot != NOWHERE and self._moves_up(robot):
@@ -241,8 +238,11 @@ class Traffic:
         in_lane = self.plan.lane.flat[self.cell[robot]]
         return in_lane and self.time - self.still_since[robot] < MOVES_UP
 
-    def _before(self, robot):
-        """Who holds the next cell of its lane; NOWHERE beyond lanes."""
+    def ahead_of(self, robot):
+        """Whom it waits for: by the plan, or who holds the next cell of its lane; or NOWHERE."""
+        ahead = int(self.waits_for[robot])
+        if ahead != NOWHERE or self.busy[robot]:
+            return ahead
         after = self._after.get(int(self.cell[robot]), NOWHERE)
         return self._execution.holder(after) if after != NOWHERE else NOWHERE
 
