@@ -52,7 +52,10 @@ class OperationsPage(PageTest):
         self.page.read("(location.hash = '')")  # no station's screen
 
     def click(self, selector):
-        self.page.driver.find_element("css selector", selector).click()
+        """In one go: what is looked for first may have been drawn anew when it is clicked."""
+        element = f"document.querySelector({json.dumps(selector)})"
+        self.page.until(f"{element}?.checkVisibility() && !{element}.disabled")
+        self.page.read(f"{element}.click()")
 
     def press(self, name, button):
         """A button of a station's card: 1 opens or closes it, 2 is for by hand or by itself."""

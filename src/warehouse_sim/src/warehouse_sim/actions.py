@@ -6,6 +6,7 @@ executes has ended: no further one is sent.
 """
 
 import queue
+import time
 from dataclasses import dataclass
 
 from actionlib import ActionServer
@@ -32,7 +33,7 @@ from warehouse_sim.script_executor import Command, command
 from warehouse_sim.state import COMMANDS
 
 FEEDBACK_GAP = 0.2  # [s, wall]
-PATIENCE = 5.0  # for where the storage units are [s, wall]
+PATIENCE = 3.0  # for where a storage unit is that may just have come [s, wall]
 
 
 @dataclass(frozen=True)
@@ -150,8 +151,12 @@ class RobotActions:
 
     def _place(self, name):
         """The grid point of a storage unit, or None."""
-        if not self._places.units_and_objects:
-            self._places.wait(PATIENCE)
+        end = time.monotonic() + PATIENCE
+        while (place := self._told_place(name)) is None and time.monotonic() < end:
+            self._places.wait(end - time.monotonic())
+        return place
+
+    def _told_place(self, name):
         known = self._places.units_and_objects
         units = tracking.storage_units(*known) if known else tracking.Tracked()
         return point(units.pose[units.names.index(name)]) if name in units.names else None
