@@ -9,6 +9,7 @@ from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 
+SETTLES = 0.3  # [s] within which the page fits the picture to its panels
 OPTIONS = (
     "--headless",
     "--no-sandbox",
@@ -72,8 +73,12 @@ class Browser:
         )
 
     def click(self, x, y, z=0.0):
-        """Clicks what is drawn at that point of the world."""
-        self.click_at(*self.pixel(x, y, z))
+        """Clicks what is drawn at that point of the world, once panels push it about no more."""
+        at, before = self.pixel(x, y, z), None
+        while at != before:
+            time.sleep(SETTLES)
+            at, before = self.pixel(x, y, z), at
+        self.click_at(*at)
 
     def click_at(self, px, py):
         """Clicks a point of the window [px]."""
