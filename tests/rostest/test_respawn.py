@@ -41,7 +41,7 @@ class BuilderKilledWhileBuilding(unittest.TestCase):
 
     def build_in_vain(self):
         with self.assertRaises(rospy.ServiceException):
-            create("large")
+            create("huge")  # which takes so long that nobody is too late
 
 
 class Respawn(unittest.TestCase):
