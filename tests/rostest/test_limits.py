@@ -28,7 +28,9 @@ SIGINT_TIMEOUT = 3.0  # [s] until roslaunch would kill it
 
 
 def ask_for_steps(number):
-    """Clients of their own that each wait for FOR_EVER steps, as processes."""
+    """Clients of their own that each wait for FOR_EVER steps, as processes. The client gives up
+    where the master still names the service of a world before this one."""
+    rospy.wait_for_service("/gazebo/step", PATIENCE)
     client = ["rosservice", "call", "/gazebo/step", str(FOR_EVER)]
     return [subprocess.Popen(client, stdout=subprocess.DEVNULL) for _ in range(number)]
 
