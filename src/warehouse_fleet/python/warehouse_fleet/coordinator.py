@@ -383,6 +383,10 @@ class Coordinator:
         state.alarms = [
             f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
         ]
+        state.alarms += [
+            f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
+            for kiva in traffic.kiva_ids[traffic.lost].tolist()
+        ]
         if traffic.alarm:
             state.alarms.append(traffic.alarm)
         return state
