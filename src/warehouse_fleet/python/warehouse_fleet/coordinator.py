@@ -281,6 +281,7 @@ class Coordinator:
 
     def _begin(self, report, time):
         self._plan_of, self._ids = self._scenery, report.kiva_id
+        self._next_state = self._next_paths = time
         if self._traffic is not None:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
