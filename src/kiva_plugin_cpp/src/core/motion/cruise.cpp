@@ -7,6 +7,7 @@
 #include "core/motion/clearance.h"
 #include "core/motion/drives.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
