@@ -15,8 +15,8 @@ from warehouse_learning.warehouses import ActionError
 class KivaParallelEnv(OneWarehouse, ParallelEnv):
     """Agents robot_1, robot_2 …; options as of warehouse_learning.Options.
 
-    Observations are (size,) float32, as `fields` says; infos hold "action_mask", (5,) int8, and
-    what happened to the robot. An action that is not possible now is a wait. state() is the whole
+    Observations are (size,) float32, as `fields` says; infos hold "action_mask", (5,) int8
+    (not of wheels), and what happened to the robot. An action that is not possible now is a wait. state() is the whole
     warehouse, as `state_fields` says. Every episode is truncated after max_cycles decisions.
     """
 
@@ -93,7 +93,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
         masks = self._masks()
         return {
             agent: {
-                "action_mask": masks[i].copy(),
+                **{name: mask[0, i].copy() for name, mask in masks.items()},
                 **{name: bool(events[i]) for name, events in happened.items()},
             }
             for i, agent in enumerate(self.possible_agents)

@@ -23,7 +23,8 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
     """One policy moves every robot; options as of warehouse_learning.Options.
 
     Observations are those of the robots in a row, (robots * size,) float32; the reward is the sum
-    of theirs, which info["rewards"] has one by one; info["action_mask"] is (robots, 5) int8.
+    of theirs, which info["rewards"] has one by one; info["action_mask"] is (robots, 5) int8; wheels
+    have none.
     """
 
     metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
@@ -37,19 +38,22 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
         """A new episode: the same seed, the same episode."""
         super().reset(seed=seed)
         self._begin(self.np_random.integers(2**62) if seed is None else seed)
-        return self._observation(), {"action_mask": self._masks()}
+        return self._observation(), self._mask()
 
     def step(self, action):
         """ActionError if the action is none."""
         if self._seed is None:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
         rewards, happened, ends = self._decide(_by_robot(action, 1, self.options)[0])
-        info = {"action_mask": self._masks(), "rewards": rewards} | happened
+        info = self._mask() | {"rewards": rewards} | happened
         return self._observation(), float(rewards.sum()), False, ends, info
 
     def action_masks(self):
         """(robots * 5,) bool, as sb3_contrib's MaskablePPO asks for."""
         return self._in.masks()[0].ravel()
+
+    def _mask(self):
+        return {name: mask[0] for name, mask in self._masks().items()}
 
     def _observation(self):
         return self._see.observations().reshape(-1)
@@ -163,13 +167,13 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
             final[i] = observations[i].copy()
         self._begin(which, self._next_seeds(len(which)))
         fresh = self._observations()
-        mask = self._in.masks().astype(np.int8)
-        infos = infos | {
+        infos = {
+            **infos,
             "final_obs": final,
             "_final_obs": ends.copy(),
             "final_info": dict(infos),
             "_final_info": ends.copy(),
-            "action_mask": mask,
+            **self._masks(),
         }
         return fresh, infos
 
@@ -177,7 +181,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         return self._see.observations().reshape(self.num_envs, -1)
 
     def _infos(self, rewards, happened):
-        infos = {"action_mask": self._in.masks().astype(np.int8)}
+        infos = self._masks()
         if rewards is not None:
             infos["rewards"] = rewards.copy()
         infos |= happened

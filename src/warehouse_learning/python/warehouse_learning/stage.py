@@ -2,6 +2,8 @@
 """What environments of robots have in common, whatever their interface: warehouses, what is
 observed of them, who watches, and, of one warehouse, the episode as it goes."""
 
+import numpy as np
+
 from warehouse_learning import episodes
 from warehouse_learning.observing import Observer
 from warehouse_learning.options import Options
@@ -28,6 +30,12 @@ class Stage:
     def render(self):
         return self._screen.render()
 
+    def _masks(self):
+        """{"action_mask": (n, robots, 5) int8}; nothing of wheels, which may do anything."""
+        if self.options.continuous:
+            return {}
+        return {"action_mask": self._in.masks().astype(np.int8)}
+
     def _ends(self):
         """(n,) bool: whose episodes are over."""
         return self._in.cycle >= self.options.max_cycles
@@ -53,10 +61,6 @@ class OneWarehouse(Stage):
         self._screen.stepped()
         happened = {name: events[0] for name, events in happened.items()}
         return rewards[0], happened, bool(self._ends()[0])
-
-    def _masks(self):
-        """(robots, 5) int8."""
-        return self._in.masks()[0].astype("int8")
 
     def state(self):
         """(size,) float32: the whole warehouse, as `state_fields` says, for centralised critics."""
