@@ -716,6 +716,7 @@ PYBIND11_MODULE(_core, m) {
   defineFleet(m);
   defineWorld(m);
   defineWorlds(m);
+  defineCells(m);
 }
 
 }  // namespace kiva::python
