@@ -64,7 +64,9 @@ struct Event {
     kDropped = 5,
     kCollision = 6,
     kSpawned = 7,
-    kDeleted = 8
+    kDeleted = 8,
+    kFailed = 10,
+    kRepaired = 11
   };
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;

@@ -44,6 +44,7 @@ __all__ = [
     "CheckpointError",
     "DescriptionError",
     "EventKind",
+    "FailureKind",
     "Fleet",
     "Kind",
     "State",
@@ -99,6 +100,19 @@ class EventKind(IntEnum):
     COLLISION = 6
     SPAWNED = 7
     DELETED = 8
+    FAILED = 10
+    REPAIRED = 11
+
+
+class FailureKind(IntEnum):
+    """What breaks in a robot; World.fail() says what that means."""
+
+    REPAIRED = 0
+    MOTOR = 1
+    LIFT_STUCK = 2
+    LASER_BLIND = 3
+    RADIO_LOST = 4
+    WHEEL_SLIPS = 5
 
 
 def worlds_folder():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Types for checkers and editors; shapes, units and errors are told by the docstrings.
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from enum import IntEnum
 from os import PathLike
 from pathlib import Path
@@ -48,6 +48,16 @@ class EventKind(IntEnum):
     COLLISION = 6
     SPAWNED = 7
     DELETED = 8
+    FAILED = 10
+    REPAIRED = 11
+
+class FailureKind(IntEnum):
+    REPAIRED = 0
+    MOTOR = 1
+    LIFT_STUCK = 2
+    LASER_BLIND = 3
+    RADIO_LOST = 4
+    WHEEL_SLIPS = 5
 
 class Fleet:
     @property
@@ -82,6 +92,8 @@ class Fleet:
     def left(self) -> NDArray[np.uint32]: ...
     @property
     def stopped(self) -> NDArray[np.uint8]: ...
+    @property
+    def failures(self) -> NDArray[np.uint8]: ...
     @property
     def kiva_id(self) -> NDArray[np.int32]: ...
     @property
@@ -168,6 +180,11 @@ class World:
     ) -> None: ...
     def cancel(self, kiva_id: ArrayLike) -> None: ...
     def stop(self, kiva_id: ArrayLike, stop: bool = True) -> None: ...
+    def fail(self, kiva_id: int, kind: int, repair_after: float = 0.0) -> None: ...
+    def set_failures(
+        self, rate: float, repair: float = 300.0, share: Sequence[float] | None = None
+    ) -> None: ...
+    def last_heard(self) -> NDArray[np.void]: ...
     def scans(self, kiva_id: ArrayLike | None = None) -> NDArray[np.float32]: ...
     def spawn(
         self, sdf: str, name: str = "", place: tuple[float, float, float, float] | None = None

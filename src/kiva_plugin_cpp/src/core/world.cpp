@@ -12,6 +12,7 @@
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
 #include "core/control/commands.h"
+#include "core/control/failures.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
@@ -78,6 +79,7 @@ void forEachUserPlugin(WorldState& world, Call call) {
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
   haltCrashed(world);
+  wearOut(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
 }
@@ -182,6 +184,7 @@ void World::reset(bool time_too) {
   for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
+  beginFailures(world);
   if (time_too) {
     world.steps = world.dt_since = 0;
     world.dt_since_time = 0;
@@ -209,6 +212,16 @@ void World::post(FollowPath path) {
   state_->commands.push_back(command);
   state_->paths.push_back(std::move(path));
 }
+
+void World::fail(int kiva_id, Failure failure, double repair_after) {
+  breakDown(*state_, kiva_id, failure, repair_after);
+}
+void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
+void World::setFailureModel(const FailureModel& model) { kiva::setFailureModel(*state_, model); }
+std::optional<RobotReport> World::lastHeard(int robot) const {
+  return kiva::lastHeard(*state_, robot);
+}
+const FailureModel& World::failureModel() const { return state_->failures.model; }
 
 void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
 
@@ -401,6 +414,10 @@ void World::scan(int robot, std::vector<float>* ranges) const {
   static thread_local FanHits hits;
   const LaserParameters& laser = state_->fleet.robots[robot].laser;
   castRays(*state_, robot, {laser.max_range, kInfinity}, &hits);
+  if (isBlind(*state_, robot)) {
+    ranges->assign(laser.rays, std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
   ranges->assign(laser.rays, static_cast<float>(kInfinity));
   for (int ray = hits.first; ray <= hits.last; ++ray) {
     if (hits.model[ray] < 0) continue;

@@ -89,7 +89,7 @@ void driveSegment(WorldState& world, int i) {
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
   const MotionSegment segment = f.tasks[i].segments.front();
   const OnLine at = onLine(f, i, segment);
-  if (f.stopped[i]) return holdDrive(world, i, at);
+  if (isHeld(f, i)) return holdDrive(world, i, at);
   if (f.tasks[i].phase == Phase::kStarting) {
     begin(world, i, at);
     setWheels(f, i, 0, 0);

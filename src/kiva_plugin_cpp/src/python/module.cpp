@@ -213,6 +213,49 @@ void stop(Host& host, const py::object& kiva_id, bool stop) {
               Ids("kiva_id", kiva_id));
 }
 
+/// `kind` 0: it is repaired.
+void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
+  const auto lock = host.use();
+  if (kind == 0) return host.world.repair(kiva_id);
+  const bool is_known = kind > 0 && kind <= kFailureKinds;
+  if (!is_known) throw py::value_error("kind is " + std::to_string(kind) + "; expected 0 to 5");
+  host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
+}
+
+void setFailures(Host& host, double rate, double repair,
+                 const std::optional<std::array<double, kFailureKinds>>& share) {
+  const auto lock = host.use();
+  FailureModel model;
+  model.rate = rate;
+  model.repair = repair;
+  if (share) model.share = *share;
+  host.world.setFailureModel(model);
+}
+
+/// A row of World.last_heard.
+struct HeardRow {
+  std::int32_t index;
+  double x, y, yaw, vx, vy, yaw_rate;
+  std::uint8_t status, state;
+  std::int32_t shelf_id;
+  std::uint32_t path_id, reached, left;
+  std::uint8_t last_end;
+};
+
+py::array_t<HeardRow> lastHeard(Host& host) {
+  const auto lock = host.use();
+  std::vector<HeardRow> rows;
+  for (int i = 0; i < host.world.fleet().size(); ++i) {
+    const auto last = host.world.lastHeard(i);
+    if (!last) continue;
+    rows.push_back({i, last->x, last->y, last->yaw, last->vx, last->vy, last->yaw_rate,
+                    static_cast<std::uint8_t>(last->status),
+                    static_cast<std::uint8_t>(last->state), last->shelf_id, last->path_id,
+                    last->reached, last->left, last->last_end});
+  }
+  return py::array_t<HeardRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
 /// Rows of which each has `points[i]` entries of x and y, one after the other. All or none.
 void follow(Host& host, const py::object& kiva_id, const py::object& path_id,
             const py::object& first, const py::object& points, const py::object& x,
@@ -541,6 +584,9 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
   add(
       "stopped", [](const Fleet& f) -> auto& { return f.stopped; }, std::uint8_t(),
       "(n,) uint8: 1 while stop() holds a robot. A view.");
+  add(
+      "failures", [](const Fleet& f) -> auto& { return f.failures; }, std::uint8_t(),
+      "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up; 0 nothing. A view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
@@ -624,6 +670,22 @@ mov().)");
 
 Kiva_id 0 means every robot. What is commanded meanwhile begins when they go on. Arguments and
 errors as of mov().)");
+  world.def("fail", &fail, py::arg("kiva_id"), py::arg("kind"), py::arg("repair_after") = 0.0,
+            R"(Breaks something in a robot now, a FailureKind; FailureKind.REPAIRED mends all of it.
+
+It is repaired after so many seconds; 0: when it is asked for. ValueError for an unknown robot or
+kind, or a time that is negative or not finite.)");
+  world.def("set_failures", &setFailures, py::arg("rate"), py::arg("repair") = 300.0,
+            py::arg("share") = py::none(),
+            R"(From now on robots break by themselves, by chance that the world's seed decides.
+
+rate: an hour and robot; 0: never. repair: mean time until one is repaired, exponentially
+distributed [s]. share: how often each FailureKind from MOTOR on is what breaks, beside the others:
+5 numbers. ValueError where one is negative or not finite, or all shares are 0.)");
+  world.def("last_heard", &lastHeard,
+            R"((n,) of robots whose radio is lost: what was heard of them last.
+
+Fields: index (in the fleet's arrays), and those of Fleet. A copy.)");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
       R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].
@@ -707,6 +769,8 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
 
 PYBIND11_MODULE(_core, m) {
   PYBIND11_NUMPY_DTYPE(Command, kind, kiva_id, x, y, direction, lift, shelf_id);
+  PYBIND11_NUMPY_DTYPE(HeardRow, index, x, y, yaw, vx, vy, yaw_rate, status, state, shelf_id,
+                       path_id, reached, left, last_end);
   PYBIND11_NUMPY_DTYPE(UnitRow, shelf_id, x, y, z, yaw, mass, kiva_id);
   PYBIND11_NUMPY_DTYPE(ItemRow, item_id, x, y, z, mass, shelf_id);
   py::register_exception<DescriptionError>(m, "DescriptionError", PyExc_ValueError);

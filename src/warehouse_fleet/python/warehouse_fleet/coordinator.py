@@ -13,6 +13,7 @@ from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
 from warehouse_fleet import FloorError, floor_markings
+from warehouse_fleet.failures import names_of
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
@@ -381,8 +382,11 @@ class Coordinator:
         state.collisions, state.blocked = self._collisions, traffic.blocked
         state.watchdog = traffic.watchdog
         state.alarms = [
-            f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
+            f"kiva{traffic.kiva_ids[robot]}: {names_of(traffic.failures[robot])}"
+            for robot in np.flatnonzero(traffic.failures)
         ]
+        still = traffic.kiva_ids[traffic.stalled & ~traffic.broken].tolist()
+        state.alarms += [f"kiva{kiva} does not move" for kiva in still]
         if traffic.alarm:
             state.alarms.append(traffic.alarm)
         return state

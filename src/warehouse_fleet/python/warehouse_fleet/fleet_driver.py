@@ -8,6 +8,7 @@ driver.step_until(3600)
 
 import numpy as np
 
+from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
@@ -36,6 +37,7 @@ class FleetDriver:
         self.events = None
         self.collisions = 0
         self.refusals = []  # texts
+        self.failures = FailureLog()
         self._steps = max(1, round(UPDATE / world.step_size))
 
     def close(self):
@@ -67,8 +69,9 @@ class FleetDriver:
 
     def _drive(self):
         gone = self.traffic.gone
-        report = self.traffic.aligned(self.world.fleet)
+        report = self.traffic.aligned(heard(self.world))
         self.traffic.observe(self.world.time, report)
+        self.failures.observe(self.world.time, report.failures)
         looks = self.traffic.wants_map
         if looks:
             self.traffic.see(self.world.occupancy()[3])

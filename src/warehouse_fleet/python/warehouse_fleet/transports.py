@@ -344,12 +344,15 @@ class Transports:
         transports."""
         traffic = self.traffic
         lost = (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
-        for robot in np.flatnonzero(lost):
+        broken = traffic.broken | traffic.lifts_not
+        for robot in np.flatnonzero(lost | broken):
             transport = self._of_robot.get(int(robot))
             if transport is None:
                 continue
             if transport.step <= Step.READY:
                 self._unassign(transport)
+                continue
+            if not lost[robot]:  # it may soon go on
                 continue
             self._lost.add(transport.shelf)
             self._fail(transport, self._why_lost(robot))
@@ -364,6 +367,8 @@ class Transports:
     def _why_lost(self, robot):
         if self.traffic.gone[robot]:
             return "its robot is gone"
+        if self.traffic.broken[robot]:
+            return "its robot is broken"
         if self.traffic.mode[robot] == Mode.AUTOMATIC:
             return "its robot does not move"
         return f"its robot is {Mode(self.traffic.mode[robot]).name} now"
@@ -570,7 +575,8 @@ class Transports:
         """Robots for what waits, a few more than stations have room for."""
         if not self._open:
             return
-        free = np.flatnonzero(self._without_work() & ~self.traffic.stalled)
+        traffic = self.traffic
+        free = np.flatnonzero(self._without_work() & ~traffic.stalled & ~traffic.lifts_not)
         asked = self._fetchable() if free.size else []
         for transport, robot in self.match_robots(asked, free) if asked else ():
             self._open.remove(transport)

@@ -505,6 +505,7 @@ void Execution::extend(int robot) {
   Course& course = courses_[robot];
   course.waits_for = kNobody;
   if (reports_[robot].is_busy || !reports_[robot].is_controlled || course.is_withdrawn) return;
+  if (isBroken(robot)) return;
   if (course.is_astray) return recentre(robot);
   const int before = static_cast<int>(course.cells.size());
   while (!course.plan.empty() && needs(robot)) {
@@ -634,7 +635,7 @@ bool Execution::isForeign(int robot) const {
 
 bool Execution::isStalled(int robot) const {
   const Course& course = courses_.at(robot);
-  return course.is_active && now_ - course.moved > kStalledFor;
+  return isBroken(robot) || (course.is_active && now_ - course.moved > kStalledFor);
 }
 
 bool Execution::stands(int robot) const {

@@ -9,13 +9,14 @@
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
+#include "core/control/failures.h"
 #include "core/sensing/scans.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -86,6 +87,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
          world.sighted, world.crashes);
   FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
   FIELDS(physics);
+  if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
 }
 
 /// What is on its way in or out.
@@ -103,6 +105,7 @@ void indexModels(WorldState& world) {
   }
   for (Item& item : world.items) item.name = world.models[item.model]->name;
   for (Robot& robot : world.fleet.robots) setRays(world, &robot);
+  markDefects(world);
 }
 
 struct Header {

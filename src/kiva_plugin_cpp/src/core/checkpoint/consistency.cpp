@@ -364,6 +364,11 @@ void checkLists(const WorldState& world) {
   for (std::size_t i = 0; i < world.scans_due.size(); ++i) {
     require(isIn(world.scans_due[i], robots), "scans_due", i, "", "there is no such robot");
   }
+  for (std::size_t i = 0; i < world.failures.defects.size(); ++i) {
+    const Defect& defect = world.failures.defects[i];
+    const bool is_known = world.fleet.find(defect.kiva_id) >= 0 && bitOf(defect.failure) > 1;
+    require(is_known, "failures.defects", i, "", "there is no such robot, or nothing like that");
+  }
   for (std::size_t i = 0; i < world.sighted.size(); ++i) {
     require(isIn(world.sighted[i], robots), "sighted", i, "", "there is no such robot");
   }

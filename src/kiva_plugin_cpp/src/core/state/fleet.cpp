@@ -23,6 +23,7 @@ void forEachArray(Fleet& f, Visit visit) {
   visit(f.reached);
   visit(f.left);
   visit(f.stopped);
+  visit(f.failures);
 }
 
 }  // namespace

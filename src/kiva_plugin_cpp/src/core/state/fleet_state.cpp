@@ -39,6 +39,16 @@ void FleetState::remove(int i) {
   Fleet::remove(i);
 }
 
+bool isHeld(const FleetState& f, int i) {
+  if (f.stopped[i]) return true;
+  if (f.failures[i] == 0) return false;
+  const MotionSegment* at = f.tasks[i].segment();
+  const bool drives = at && (at->kind == MotionSegment::Kind::kDrive ||
+                             at->kind == MotionSegment::Kind::kTurn);
+  const int holds = drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
+  return (f.failures[i] & holds) != 0;
+}
+
 void moved(FleetState& f, int i) {
   f.awake[i] = 1;
   f.clear_until[i] = 0;

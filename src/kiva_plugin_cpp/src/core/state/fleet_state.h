@@ -114,6 +114,9 @@ struct FleetState : Fleet {
   void remove(int i);
 };
 
+/// Whether wheels, or the tower if that is what it moves, are to stand: it is stopped, or broken.
+bool isHeld(const FleetState& fleet, int i);
+
 /// Robot `i` moves otherwise than was foreseen from now on, by a command, a push or another load:
 /// it is awake, no longer cruises, and looks around before it goes on. Whoever changes how a robot
 /// moves calls this, and nothing else follows.

@@ -44,6 +44,22 @@ struct Crash {
   std::string with;  ///< A model's name.
 };
 
+/// What is broken now.
+struct Defect {
+  int kiva_id = 0;
+  Failure failure = Failure::kMotor;
+  double left = 0;   ///< Until it is repaired [s]; +inf = until somebody does.
+  RobotReport last;  ///< Of a lost radio: what was heard before.
+};
+
+/// Failures by chance. All random numbers come from the seed and a count of those drawn so far.
+struct FailureState {
+  FailureModel model;
+  std::vector<Defect> defects;  ///< In the order in which they came.
+  double exposure = 0;          ///< Until the next one by chance [robot seconds].
+  std::uint64_t drawn = 0;
+};
+
 /// Robots whose scans have the same period, by the step within it.
 struct ScanRound {
   std::uint64_t period = 0;  // steps
@@ -107,6 +123,7 @@ struct WorldState {
   std::vector<Crash> crashes;      // of the last step
   std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
+  FailureState failures;
   std::shared_ptr<Workers> workers;
   std::vector<std::string> warnings;
   std::set<std::string> warned;

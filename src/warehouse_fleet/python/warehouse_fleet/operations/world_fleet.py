@@ -101,6 +101,11 @@ class WorldFleet:
         return self._driver.blocked
 
     @property
+    def failures(self):
+        """What broke: a FailureLog."""
+        return self._driver.failures
+
+    @property
     def plan_ms(self):
         return self._driver.plan_ms
 
