@@ -64,7 +64,8 @@ struct Event {
     kDropped = 5,
     kCollision = 6,
     kSpawned = 7,
-    kDeleted = 8
+    kDeleted = 8,
+    kLost = 9  ///< A robot no longer knows where it is, and stops.
   };
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from enum import IntEnum
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,6 +49,7 @@ class EventKind(IntEnum):
     COLLISION = 6
     SPAWNED = 7
     DELETED = 8
+    LOST = 9
 
 class Fleet:
     @property
@@ -100,6 +102,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> None: ...
     @classmethod
     def preset(
@@ -111,6 +114,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @classmethod
     def create(
@@ -125,6 +129,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @property
     def fleet(self) -> Fleet: ...
@@ -134,6 +139,8 @@ class World:
     def items(self) -> NDArray[np.void]: ...
     @property
     def names(self) -> list[str]: ...
+    @property
+    def realism(self) -> dict[str, dict[str, Any]]: ...
     @property
     def time(self) -> float: ...
     @property

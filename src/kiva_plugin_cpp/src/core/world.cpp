@@ -150,6 +150,7 @@ std::uint64_t World::steps() const { return state_->steps; }
 double World::stepSize() const { return state_->dt; }
 const Vector3& World::gravity() const { return state_->gravity; }
 std::uint64_t World::seed() const { return state_->options.seed; }
+const Realism& World::realism() const { return state_->realism; }
 const std::string& World::name() const { return state_->name; }
 
 void World::setStepSize(double seconds) {

@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "arrays.h"
@@ -40,12 +43,37 @@ void warn(const std::vector<std::string>& warnings) {
   }
 }
 
+Realism realismOf(const std::map<std::string, std::string>& texts, const std::string& from) {
+  Parameters parameters(from);
+  for (const auto& [key, text] : texts) parameters.set(key, text);
+  const Realism out = readRealism(parameters);
+  parameters.rejectUnread();
+  return out;
+}
+
+/// Sections by name, each with whether it is on and its numbers.
+py::dict realismOf(const World& world) {
+  py::dict out;
+  forEachSection(world.realism(), [&out](const char* name, const auto& section) {
+    py::dict numbers;
+    numbers["enabled"] = section.enabled;
+    section.fields(section, [&numbers](const char* field, double value, double, double) {
+      numbers[field] = value;
+    });
+    out[name] = numbers;
+  });
+  return out;
+}
+
 HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
-                 std::uint64_t seed, const std::string& drive, int threads) {
+                 std::uint64_t seed, const std::string& drive, int threads,
+                 const std::optional<std::map<std::string, std::string>>& realism,
+                 const std::string& realism_from) {
   WorldOptions options;
   options.seed = seed;
   options.threads = threads;
   options.drive = driveOf(drive);
+  if (realism) options.realism = realismOf(*realism, realism_from);
   std::vector<std::string> warnings;
   HostPtr host;
   {
@@ -563,7 +591,8 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
   world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"), py::arg("threads"));
+            py::arg("seed"), py::arg("drive"), py::arg("threads"),
+            py::arg("realism") = py::none(), py::arg("realism_from") = "");
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 
@@ -684,6 +713,13 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
       "(n,) with item_id, x y z in world [m], mass [kg], shelf_id it lies on (0 = none). A copy.");
   world.def_property_readonly("names", guarded([](World& w) { return w.modelNames(); }),
                               "Of all models, in the order in which they came.");
+  world.def_property_readonly(
+      "realism",
+      [](Host& host) {
+        const auto lock = host.use();
+        return realismOf(host.world);
+      },
+      "What differs from the ideal: sections by name, each a dict of `enabled` and its numbers.");
   world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
   world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
                               "Since time was 0.");

@@ -15,7 +15,7 @@ namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -64,7 +64,7 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  FIELDS(world.name, world.gravity, world.options, within(world.dt, 1e-6, 1),
+  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models, within(world.dt, 1e-6, 1),
          within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }

@@ -23,7 +23,7 @@ constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
 constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
 constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
-constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kDeleted; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kLost; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
 constexpr State lastOf(State) { return State::kWaiting; }
@@ -449,9 +449,20 @@ void describe(A& a, Floor& f) {
 }
 
 template <class A>
+void describe(A& a, Realism& r) {
+  DESCRIBED(Realism, 7);
+  forEachSection(r, [&a](const char*, auto& section) {
+    a(section.enabled);
+    section.fields(section, [&a](const char* name, double& value, double least, double most) {
+      a.named(name, within(value, least, most));
+    });
+  });
+}
+
+template <class A>
 void describe(A& a, WorldOptions& o) {
-  DESCRIBED(WorldOptions, 5);
-  FIELDS(o.seed, o.drive, o.always_in_bullet);  // plugins and threads stay the world's own
+  DESCRIBED(WorldOptions, 6);
+  FIELDS(o.seed, o.drive, o.always_in_bullet, o.realism);  // plugins and threads stay the world's own
 }
 
 #undef DESCRIBED

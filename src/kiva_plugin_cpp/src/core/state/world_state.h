@@ -58,6 +58,8 @@ struct WorldState {
   std::string name;
   Vector3 gravity;
   WorldOptions options;
+  Realism realism;                   // of the options, or of the first robot whose file has one
+  bool realism_of_models = false;    // the latter
   double dt = 0.001;              // [s]
   double dt_since_time = 0;       // [s]: when the present step size began,
   std::uint64_t dt_since = 0;     // and after how many steps

@@ -18,6 +18,7 @@ static_assert(int(kiva::State::kBlocked) == int(KivaStatus::STATE_BLOCKED));
 static_assert(int(kiva::State::kWaiting) == int(KivaStatus::STATE_WAITING));
 static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
 static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
+static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
