@@ -3,7 +3,6 @@
 // What breaks in a robot, by order or by chance, and how long until it is repaired.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 namespace kiva {
@@ -23,15 +22,7 @@ constexpr std::uint8_t bitOf(Failure failure) {
   return static_cast<std::uint8_t>(1u << static_cast<unsigned>(failure));
 }
 
-/// How often robots break by themselves, by chance that WorldOptions::seed decides.
-struct FailureModel {
-  double rate = 0;     ///< An hour and robot, >= 0; 0 = never.
-  double repair = 300;  ///< Until it is repaired, exponentially distributed: the mean [s], > 0.
-  /// How often each kind is what breaks, beside the others; from Failure::kMotor on.
-  std::array<double, kFailureKinds> share{0.3, 0.15, 0.15, 0.25, 0.15};
-};
-
-/// Share of its friction that a wheel which slips has left.
-constexpr double kSlippingGrip = 0.3;
+/// In Fleet::failures, beside those: its battery is empty, and it stands.
+constexpr std::uint8_t kEmptyBattery = 1;
 
 }  // namespace kiva

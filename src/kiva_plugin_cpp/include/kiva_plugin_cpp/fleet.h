@@ -152,6 +152,7 @@ struct Fleet {
   Column<std::uint32_t> left;
   Column<std::uint8_t> stopped;  ///< 1 = it stands until Command::Kind::kGoOn.
   Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
+  Column<float> charge;  ///< Of its battery, 0…1; 1 where there is no model of that.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

@@ -21,6 +21,7 @@
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/external_inputs.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/realism.h"
 
 namespace kiva {
 
@@ -142,6 +143,8 @@ struct WorldOptions {
   /// On which robots are stepped, look ahead and scan, with the same result however many there are;
   /// 1 to kMostThreads. A checkpoint keeps to those of the world that restores it.
   int threads = 1;
+  /// Of all robots, in place of what their files say in `<realism>`; without either, all is ideal.
+  std::optional<Realism> realism;
   PluginFactory plugins;  ///< Asked before libraries are looked for.
 };
 
@@ -166,6 +169,7 @@ class World {
   /// Throws std::invalid_argument if it is not finite or above 1000 m/s².
   void setGravity(const Vector3& gravity);
   std::uint64_t seed() const;  ///< Of everything random.
+  const Realism& realism() const;
   const std::string& name() const;
   /// Everything back to where it was spawned, at rest, tower down, without commands; units and
   /// items too. What clients apply ends. Time goes back to 0 as well if `time_too`.
@@ -183,12 +187,9 @@ class World {
   /// is broken already is repaired then instead. Throws std::invalid_argument if there is no such
   /// robot, or the time is negative or not finite.
   void fail(int kiva_id, Failure failure, double repair_after);
-  /// Repairs all that is broken in a robot: REPAIRED for each, before its time. Throws as fail().
+  /// Repairs all that is broken in a robot: REPAIRED for each, before its time. An empty battery is
+  /// exchanged for a full one. Throws as fail().
   void repair(int kiva_id);
-  /// From now on robots break by themselves. Throws std::invalid_argument if a number is negative,
-  /// or not finite, or no kind has a share.
-  void setFailureModel(const FailureModel& model);
-  const FailureModel& failureModel() const;
   /// What was heard last of a robot whose radio is lost; nothing of one that is heard.
   std::optional<RobotReport> lastHeard(int robot) const;
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Types for checkers and editors; shapes, units and errors are told by the docstrings.
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from enum import IntEnum
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -48,6 +49,7 @@ class EventKind(IntEnum):
     COLLISION = 6
     SPAWNED = 7
     DELETED = 8
+    LOST = 9
     FAILED = 10
     REPAIRED = 11
 
@@ -95,6 +97,8 @@ class Fleet:
     @property
     def failures(self) -> NDArray[np.uint8]: ...
     @property
+    def charge(self) -> NDArray[np.float32]: ...
+    @property
     def kiva_id(self) -> NDArray[np.int32]: ...
     @property
     def shelf_id(self) -> NDArray[np.int32]: ...
@@ -112,6 +116,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> None: ...
     @classmethod
     def preset(
@@ -123,6 +128,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @classmethod
     def create(
@@ -137,6 +143,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @property
     def fleet(self) -> Fleet: ...
@@ -146,6 +153,8 @@ class World:
     def items(self) -> NDArray[np.void]: ...
     @property
     def names(self) -> list[str]: ...
+    @property
+    def realism(self) -> dict[str, dict[str, Any]]: ...
     @property
     def time(self) -> float: ...
     @property
@@ -181,9 +190,6 @@ class World:
     def cancel(self, kiva_id: ArrayLike) -> None: ...
     def stop(self, kiva_id: ArrayLike, stop: bool = True) -> None: ...
     def fail(self, kiva_id: int, kind: int, repair_after: float = 0.0) -> None: ...
-    def set_failures(
-        self, rate: float, repair: float = 300.0, share: Sequence[float] | None = None
-    ) -> None: ...
     def last_heard(self) -> NDArray[np.void]: ...
     def scans(self, kiva_id: ArrayLike | None = None) -> NDArray[np.float32]: ...
     def spawn(

@@ -12,6 +12,7 @@
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
 #include "core/control/commands.h"
+#include "core/control/energy.h"
 #include "core/control/failures.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
@@ -80,6 +81,7 @@ void forEachUserPlugin(WorldState& world, Call call) {
 void decide(WorldState& world) {
   haltCrashed(world);
   wearOut(world);
+  useEnergy(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
 }
@@ -152,6 +154,7 @@ std::uint64_t World::steps() const { return state_->steps; }
 double World::stepSize() const { return state_->dt; }
 const Vector3& World::gravity() const { return state_->gravity; }
 std::uint64_t World::seed() const { return state_->options.seed; }
+const Realism& World::realism() const { return state_->realism; }
 const std::string& World::name() const { return state_->name; }
 
 void World::setStepSize(double seconds) {
@@ -217,11 +220,9 @@ void World::fail(int kiva_id, Failure failure, double repair_after) {
   breakDown(*state_, kiva_id, failure, repair_after);
 }
 void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
-void World::setFailureModel(const FailureModel& model) { kiva::setFailureModel(*state_, model); }
 std::optional<RobotReport> World::lastHeard(int robot) const {
   return kiva::lastHeard(*state_, robot);
 }
-const FailureModel& World::failureModel() const { return state_->failures.model; }
 
 void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
 

@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "arrays.h"
@@ -40,12 +43,37 @@ void warn(const std::vector<std::string>& warnings) {
   }
 }
 
+Realism realismOf(const std::map<std::string, std::string>& texts, const std::string& from) {
+  Parameters parameters(from);
+  for (const auto& [key, text] : texts) parameters.set(key, text);
+  const Realism out = readRealism(parameters);
+  parameters.rejectUnread();
+  return out;
+}
+
+/// Sections by name, each with whether it is on and its numbers.
+py::dict realismOf(const World& world) {
+  py::dict out;
+  forEachSection(world.realism(), [&out](const char* name, const auto& section) {
+    py::dict numbers;
+    numbers["enabled"] = section.enabled;
+    section.fields(section, [&numbers](const char* field, double value, double, double) {
+      numbers[field] = value;
+    });
+    out[name] = numbers;
+  });
+  return out;
+}
+
 HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
-                 std::uint64_t seed, const std::string& drive, int threads) {
+                 std::uint64_t seed, const std::string& drive, int threads,
+                 const std::optional<std::map<std::string, std::string>>& realism,
+                 const std::string& realism_from) {
   WorldOptions options;
   options.seed = seed;
   options.threads = threads;
   options.drive = driveOf(drive);
+  if (realism) options.realism = realismOf(*realism, realism_from);
   std::vector<std::string> warnings;
   HostPtr host;
   {
@@ -220,16 +248,6 @@ void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
   const bool is_known = kind > 0 && kind <= kFailureKinds;
   if (!is_known) throw py::value_error("kind is " + std::to_string(kind) + "; expected 0 to 5");
   host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
-}
-
-void setFailures(Host& host, double rate, double repair,
-                 const std::optional<std::array<double, kFailureKinds>>& share) {
-  const auto lock = host.use();
-  FailureModel model;
-  model.rate = rate;
-  model.repair = repair;
-  if (share) model.share = *share;
-  host.world.setFailureModel(model);
 }
 
 /// A row of World.last_heard.
@@ -586,7 +604,11 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
       "(n,) uint8: 1 while stop() holds a robot. A view.");
   add(
       "failures", [](const Fleet& f) -> auto& { return f.failures; }, std::uint8_t(),
-      "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up; 0 nothing. A view.");
+      "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up, 1 for "
+      "an empty battery; 0 nothing. A view.");
+  add(
+      "charge", [](const Fleet& f) -> auto& { return f.charge; }, 0.0f,
+      "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
@@ -609,7 +631,8 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
   world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"), py::arg("threads"));
+            py::arg("seed"), py::arg("drive"), py::arg("threads"),
+            py::arg("realism") = py::none(), py::arg("realism_from") = "");
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 
@@ -675,13 +698,6 @@ errors as of mov().)");
 
 It is repaired after so many seconds; 0: when it is asked for. ValueError for an unknown robot or
 kind, or a time that is negative or not finite.)");
-  world.def("set_failures", &setFailures, py::arg("rate"), py::arg("repair") = 300.0,
-            py::arg("share") = py::none(),
-            R"(From now on robots break by themselves, by chance that the world's seed decides.
-
-rate: an hour and robot; 0: never. repair: mean time until one is repaired, exponentially
-distributed [s]. share: how often each FailureKind from MOTOR on is what breaks, beside the others:
-5 numbers. ValueError where one is negative or not finite, or all shares are 0.)");
   world.def("last_heard", &lastHeard,
             R"((n,) of robots whose radio is lost: what was heard of them last.
 
@@ -746,6 +762,13 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
       "(n,) with item_id, x y z in world [m], mass [kg], shelf_id it lies on (0 = none). A copy.");
   world.def_property_readonly("names", guarded([](World& w) { return w.modelNames(); }),
                               "Of all models, in the order in which they came.");
+  world.def_property_readonly(
+      "realism",
+      [](Host& host) {
+        const auto lock = host.use();
+        return realismOf(host.world);
+      },
+      "What differs from the ideal: sections by name, each a dict of `enabled` and its numbers.");
   world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
   world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
                               "Since time was 0.");

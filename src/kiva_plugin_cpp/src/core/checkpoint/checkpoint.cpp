@@ -9,6 +9,7 @@
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
+#include "core/control/energy.h"
 #include "core/control/failures.h"
 #include "core/sensing/scans.h"
 
@@ -65,7 +66,7 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  FIELDS(world.name, world.gravity, world.options, within(world.dt, 1e-6, 1),
+  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models, within(world.dt, 1e-6, 1),
          within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }
@@ -88,6 +89,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
   FIELDS(physics);
   if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
+  if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
 }
 
 /// What is on its way in or out.
@@ -106,6 +108,7 @@ void indexModels(WorldState& world) {
   for (Item& item : world.items) item.name = world.models[item.model]->name;
   for (Robot& robot : world.fleet.robots) setRays(world, &robot);
   markDefects(world);
+  markCharge(world);
 }
 
 struct Header {

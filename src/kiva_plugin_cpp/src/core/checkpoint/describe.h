@@ -204,9 +204,15 @@ void describe(A& a, Stance& s) {
 }
 
 template <class A>
+void describe(A& a, Battery& b) {
+  DESCRIBED(Battery, 5);
+  FIELDS(b.energy, b.wheel_angle, b.kinetic, b.tower);
+}
+
+template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 20);
-  DESCRIBED(Fleet, 23);  // what is broken follows from the world's defects
+  DESCRIBED(FleetState, 21);
+  DESCRIBED(Fleet, 24);  // what is broken, and charges, follow from what else the world holds
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,
@@ -438,13 +444,6 @@ void describe(A& a, Crash& c) {
 }
 
 template <class A>
-void describe(A& a, FailureModel& m) {
-  DESCRIBED(FailureModel, 3);
-  FIELDS(within(m.rate, 0, 1e9), within(m.repair, 1e-9, 1e9));
-  for (double& share : m.share) FIELDS(within(share, 0, 1e9));
-}
-
-template <class A>
 void describe(A& a, RobotReport& r) {
   DESCRIBED(RobotReport, 13);
   FIELDS(r.x, r.y, r.yaw, r.vx, r.vy, r.yaw_rate, r.status, r.state, r.shelf_id, r.path_id,
@@ -459,8 +458,8 @@ void describe(A& a, Defect& d) {
 
 template <class A>
 void describe(A& a, FailureState& f) {
-  DESCRIBED(FailureState, 4);
-  FIELDS(f.model, f.defects, within(f.exposure, 0, kEndless), f.drawn);
+  DESCRIBED(FailureState, 3);
+  FIELDS(f.defects, within(f.exposure, 0, kEndless), f.count);
 }
 
 template <class A>
@@ -476,9 +475,20 @@ void describe(A& a, Floor& f) {
 }
 
 template <class A>
+void describe(A& a, Realism& r) {
+  DESCRIBED(Realism, 7);
+  forEachSection(r, [&a](const char*, auto& section) {
+    a(section.enabled);
+    section.fields(section, [&a](const char* name, double& value, double least, double most) {
+      a.named(name, within(value, least, most));
+    });
+  });
+}
+
+template <class A>
 void describe(A& a, WorldOptions& o) {
-  DESCRIBED(WorldOptions, 5);
-  FIELDS(o.seed, o.drive, o.always_in_bullet);  // plugins and threads stay the world's own
+  DESCRIBED(WorldOptions, 6);
+  FIELDS(o.seed, o.drive, o.always_in_bullet, o.realism);  // plugins and threads stay the world's own
 }
 
 #undef DESCRIBED

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/control/energy.h"
 #include "core/control/interruptions.h"
+#include "core/state/random_stream.h"
 #include "core/state/tasks.h"
 
 namespace kiva {
@@ -50,9 +52,11 @@ RobotReport reportOf(const WorldState& world, int robot) {
           f.left[robot],     f.last_end[robot]};
 }
 
-void apply(FleetState& fleet, int robot, Failure failure) {
+void apply(WorldState& world, int robot, Failure failure) {
+  FleetState& fleet = world.fleet;
   fleet.failures[robot] |= bitOf(failure);
-  if (failure == Failure::kWheelSlip) fleet.robots[robot].grip = kSlippingGrip;
+  if (failure != Failure::kWheelSlip) return;
+  fleet.robots[robot].grip = world.realism.failures.slipping_grip;
 }
 
 void tell(WorldState& world, Event::Kind kind, int robot, const std::string& text) {
@@ -92,32 +96,20 @@ void mend(WorldState& world, const Defect& defect) {
   world.setStatus(robot, f.status[robot], f.state[robot]);
 }
 
-/// Uniform in (0, 1): number `drawn` of the world's seed (SplitMix64, Steele et al. 2014).
-double draw(WorldState& world) {
-  std::uint64_t z = (world.options.seed ^ 0x6661696c75726573ULL) +
-                    0x9e3779b97f4a7c15ULL * ++world.failures.drawn;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  return (static_cast<double>(z >> 11) + 0.5) * 0x1p-53;
-}
-
-double drawExponential(WorldState& world, double mean) { return -mean * std::log(draw(world)); }
-
-Failure drawFailure(WorldState& world) {
-  const auto& share = world.failures.model.share;
-  double left = draw(world) * std::accumulate(share.begin(), share.end(), 0.0);
+Failure drawFailure(const FailureRealism& r, double chance) {
+  const double share[] = {r.motor, r.lift_stuck, r.laser_blind, r.radio_lost, r.wheel_slips};
+  double left = chance * std::accumulate(std::begin(share), std::end(share), 0.0);
   int kind = 0;
   while (kind + 1 < kFailureKinds && left >= share[kind]) left -= share[kind++];
-  while (share[kind] == 0) --kind;  // that rounding came to
   return static_cast<Failure>(kind + static_cast<int>(Failure::kMotor));
 }
 
-void breakSomething(WorldState& world) {
+void breakSomething(WorldState& world, RandomStream& random) {
+  const FailureRealism& realism = world.realism.failures;
   const int robots = world.fleet.size();
-  const int robot = std::min(robots - 1, static_cast<int>(draw(world) * robots));
-  const Failure failure = drawFailure(world);
-  const double repair = std::max(world.dt, drawExponential(world, world.failures.model.repair));
+  const int robot = std::min(robots - 1, static_cast<int>(random.uniform() * robots));
+  const Failure failure = drawFailure(realism, random.uniform());
+  const double repair = std::max(world.dt, random.exponential(realism.repair_time));
   breakDown(world, world.fleet.robots[robot].id, failure, repair);
 }
 
@@ -149,12 +141,13 @@ void breakDown(WorldState& world, int kiva_id, Failure failure, double repair_af
   }
   tell(world, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
   world.failures.defects.push_back({kiva_id, failure, left, reportOf(world, robot)});
-  apply(f, robot, failure);
+  apply(world, robot, failure);
   adapt(world, robot);
 }
 
 void repair(WorldState& world, int kiva_id) {
-  findRobot(world, kiva_id);
+  const int robot = findRobot(world, kiva_id);
+  if (world.fleet.failures[robot] & kEmptyBattery) exchangeBattery(world, robot);
   auto& defects = world.failures.defects;
   const auto is_its = [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; };
   for (auto at = defects.begin(); (at = std::find_if(at, defects.end(), is_its)) != defects.end();) {
@@ -173,50 +166,30 @@ std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
   return std::nullopt;
 }
 
-void setFailureModel(WorldState& world, const FailureModel& model) {
-  const auto is_share = [](double share) { return share >= 0 && std::isfinite(share); };
-  const bool has_shares = std::all_of(model.share.begin(), model.share.end(), is_share) &&
-                          std::accumulate(model.share.begin(), model.share.end(), 0.0) > 0;
-  if (!(model.rate >= 0 && std::isfinite(model.rate))) {
-    throw std::invalid_argument("the rate of failures must be finite and at least 0 an hour");
-  }
-  if (!(model.repair > 0 && std::isfinite(model.repair))) {
-    throw std::invalid_argument("the time of a repair must be finite and above 0 s");
-  }
-  if (!has_shares) {
-    throw std::invalid_argument("the kinds' shares must be at least 0, and one of them above 0");
-  }
-  world.failures.model = model;
-  world.failures.exposure = model.rate > 0 ? drawExponential(world, kHour / model.rate) : 0;
-}
-
 void wearOut(WorldState& world) {
   FailureState& failures = world.failures;
   if (!failures.defects.empty()) repairWhoIsDue(world);
-  if (failures.model.rate == 0 || world.fleet.size() == 0) return;
-  failures.exposure -= world.fleet.size() * world.dt;
-  while (failures.exposure <= 0) {
-    breakSomething(world);
-    failures.exposure += drawExponential(world, kHour / failures.model.rate);
-  }
-  failures.exposure = std::max(0.0, failures.exposure);
+  const FailureRealism& realism = world.realism.failures;
+  if (!realism.enabled || realism.per_robot_hour == 0 || world.fleet.size() == 0) return;
+  const bool is_first = failures.count == 0;  // then only the time of the next one is drawn
+  failures.exposure -= is_first ? 0 : world.fleet.size() * world.dt;
+  if (failures.exposure > 0) return;
+  RandomStream random(world.options.seed, Matter::kFailure, 0, failures.count++);
+  if (!is_first) breakSomething(world, random);
+  failures.exposure = random.exponential(kHour / realism.per_robot_hour);
 }
 
-void beginFailures(WorldState& world) {
-  const FailureModel model = world.failures.model;
-  world.failures = {};
-  setFailureModel(world, model);
-}
+void beginFailures(WorldState& world) { world.failures = {}; }
 
 bool mayFail(const WorldState& world) {
-  return world.failures.model.rate > 0 || !world.failures.defects.empty();
+  return world.realism.failures.enabled || !world.failures.defects.empty();
 }
 
 void markDefects(WorldState& world) {
   FleetState& f = world.fleet;
   f.failures.assign(f.size(), 0);
   for (const Defect& defect : world.failures.defects) {
-    apply(f, f.find(defect.kiva_id), defect.failure);
+    apply(world, f.find(defect.kiva_id), defect.failure);
   }
 }
 

@@ -8,11 +8,10 @@
 
 namespace kiva {
 
-/// As World::fail, World::repair, World::lastHeard and World::setFailureModel say.
+/// As World::fail, World::repair and World::lastHeard say.
 void breakDown(WorldState& world, int kiva_id, Failure failure, double repair_after);
 void repair(WorldState& world, int kiva_id);
 std::optional<RobotReport> lastHeard(const WorldState& world, int robot);
-void setFailureModel(WorldState& world, const FailureModel& model);
 
 /// A step of time goes by: who is due is repaired, and what is to break by chance does.
 void wearOut(WorldState& world);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/contact/activation.h"
 #include "core/geometry/angle.h"
@@ -58,11 +59,44 @@ Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   return shape;
 }
 
+/// What its motion plugin says of the real world, if it says anything.
+std::optional<Realism> realismOf(const Parameters& parameters) {
+  const auto below = parameters.values().lower_bound("realism");
+  if (below == parameters.values().end() || below->first.rfind("realism", 0) != 0) {
+    return std::nullopt;
+  }
+  parameters.text("realism", "");  // around its sections: blank
+  return readRealism(parameters, "realism/");
+}
+
+/// Throws DescriptionError if robots of this world are told otherwise already.
+void checkRealism(const WorldState& world, const Parameters& parameters) {
+  const std::optional<Realism> asked = realismOf(parameters);
+  if (!asked || world.options.realism || !world.realism_of_models) return;
+  if (*asked == world.realism) return;
+  throw DescriptionError(parameters.where() +
+                         ": <realism> is not that of the robots before; all robots of a world have "
+                         "the same");
+}
+
+/// The world's is that of the first robot whose file says anything of it, unless it was given.
+void adoptRealism(WorldState& world, const ModelDescription& description) {
+  if (world.options.realism || world.realism_of_models) return;
+  for (const PluginDescription& plugin : description.plugins) {
+    if (plugin.filename != kMotionPlugin) continue;
+    const std::optional<Realism> asked = realismOf(plugin.parameters);
+    if (!asked) continue;
+    world.realism = *asked;
+    world.realism_of_models = true;
+  }
+}
+
 void configure(const WorldState& world, const ModelDescription& description, Robot* robot) {
   for (const PluginDescription& plugin : description.plugins) {
     const FleetPlugin* ours = findFleetPlugin(world, plugin.filename);
     if (!ours) continue;
     ours->configure(*robot, plugin.parameters);
+    if (plugin.filename == kMotionPlugin) checkRealism(world, plugin.parameters);
     plugin.parameters.rejectUnread();
   }
   if (world.options.drive) robot->drive.drive = *world.options.drive;
@@ -129,6 +163,7 @@ void Robots::add(WorldState& world, Model& model) const {
   const bool jointed = robot.drive.drive == Drive::kJointed;
   setRays(world, &robot);
   world.top_speed = std::max(world.top_speed, robot.drive.speed);
+  adoptRealism(world, *model.description);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   moved(world, model);
   if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
@@ -171,6 +206,8 @@ void Robots::reset(WorldState& world, Model& model) const {
   fleet.stance[robot] = Stance();
   fleet.stopped[robot] = 0;
   fleet.failures[robot] = 0;
+  fleet.battery[robot] = Battery();
+  fleet.charge[robot] = 1;
   fleet.robots[robot].grip = 1;
   place(world, model, {model.spawn_pose, {}});
   fleet.path_id[robot] = fleet.reached[robot] = fleet.left[robot] = 0;

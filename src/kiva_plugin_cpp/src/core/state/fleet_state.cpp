@@ -22,6 +22,7 @@ void forEachArray(FleetState& f, Visit visit) {
   visit(f.awake);
   visit(f.activated);
   visit(f.tasks);
+  visit(f.battery);
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ bool isHeld(const FleetState& f, int i) {
   const bool drives = at && (at->kind == MotionSegment::Kind::kDrive ||
                              at->kind == MotionSegment::Kind::kTurn);
   const int holds = drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
-  return (f.failures[i] & holds) != 0;
+  return (f.failures[i] & (holds | kEmptyBattery)) != 0;
 }
 
 void moved(FleetState& f, int i) {

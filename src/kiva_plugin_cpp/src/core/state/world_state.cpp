@@ -15,6 +15,7 @@ WorldState::WorldState(const WorldDescription& description, const WorldOptions& 
     : name(description.name),
       gravity(description.gravity),
       options(world_options),
+      realism(world_options.realism.value_or(Realism())),
       dt(description.step_size),
       physics(description.gravity),
       workers(std::make_shared<Workers>(options.threads)) {}

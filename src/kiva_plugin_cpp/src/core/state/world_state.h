@@ -52,12 +52,15 @@ struct Defect {
   RobotReport last;  ///< Of a lost radio: what was heard before.
 };
 
-/// Failures by chance. All random numbers come from the seed and a count of those drawn so far.
 struct FailureState {
-  FailureModel model;
   std::vector<Defect> defects;  ///< In the order in which they came.
-  double exposure = 0;          ///< Until the next one by chance [robot seconds].
-  std::uint64_t drawn = 0;
+  double exposure = 0;          ///< Until the next one by chance [robot seconds],
+  std::uint64_t count = 0;      ///< which has been drawn so often.
+};
+
+/// Where robots are charged, in world [m].
+struct Charger {
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
 };
 
 /// Robots whose scans have the same period, by the step within it.
@@ -74,6 +77,8 @@ struct WorldState {
   std::string name;
   Vector3 gravity;
   WorldOptions options;
+  Realism realism;                   // of the options, or of the first robot whose file has one
+  bool realism_of_models = false;    // the latter
   double dt = 0.001;              // [s]
   double dt_since_time = 0;       // [s]: when the present step size began,
   std::uint64_t dt_since = 0;     // and after how many steps
@@ -124,6 +129,8 @@ struct WorldState {
   std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
   FailureState failures;
+  std::vector<Charger> chargers;
+  std::uint64_t chargers_revision = ~0ull;  // of the models that these were found among
   std::shared_ptr<Workers> workers;
   std::vector<std::string> warnings;
   std::set<std::string> warned;

@@ -18,6 +18,7 @@ static_assert(int(kiva::State::kBlocked) == int(KivaStatus::STATE_BLOCKED));
 static_assert(int(kiva::State::kWaiting) == int(KivaStatus::STATE_WAITING));
 static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
 static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
+static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
 static_assert(int(kiva::Event::Kind::kRepaired) == int(warehouse_msgs::Event::REPAIRED));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
@@ -134,6 +135,7 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   out.left.assign(f.left.begin(), f.left.end());
   out.last_end.assign(f.last_end.begin(), f.last_end.end());
   out.failures.assign(f.failures.begin(), f.failures.end());
+  out.charge.assign(f.charge.begin(), f.charge.end());
   for (int i = 0; i < f.size(); ++i) {
     out.kiva_id.push_back(f.robots[i].id);
     out.yaw.push_back(kiva::wrapAngle(f.yaw[i]));

@@ -37,6 +37,7 @@ class Description:
     policies: dict = field(default_factory=dict)
     seed: int = 1
     physics: bool = True
+    realism: str = ""  # of World: a preset or a YAML file
 
     @property
     def config(self):
@@ -47,6 +48,7 @@ class Description:
             "policies": Policies(self.policies).chosen,
             "physics": self.physics,
             "seconds": self.seconds,
+            **({"realism": self.realism} if self.realism else {}),
         }
 
 
@@ -71,7 +73,7 @@ def open_operations(description, database=None):
             site = replace(site, level=told.level or site.level)
         world = None
         if description.physics:
-            world, site = world_of(site, description.seed)
+            world, site = world_of(site, description.seed, description.realism)
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)
@@ -119,6 +121,6 @@ def _preset(description):
     from kiva_plugin_cpp import World
 
     try:
-        return World.preset(description.size, seed=description.seed)
+        return World.preset(description.size, seed=description.seed, realism=description.realism or None)
     except ValueError as error:
         raise InstanceError(str(error)) from error
