@@ -18,10 +18,6 @@ class Failures : public ::testing::Test {
     w.forget();
   }
 
-  void run(double seconds) {
-    for (int i = 0; i < std::lround(seconds / 0.001); ++i) w.step();
-  }
-  double speed() const { return std::abs(w.world.fleet().vx[0]); }
   int failures() const { return w.world.fleet().failures[0]; }
 
   Warehouse w{Floorplan{40}};
@@ -29,12 +25,12 @@ class Failures : public ::testing::Test {
 
 TEST_F(Failures, OfTheDriveBrakeTheRobotWhichGoesOnAfterwards) {
   w.movx(1, 10);
-  run(3);
-  ASSERT_NEAR(speed(), 1.5, 1e-6);
+  w.run(3);
+  ASSERT_NEAR(w.speed(1), 1.5, 1e-6);
   const double here = w.x(1);
   w.world.fail(1, Failure::kMotor, 5);
-  run(2);
-  EXPECT_EQ(speed(), 0);
+  w.run(2);
+  EXPECT_EQ(w.speed(1), 0);
   // As hard as it brakes in an emergency: 1.5² / (2 · 2.5) m.
   EXPECT_NEAR(w.x(1) - here, 0.45, 0.02);
   EXPECT_EQ(failures(), bitOf(Failure::kMotor));
@@ -49,9 +45,9 @@ TEST_F(Failures, OfTheDriveBrakeTheRobotWhichGoesOnAfterwards) {
 
 TEST_F(Failures, LeaveATurningRobotStandingBetweenTwoHeadings) {
   w.rot(1, kLeft);
-  run(0.3);
+  w.run(0.3);
   w.world.fail(1, Failure::kMotor, 0);
-  run(2);
+  w.run(2);
   EXPECT_GT(w.yaw(1), 0.1);
   EXPECT_LT(w.yaw(1), kQuarter - 0.1);
   w.world.repair(1);
@@ -62,12 +58,12 @@ TEST_F(Failures, LeaveATurningRobotStandingBetweenTwoHeadings) {
 TEST_F(Failures, OfTheLiftHoldTheTowerButLetTheRobotDrive) {
   w.spawn("storage_unit", "storage_unit1", 0, 0);
   w.carry(1, 1);
-  run(1);
+  w.run(1);
   w.world.fail(1, Failure::kLift, 4);
-  run(0.5);
+  w.run(0.5);
   const double height = w.world.fleet().tower[0];
   EXPECT_GT(height, 0);
-  run(2);
+  w.run(2);
   EXPECT_EQ(w.world.fleet().tower[0], height);
   w.runUntilIdle(1);
   EXPECT_EQ(w.count(Kind::kLifted), 1);
@@ -79,7 +75,7 @@ TEST_F(Failures, OfTheLiftHoldTheTowerButLetTheRobotDrive) {
 
 TEST_F(Failures, OfTheLaserLeaveNoScansAndStopTheRobot) {
   w.movx(1, 10);
-  run(3);
+  w.run(3);
   w.world.fail(1, Failure::kLaser, 3);
   std::vector<float> ranges;
   w.world.scan(0, &ranges);
@@ -88,7 +84,7 @@ TEST_F(Failures, OfTheLaserLeaveNoScansAndStopTheRobot) {
     w.step();
     EXPECT_TRUE(w.world.scansDue().empty());
   }
-  EXPECT_EQ(speed(), 0);
+  EXPECT_EQ(w.speed(1), 0);
   w.runUntilIdle(1);
   EXPECT_NEAR(w.x(1), 10, kMillimetre);
   w.world.scan(0, &ranges);
@@ -97,14 +93,14 @@ TEST_F(Failures, OfTheLaserLeaveNoScansAndStopTheRobot) {
 
 TEST_F(Failures, OfTheRadioMakeItDeafAndDumbButItDoesWhatItWasTold) {
   w.movx(1, 3);
-  run(1);
+  w.run(1);
   const double here = w.x(1);
   w.world.fail(1, Failure::kRadio, 0);
   w.changes.clear();
   w.movx(1, 1);
   w.step();
   EXPECT_PRED2(contains, w.last(Kind::kRefused).text, "it hears nothing");
-  run(5);
+  w.run(5);
   EXPECT_NEAR(w.x(1), 3, kMillimetre);
   EXPECT_TRUE(w.changes.empty());
   const auto last = w.world.lastHeard(0);
@@ -132,13 +128,13 @@ TEST_F(Failures, OfTheWheelsMakeItTurnSlowlyAndArriveAllTheSame) {
   };
   const double sound = time();
   w.movx(1, 10);
-  run(3);
+  w.run(3);
   w.world.fail(1, Failure::kWheelSlip, 0);
   w.runUntilIdle(1);
   EXPECT_NEAR(w.x(1), 10, kMillimetre);
   EXPECT_GT(time(), 1.2 * sound);
   w.rot(1, kLeft);
-  run(0.2);
+  w.run(0.2);
   w.world.repair(1);
   w.runUntilIdle(1);
   EXPECT_EQ(w.count(Kind::kBlocked), 0);
@@ -147,11 +143,11 @@ TEST_F(Failures, OfTheWheelsMakeItTurnSlowlyAndArriveAllTheSame) {
 
 TEST_F(Failures, StayWithTheRobotInACheckpoint) {
   w.movx(1, 10);
-  run(3);
+  w.run(3);
   w.world.fail(1, Failure::kMotor, 5);
   w.world.fail(1, Failure::kWheelSlip, 0);
   w.world.fail(1, Failure::kRadio, 7);
-  run(1);
+  w.run(1);
   Warehouse other{Floorplan{1}};
   other.world.restore(w.world.checkpoint());
   EXPECT_EQ(other.world.stateHash(), w.world.stateHash());
@@ -176,7 +172,7 @@ TEST_F(Failures, GoWithTheirRobot) {
   w.spawn("kiva", "kiva2", 0, 5);
   w.world.fail(1, Failure::kMotor, 1);
   w.world.remove("kiva1");
-  run(2);
+  w.run(2);
   EXPECT_EQ(w.world.fleet().failures[0], 0);
   EXPECT_EQ(w.count(Kind::kRepaired), 0);
 }

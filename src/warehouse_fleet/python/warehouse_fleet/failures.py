@@ -5,16 +5,17 @@ from types import SimpleNamespace
 
 import numpy as np
 
-# Kinds of warehouse_msgs/Fail, and what each is called.
-MOTOR, LIFT_STUCK, LASER_BLIND, RADIO_LOST, WHEEL_SLIPS = range(1, 6)
+# Bits of FleetState.failures: kinds of warehouse_msgs/Fail, before them an empty battery.
+EMPTY, MOTOR, LIFT_STUCK, LASER_BLIND, RADIO_LOST, WHEEL_SLIPS = range(6)
 NAMES = {
+    EMPTY: "battery empty",
     MOTOR: "drive without torque",
     LIFT_STUCK: "lift stuck",
     LASER_BLIND: "laser blind",
     RADIO_LOST: "radio lost",
     WHEEL_SLIPS: "wheels slip",
 }
-STANDS = 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST  # it stands, or can't be sent on
+STANDS = 1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST  # it stands, or can't be sent on
 LIFTS_NOT = 1 << LIFT_STUCK
 DOWN = STANDS | LIFTS_NOT  # it does not work; one whose wheels slip does, slowly
 
@@ -36,7 +37,9 @@ def heard(world):
     columns = {name: np.array(getattr(fleet, name)) for name in names}
     for name, column in columns.items():
         column[last["index"]] = last[name]
-    return SimpleNamespace(kiva_id=fleet.kiva_id, failures=failures, **columns)
+    return SimpleNamespace(
+        kiva_id=fleet.kiva_id, failures=failures, charge=np.array(fleet.charge), **columns
+    )
 
 
 class FailureLog:

@@ -17,6 +17,11 @@ UPDATE = 0.1  # between two releases [s]
 REFUSED, COLLISION = 1, 6  # EventKind
 
 
+def square(yaw):
+    """The nearest heading along an axis [rad]."""
+    return round(yaw / (np.pi / 2)) * np.pi / 2
+
+
 class FleetDriver:
     """Drives all robots of a kiva_plugin_cpp.World. `transports` is what it is told to do.
 
@@ -49,6 +54,12 @@ class FleetDriver:
             self.world.carry(kiva_id, shelf_id)
         else:
             self.world.drop(kiva_id, shelf_id)
+
+    def tow(self, kiva_id):
+        """People move a broken robot out of the way. Raises as Transports.refuge does."""
+        x, y = self.plan.point_of(self.transports.refuge(kiva_id))
+        yaw = self.world.fleet.yaw[self.world.fleet.index(kiva_id)]
+        self.world.set_pose(f"kiva{kiva_id}", float(x), float(y), yaw=square(yaw))
 
     @property
     def time(self):

@@ -36,7 +36,8 @@ LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
 REPORTED = (  # of FleetState, beside kiva_id
     *("x", "y", "yaw", "vx", "vy"),
-    *("status", "state", "shelf_id", "path_id", "reached", "left", "failures"),
+    *("status", "state", "shelf_id", "path_id", "reached", "left"),
+    *("failures", "charge"),
 )
 
 
@@ -94,6 +95,7 @@ class Traffic:
         self.mode = np.zeros(count, np.uint8)
         self.gone = np.zeros(count, bool)
         self.failures = np.zeros(count, np.uint8)  # what is broken, as in FleetState
+        self.charge = np.ones(count, np.float32)  # of batteries, 0…1
         self.broken = np.zeros(count, bool)
         self.lifts_not = np.zeros(count, bool)
         self.cell = np.full(count, NOWHERE, np.int32)  # where each stands, or stood last
@@ -165,6 +167,7 @@ class Traffic:
     def observe(self, time, report):
         """Takes in what all robots report: an object with the arrays of FleetState."""
         self.time = time
+        self.charge = np.array(report.charge)
         self._see_failures(np.asarray(report.failures))
         self._execution.observe(
             time,

@@ -126,15 +126,16 @@ def of_shift(shift, fleet, kinematics, wall_s):
         "plan_ms": _planning(fleet.plan_ms),
         "executed_over_planned": fleet.executed_over_planned,
         "state_hash": shift.state_hash(),
-    } | _of_failures(fleet, tally.items_picked)
+    } | _of_troubles(fleet, tally.items_picked)
 
 
-def _of_failures(fleet, items_picked):
-    """What failures cost; nothing where there were none. Pieces that were not picked, if those that
+def _of_troubles(fleet, items_picked):
+    """What failures and charging cost; nothing where there were none. Pieces that were not picked, if those that
     were are shared out to the robot hours at work."""
     log = getattr(fleet, "failures", None)
     figures = log.figures() if log else {}
-    if figures:
+    figures |= getattr(fleet, "energy", {})
+    if "availability" in figures:
         up = max(figures["availability"], 1e-9)
         figures["items_lost_to_failures"] = items_picked * (1 - up) / up
     return figures

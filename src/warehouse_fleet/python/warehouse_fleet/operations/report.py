@@ -35,6 +35,9 @@ TROUBLES = (
     ("mtbf_h", "Robot hours between failures (MTBF)", "h", 1, 1),
     ("mttr_s", "Time to repair, mean (MTTR)", "min", 1 / 60, 1),
     ("items_lost_to_failures", "Pieces not picked for want of robots", "", 1, 0),
+    ("charging_fraction", "Robot hours at a charging place", "%", 100, 1),
+    ("charge_mean", "Charge of batteries at the end, mean", "%", 100, 0),
+    ("charge_least", "Charge of the emptiest at the end", "%", 100, 0),
 )
 COMPARED = (
     ("item_throughput_per_hour", "pieces an hour"),
@@ -162,8 +165,13 @@ def _table(groups):
 
 def _troubles(group):
     """What broke in the first run, how often and for how long, and what that cost in all runs."""
-    kinds = group.runs[0].data.get("failures")
-    if not kinds:
+    kinds = group.runs[0].data.get("failures") or []
+    cost = [
+        f"<tr><td>{words}</td><td>{_number(group.estimate(kpi), factor, digits, unit)}</td></tr>"
+        for kpi, words, unit, factor, digits in TROUBLES
+        if all(kpi in run.kpis for run in group.runs)
+    ]
+    if not cost:
         return ""
     rows = [
         f"<tr><td>{escape(one['kind'])}</td><td>{one['count']}</td><td>{one['repairs']}</td>"
@@ -171,11 +179,8 @@ def _troubles(group):
         for one in kinds
     ]
     head = "<tr><th>Robots</th><th>failures</th><th>repaired</th><th>after, mean</th></tr>"
-    cost = [
-        f"<tr><td>{words}</td><td>{_number(group.estimate(kpi), factor, digits, unit)}</td></tr>"
-        for kpi, words, unit, factor, digits in TROUBLES
-    ]
-    return f"<table>{head}{''.join(rows)}</table><p></p><table>{''.join(cost)}</table>"
+    table = f"<table>{head}{''.join(rows)}</table><p></p>" if rows else ""
+    return f"{table}<table>{''.join(cost)}</table>"
 
 
 def _number(estimate, factor, digits, unit):
