@@ -50,38 +50,33 @@ struct LaserRealism {
   }
 };
 
-/// How motors and wheels differ from robot to robot, and from what is asked of them.
+/// How motors and tyres differ from robot to robot.
 struct ActuationRealism {
   bool enabled = false;
-  double motor_lag = 0.01;         ///< Time constant with which motors follow [s].
   double torque_spread = 0.05;     ///< Standard deviation, as a share of the motor's torque.
   double friction_spread = 0.05;   ///< Standard deviation, as a share of the tyres' friction.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
-    field("motor_lag", s.motor_lag, 0, 1);
     field("torque_spread", s.torque_spread, 0, 0.3);
     field("friction_spread", s.friction_spread, 0, 0.3);
   }
 };
 
-/// What happens to commands between whoever gives them and the robots, and to what robots report.
-/// A latency is `least` and an exponentially distributed rest of the mean `mean` − `least`.
+/// What happens to commands on their way to the robots, which get theirs in the order in which they
+/// were given. Their latency is `latency_least` and a rest, exponentially distributed, that makes
+/// it `latency_mean` in the mean.
 struct RadioRealism {
   bool enabled = false;
-  double command_latency_least = 0.002;  ///< [s]
-  double command_latency_mean = 0.02;    ///< [s]
-  double status_latency_least = 0.002;   ///< [s]
-  double status_latency_mean = 0.02;     ///< [s]
-  double lost = 0.001;                   ///< Share of messages that are lost.
-  double repeated = 0.001;               ///< Share of messages that come twice.
+  double latency_least = 0.005;  ///< [s]
+  double latency_mean = 0.03;    ///< [s]
+  double lost = 0.001;           ///< Share of commands that are lost.
+  double repeated = 0.001;       ///< Share of commands that come twice.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
-    field("command_latency_least", s.command_latency_least, 0, 10);
-    field("command_latency_mean", s.command_latency_mean, 0, 10);
-    field("status_latency_least", s.status_latency_least, 0, 10);
-    field("status_latency_mean", s.status_latency_mean, 0, 10);
+    field("latency_least", s.latency_least, 0, 10);
+    field("latency_mean", s.latency_mean, 0, 10);
     field("lost", s.lost, 0, 0.5);
     field("repeated", s.repeated, 0, 0.5);
   }

@@ -12,6 +12,7 @@
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
 #include "core/control/commands.h"
+#include "core/control/radio.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
@@ -194,7 +195,7 @@ void World::post(const Command& command) {
   if (command.kind == Command::Kind::kFollow) {
     throw std::invalid_argument("a path is posted as a FollowPath");
   }
-  state_->commands.push_back(command);
+  send(*state_, command);
 }
 
 void World::post(FollowPath path) {
@@ -207,8 +208,7 @@ void World::post(FollowPath path) {
   Command command;
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;
-  state_->commands.push_back(command);
-  state_->paths.push_back(std::move(path));
+  send(*state_, command, std::move(path));
 }
 
 void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
@@ -392,6 +392,10 @@ std::vector<PathPoint> World::pathAhead(int robot) const {
     if (segment.kind == MotionSegment::Kind::kDrive) points.push_back({segment.x, segment.y});
   }
   return points;
+}
+Vector3 World::believedPose(int robot) const {
+  const PlanarPose at = state_->fleet.believed(robot);
+  return {at.x, at.y, at.yaw};
 }
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
 std::uint64_t World::unitsRevision() const { return state_->units_revision; }

@@ -575,6 +575,19 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
   fleet.def_property_readonly(
       "shelf_id", [](const FleetView& f) { return f.numbers(shelfOf); },
       "(n,) int32: number of the storage unit that each carries, 0 = none. A copy.");
+  fleet.def_property_readonly(
+      "believed",
+      [](const FleetView& f) {
+        const auto lock = f.host->use();
+        const int size = f.host->world.fleet().size();
+        py::array_t<double> out({size, 3});
+        for (int i = 0; i < size; ++i) {
+          const Vector3 at = f.host->world.believedPose(i);
+          for (int k = 0; k < 3; ++k) out.mutable_at(i, k) = at[k];
+        }
+        return out;
+      },
+      "(n, 3) float64: x, y [m], yaw [rad] where each robot believes to be. A copy.");
   fleet.def(
       "index",
       [](const FleetView& f, std::int32_t id) {

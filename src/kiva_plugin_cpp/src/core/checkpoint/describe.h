@@ -203,8 +203,30 @@ void describe(A& a, Stance& s) {
 }
 
 template <class A>
+void describe(A& a, PlanarPose& p) {
+  DESCRIBED(PlanarPose, 3);
+  FIELDS(p.x, p.y, p.yaw);
+}
+
+template <class A>
+void describe(A& a, Stretch& s) {
+  DESCRIBED(Stretch, 7);
+  FIELDS(s.under_way, s.turns, s.from, within(s.until, -kEndless, kEndless), s.curvature,
+         s.next_curvature, s.next_length);
+}
+
+template <class A>
+void describe(A& a, Localisation& l) {
+  DESCRIBED(Localisation, 41);
+  FIELDS(l.pose, within(l.believed.radius[0], 0.001, 2), within(l.believed.radius[1], 0.001, 2),
+         within(l.believed.separation, 0.001, 20), l.covariance, l.way, l.turn, l.wheel_angle,
+         l.slip, l.slip_for, l.since_code, l.lost_at, l.lost, l.code_column, l.code_row, l.draws,
+         l.stretch);
+}
+
+template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 20);
+  DESCRIBED(FleetState, 22);  // its localisation: with the world
   DESCRIBED(Fleet, 22);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
@@ -359,6 +381,12 @@ void describe(A& a, FollowPath& p) {
   DESCRIBED(FollowPath, 7);
   FIELDS(p.kiva_id, p.path_id, p.first, within(p.x, -1e308, 1e308), within(p.y, -1e308, 1e308),
          p.released, p.fault);
+}
+
+template <class A>
+void describe(A& a, RadioMessage& m) {
+  DESCRIBED(RadioMessage, 3);
+  FIELDS(m.due, m.command, m.path);
 }
 
 template <class A>

@@ -44,6 +44,13 @@ struct Crash {
   std::string with;  ///< A model's name.
 };
 
+/// A command on its way to its robot.
+struct RadioMessage {
+  std::uint64_t due = 0;  ///< The step, of all, at which it is there.
+  Command command;
+  FollowPath path;  ///< If it stands for one.
+};
+
 /// Robots whose scans have the same period, by the step within it.
 struct ScanRound {
   std::uint64_t period = 0;  // steps
@@ -100,6 +107,8 @@ struct WorldState {
 
   std::deque<Command> commands;
   std::deque<FollowPath> paths;  // of those that are kFollow, in the same order
+  std::deque<RadioMessage> on_air;  // in the order in which they come
+  std::uint64_t radio_messages = 0;  // ever sent
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;

@@ -47,6 +47,15 @@ RobotPose poseOf(const kiva::World& world, int i) {
   return out;
 }
 
+/// As the robot's own odometry has it.
+RobotPose believedOf(const kiva::World& world, int i) {
+  RobotPose out = poseOf(world, i);
+  if (!world.realism().localisation.enabled) return out;
+  const kiva::Vector3 at = world.believedPose(i);
+  out.base = kiva::Pose(at.X(), at.Y(), out.base.Z(), 0, 0, at.Z());
+  return out;
+}
+
 }  // namespace
 
 Reporter::Reporter(const kiva::World& world, const Rates& rates, double rtf,
@@ -243,7 +252,7 @@ void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
 void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
   out->odometry.clear();
   for (int id : odometry_ids_) {
-    if (const int i = world.fleet().find(id); i >= 0) out->odometry.push_back(poseOf(world, i));
+    if (const int i = world.fleet().find(id); i >= 0) out->odometry.push_back(believedOf(world, i));
   }
 }
 
