@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import DescriptionError, EventKind, Status, World, worlds_folder
+from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.random_transports import RandomTransports
 
 KIVA = (worlds_folder() / "models" / "kiva" / "model.sdf").read_text()
 
@@ -240,14 +242,30 @@ def test_who_stops_robots_does_not_wait_for_the_radio():
     assert world.fleet.stopped[0]
 
 
-def test_a_fleet_lives_with_a_bad_radio():
-    from warehouse_fleet.fleet_driver import FleetDriver
-    from warehouse_fleet.random_transports import RandomTransports
+# --- a fleet at work
 
-    world = World.preset("medium", realism={"radio": {"lost": 0.02, "repeated": 0.02}})
-    driver = FleetDriver(world)
+
+def work(realism, seconds, seed=1):
+    """A driver that has kept the stations of a medium warehouse busy for so long."""
+    driver = FleetDriver(World.preset("medium", seed=seed, realism=realism))
     try:
-        RandomTransports  # noqa: B018
-        driver.step_until(1)
+        demand = RandomTransports(driver.transports, seed=seed, exchange=12.0)
+        while driver.time < seconds:
+            demand.advance(driver.time, driver.transports.take_events())
+            driver.step()
     finally:
         driver.close()
+    return driver
+
+
+def test_a_fleet_lives_with_a_bad_radio():
+    radio = {"latency_least": 0.01, "latency_mean": 0.1, "lost": 0.02, "repeated": 0.02}
+    driver = work({"radio": radio}, 180)
+    assert driver.collisions == 0 and driver.watchdog == 0
+    assert driver.transports.totals.delivered > 20 and driver.transports.totals.failed == 0
+
+
+def test_a_fleet_has_a_typical_day():
+    driver = work("typical", 180)
+    assert driver.collisions == 0 and driver.watchdog == 0
+    assert driver.transports.totals.delivered > 25 and driver.transports.totals.failed == 0

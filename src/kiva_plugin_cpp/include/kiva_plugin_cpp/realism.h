@@ -17,11 +17,11 @@ namespace kiva {
 /// Deviations are standard deviations of a normal distribution.
 struct LocalisationRealism {
   bool enabled = false;
-  double wheel_radius_error = 0.002;      ///< Of each wheel, as a share of its radius.
+  double wheel_radius_error = 0.001;      ///< Of each wheel, as a share of its radius.
   double wheel_separation_error = 0.002;  ///< As a share of it.
-  double slip = 0.0005;              ///< Of the way of a wheel over one metre, growing as its root.
+  double slip = 0.0003;  ///< Of the way of a wheel over one metre, growing as its root.
   double code_position_noise = 0.0005;  ///< Of a reading, along each axis [m].
-  double code_angle_noise = 0.002;      ///< Of a reading [rad].
+  double code_angle_noise = 0.001;      ///< Of a reading [rad].
   double missed_codes = 0.002;          ///< Share of codes that are passed without being read.
   double lost_after = 3.5;              ///< [m] without a code, after which a robot is lost.
 
@@ -40,8 +40,8 @@ struct LocalisationRealism {
 /// What laser scans lack.
 struct LaserRealism {
   bool enabled = false;
-  double range_noise = 0.01;     ///< Standard deviation of a range [m].
-  double dropped_rays = 0.002;   ///< Share of rays that see nothing.
+  double range_noise = 0.01;    ///< Standard deviation of a range [m].
+  double dropped_rays = 0.002;  ///< Share of rays that see nothing.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -53,8 +53,8 @@ struct LaserRealism {
 /// How motors and tyres differ from robot to robot.
 struct ActuationRealism {
   bool enabled = false;
-  double torque_spread = 0.05;     ///< Standard deviation, as a share of the motor's torque.
-  double friction_spread = 0.05;   ///< Standard deviation, as a share of the tyres' friction.
+  double torque_spread = 0.05;    ///< Standard deviation, as a share of the motor's torque.
+  double friction_spread = 0.05;  ///< Standard deviation, as a share of the tyres' friction.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {

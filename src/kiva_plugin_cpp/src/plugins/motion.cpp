@@ -23,10 +23,10 @@ constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
 constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
 
 struct OnLine {
-  double along;   // seen from where the reference is measured from [m]
-  double across;  // left of the line [m]
-  double speed;   // along the line [m/s]
-  double heading; // off the line's [rad]
+  double along;    // seen from where the reference is measured from [m]
+  double across;   // left of the line [m]
+  double speed;    // along the line [m/s]
+  double heading;  // off the line's [rad]
 };
 
 /// As the robot believes.
@@ -109,9 +109,8 @@ void driveSegment(WorldState& world, int i) {
   const double lag = f.reference[i] - at.along;
   const bool is_sure = segment.on_grid && !(f.localises && f.localisation[i].lost);
   const double top = is_sure ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
-  const bool exact = f.localises
-                         ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
-                         : isExact(lag) && isExact(at.heading) && isExact(at.across);
+  const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
+                                 : isExact(lag) && isExact(at.heading) && isExact(at.across);
   if (exact && !segment.reverse &&
       tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;

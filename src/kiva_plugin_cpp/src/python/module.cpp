@@ -604,8 +604,8 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
   world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"), py::arg("threads"),
-            py::arg("realism") = py::none(), py::arg("realism_from") = "");
+            py::arg("seed"), py::arg("drive"), py::arg("threads"), py::arg("realism") = py::none(),
+            py::arg("realism_from") = "");
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 

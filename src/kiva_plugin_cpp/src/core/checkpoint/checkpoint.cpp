@@ -64,8 +64,9 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models, within(world.dt, 1e-6, 1),
-         within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
+  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models,
+         within(world.dt, 1e-6, 1), within(world.grid_spacing, 0.1, 100), world.floor,
+         within(world.floor_friction, 0, 1e6));
   if constexpr (A::kReads) world.fleet.localises = world.realism.localisation.enabled;
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }
@@ -93,8 +94,8 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  FIELDS(world.last_command, world.commands, world.paths, world.on_air,
-         world.radio_messages, world.events, world.status_changes);
+  FIELDS(world.last_command, world.commands, world.paths, world.on_air, world.radio_messages,
+         world.events, world.status_changes);
 }
 
 void indexModels(WorldState& world) {

@@ -490,7 +490,8 @@ void describe(A& a, Realism& r) {
 template <class A>
 void describe(A& a, WorldOptions& o) {
   DESCRIBED(WorldOptions, 6);
-  FIELDS(o.seed, o.drive, o.always_in_bullet, o.realism);  // plugins and threads stay the world's own
+  FIELDS(o.seed, o.drive, o.always_in_bullet,
+         o.realism);  // plugins and threads stay the world's own
 }
 
 #undef DESCRIBED

@@ -224,6 +224,7 @@ void Robots::reset(WorldState& world, Model& model) const {
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
+  if (fleet.localises) relocate(world, robot);  // its wheels stand at 0 now
 }
 
 EntityState Robots::state(const WorldState& world, const Model& model) const {

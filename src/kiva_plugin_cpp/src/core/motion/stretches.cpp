@@ -16,9 +16,10 @@ constexpr double kMostHeading = 0.02;    // [rad]
 constexpr double kMostAcross = 0.03;     // [m]
 constexpr double kMostSpeed = 0.005;     // [m/s] that motors mend in a step
 constexpr double kMostYawRate = 0.1;     // [rad/s] the same
-constexpr double kSteering = 0.5;        // [m] on which it comes back to its line, in two arcs
+constexpr double kSteering = 0.5;        // [m] on which it comes back to its line, in two arcs;
 constexpr double kLeastSteering = 0.15;  // [m]: on less it goes straight on
-constexpr double kMostCurvature = 0.1;   // [1/m]
+constexpr double kGentle = 0.05;         // [1/m]: where they were narrower it takes all the room,
+constexpr double kNarrowest = 0.3;       // [1/m]: and drives none that is narrower still
 constexpr double kJustRead = 0.02;       // [m] by which a reading may put it back
 constexpr double kTiny = 1e-9;           // [m]
 
@@ -63,18 +64,26 @@ void setMotion(WorldState& world, int i) {
 }
 
 /// Two arcs of half the length each that end on the line, along it.
+void setArcs(Stretch* stretch, const OnLine& at, double length) {
+  stretch->curvature = -4 / (length * length) * (at.across + 0.75 * at.heading * length);
+  stretch->next_curvature = -2 * at.heading / length - stretch->curvature;
+  stretch->next_length = length / 2;
+  stretch->until = stretch->from + length / 2;
+}
+
+double narrowest(const Stretch& stretch) {
+  return std::max(std::abs(stretch.curvature), std::abs(stretch.next_curvature));
+}
+
 void steerBack(Stretch* stretch, const OnLine& at, double room) {
   stretch->curvature = stretch->next_curvature = stretch->next_length = 0;
   stretch->until = stretch->from + room;
-  const double length = std::min(kSteering, room);
-  if (length < kLeastSteering) return;
-  const double first =
-      -4 / (length * length) * (at.across + 0.75 * at.heading * length);
-  stretch->curvature = std::clamp(first, -kMostCurvature, kMostCurvature);
-  stretch->next_curvature =
-      std::clamp(-2 * at.heading / length - first, -kMostCurvature, kMostCurvature);
-  stretch->next_length = length / 2;
-  stretch->until = stretch->from + length / 2;
+  if (room < kLeastSteering) return;
+  setArcs(stretch, at, std::min(kSteering, room));
+  if (narrowest(*stretch) > kGentle) setArcs(stretch, at, room);
+  const double share = std::min(1.0, kNarrowest / std::max(kTiny, narrowest(*stretch)));
+  stretch->curvature *= share;
+  stretch->next_curvature *= share;
 }
 
 /// The way to the next code, the goal, or where it would be lost.
@@ -92,8 +101,7 @@ void brakeFor(WorldState& world, int i) {
   if (f.acceleration[i] == 0) return;
   const double way = f.goal[i] - f.reference[i], v = f.reference_speed[i];
   const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.dt, kTiny)) : 0;
-  const double usual =
-      f.tasks[i].phase == Phase::kDriving ? f.acceleration[i] : f.deceleration[i];
+  const double usual = f.tasks[i].phase == Phase::kDriving ? f.acceleration[i] : f.deceleration[i];
   if (needed > usual) {
     f.deceleration[i] = std::min(needed, std::max(usual, plannedBraking(world, i)));
   } else {

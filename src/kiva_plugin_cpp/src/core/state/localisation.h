@@ -23,12 +23,12 @@ struct DriveSizes {
 /// reference is a metre of the arc, or a radian.
 struct Stretch {
   bool under_way = false;
-  bool turns = false;        ///< In place.
-  double from = 0;           ///< Reference at its beginning,
-  double until = 0;          ///< and at its end.
-  double curvature = 0;      ///< To the left [1/m].
-  double next_curvature = 0; ///< Of the arc that comes after it,
-  double next_length = 0;    ///< and its length [m]; 0 = none.
+  bool turns = false;         ///< In place.
+  double from = 0;            ///< Reference at its beginning,
+  double until = 0;           ///< and at its end.
+  double curvature = 0;       ///< To the left [1/m].
+  double next_curvature = 0;  ///< Of the arc that comes after it,
+  double next_length = 0;     ///< and its length [m]; 0 = none.
 };
 
 struct Localisation {
@@ -52,7 +52,8 @@ struct Localisation {
   PlanarPose at(double reference) const;
   /// Ends the stretch, if one is under way: the pose is that of now.
   void settle(double reference, double left_angle, double right_angle);
-  /// Odometry: adds what the wheels have turned since then. Returns the way of the middle [m], >= 0.
+  /// Odometry: adds what the wheels have turned since then. Returns the way of the middle [m], >=
+  /// 0.
   double roll(double left_angle, double right_angle);
   /// What has gone since the last time makes the pose less certain. Deviations: `slip` of a wheel
   /// over a metre, `separation` as a share.

@@ -12,10 +12,10 @@ namespace kiva {
 namespace {
 
 constexpr double kHalfPi = M_PI / 2;
-constexpr double kCentred = 0.001;  // [m] from a point: the robot has come to it
-constexpr double kFacing = 0.002;   // [rad] off: it can drive; how it may be pushed, standing
+constexpr double kCentred = 0.001;      // [m] from a point: the robot has come to it
+constexpr double kFacing = 0.002;       // [rad] off: it can drive; how it may be pushed, standing
 constexpr double kNearlyFacing = 0.02;  // [rad] off, of one that has to find out
-constexpr double kRounding = 1e-9;  // [m]
+constexpr double kRounding = 1e-9;      // [m]
 
 /// A place seen from the origin of the present run [m].
 struct OnRun {

@@ -65,14 +65,14 @@ struct WorldState {
   std::string name;
   Vector3 gravity;
   WorldOptions options;
-  Realism realism;                   // of the options, or of the first robot whose file has one
-  bool realism_of_models = false;    // the latter
-  double dt = 0.001;              // [s]
-  double dt_since_time = 0;       // [s]: when the present step size began,
-  std::uint64_t dt_since = 0;     // and after how many steps
-  double grid_spacing = 1;        // [m]
-  std::uint64_t steps = 0;        // since the last reset of time
-  std::uint64_t total_steps = 0;  // ever; what schedules count by
+  Realism realism;                 // of the options, or of the first robot whose file has one
+  bool realism_of_models = false;  // the latter
+  double dt = 0.001;               // [s]
+  double dt_since_time = 0;        // [s]: when the present step size began,
+  std::uint64_t dt_since = 0;      // and after how many steps
+  double grid_spacing = 1;         // [m]
+  std::uint64_t steps = 0;         // since the last reset of time
+  std::uint64_t total_steps = 0;   // ever; what schedules count by
 
   Physics physics;
   FleetState fleet;
@@ -106,8 +106,8 @@ struct WorldState {
   std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
   std::deque<Command> commands;
-  std::deque<FollowPath> paths;  // of those that are kFollow, in the same order
-  std::deque<RadioMessage> on_air;  // in the order in which they come
+  std::deque<FollowPath> paths;      // of those that are kFollow, in the same order
+  std::deque<RadioMessage> on_air;   // in the order in which they come
   std::uint64_t radio_messages = 0;  // ever sent
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
