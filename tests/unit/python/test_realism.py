@@ -61,7 +61,10 @@ def test_a_section_of_which_anything_is_given_is_on_with_its_defaults(tmp_path):
     [
         ("lasers:\n  rang_noise: 1\n", r"day\.yaml.*'lasers/rang_noise'.*'lasers/range_noise'"),
         ("laser:\n  range_noise: 1\n", r"day\.yaml.*unknown parameter 'laser/range_noise'"),
-        ("lasers:\n  range_noise: .nan\n", r"day\.yaml.*'lasers/range_noise' is 'nan'.*from 0 to 1"),
+        (
+            "lasers:\n  range_noise: .nan\n",
+            r"day\.yaml.*'lasers/range_noise' is 'nan'.*from 0 to 1",
+        ),
         ("lasers:\n  dropped_rays: 1.5\n", r"day\.yaml.*'1.5', expected a number from 0 to 1"),
         ("lasers:\n  dropped_rays: many\n", r"day\.yaml.*'many', expected a number"),
         ("lasers: perhaps\n", r"day\.yaml.*'lasers' is 'perhaps', expected true or false"),

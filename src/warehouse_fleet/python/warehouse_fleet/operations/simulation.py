@@ -121,6 +121,8 @@ def _preset(description):
     from kiva_plugin_cpp import World
 
     try:
-        return World.preset(description.size, seed=description.seed, realism=description.realism or None)
+        return World.preset(
+            description.size, seed=description.seed, realism=description.realism or None
+        )
     except ValueError as error:
         raise InstanceError(str(error)) from error
