@@ -17,11 +17,11 @@ namespace kiva {
 /// Deviations are standard deviations of a normal distribution.
 struct LocalisationRealism {
   bool enabled = false;
-  double wheel_radius_error = 0.002;      ///< Of each wheel, as a share of its radius.
+  double wheel_radius_error = 0.001;      ///< Of each wheel, as a share of its radius.
   double wheel_separation_error = 0.002;  ///< As a share of it.
-  double slip = 0.0005;              ///< Of the way of a wheel over one metre, growing as its root.
+  double slip = 0.0003;  ///< Of the way of a wheel over one metre, growing as its root.
   double code_position_noise = 0.0005;  ///< Of a reading, along each axis [m].
-  double code_angle_noise = 0.002;      ///< Of a reading [rad].
+  double code_angle_noise = 0.001;      ///< Of a reading [rad].
   double missed_codes = 0.002;          ///< Share of codes that are passed without being read.
   double lost_after = 3.5;              ///< [m] without a code, after which a robot is lost.
 
@@ -40,8 +40,8 @@ struct LocalisationRealism {
 /// What laser scans lack.
 struct LaserRealism {
   bool enabled = false;
-  double range_noise = 0.01;     ///< Standard deviation of a range [m].
-  double dropped_rays = 0.002;   ///< Share of rays that see nothing.
+  double range_noise = 0.01;    ///< Standard deviation of a range [m].
+  double dropped_rays = 0.002;  ///< Share of rays that see nothing.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -50,38 +50,33 @@ struct LaserRealism {
   }
 };
 
-/// How motors and wheels differ from robot to robot, and from what is asked of them.
+/// How motors and tyres differ from robot to robot.
 struct ActuationRealism {
   bool enabled = false;
-  double motor_lag = 0.01;         ///< Time constant with which motors follow [s].
-  double torque_spread = 0.05;     ///< Standard deviation, as a share of the motor's torque.
-  double friction_spread = 0.05;   ///< Standard deviation, as a share of the tyres' friction.
+  double torque_spread = 0.05;    ///< Standard deviation, as a share of the motor's torque.
+  double friction_spread = 0.05;  ///< Standard deviation, as a share of the tyres' friction.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
-    field("motor_lag", s.motor_lag, 0, 1);
     field("torque_spread", s.torque_spread, 0, 0.3);
     field("friction_spread", s.friction_spread, 0, 0.3);
   }
 };
 
-/// What happens to commands between whoever gives them and the robots, and to what robots report.
-/// A latency is `least` and an exponentially distributed rest of the mean `mean` − `least`.
+/// What happens to commands on their way to the robots, which get theirs in the order in which they
+/// were given. Their latency is `latency_least` and a rest, exponentially distributed, that makes
+/// it `latency_mean` in the mean.
 struct RadioRealism {
   bool enabled = false;
-  double command_latency_least = 0.002;  ///< [s]
-  double command_latency_mean = 0.02;    ///< [s]
-  double status_latency_least = 0.002;   ///< [s]
-  double status_latency_mean = 0.02;     ///< [s]
-  double lost = 0.001;                   ///< Share of messages that are lost.
-  double repeated = 0.001;               ///< Share of messages that come twice.
+  double latency_least = 0.005;  ///< [s]
+  double latency_mean = 0.03;    ///< [s]
+  double lost = 0.001;           ///< Share of commands that are lost.
+  double repeated = 0.001;       ///< Share of commands that come twice.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
-    field("command_latency_least", s.command_latency_least, 0, 10);
-    field("command_latency_mean", s.command_latency_mean, 0, 10);
-    field("status_latency_least", s.status_latency_least, 0, 10);
-    field("status_latency_mean", s.status_latency_mean, 0, 10);
+    field("latency_least", s.latency_least, 0, 10);
+    field("latency_mean", s.latency_mean, 0, 10);
     field("lost", s.lost, 0, 0.5);
     field("repeated", s.repeated, 0, 0.5);
   }

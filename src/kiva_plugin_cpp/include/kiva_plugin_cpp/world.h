@@ -259,6 +259,9 @@ class World {
   /// Where the robot is still to turn or to stop on its present way; on a path the end of what is
   /// released is one, and what is not released belongs to it.
   std::vector<PathPoint> pathAhead(int robot) const;
+  /// Where the robot believes to be, which it drives by: (x, y, yaw) in world [m, rad], yaw
+  /// unwrapped. Where it is, unless localisation is real.
+  Vector3 believedPose(int robot) const;
   Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;

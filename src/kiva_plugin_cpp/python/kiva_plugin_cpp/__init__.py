@@ -145,7 +145,7 @@ def _flat(path, value):
     if isinstance(value, dict) and (value or not path):
         for key, below in value.items():
             yield from _flat(f"{path}/{key}" if path else str(key), below)
-    elif isinstance(value, bool) or isinstance(value, dict):
+    elif isinstance(value, bool | dict):
         yield path, "true" if value or isinstance(value, dict) else "false"
     else:
         yield path, str(value)

@@ -14,6 +14,7 @@
 #include "core/control/commands.h"
 #include "core/control/energy.h"
 #include "core/control/failures.h"
+#include "core/control/radio.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
@@ -199,7 +200,7 @@ void World::post(const Command& command) {
   if (command.kind == Command::Kind::kFollow) {
     throw std::invalid_argument("a path is posted as a FollowPath");
   }
-  state_->commands.push_back(command);
+  send(*state_, command);
 }
 
 void World::post(FollowPath path) {
@@ -212,8 +213,7 @@ void World::post(FollowPath path) {
   Command command;
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;
-  state_->commands.push_back(command);
-  state_->paths.push_back(std::move(path));
+  send(*state_, command, std::move(path));
 }
 
 void World::fail(int kiva_id, Failure failure, double repair_after) {
@@ -405,6 +405,10 @@ std::vector<PathPoint> World::pathAhead(int robot) const {
     if (segment.kind == MotionSegment::Kind::kDrive) points.push_back({segment.x, segment.y});
   }
   return points;
+}
+Vector3 World::believedPose(int robot) const {
+  const PlanarPose at = state_->fleet.believed(robot);
+  return {at.x, at.y, at.yaw};
 }
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
 std::uint64_t World::unitsRevision() const { return state_->units_revision; }

@@ -615,6 +615,19 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
   fleet.def_property_readonly(
       "shelf_id", [](const FleetView& f) { return f.numbers(shelfOf); },
       "(n,) int32: number of the storage unit that each carries, 0 = none. A copy.");
+  fleet.def_property_readonly(
+      "believed",
+      [](const FleetView& f) {
+        const auto lock = f.host->use();
+        const int size = f.host->world.fleet().size();
+        py::array_t<double> out({size, 3});
+        for (int i = 0; i < size; ++i) {
+          const Vector3 at = f.host->world.believedPose(i);
+          for (int k = 0; k < 3; ++k) out.mutable_at(i, k) = at[k];
+        }
+        return out;
+      },
+      "(n, 3) float64: x, y [m], yaw [rad] where each robot believes to be. A copy.");
   fleet.def(
       "index",
       [](const FleetView& f, std::int32_t id) {
@@ -631,8 +644,8 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
   world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"), py::arg("threads"),
-            py::arg("realism") = py::none(), py::arg("realism_from") = "");
+            py::arg("seed"), py::arg("drive"), py::arg("threads"), py::arg("realism") = py::none(),
+            py::arg("realism_from") = "");
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 

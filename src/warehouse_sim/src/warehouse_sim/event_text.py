@@ -13,6 +13,7 @@ COLOURS = {
     Event.DONE: _GREEN,
     Event.BLOCKED: _RED,
     Event.COLLISION: _RED,
+    Event.LOST: _RED,
     Event.LIFTED: _BLUE,
     Event.DROPPED: _BLUE,
     Event.FAILED: _RED,

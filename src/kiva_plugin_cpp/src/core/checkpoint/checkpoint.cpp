@@ -66,8 +66,10 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models, within(world.dt, 1e-6, 1),
-         within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
+  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models,
+         within(world.dt, 1e-6, 1), within(world.grid_spacing, 0.1, 100), world.floor,
+         within(world.floor_friction, 0, 1e6));
+  if constexpr (A::kReads) world.fleet.localises = world.realism.localisation.enabled;
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }
 
@@ -84,6 +86,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
     if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) FIELDS(*model);
   }
   FIELDS(world.fleet, world.units, world.items);
+  if (world.fleet.localises) FIELDS(world.fleet.localisation);
   FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
          world.sighted, world.crashes);
   FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
@@ -95,7 +98,8 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  FIELDS(world.last_command, world.commands, world.paths, world.events, world.status_changes);
+  FIELDS(world.last_command, world.commands, world.paths, world.on_air, world.radio_messages,
+         world.events, world.status_changes);
 }
 
 void indexModels(WorldState& world) {

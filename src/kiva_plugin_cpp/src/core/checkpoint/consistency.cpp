@@ -310,6 +310,8 @@ void checkFleet(WorldState& world) {
           "there is one for every robot");
   require(!world.realism.energy.enabled || f.battery.size() == f.robots.size(), "fleet.battery",
           f.battery.size(), "", "there is one for every robot");
+  require(f.localisation.size() == (f.localises ? f.robots.size() : 0), "fleet.localisation",
+          f.localisation.size(), "", "there is one for every robot that has to find out");
   for (int i = 0; i < f.size(); ++i) checkRobot(world, i);
   for (std::size_t id = 0; id < f.index_of_id.size(); ++id) {
     const int i = f.index_of_id[id];

@@ -210,8 +210,30 @@ void describe(A& a, Battery& b) {
 }
 
 template <class A>
+void describe(A& a, PlanarPose& p) {
+  DESCRIBED(PlanarPose, 3);
+  FIELDS(p.x, p.y, p.yaw);
+}
+
+template <class A>
+void describe(A& a, Stretch& s) {
+  DESCRIBED(Stretch, 7);
+  FIELDS(s.under_way, s.turns, s.from, within(s.until, -kEndless, kEndless), s.curvature,
+         s.next_curvature, s.next_length);
+}
+
+template <class A>
+void describe(A& a, Localisation& l) {
+  DESCRIBED(Localisation, 41);
+  FIELDS(l.pose, within(l.believed.radius[0], 0.001, 2), within(l.believed.radius[1], 0.001, 2),
+         within(l.believed.separation, 0.001, 20), l.covariance, l.way, l.turn, l.wheel_angle,
+         l.slip, l.slip_for, l.since_code, l.lost_at, l.lost, l.code_column, l.code_row, l.draws,
+         l.stretch);
+}
+
+template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 21);
+  DESCRIBED(FleetState, 23);  // its localisation: with the world
   DESCRIBED(Fleet, 24);  // what is broken, and charges, follow from what else the world holds
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
@@ -369,6 +391,12 @@ void describe(A& a, FollowPath& p) {
 }
 
 template <class A>
+void describe(A& a, RadioMessage& m) {
+  DESCRIBED(RadioMessage, 3);
+  FIELDS(m.due, m.command, m.path);
+}
+
+template <class A>
 void describe(A& a, Impact& i) {
   DESCRIBED(Impact, 4);
   FIELDS(i.point, i.normal, i.speed, i.impulse);
@@ -488,7 +516,8 @@ void describe(A& a, Realism& r) {
 template <class A>
 void describe(A& a, WorldOptions& o) {
   DESCRIBED(WorldOptions, 6);
-  FIELDS(o.seed, o.drive, o.always_in_bullet, o.realism);  // plugins and threads stay the world's own
+  FIELDS(o.seed, o.drive, o.always_in_bullet,
+         o.realism);  // plugins and threads stay the world's own
 }
 
 #undef DESCRIBED

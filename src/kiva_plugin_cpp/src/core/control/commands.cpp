@@ -6,6 +6,7 @@
 
 #include "core/control/interruptions.h"
 #include "core/control/paths.h"
+#include "core/control/radio.h"
 #include "core/control/route.h"
 #include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
@@ -230,6 +231,7 @@ FollowPath takePath(WorldState& world, const Command& command) {
 }  // namespace
 
 void acceptCommands(WorldState& world) {
+  receive(world);
   while (!world.commands.empty()) {
     const Command& command = world.commands.front();
     answer(world, command, takePath(world, command));

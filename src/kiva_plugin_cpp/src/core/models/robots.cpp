@@ -10,11 +10,13 @@
 #include "core/models/load.h"
 #include "core/motion/drives.h"
 #include "core/motion/jointed_body.h"
+#include "core/motion/self_location.h"
 #include "core/physics/spatial_inertia.h"
 #include "core/sensing/scans.h"
 #include "core/state/fleet_plugin.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
+#include "core/state/random_stream.h"
 #include "core/state/tasks.h"
 
 namespace kiva {
@@ -88,6 +90,7 @@ void adoptRealism(WorldState& world, const ModelDescription& description) {
     if (!asked) continue;
     world.realism = *asked;
     world.realism_of_models = true;
+    world.fleet.localises = asked->localisation.enabled;
   }
 }
 
@@ -140,6 +143,19 @@ void stand(FleetState& f, int robot, const EntityState& at) {
   f.yaw_rate[robot] = at.twist.angular.Z();
 }
 
+/// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
+void setSpread(const WorldState& world, Robot* robot) {
+  constexpr double kMost = 3;  // deviations that are delivered
+  const ActuationRealism& real = world.realism.actuation;
+  if (!real.enabled) return;
+  RandomStream random(world.options.seed, Matter::kActuation, robot->id, 0);
+  const auto deviate = [&](double share) {
+    return 1 + share * std::clamp(random.normal(), -kMost, kMost);
+  };
+  robot->drive.motor_torque *= deviate(real.torque_spread);
+  for (double& friction : robot->tyre_friction) friction *= deviate(real.friction_spread);
+}
+
 }  // namespace
 
 bool isRobot(const ModelDescription& description) {
@@ -164,7 +180,9 @@ void Robots::add(WorldState& world, Model& model) const {
   setRays(world, &robot);
   world.top_speed = std::max(world.top_speed, robot.drive.speed);
   adoptRealism(world, *model.description);
+  setSpread(world, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
+  if (world.fleet.localises) calibrate(world, model.index);
   moved(world, model);
   if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
 }
@@ -193,8 +211,9 @@ void Robots::place(WorldState& world, Model& model, const EntityState& state) co
   if (world.fleet.tasks[robot].phase != Phase::kIdle) {
     endBlocked(world, robot, "", "was moved by hand");
   }
-  stand(world.fleet, robot, state);
   moved(world.fleet, robot);
+  stand(world.fleet, robot, state);
+  if (world.fleet.localises) relocate(world, robot);
   rebuildBody(world, model);
 }
 
@@ -214,6 +233,7 @@ void Robots::reset(WorldState& world, Model& model) const {
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
+  if (fleet.localises) relocate(world, robot);  // its wheels stand at 0 now
 }
 
 EntityState Robots::state(const WorldState& world, const Model& model) const {

@@ -9,6 +9,7 @@
 #include "core/motion/drives.h"
 #include "core/motion/jointed.h"
 #include "core/motion/joints.h"
+#include "core/motion/self_location.h"
 #include "core/motion/traction.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
@@ -80,6 +81,7 @@ void integrateRobots(WorldState& world) {
     }
     if (isJointed(f.robots[i])) settleJointed(world, i);
     followRobot(world, i);
+    if (f.localises) track(world, i);
     if (f.tasks[i].follows() && f.tasks[i].drives()) countPoints(world, i, alongSegment(f, i));
     letRest(f, i);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state/random_stream.h"
+
 namespace kiva {
 namespace {
 
@@ -44,6 +46,21 @@ void arrangeScans(WorldState& world) {
     const double spread = std::fmod(group * 0.6180339887498949, 1.0);
     const auto offset = static_cast<std::uint64_t>(spread * static_cast<double>(period));
     round->robots_at[(period - offset) % period].push_back(i);
+  }
+}
+
+/// As the laser tells it: each ray's error depends on robot, step and ray alone, whoever looks.
+void disturb(const WorldState& world, const Robot& robot, FanHits* hits) {
+  constexpr std::uint64_t kMostRays = 1 << 14;
+  const LaserRealism& real = world.realism.lasers;
+  for (int ray = hits->first; ray <= hits->last; ++ray) {
+    if (hits->model[ray] < 0) continue;
+    RandomStream random(world.options.seed, Matter::kLaser, robot.id,
+                        world.total_steps * kMostRays + ray);
+    const bool is_dropped = random.chance(real.dropped_rays);
+    double& range = hits->range[ray];
+    range = std::max(0.0, range + real.range_noise * random.normal());
+    if (is_dropped || range > robot.laser.max_range) hits->model[ray] = -1;
   }
 }
 
@@ -101,6 +118,7 @@ Sensor sensorOf(const WorldState& world, int robot) {
 void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits) {
   const RayFan& fan = world.ray_fans[world.fleet.robots[robot].ray_fan];
   world.obstacles.cast(fan, sensorOf(world, robot), reach, robot, hits);
+  if (world.realism.lasers.enabled) disturb(world, world.fleet.robots[robot], hits);
 }
 
 }  // namespace kiva

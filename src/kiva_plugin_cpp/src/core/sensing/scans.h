@@ -22,7 +22,7 @@ void setRays(WorldState& world, Robot* robot);
 
 Sensor sensorOf(const WorldState& world, int robot);
 
-/// Casts the robot's rays.
+/// Casts the robot's rays; as far as lasers are real, with their noise.
 void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits);
 
 }  // namespace kiva

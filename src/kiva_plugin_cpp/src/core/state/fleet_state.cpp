@@ -29,6 +29,7 @@ void forEachArray(FleetState& f, Visit visit) {
 
 int FleetState::add(Robot robot, double x, double y, double yaw) {
   forEachArray(*this, [](auto& array) { array.emplace_back(); });
+  if (localises) localisation.emplace_back();
   return Fleet::add(std::move(robot), x, y, yaw);
 }
 
@@ -37,6 +38,10 @@ void FleetState::remove(int i) {
     array[i] = std::move(array.back());
     array.pop_back();
   });
+  if (localises) {
+    localisation[i] = localisation.back();
+    localisation.pop_back();
+  }
   Fleet::remove(i);
 }
 
@@ -55,6 +60,9 @@ void moved(FleetState& f, int i) {
   f.clear_until[i] = 0;
   if (f.cruising[i] == 0) return;
   f.cruising[i] = 0;
+  if (f.localises) {
+    f.localisation[i].settle(f.reference[i], f.wheel_angle[0][i], f.wheel_angle[1][i]);
+  }
   for (int wheel = 0; wheel < 2; ++wheel) f.wheel_target[wheel][i] = f.wheel_speed[wheel][i];
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/state/localisation.h"
 #include "core/state/profile.h"
 #include "core/state/released_path.h"
 #include "kiva_plugin_cpp/fleet.h"
@@ -110,6 +111,16 @@ struct FleetState : Fleet {
   Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis,
   Column<double> per_wheel[2];             ///< and its wheels.
   Column<double> top_speed, acceleration;  ///< Of the reference.
+
+  /// Whether robots drive by where they believe to be; if not, they know, and the next is empty.
+  bool localises = false;
+  std::vector<Localisation> localisation;
+
+  /// Where robot `i` believes to be.
+  PlanarPose believed(int i) const {
+    if (!localises) return {x[i], y[i], yaw[i]};
+    return localisation[i].at(reference[i]);
+  }
 
   Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
   void setProfile(int i, const Profile& profile) {

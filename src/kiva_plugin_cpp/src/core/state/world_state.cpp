@@ -18,7 +18,9 @@ WorldState::WorldState(const WorldDescription& description, const WorldOptions& 
       realism(world_options.realism.value_or(Realism())),
       dt(description.step_size),
       physics(description.gravity),
-      workers(std::make_shared<Workers>(options.threads)) {}
+      workers(std::make_shared<Workers>(options.threads)) {
+  fleet.localises = realism.localisation.enabled;
+}
 
 WorldState::~WorldState() {
   for (auto& model : models) {

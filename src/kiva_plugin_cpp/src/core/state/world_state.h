@@ -63,6 +63,13 @@ struct Charger {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
 };
 
+/// A command on its way to its robot.
+struct RadioMessage {
+  std::uint64_t due = 0;  ///< The step, of all, at which it is there.
+  Command command;
+  FollowPath path;  ///< If it stands for one.
+};
+
 /// Robots whose scans have the same period, by the step within it.
 struct ScanRound {
   std::uint64_t period = 0;  // steps
@@ -77,14 +84,14 @@ struct WorldState {
   std::string name;
   Vector3 gravity;
   WorldOptions options;
-  Realism realism;                   // of the options, or of the first robot whose file has one
-  bool realism_of_models = false;    // the latter
-  double dt = 0.001;              // [s]
-  double dt_since_time = 0;       // [s]: when the present step size began,
-  std::uint64_t dt_since = 0;     // and after how many steps
-  double grid_spacing = 1;        // [m]
-  std::uint64_t steps = 0;        // since the last reset of time
-  std::uint64_t total_steps = 0;  // ever; what schedules count by
+  Realism realism;                 // of the options, or of the first robot whose file has one
+  bool realism_of_models = false;  // the latter
+  double dt = 0.001;               // [s]
+  double dt_since_time = 0;        // [s]: when the present step size began,
+  std::uint64_t dt_since = 0;      // and after how many steps
+  double grid_spacing = 1;         // [m]
+  std::uint64_t steps = 0;         // since the last reset of time
+  std::uint64_t total_steps = 0;   // ever; what schedules count by
 
   Physics physics;
   FleetState fleet;
@@ -118,7 +125,9 @@ struct WorldState {
   std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
   std::deque<Command> commands;
-  std::deque<FollowPath> paths;  // of those that are kFollow, in the same order
+  std::deque<FollowPath> paths;      // of those that are kFollow, in the same order
+  std::deque<RadioMessage> on_air;   // in the order in which they come
+  std::uint64_t radio_messages = 0;  // ever sent
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;

@@ -52,6 +52,15 @@ bool isSilent(const kiva::World& world, int robot) {
   return (world.fleet().failures[robot] & kiva::bitOf(kiva::Failure::kRadio)) != 0;
 }
 
+/// As the robot's own odometry has it.
+RobotPose believedOf(const kiva::World& world, int i) {
+  RobotPose out = poseOf(world, i);
+  if (!world.realism().localisation.enabled) return out;
+  const kiva::Vector3 at = world.believedPose(i);
+  out.base = kiva::Pose(at.X(), at.Y(), out.base.Z(), 0, 0, at.Z());
+  return out;
+}
+
 }  // namespace
 
 Reporter::Reporter(const kiva::World& world, const Rates& rates, double rtf,
@@ -249,7 +258,7 @@ void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
   out->odometry.clear();
   for (int id : odometry_ids_) {
     const int i = world.fleet().find(id);
-    if (i >= 0 && !isSilent(world, i)) out->odometry.push_back(poseOf(world, i));
+    if (i >= 0 && !isSilent(world, i)) out->odometry.push_back(believedOf(world, i));
   }
 }
 
