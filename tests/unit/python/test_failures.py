@@ -165,7 +165,7 @@ def test_availability():
             bits[1] |= 1 << FailureKind.MOTOR
         if 20 <= second < 40:
             bits[1] |= 1 << FailureKind.RADIO_LOST
-        if 50 <= second:
+        if second >= 50:
             bits[2] |= 1 << FailureKind.WHEEL_SLIPS  # slow, but at work
         log.observe(float(second), bits)
     figures = log.figures()

@@ -114,8 +114,8 @@ struct PathPoint {
 
 /// What a robot tells of itself; as in Fleet.
 struct RobotReport {
-  double x = 0, y = 0, yaw = 0;          ///< In world [m, rad].
-  double vx = 0, vy = 0, yaw_rate = 0;   ///< [m/s, rad/s]
+  double x = 0, y = 0, yaw = 0;         ///< In world [m, rad].
+  double vx = 0, vy = 0, yaw_rate = 0;  ///< [m/s, rad/s]
   Status status = Status::kIdle;
   State state = State::kIdle;
   std::int32_t shelf_id = 0;  ///< 0 = none.
@@ -150,9 +150,9 @@ struct Fleet {
   /// load have left wholly. By how far they extend along and across the way when they drive
   /// straight: the corners of a load that turns reach some centimetres out of its cell.
   Column<std::uint32_t> left;
-  Column<std::uint8_t> stopped;  ///< 1 = it stands until Command::Kind::kGoOn.
+  Column<std::uint8_t> stopped;   ///< 1 = it stands until Command::Kind::kGoOn.
   Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
-  Column<float> charge;  ///< Of its battery, 0…1; 1 where there is no model of that.
+  Column<float> charge;           ///< Of its battery, 0…1; 1 where there is no model of that.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

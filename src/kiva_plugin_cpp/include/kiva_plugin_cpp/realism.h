@@ -85,17 +85,17 @@ struct RadioRealism {
 /// Batteries: what robots use, and what they take up where charging is painted on the floor.
 struct EnergyRealism {
   bool enabled = false;
-  double capacity = 960;             ///< Of a new battery [Wh].
-  double health = 1;                 ///< Share of it that age has left.
-  double initial_least = 0.6;        ///< State of charge at the beginning, evenly distributed
-  double initial_most = 1;           ///< between these, 0…1.
-  double electronics = 80;           ///< Used at all times [W].
+  double capacity = 960;              ///< Of a new battery [Wh].
+  double health = 1;                  ///< Share of it that age has left.
+  double initial_least = 0.6;         ///< State of charge at the beginning, evenly distributed
+  double initial_most = 1;            ///< between these, 0…1.
+  double electronics = 80;            ///< Used at all times [W].
   double rolling_resistance = 0.015;  ///< Force over weight.
-  double drive_efficiency = 0.75;    ///< From the battery to the wheels.
-  double regeneration = 0.3;         ///< Share of the energy of motion that braking gives back.
-  double lift_efficiency = 0.4;      ///< From the battery to the load.
-  double charge_power = 1500;        ///< [W], into the battery,
-  double charge_taper = 0.8;         ///< up to this state of charge; beyond it falls evenly.
+  double drive_efficiency = 0.75;     ///< From the battery to the wheels.
+  double regeneration = 0.3;          ///< Share of the energy of motion that braking gives back.
+  double lift_efficiency = 0.4;       ///< From the battery to the load.
+  double charge_power = 1500;         ///< [W], into the battery,
+  double charge_taper = 0.8;          ///< up to this state of charge; beyond it falls evenly.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -113,13 +113,13 @@ struct EnergyRealism {
   }
 };
 
-/// How often something breaks in robots by itself, and how long it takes to repair it. Times between
-/// failures and to a repair are exponentially distributed.
+/// How often something breaks in robots by itself, and how long it takes to repair it. Times
+/// between failures and to a repair are exponentially distributed.
 struct FailureRealism {
   bool enabled = false;
   double per_robot_hour = 0.01;  ///< Failures an hour and robot.
   double repair_time = 300;      ///< Mean, until it is repaired [s].
-  double motor = 0.3;            ///< How often each kind is what breaks, beside the others: the drive,
+  double motor = 0.3;  ///< How often each kind is what breaks, beside the others: the drive,
   double lift_stuck = 0.15;
   double laser_blind = 0.15;
   double radio_lost = 0.25;

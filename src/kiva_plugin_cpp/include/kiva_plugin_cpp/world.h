@@ -183,9 +183,9 @@ class World {
   void post(FollowPath path);
 
   // --- failures
-  /// Breaks something in a robot now: FAILED. `repair_after` [s]; 0 = until repair() is called. What
-  /// is broken already is repaired then instead. Throws std::invalid_argument if there is no such
-  /// robot, or the time is negative or not finite.
+  /// Breaks something in a robot now: FAILED. `repair_after` [s]; 0 = until repair() is called.
+  /// What is broken already is repaired then instead. Throws std::invalid_argument if there is no
+  /// such robot, or the time is negative or not finite.
   void fail(int kiva_id, Failure failure, double repair_after);
   /// Repairs all that is broken in a robot: REPAIRED for each, before its time. An empty battery is
   /// exchanged for a full one. Throws as fail().
@@ -270,8 +270,8 @@ class World {
   double gridSpacing() const;  ///< [m]
 
   // --- sensing
-  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117); NaN of a laser
-  /// that is blind.
+  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117); NaN of a
+  /// laser that is blind.
   void scan(int robot, std::vector<float>* ranges) const;
   /// The same of several robots that have lasers, a row each, on the world's threads.
   void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;

@@ -267,9 +267,8 @@ py::array_t<HeardRow> lastHeard(Host& host) {
     const auto last = host.world.lastHeard(i);
     if (!last) continue;
     rows.push_back({i, last->x, last->y, last->yaw, last->vx, last->vy, last->yaw_rate,
-                    static_cast<std::uint8_t>(last->status),
-                    static_cast<std::uint8_t>(last->state), last->shelf_id, last->path_id,
-                    last->reached, last->left, last->last_end});
+                    static_cast<std::uint8_t>(last->status), static_cast<std::uint8_t>(last->state),
+                    last->shelf_id, last->path_id, last->reached, last->left, last->last_end});
   }
   return py::array_t<HeardRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
@@ -608,7 +607,8 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
       "an empty battery; 0 nothing. A view.");
   add(
       "charge", [](const Fleet& f) -> auto& { return f.charge; }, 0.0f,
-      "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A view.");
+      "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A "
+      "view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");

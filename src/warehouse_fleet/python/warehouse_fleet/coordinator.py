@@ -9,11 +9,11 @@ from types import SimpleNamespace
 import numpy as np
 import rosgraph
 import rospy
-from gazebo_msgs.msg import ModelState
-from gazebo_msgs.srv import SetModelState
 from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import SetModelState
 from warehouse_fleet import FloorError, floor_markings
 from warehouse_fleet.failures import names_of
 from warehouse_fleet.fleet_driver import square
@@ -197,7 +197,10 @@ class Coordinator:
                 float, self._traffic.plan.point_of(cell)
             )
             yaw = square(self._fleet.yaw[robot])
-            state.pose.orientation.z, state.pose.orientation.w = math.sin(yaw / 2), math.cos(yaw / 2)
+            state.pose.orientation.z, state.pose.orientation.w = (
+                math.sin(yaw / 2),
+                math.cos(yaw / 2),
+            )
         try:
             answer = self._place(state)
         except rospy.ServiceException as error:

@@ -15,7 +15,9 @@ NAMES = {
     RADIO_LOST: "radio lost",
     WHEEL_SLIPS: "wheels slip",
 }
-STANDS = 1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST  # it stands, or can't be sent on
+STANDS = (
+    1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST
+)  # it stands, or can't be sent on
 LIFTS_NOT = 1 << LIFT_STUCK
 DOWN = STANDS | LIFTS_NOT  # it does not work; one whose wheels slip does, slowly
 

@@ -143,8 +143,8 @@ class FloorPlan:
         charging=None,
     ):
         """With `exits` made whole: nobody leaves the floor or a lane, nor enters one but at its
-        entry; places where nobody can drive are neither storage nor parking. `charging`: (h, w) bool;
-        robots park there as well."""
+        entry; places where nobody can drive are neither storage nor parking. `charging`, (h, w)
+        bool, is parking as well."""
         charging = np.zeros_like(passable) if charging is None else charging & passable
         return cls(
             origin=tuple(map(float, origin)),

@@ -115,12 +115,12 @@ def _urgency(transport):
 class Transports:
     """All transports and who does them.
 
-    `lift(kiva_id, shelf_id, up)` sends the command. Three decisions can be made by others:
+    `lift(kiva_id, shelf_id, up)` sends the command. Decisions can be made by others:
     `match_robots(asked, free)` yields pairs of a Transport of those `asked` for and a robot of the
     indices `free`; `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that
     is in `cell`; `park(robot)` is the cell for a robot that has no more work, or None: it waits
-    where it is. `charging.policy` decides who is charged when. Transports get the numbers after `last`. Nothing is known of units until look() is
-    told.
+    where it is; `charging.policy` decides who is charged when. Transports get the numbers after
+    `last`. Nothing is known of units until look() is told.
     """
 
     def __init__(self, plan, traffic, lift, last=0):

@@ -234,7 +234,7 @@ void describe(A& a, Localisation& l) {
 template <class A>
 void describe(A& a, FleetState& f) {
   DESCRIBED(FleetState, 23);  // its localisation: with the world
-  DESCRIBED(Fleet, 24);  // what is broken, and charges, follow from what else the world holds
+  DESCRIBED(Fleet, 24);       // what is broken, and charges, follow from what else the world holds
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,

@@ -11,11 +11,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kPeriod = 0.1;         // [s]
-constexpr double kJoule = 3600;         // in a watt hour
-constexpr double kLeastCharge = 0.05;   // share of the power that a nearly full battery takes
-constexpr double kRestarts = 0.02;      // state of charge from which an empty robot works again
-constexpr double kStandstill = 1e-3;    // [m/s]
+constexpr double kPeriod = 0.1;        // [s]
+constexpr double kJoule = 3600;        // in a watt hour
+constexpr double kLeastCharge = 0.05;  // share of the power that a nearly full battery takes
+constexpr double kRestarts = 0.02;     // state of charge from which an empty robot works again
+constexpr double kStandstill = 1e-3;   // [m/s]
 constexpr char kMarkings[] = "floor_markings";
 constexpr char kChargingLink[] = "charging";
 
@@ -72,7 +72,8 @@ void begin(WorldState& world, int i) {
   battery.tower = f.tower[i];
 }
 
-/// Since the last time [J]: electronics, rolling, speeding up less what braking gives back, lifting.
+/// Since the last time [J]: electronics, rolling, speeding up less what braking gives back,
+/// lifting.
 double used(const WorldState& world, int i, double seconds) {
   const EnergyRealism& e = world.realism.energy;
   const FleetState& f = world.fleet;
@@ -109,8 +110,8 @@ void show(WorldState& world, int i) {
 
 void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) {
   FleetState& f = world.fleet;
-  f.failures[i] = static_cast<std::uint8_t>((f.failures[i] & ~kEmptyBattery) |
-                                            (is_empty ? kEmptyBattery : 0));
+  f.failures[i] =
+      static_cast<std::uint8_t>((f.failures[i] & ~kEmptyBattery) | (is_empty ? kEmptyBattery : 0));
   const auto kind = is_empty ? Event::Kind::kFailed : Event::Kind::kRepaired;
   world.report(kind, f.robots[i].name, "", text);
   if (is_empty && f.awake[i]) moved(f, i);

@@ -43,13 +43,11 @@ int findRobot(const WorldState& world, int kiva_id) {
 RobotReport reportOf(const WorldState& world, int robot) {
   const Fleet& f = world.fleet;
   const int unit = f.unit[robot];
-  return {f.x[robot],        f.y[robot],
-          f.yaw[robot],      f.vx[robot],
-          f.vy[robot],       f.yaw_rate[robot],
-          f.status[robot],   f.state[robot],
-          unit < 0 ? 0 : world.units[unit].id,
-          f.path_id[robot],  f.reached[robot],
-          f.left[robot],     f.last_end[robot]};
+  return {f.x[robot],       f.y[robot],       f.yaw[robot],
+          f.vx[robot],      f.vy[robot],      f.yaw_rate[robot],
+          f.status[robot],  f.state[robot],   unit < 0 ? 0 : world.units[unit].id,
+          f.path_id[robot], f.reached[robot], f.left[robot],
+          f.last_end[robot]};
 }
 
 void apply(WorldState& world, int robot, Failure failure) {
@@ -117,7 +115,8 @@ void repairWhoIsDue(WorldState& world) {
   auto& defects = world.failures.defects;
   for (Defect& defect : defects) defect.left -= world.dt;
   const auto is_due = [](const Defect& defect) { return defect.left <= 0; };
-  for (auto at = defects.begin(); (at = std::find_if(at, defects.end(), is_due)) != defects.end();) {
+  for (auto at = defects.begin();
+       (at = std::find_if(at, defects.end(), is_due)) != defects.end();) {
     const Defect defect = *at;
     at = defects.erase(at);
     mend(world, defect);
@@ -150,7 +149,8 @@ void repair(WorldState& world, int kiva_id) {
   if (world.fleet.failures[robot] & kEmptyBattery) exchangeBattery(world, robot);
   auto& defects = world.failures.defects;
   const auto is_its = [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; };
-  for (auto at = defects.begin(); (at = std::find_if(at, defects.end(), is_its)) != defects.end();) {
+  for (auto at = defects.begin();
+       (at = std::find_if(at, defects.end(), is_its)) != defects.end();) {
     const Defect defect = *at;
     at = defects.erase(at);
     mend(world, defect);

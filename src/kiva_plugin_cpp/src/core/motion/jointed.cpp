@@ -149,7 +149,8 @@ class Step {
     for (int wheel = 0; wheel < 2; ++wheel) {
       const JointedBody::Wheel& w = body_.wheels[wheel];
       const btVector3 at = w.centre + down * w.radius;
-      add({at, heightOf(at), f_.robots[robot_].grip * std::min(w.friction, floor_friction_), wheel});
+      add({at, heightOf(at), f_.robots[robot_].grip * std::min(w.friction, floor_friction_),
+           wheel});
     }
     const double tilted = up_.x() * up_.x() + up_.y() * up_.y();
     const bool low_only = tilted < body_.low_feet_reach * body_.low_feet_reach;

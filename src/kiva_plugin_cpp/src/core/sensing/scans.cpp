@@ -83,9 +83,8 @@ void findDueScans(WorldState& world) {
   }
   if (!world.failures.defects.empty()) {
     const auto is_blind = [&](int i) { return isBlind(world, i); };
-    world.scans_due.erase(
-        std::remove_if(world.scans_due.begin(), world.scans_due.end(), is_blind),
-        world.scans_due.end());
+    world.scans_due.erase(std::remove_if(world.scans_due.begin(), world.scans_due.end(), is_blind),
+                          world.scans_due.end());
   }
   if (world.scan_rounds.size() > 1) std::sort(world.scans_due.begin(), world.scans_due.end());
 }

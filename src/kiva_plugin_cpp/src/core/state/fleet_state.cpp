@@ -49,9 +49,10 @@ bool isHeld(const FleetState& f, int i) {
   if (f.stopped[i]) return true;
   if (f.failures[i] == 0) return false;
   const MotionSegment* at = f.tasks[i].segment();
-  const bool drives = at && (at->kind == MotionSegment::Kind::kDrive ||
-                             at->kind == MotionSegment::Kind::kTurn);
-  const int holds = drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
+  const bool drives =
+      at && (at->kind == MotionSegment::Kind::kDrive || at->kind == MotionSegment::Kind::kTurn);
+  const int holds =
+      drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
   return (f.failures[i] & (holds | kEmptyBattery)) != 0;
 }
 

@@ -81,10 +81,10 @@ struct Task {
 
 /// A battery, and what its robot was like when its energy was reckoned last.
 struct Battery {
-  double energy = -1;               ///< [J]; -1 = not known yet.
-  double wheel_angle[2] = {0, 0};   ///< [rad]
-  double kinetic = 0;               ///< [J]
-  double tower = 0;                 ///< [m]
+  double energy = -1;              ///< [J]; -1 = not known yet.
+  double wheel_angle[2] = {0, 0};  ///< [rad]
+  double kinetic = 0;              ///< [J]
+  double tower = 0;                ///< [m]
 };
 
 struct FleetState : Fleet {

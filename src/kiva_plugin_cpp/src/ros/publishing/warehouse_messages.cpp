@@ -114,8 +114,8 @@ nav_msgs::Odometry toMessage(const RobotPose& robot, double time) {
 kiva::StatusChange statusOf(const kiva::World& world, int robot) {
   const kiva::Fleet& f = world.fleet();
   if (const auto last = world.lastHeard(robot)) {
-    return {world.time(),   f.robots[robot].id, last->status, last->state,
-            last->shelf_id, last->x,            last->y,      last->yaw};
+    return {world.time(), f.robots[robot].id, last->status, last->state, last->shelf_id, last->x,
+            last->y,      last->yaw};
   }
   return {world.time(),          f.robots[robot].id, f.status[robot], f.state[robot],
           shelfOf(world, robot), f.x[robot],         f.y[robot],      f.yaw[robot]};

@@ -18,7 +18,8 @@ static_assert(int(kiva::Failure::kWheelSlip) == int(FailRequest::WHEEL_SLIPS));
 
 void act(kiva::World& world, const FailRequest& request) {
   if (request.kind > FailRequest::WHEEL_SLIPS) {
-    throw std::invalid_argument("kind is " + std::to_string(request.kind) + "; 0 to 5 was expected");
+    throw std::invalid_argument("kind is " + std::to_string(request.kind) +
+                                "; 0 to 5 was expected");
   }
   if (request.kind == FailRequest::REPAIRED) return world.repair(request.kiva_id);
   world.fail(request.kiva_id, static_cast<kiva::Failure>(request.kind), request.repair_time);

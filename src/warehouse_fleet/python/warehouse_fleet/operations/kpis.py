@@ -130,8 +130,8 @@ def of_shift(shift, fleet, kinematics, wall_s):
 
 
 def _of_troubles(fleet, items_picked):
-    """What failures and charging cost; nothing where there were none. Pieces that were not picked, if those that
-    were are shared out to the robot hours at work."""
+    """What failures and charging cost; nothing where there were none. As many pieces are lost as
+    are picked in so many robot hours at work."""
     log = getattr(fleet, "failures", None)
     figures = log.figures() if log else {}
     figures |= getattr(fleet, "energy", {})
