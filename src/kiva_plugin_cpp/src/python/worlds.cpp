@@ -21,7 +21,7 @@ namespace kiva::python {
 namespace {
 
 constexpr std::int64_t kStepsBetweenSignals = 256;
-constexpr std::size_t kKinds = 9;  // of events
+constexpr std::size_t kKinds = 10;  // of events
 
 /// The robots of all worlds; rows are worlds.
 struct FleetRows {
@@ -443,7 +443,7 @@ A read-only view, current until the next call.)");
       "(n, robots) int32: the storage unit that each carries, 0 = none. A view.");
   worlds.def_property_readonly(
       "counts", &Worlds::counts,
-      "(n, robots, 9) uint32: events of each EventKind about each robot in the last step(). A "
+      "(n, robots, 10) uint32: events of each EventKind about each robot in the last step(). A "
       "view.");
 }
 
