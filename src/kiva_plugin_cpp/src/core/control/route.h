@@ -65,6 +65,7 @@ class Route {
 
   const WorldState& world_;
   int robot_;
+  PlanarPose here_;  ///< Where the robot believes to be.
   Point at_;
   double yaw_;
   std::deque<MotionSegment> segments_;
