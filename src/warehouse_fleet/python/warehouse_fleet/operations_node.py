@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders and stock as a ROS node: a shift over the coordinator of a running warehouse."""
 
+import contextlib
 import threading
 from time import monotonic as clock
 from types import SimpleNamespace
@@ -439,10 +440,9 @@ class OperationsNode:
 
 def _pause():
     """Until it is worth while to look again."""
-    try:
+    # Whoever goes on looks at the time itself.
+    with contextlib.suppress(rospy.ROSTimeMovedBackwardsException):
         rospy.sleep(CYCLE)
-    except rospy.ROSTimeMovedBackwardsException:
-        pass  # whoever goes on looks at the time itself
 
 
 def _stored_order(row, lines):
