@@ -139,6 +139,10 @@ class Warehouse:
             rospy.Subscriber(f"/warehouse/{topic}", kind, self._keep, name, queue_size=1)
         rospy.Subscriber("/warehouse/fleet", msg.FleetState, self._on_fleet, queue_size=10)
 
+    def begin(self, heat):
+        """Counts from now on, heat where it is told."""
+        self.distance_m, self.heat, self.failures = 0.0, heat, FailureLog()
+
     def _keep(self, message, name):
         setattr(self, name, message)
 
@@ -236,7 +240,7 @@ class OperationsNode:
         )
         self._shift.on_order_event = self._tell
         self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
-        self._warehouse.heat, self._warehouse.distance_m = heat, 0.0
+        self._warehouse.begin(heat)
         self._keep_heat(SLICES)  # by the times of this run
         self._began = clock()
         self._next_stations = self._next_kpis = now
