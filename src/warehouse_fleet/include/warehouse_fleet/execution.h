@@ -141,6 +141,7 @@ class Execution {
     bool is_active = false;     ///< under way, or sent and not yet accepted
     bool is_accepted = false;   ///< the robot has reported it
     bool is_refused = false;    ///< once at least, and not reported since
+    int refusals = 0;           ///< of paths, one after the other
     bool is_withdrawn = false;  ///< told to stop before an obstacle
     double sent = 0;            ///< when a release was sent last [s]
     std::vector<Cell> cells;    ///< points 0 to released - 1; where it stands if there is no path

@@ -15,6 +15,7 @@ constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
 
 constexpr double kCentred = 0.02;    // from a grid point [m]
 constexpr double kOnGrid = 0.001;    // where a robot takes itself to stand on a grid point [m]
+constexpr int kInsists = 3;          // refusals after which a path can't begin where it does
 constexpr int kRefuges = 1;          // cells around a robot in which it may come back to the grid
 constexpr double kFindsBack = 30;    // time in which one that was pushed does [s]
 constexpr double kReach = 0.43;      // of a robot with its load, from its centre along x and y [m]
@@ -231,6 +232,7 @@ void Execution::follow(int robot) {
   if (!is_reported) return;
   course.is_accepted = true;
   course.is_refused = false;
+  course.refusals = 0;
   pass(robot, static_cast<int>(report.reached), static_cast<int>(report.left));
   if (report.state == kStateBlocked) {
     if (course.blocked_since < 0) {
@@ -289,7 +291,11 @@ void Execution::finish(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
   const Cell at = cellAt(report.x, report.y);
-  if (course.is_refused) course.recovery.refused.push_back(course.cells.front());
+  if (course.is_refused && (course.is_astray || ++course.refusals >= kInsists)) {
+    course.recovery.refused.push_back(course.cells.front());
+  } else if (course.is_accepted) {
+    course.recovery.refused.clear();
+  }
   if (at == course.cells.back()) pass(robot, static_cast<int>(course.cells.size()), 0);
   const bool was_withdrawn = course.is_withdrawn;
   vacate(robot);
@@ -784,7 +790,7 @@ bool Execution::isCentred(int robot, double within) const {
   return std::hypot(xOf(at) - report.x, yOf(at) - report.y) < within;
 }
 
-/// Whether a path can begin where it stands. One that has refused one says itself where that is.
+/// Whether a path can begin where it stands. One that refuses to says itself where that is.
 bool Execution::isBack(int robot) const {
   const bool has_refused = !courses_[robot].recovery.refused.empty();
   return isCentred(robot, has_refused ? kOnGrid : kCentred) && isSquare(robot);
