@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from enum import IntEnum
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -120,6 +121,18 @@ class World:
         robots: int = 0,
         items: int = 0,
         shelves: int = 0,
+        world: str | PathLike[str] = "empty",
+        seed: int = 1,
+        drive: str = "",
+        model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
+    ) -> World: ...
+    @classmethod
+    def of_layout(
+        cls,
+        laid: Any,
+        *,
+        own_models: bool = False,
         world: str | PathLike[str] = "empty",
         seed: int = 1,
         drive: str = "",
