@@ -21,6 +21,7 @@
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/external_inputs.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/realism.h"
 
 namespace kiva {
 
@@ -142,6 +143,8 @@ struct WorldOptions {
   /// On which robots are stepped, look ahead and scan, with the same result however many there are;
   /// 1 to kMostThreads. A checkpoint keeps to those of the world that restores it.
   int threads = 1;
+  /// Of all robots, in place of what their files say in `<realism>`; without either, all is ideal.
+  std::optional<Realism> realism;
   PluginFactory plugins;  ///< Asked before libraries are looked for.
 };
 
@@ -166,6 +169,7 @@ class World {
   /// Throws std::invalid_argument if it is not finite or above 1000 m/s².
   void setGravity(const Vector3& gravity);
   std::uint64_t seed() const;  ///< Of everything random.
+  const Realism& realism() const;
   const std::string& name() const;
   /// Everything back to where it was spawned, at rest, tower down, without commands; units and
   /// items too. What clients apply ends. Time goes back to 0 as well if `time_too`.
@@ -177,6 +181,17 @@ class World {
   /// The same, in one row with those; a change of the path under way is only answered if it is
   /// refused.
   void post(FollowPath path);
+
+  // --- failures
+  /// Breaks something in a robot now: FAILED. `repair_after` [s]; 0 = until repair() is called.
+  /// What is broken already is repaired then instead. Throws std::invalid_argument if there is no
+  /// such robot, or the time is negative or not finite.
+  void fail(int kiva_id, Failure failure, double repair_after);
+  /// Repairs all that is broken in a robot: REPAIRED for each, before its time. An empty battery is
+  /// exchanged for a full one. Throws as fail().
+  void repair(int kiva_id);
+  /// What was heard last of a robot whose radio is lost; nothing of one that is heard.
+  std::optional<RobotReport> lastHeard(int robot) const;
 
   // --- models
   /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already
@@ -244,6 +259,9 @@ class World {
   /// Where the robot is still to turn or to stop on its present way; on a path the end of what is
   /// released is one, and what is not released belongs to it.
   std::vector<PathPoint> pathAhead(int robot) const;
+  /// Where the robot believes to be, which it drives by: (x, y, yaw) in world [m, rad], yaw
+  /// unwrapped. Where it is, unless localisation is real.
+  Vector3 believedPose(int robot) const;
   Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;
@@ -252,7 +270,8 @@ class World {
   double gridSpacing() const;  ///< [m]
 
   // --- sensing
-  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117).
+  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117); NaN of a
+  /// laser that is blind.
   void scan(int robot, std::vector<float>* ranges) const;
   /// The same of several robots that have lasers, a row each, on the world's threads.
   void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;

@@ -13,9 +13,9 @@ SI units, radians, x forward, y left, z up. One thread at a time uses a world.
 
 import sys
 from enum import IntEnum
+from html import escape
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 _built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
 if _built and not set(_built) & set(EXTENSION_SUFFIXES):
@@ -44,6 +44,7 @@ __all__ = [
     "CheckpointError",
     "DescriptionError",
     "EventKind",
+    "FailureKind",
     "Fleet",
     "Kind",
     "State",
@@ -99,6 +100,20 @@ class EventKind(IntEnum):
     COLLISION = 6
     SPAWNED = 7
     DELETED = 8
+    LOST = 9
+    FAILED = 10
+    REPAIRED = 11
+
+
+class FailureKind(IntEnum):
+    """What breaks in a robot; warehouse_msgs/Fail says what that means."""
+
+    REPAIRED = 0
+    MOTOR = 1
+    LIFT_STUCK = 2
+    LASER_BLIND = 3
+    RADIO_LOST = 4
+    WHEEL_SLIPS = 5
 
 
 def worlds_folder():
@@ -114,7 +129,7 @@ def worlds_folder():
 
 def _ours(text):
     """SDF that includes models of worlds/models, whatever else is called like them."""
-    return text.replace("model://", escape(f"file://{worlds_folder()}/models/"))
+    return text.replace("model://", escape(f"file://{worlds_folder()}/models/", quote=False))
 
 
 def _find(world):
@@ -125,19 +140,56 @@ def _find(world):
     raise FileNotFoundError(f"there is no world '{world}'; tried {', '.join(map(str, tried))}")
 
 
+def _flat(path, value):
+    """Sections and their numbers as the core reads them: texts by path, `lasers/range_noise`."""
+    if isinstance(value, dict) and (value or not path):
+        for key, below in value.items():
+            yield from _flat(f"{path}/{key}" if path else str(key), below)
+    elif isinstance(value, bool | dict):
+        yield path, "true" if value or isinstance(value, dict) else "false"
+    else:
+        yield path, str(value)
+
+
+def _realism(given):
+    """What the core takes: texts by path, or None, and where they come from."""
+    if given is None:
+        return None, ""
+    if isinstance(given, dict):
+        return dict(_flat("", given)), "realism"
+    presets = worlds_folder() / "realism"
+    tried = [Path(given), presets / f"{given}.yaml"]
+    file = next((path for path in tried if path.is_file()), None)
+    if file is None:
+        names = ", ".join(sorted(path.stem for path in presets.glob("*.yaml")))
+        raise FileNotFoundError(f"there is no realism '{given}'; a file or one of {names}")
+    import yaml
+
+    try:
+        sections = yaml.safe_load(file.read_text())
+    except yaml.YAMLError as error:
+        raise DescriptionError(f"{file}: {error}") from None
+    if sections is not None and not isinstance(sections, dict):
+        raise DescriptionError(f"{file}: sections with their numbers were expected")
+    return dict(_flat("", sections or {})), str(file)
+
+
 class World(_core.World):
     """A simulated warehouse, from an SDF world file: its path, or its name in worlds/.
 
     seed: of everything random. drive: "traction" or "jointed" instead of what the robots' models
     say. model_paths: folders in which to look for `model://` before the project's own. threads: on
     which a large fleet is stepped and scans, with the same result however many; 1 to 256.
+    realism: how far robots, sensors and radio differ from the ideal: a preset ("ideal", "typical",
+    "bad_day"), a YAML file, or a dict of its sections; None: what the robots' models say. Of a
+    preset or a file the path, of a dict the key is named where it is wrong, in a DescriptionError.
     What is faulty in it is left out with a warning. FileNotFoundError, or DescriptionError that
     names file, line and what is wrong where no world would be left.
     """
 
-    def __init__(self, world="empty", *, seed=1, drive="", model_paths=(), threads=1):
+    def __init__(self, world="empty", *, seed=1, drive="", model_paths=(), threads=1, realism=None):
         models = [*map(str, model_paths), str(worlds_folder() / "models")]
-        super().__init__(str(_find(world)), False, models, seed, drive, threads)
+        super().__init__(str(_find(world)), False, models, seed, drive, threads, *_realism(realism))
 
     @classmethod
     def preset(cls, name, **options):

@@ -49,6 +49,17 @@ class EventKind(IntEnum):
     COLLISION = 6
     SPAWNED = 7
     DELETED = 8
+    LOST = 9
+    FAILED = 10
+    REPAIRED = 11
+
+class FailureKind(IntEnum):
+    REPAIRED = 0
+    MOTOR = 1
+    LIFT_STUCK = 2
+    LASER_BLIND = 3
+    RADIO_LOST = 4
+    WHEEL_SLIPS = 5
 
 class Fleet:
     @property
@@ -84,9 +95,15 @@ class Fleet:
     @property
     def stopped(self) -> NDArray[np.uint8]: ...
     @property
+    def failures(self) -> NDArray[np.uint8]: ...
+    @property
+    def charge(self) -> NDArray[np.float32]: ...
+    @property
     def kiva_id(self) -> NDArray[np.int32]: ...
     @property
     def shelf_id(self) -> NDArray[np.int32]: ...
+    @property
+    def believed(self) -> NDArray[np.float64]: ...
     def index(self, kiva_id: int) -> int: ...
     def __len__(self) -> int: ...
 
@@ -101,6 +118,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> None: ...
     @classmethod
     def preset(
@@ -112,6 +130,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @classmethod
     def create(
@@ -126,6 +145,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @classmethod
     def of_layout(
@@ -147,6 +167,8 @@ class World:
     def items(self) -> NDArray[np.void]: ...
     @property
     def names(self) -> list[str]: ...
+    @property
+    def realism(self) -> dict[str, dict[str, Any]]: ...
     @property
     def time(self) -> float: ...
     @property
@@ -181,6 +203,8 @@ class World:
     ) -> None: ...
     def cancel(self, kiva_id: ArrayLike) -> None: ...
     def stop(self, kiva_id: ArrayLike, stop: bool = True) -> None: ...
+    def fail(self, kiva_id: int, kind: int, repair_after: float = 0.0) -> None: ...
+    def last_heard(self) -> NDArray[np.void]: ...
     def scans(self, kiva_id: ArrayLike | None = None) -> NDArray[np.float32]: ...
     def spawn(
         self, sdf: str, name: str = "", place: tuple[float, float, float, float] | None = None

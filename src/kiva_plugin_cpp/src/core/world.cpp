@@ -12,6 +12,9 @@
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
 #include "core/control/commands.h"
+#include "core/control/energy.h"
+#include "core/control/failures.h"
+#include "core/control/radio.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
@@ -22,6 +25,7 @@
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
 #include "core/state/poses.h"
+#include "core/state/workers.h"
 #include "plugins/plugin_table.h"
 
 namespace kiva {
@@ -78,6 +82,8 @@ void forEachUserPlugin(WorldState& world, Call call) {
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
   haltCrashed(world);
+  wearOut(world);
+  useEnergy(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
 }
@@ -150,6 +156,7 @@ std::uint64_t World::steps() const { return state_->steps; }
 double World::stepSize() const { return state_->dt; }
 const Vector3& World::gravity() const { return state_->gravity; }
 std::uint64_t World::seed() const { return state_->options.seed; }
+const Realism& World::realism() const { return state_->realism; }
 const std::string& World::name() const { return state_->name; }
 
 void World::setStepSize(double seconds) {
@@ -182,6 +189,7 @@ void World::reset(bool time_too) {
   for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
+  beginFailures(world);
   if (time_too) {
     world.steps = world.dt_since = 0;
     world.dt_since_time = 0;
@@ -193,7 +201,7 @@ void World::post(const Command& command) {
   if (command.kind == Command::Kind::kFollow) {
     throw std::invalid_argument("a path is posted as a FollowPath");
   }
-  state_->commands.push_back(command);
+  send(*state_, command);
 }
 
 void World::post(FollowPath path) {
@@ -206,8 +214,15 @@ void World::post(FollowPath path) {
   Command command;
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;
-  state_->commands.push_back(command);
-  state_->paths.push_back(std::move(path));
+  send(*state_, command, std::move(path));
+}
+
+void World::fail(int kiva_id, Failure failure, double repair_after) {
+  breakDown(*state_, kiva_id, failure, repair_after);
+}
+void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
+std::optional<RobotReport> World::lastHeard(int robot) const {
+  return kiva::lastHeard(*state_, robot);
 }
 
 void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
@@ -392,6 +407,10 @@ std::vector<PathPoint> World::pathAhead(int robot) const {
   }
   return points;
 }
+Vector3 World::believedPose(int robot) const {
+  const PlanarPose at = state_->fleet.believed(robot);
+  return {at.x, at.y, at.yaw};
+}
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
 std::uint64_t World::unitsRevision() const { return state_->units_revision; }
 const Floor& World::floor() const { return state_->floor; }
@@ -401,6 +420,10 @@ void World::scan(int robot, std::vector<float>* ranges) const {
   static thread_local FanHits hits;
   const LaserParameters& laser = state_->fleet.robots[robot].laser;
   castRays(*state_, robot, {laser.max_range, kInfinity}, &hits);
+  if (isBlind(*state_, robot)) {
+    ranges->assign(laser.rays, std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
   ranges->assign(laser.rays, static_cast<float>(kInfinity));
   for (int ray = hits.first; ray <= hits.last; ++ray) {
     if (hits.model[ray] < 0) continue;

@@ -6,6 +6,8 @@
 
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/motion/self_location.h"
+#include "core/motion/stretches.h"
 #include "core/state/tasks.h"
 
 namespace kiva {
@@ -21,15 +23,18 @@ constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
 constexpr double kStill = 1.1e-4;  // [m/s, rad/s]
 
 struct OnLine {
-  double along;   // seen from where the reference is measured from [m]
-  double across;  // left of the line [m]
-  double speed;   // along the line [m/s]
+  double along;    // seen from where the reference is measured from [m]
+  double across;   // left of the line [m]
+  double speed;    // along the line [m/s]
+  double heading;  // off the line's [rad]
 };
 
-OnLine onLine(const Fleet& f, int i, const MotionSegment& segment) {
+/// As the robot believes.
+OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
-  const double dx = f.x[i] - segment.x, dy = f.y[i] - segment.y;
-  return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i]};
+  const PlanarPose at = f.believed(i);
+  const double dx = at.x - segment.x, dy = at.y - segment.y;
+  return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i], at.yaw - segment.yaw};
 }
 
 void begin(WorldState& world, int i, const OnLine& at) {
@@ -63,9 +68,8 @@ bool giveUp(WorldState& world, int i, const OnLine& at) {
 /// The wheels that follow a reference at that speed and steer back onto the line.
 void followLine(FleetState& f, int i, const OnLine& at, double speed) {
   const double lag = f.reference[i] - at.along;
-  const double heading = f.yaw[i] - f.tasks[i].segments.front().yaw;
   setWheels(f, i, speed + kAlongGain * lag,
-            -kHeadingGain * heading - kLineGain * at.speed * at.across);
+            -kHeadingGain * at.heading - kLineGain * at.speed * at.across);
 }
 
 /// Stops where it can, and stays there.
@@ -88,8 +92,10 @@ void driveSegment(WorldState& world, int i) {
   const Robot& r = f.robots[i];
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
   const MotionSegment segment = f.tasks[i].segments.front();
+  const bool begins = f.tasks[i].phase == Phase::kStarting && !isHeld(f, i);
+  if (f.localises && begins) readCode(world, i, true);
   const OnLine at = onLine(f, i, segment);
-  if (f.stopped[i]) return holdDrive(world, i, at);
+  if (isHeld(f, i)) return holdDrive(world, i, at);
   if (f.tasks[i].phase == Phase::kStarting) {
     begin(world, i, at);
     setWheels(f, i, 0, 0);
@@ -101,9 +107,10 @@ void driveSegment(WorldState& world, int i) {
   }
   if (giveUp(world, i, at)) return;
   const double lag = f.reference[i] - at.along;
-  const double top = segment.on_grid ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
-  const double heading = f.yaw[i] - segment.yaw;
-  const bool exact = isExact(lag) && isExact(heading) && isExact(at.across);
+  const bool is_sure = segment.on_grid && !(f.localises && f.localisation[i].lost);
+  const double top = is_sure ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
+  const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
+                                 : isExact(lag) && isExact(at.heading) && isExact(at.across);
   if (exact && !segment.reverse &&
       tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
@@ -146,9 +153,11 @@ void MotionPlugin::control(WorldState& world) const {
 
 void setWheels(FleetState& f, int i, double speed, double yaw_rate) {
   const DriveParameters& d = f.robots[i].drive;
-  const double turn = yaw_rate * d.wheel_separation / 2;
-  f.wheel_target[0][i] = (speed - turn) / d.wheel_radius;
-  f.wheel_target[1][i] = (speed + turn) / d.wheel_radius;
+  DriveSizes sizes{{d.wheel_radius, d.wheel_radius}, d.wheel_separation};
+  if (f.localises) sizes = f.localisation[i].believed;
+  const double turn = yaw_rate * sizes.separation / 2;
+  f.wheel_target[0][i] = (speed - turn) / sizes.radius[0];
+  f.wheel_target[1][i] = (speed + turn) / sizes.radius[1];
 }
 
 bool stands(const Fleet& f, int i) {
@@ -158,6 +167,15 @@ bool stands(const Fleet& f, int i) {
 bool halting(WorldState& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase != Phase::kHalting) return false;
+  const MotionSegment* at = f.tasks[i].segment();
+  const bool drives = at && at->kind == MotionSegment::Kind::kDrive && !at->reverse;
+  if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
+    Profile profile = f.profile(i);  // its wheels are all it has to go by: they must not slide
+    profile.brake(plannedBraking(world, i), world.dt);
+    f.setProfile(i, profile);
+    setWheels(f, i, profile.speed, 0);
+    return true;
+  }
   setWheels(f, i, 0, 0);
   if (stands(f, i)) endStop(world, i);
   return true;

@@ -6,6 +6,8 @@
 
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/motion/self_location.h"
+#include "core/motion/stretches.h"
 #include "core/state/tasks.h"
 #include "plugins/motion.h"
 
@@ -37,7 +39,7 @@ double turnSpeed(const Robot& robot, double dt) {
 void holdTurn(WorldState& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
-  const double lag = f.reference[i] - f.yaw[i];
+  const double lag = f.reference[i] - f.believed(i).yaw;
   Profile profile = f.profile(i);
   if (profile.speed != 0) profile.brake(f.deceleration[i], world.dt);
   f.setProfile(i, profile);
@@ -52,14 +54,16 @@ void turnSegment(WorldState& world, int i) {
   Task& task = f.tasks[i];
   const Robot& r = f.robots[i];
   if (halting(world, i)) return;
-  if (f.stopped[i]) return holdTurn(world, i);
+  if (isHeld(f, i)) return holdTurn(world, i);
   if (task.phase == Phase::kStarting) {
+    if (f.localises) readCode(world, i, true);
     task.phase = Phase::kTurning;
-    f.setProfile(i, {f.yaw[i], f.yaw_rate[i]});
+    const double yaw = f.believed(i).yaw;
+    f.setProfile(i, {yaw, f.yaw_rate[i]});
     f.goal[i] = task.segments.front().yaw;
-    f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - f.yaw[i]));
+    f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - yaw));
   }
-  const double lag = f.reference[i] - f.yaw[i];
+  const double lag = f.reference[i] - f.believed(i).yaw;
   const bool ended = f.reference[i] == f.goal[i];
   if (ended && std::abs(lag) < kThereAngle && stands(f, i)) {
     setWheels(f, i, 0, 0);
@@ -70,7 +74,8 @@ void turnSegment(WorldState& world, int i) {
     return haltRobot(world, i, "", "is stuck: it can't turn");
   }
   const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
-  if (isExact(lag) && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
+  const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
+  if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
   Profile profile = f.profile(i);
   profile.advance(f.goal[i], top, acceleration, acceleration, world.dt);
   f.setProfile(i, profile);

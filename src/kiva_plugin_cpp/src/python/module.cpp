@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "arrays.h"
@@ -40,12 +43,37 @@ void warn(const std::vector<std::string>& warnings) {
   }
 }
 
+Realism realismOf(const std::map<std::string, std::string>& texts, const std::string& from) {
+  Parameters parameters(from);
+  for (const auto& [key, text] : texts) parameters.set(key, text);
+  const Realism out = readRealism(parameters);
+  parameters.rejectUnread();
+  return out;
+}
+
+/// Sections by name, each with whether it is on and its numbers.
+py::dict realismOf(const World& world) {
+  py::dict out;
+  forEachSection(world.realism(), [&out](const char* name, const auto& section) {
+    py::dict numbers;
+    numbers["enabled"] = section.enabled;
+    section.fields(section, [&numbers](const char* field, double value, double, double) {
+      numbers[field] = value;
+    });
+    out[name] = numbers;
+  });
+  return out;
+}
+
 HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
-                 std::uint64_t seed, const std::string& drive, int threads) {
+                 std::uint64_t seed, const std::string& drive, int threads,
+                 const std::optional<std::map<std::string, std::string>>& realism,
+                 const std::string& realism_from) {
   WorldOptions options;
   options.seed = seed;
   options.threads = threads;
   options.drive = driveOf(drive);
+  if (realism) options.realism = realismOf(*realism, realism_from);
   std::vector<std::string> warnings;
   HostPtr host;
   {
@@ -211,6 +239,38 @@ void stop(Host& host, const py::object& kiva_id, bool stop) {
   const auto fill = [](Command& c, int id) { c.kiva_id = id; };
   postColumns(host, stop ? Command::Kind::kStop : Command::Kind::kGoOn, fill,
               Ids("kiva_id", kiva_id));
+}
+
+/// `kind` 0: it is repaired.
+void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
+  const auto lock = host.use();
+  if (kind == 0) return host.world.repair(kiva_id);
+  const bool is_known = kind > 0 && kind <= kFailureKinds;
+  if (!is_known) throw py::value_error("kind is " + std::to_string(kind) + "; expected 0 to 5");
+  host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
+}
+
+/// A row of World.last_heard.
+struct HeardRow {
+  std::int32_t index;
+  double x, y, yaw, vx, vy, yaw_rate;
+  std::uint8_t status, state;
+  std::int32_t shelf_id;
+  std::uint32_t path_id, reached, left;
+  std::uint8_t last_end;
+};
+
+py::array_t<HeardRow> lastHeard(Host& host) {
+  const auto lock = host.use();
+  std::vector<HeardRow> rows;
+  for (int i = 0; i < host.world.fleet().size(); ++i) {
+    const auto last = host.world.lastHeard(i);
+    if (!last) continue;
+    rows.push_back({i, last->x, last->y, last->yaw, last->vx, last->vy, last->yaw_rate,
+                    static_cast<std::uint8_t>(last->status), static_cast<std::uint8_t>(last->state),
+                    last->shelf_id, last->path_id, last->reached, last->left, last->last_end});
+  }
+  return py::array_t<HeardRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
 }
 
 /// Rows of which each has `points[i]` entries of x and y, one after the other. All or none.
@@ -541,12 +601,33 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
   add(
       "stopped", [](const Fleet& f) -> auto& { return f.stopped; }, std::uint8_t(),
       "(n,) uint8: 1 while stop() holds a robot. A view.");
+  add(
+      "failures", [](const Fleet& f) -> auto& { return f.failures; }, std::uint8_t(),
+      "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up, 1 for "
+      "an empty battery; 0 nothing. A view.");
+  add(
+      "charge", [](const Fleet& f) -> auto& { return f.charge; }, 0.0f,
+      "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A "
+      "view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
   fleet.def_property_readonly(
       "shelf_id", [](const FleetView& f) { return f.numbers(shelfOf); },
       "(n,) int32: number of the storage unit that each carries, 0 = none. A copy.");
+  fleet.def_property_readonly(
+      "believed",
+      [](const FleetView& f) {
+        const auto lock = f.host->use();
+        const int size = f.host->world.fleet().size();
+        py::array_t<double> out({size, 3});
+        for (int i = 0; i < size; ++i) {
+          const Vector3 at = f.host->world.believedPose(i);
+          for (int k = 0; k < 3; ++k) out.mutable_at(i, k) = at[k];
+        }
+        return out;
+      },
+      "(n, 3) float64: x, y [m], yaw [rad] where each robot believes to be. A copy.");
   fleet.def(
       "index",
       [](const FleetView& f, std::int32_t id) {
@@ -563,7 +644,8 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
   world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"), py::arg("threads"));
+            py::arg("seed"), py::arg("drive"), py::arg("threads"), py::arg("realism") = py::none(),
+            py::arg("realism_from") = "");
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 
@@ -624,6 +706,15 @@ mov().)");
 
 Kiva_id 0 means every robot. What is commanded meanwhile begins when they go on. Arguments and
 errors as of mov().)");
+  world.def("fail", &fail, py::arg("kiva_id"), py::arg("kind"), py::arg("repair_after") = 0.0,
+            R"(Breaks something in a robot now, a FailureKind; FailureKind.REPAIRED mends all of it.
+
+It is repaired after so many seconds; 0: when it is asked for. ValueError for an unknown robot or
+kind, or a time that is negative or not finite.)");
+  world.def("last_heard", &lastHeard,
+            R"((n,) of robots whose radio is lost: what was heard of them last.
+
+Fields: index (in the fleet's arrays), and those of Fleet. A copy.)");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
       R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].
@@ -684,6 +775,13 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
       "(n,) with item_id, x y z in world [m], mass [kg], shelf_id it lies on (0 = none). A copy.");
   world.def_property_readonly("names", guarded([](World& w) { return w.modelNames(); }),
                               "Of all models, in the order in which they came.");
+  world.def_property_readonly(
+      "realism",
+      [](Host& host) {
+        const auto lock = host.use();
+        return realismOf(host.world);
+      },
+      "What differs from the ideal: sections by name, each a dict of `enabled` and its numbers.");
   world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
   world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
                               "Since time was 0.");
@@ -707,6 +805,8 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
 
 PYBIND11_MODULE(_core, m) {
   PYBIND11_NUMPY_DTYPE(Command, kind, kiva_id, x, y, direction, lift, shelf_id);
+  PYBIND11_NUMPY_DTYPE(HeardRow, index, x, y, yaw, vx, vy, yaw_rate, status, state, shelf_id,
+                       path_id, reached, left, last_end);
   PYBIND11_NUMPY_DTYPE(UnitRow, shelf_id, x, y, z, yaw, mass, kiva_id);
   PYBIND11_NUMPY_DTYPE(ItemRow, item_id, x, y, z, mass, shelf_id);
   py::register_exception<DescriptionError>(m, "DescriptionError", PyExc_ValueError);

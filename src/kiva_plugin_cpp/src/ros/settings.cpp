@@ -103,6 +103,42 @@ std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string&
   refuse(node, name, XmlRpc::XmlRpcValue(drive), "traction, jointed or nothing");
 }
 
+/// Puts every text or number below `value` at its path, `section/name`.
+void flatten(const std::string& path, XmlRpc::XmlRpcValue& value, kiva::Parameters* out) {
+  const bool is_struct = value.getType() == XmlRpc::XmlRpcValue::TypeStruct;
+  if (is_struct && (value.size() > 0 || path.empty())) {
+    for (auto& [name, field] : value) flatten(path.empty() ? name : path + "/" + name, field, out);
+    return;
+  }
+  std::ostringstream text;
+  text.precision(17);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
+    text << static_cast<double>(value);
+  } else if (value.getType() == XmlRpc::XmlRpcValue::TypeBoolean) {
+    text << (static_cast<bool>(value) ? "true" : "false");
+  } else if (value.getType() == XmlRpc::XmlRpcValue::TypeString) {
+    text << static_cast<std::string>(value);
+  } else if (is_struct) {
+    text << "true";  // a section without numbers of its own
+  } else {
+    value.write(text);
+  }
+  out->set(path, text.str());
+}
+
+std::optional<kiva::Realism> realism(const ros::NodeHandle& node) {
+  XmlRpc::XmlRpcValue value;
+  if (!node.getParam("realism", value)) return std::nullopt;
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    refuse(node, "realism", value, "sections with their numbers");
+  }
+  kiva::Parameters parameters("parameter " + node.resolveName("realism"));
+  flatten("", value, &parameters);
+  const kiva::Realism out = kiva::readRealism(parameters);
+  parameters.rejectUnread();
+  return out;
+}
+
 /// The rest of the machine sends what the world tells.
 int threads(const ros::NodeHandle& node) {
   const auto asked = static_cast<int>(
@@ -165,6 +201,7 @@ Settings readSettings(const ros::NodeHandle& node) {
   const std::string whole = "a whole number, 0 or more,";
   out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));
   out.world.drive = drive(node, "drive");
+  out.world.realism = realism(node);
   out.world.threads = threads(node);
   out.lockstep = flag(node, "lockstep");
   out.autosave =

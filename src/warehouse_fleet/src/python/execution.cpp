@@ -104,6 +104,10 @@ void bindExecution(py::module_& module) {
                                   {loaded.data(), loaded.data() + loaded.size()});
           },
           py::arg("busy"), py::arg("loaded"))
+      .def("set_broken",
+           [](Run& run, const Bytes& broken) {
+             run.execution.setBroken({broken.data(), broken.data() + broken.size()});
+           })
       .def(
           "fleet",
           [](Run& run, const Array<Cell>& goal, const Array<Cell>& home, int horizon) {
@@ -128,6 +132,7 @@ void bindExecution(py::module_& module) {
       .def("foreign", ofAll<bool>(&Execution::isForeign))
       .def("stalled", ofAll<bool>(&Execution::isStalled))
       .def("astray", ofAll<bool>(&Execution::isAstray))
+      .def("lost", ofAll<bool>(&Execution::isLost))
       .def("still_since", ofAll<double>(&Execution::stillSince))
       .def("holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); })
       .def("released", [](const Run& run, int robot) { return run.execution.released(robot); })

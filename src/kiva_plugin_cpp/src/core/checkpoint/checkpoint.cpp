@@ -9,13 +9,15 @@
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
+#include "core/control/energy.h"
+#include "core/control/failures.h"
 #include "core/sensing/scans.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -64,8 +66,10 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  FIELDS(world.name, world.gravity, world.options, within(world.dt, 1e-6, 1),
-         within(world.grid_spacing, 0.1, 100), world.floor, within(world.floor_friction, 0, 1e6));
+  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models,
+         within(world.dt, 1e-6, 1), within(world.grid_spacing, 0.1, 100), world.floor,
+         within(world.floor_friction, 0, 1e6));
+  if constexpr (A::kReads) world.fleet.localises = world.realism.localisation.enabled;
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }
 
@@ -82,16 +86,20 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
     if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) FIELDS(*model);
   }
   FIELDS(world.fleet, world.units, world.items);
+  if (world.fleet.localises) FIELDS(world.fleet.localisation);
   FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
          world.sighted, world.crashes);
   FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
   FIELDS(physics);
+  if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
+  if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
 }
 
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  FIELDS(world.last_command, world.commands, world.paths, world.events, world.status_changes);
+  FIELDS(world.last_command, world.commands, world.paths, world.on_air, world.radio_messages,
+         world.events, world.status_changes);
 }
 
 void indexModels(WorldState& world) {
@@ -103,6 +111,8 @@ void indexModels(WorldState& world) {
   }
   for (Item& item : world.items) item.name = world.models[item.model]->name;
   for (Robot& robot : world.fleet.robots) setRays(world, &robot);
+  markDefects(world);
+  markCharge(world);
 }
 
 struct Header {

@@ -6,6 +6,7 @@
 
 #include "core/control/interruptions.h"
 #include "core/control/paths.h"
+#include "core/control/radio.h"
 #include "core/control/route.h"
 #include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
@@ -165,14 +166,21 @@ Order orderOf(Command::Kind kind) {
   }
 }
 
-void obeyAll(WorldState& world, Order order) {
-  for (int robot = 0; robot < world.fleet.size(); ++robot) order(world, robot);
+bool hears(const WorldState& world, int robot) {
+  return (world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0;
 }
 
 int findRobot(const WorldState& world, int id) {
   const int robot = world.fleet.find(id);
   if (robot < 0) throw Refusal("there is no robot kiva" + std::to_string(id));
+  if (!hears(world, robot)) throw Refusal("its radio is lost: it hears nothing");
   return robot;
+}
+
+void obeyAll(WorldState& world, Order order) {
+  for (int robot = 0; robot < world.fleet.size(); ++robot) {
+    if (hears(world, robot)) order(world, robot);
+  }
 }
 
 /// Gives the command to its robot; `path` is what it stands for, if it is to follow one. Counts it,
@@ -223,6 +231,7 @@ FollowPath takePath(WorldState& world, const Command& command) {
 }  // namespace
 
 void acceptCommands(WorldState& world) {
+  receive(world);
   while (!world.commands.empty()) {
     const Command& command = world.commands.front();
     answer(world, command, takePath(world, command));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/control/route.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/angle.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr double kHalfPi = M_PI / 2;
 constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
 constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
+constexpr double kNearGrid = 0.02;             // [m], [rad]: of one that has to find out
 constexpr int kRecoverCells = 2;               // around a robot that looks for a free grid point
 constexpr double kRoomStep = 0.1;              // [m]: in which it looks for room to turn
 constexpr double kRoomReach = 1.5;             // [m]
@@ -34,12 +36,18 @@ Point nearestFree(const WorldState& world, int robot, const Point& from) {
   return best;
 }
 
+/// Whether a robot may be told to return there.
+bool isNear(const WorldState& world, const Point& here, const Point& back) {
+  const double far = std::max(std::abs(back.x - here.x), std::abs(back.y - here.y));
+  return far < kRecoverCells * world.grid_spacing && isOnFloor(world, back);
+}
+
 /// The nearest place straight ahead or behind where the robot has room to turn; here, if it has
 /// room here or nowhere.
 Point roomToTurn(const WorldState& world, int robot) {
-  const Fleet& f = world.fleet;
-  const Point here{f.x[robot], f.y[robot]};
-  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  const PlanarPose at = world.fleet.believed(robot);
+  const Point here{at.x, at.y};
+  const double c = std::cos(at.yaw), s = std::sin(at.yaw);
   for (int step = 0; step * kRoomStep <= kRoomReach; ++step) {
     for (double way : {step * kRoomStep, -step * kRoomStep}) {
       const Point p{here.x + c * way, here.y + s * way};
@@ -83,16 +91,17 @@ bool isOnFloor(const WorldState& world, const Point& p) {
          p.y + half <= floor.max_y;
 }
 
-Route::Route(const WorldState& world, int robot)
+Route::Route(const WorldState& world, int robot, const Point* back)
     : world_(world),
       robot_(robot),
-      at_{nearestGrid(world, world.fleet.x[robot]), nearestGrid(world, world.fleet.y[robot])},
-      yaw_(std::round(world.fleet.yaw[robot] / kHalfPi) * kHalfPi) {
-  const Fleet& f = world.fleet;
-  const double off = std::hypot(f.x[robot] - at_.x, f.y[robot] - at_.y);
-  if (off > kOnGrid) {
-    recover();
-  } else if (std::abs(f.yaw[robot] - yaw_) > kSquare) {
+      here_(world.fleet.believed(robot)),
+      at_{nearestGrid(world, here_.x), nearestGrid(world, here_.y)},
+      yaw_(std::round(here_.yaw / kHalfPi) * kHalfPi) {
+  const bool localises = world.fleet.localises;
+  const double off = std::hypot(here_.x - at_.x, here_.y - at_.y);
+  if (off > (localises ? kNearGrid : kOnGrid)) {
+    recover(back);
+  } else if (std::abs(here_.yaw - yaw_) > (localises ? kNearGrid : kSquare)) {
     turnTo(yaw_);
   }
 }
@@ -137,11 +146,12 @@ MotionSegment Route::makeDrive(State state) const {
 
 /// Back to the grid from wherever it was pushed: out to where there is room to turn, then straight
 /// to a grid point, by the smaller turn, forwards or backwards.
-void Route::recover() {
-  const Fleet& f = world_.fleet;
-  const Point here{f.x[robot_], f.y[robot_]}, room = roomToTurn(world_, robot_);
-  const Point to = nearestFree(world_, robot_, room);
-  yaw_ = f.yaw[robot_];
+void Route::recover(const Point* back) {
+  const Point here{here_.x, here_.y}, room = roomToTurn(world_, robot_);
+  const bool is_told =
+      back != nullptr && isNear(world_, here, *back) && isFree(world_, robot_, back->x, back->y);
+  const Point to = is_told ? *back : nearestFree(world_, robot_, room);
+  yaw_ = here_.yaw;
   driveOff(here, room);
   driveOff(room, to);
   const double square = std::round(yaw_ / kHalfPi) * kHalfPi;

@@ -13,6 +13,8 @@
 namespace kiva {
 namespace {
 
+constexpr double kGuided = 0.02;  // [m] off its middle, [rad] off square: the tower's guide centres
+
 void loadRobot(WorldState& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
   const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
@@ -34,6 +36,15 @@ void loadRobot(WorldState& world, int robot, int unit) {
   r.load_half_width = std::max(box.max.Y(), -box.min.Y());
 }
 
+/// Robots that don't know exactly where they are would carry a unit a little farther off its place
+/// each time, if the guide on the tower did not centre it.
+void centre(Pose* on_tower) {
+  const double square = std::round(on_tower->Rot().Yaw() / (M_PI / 2)) * M_PI / 2;
+  const double off = std::hypot(on_tower->X(), on_tower->Y());
+  if (off > kGuided || std::abs(on_tower->Rot().Yaw() - square) > kGuided) return;
+  *on_tower = Pose(0, 0, on_tower->Z(), 0, 0, square);
+}
+
 }  // namespace
 
 void takeUp(WorldState& world, int robot, int unit) {
@@ -42,6 +53,7 @@ void takeUp(WorldState& world, int robot, int unit) {
   if (model.in_physics) deactivate(world, model);
   u.pose_on_carrier = towerPose(world, robot).Inverse() * unitPose(world, unit);
   u.pose_on_carrier.Pos().Z() = -underside(world, unit);  // however far the tower went in a step
+  if (world.fleet.localises) centre(&u.pose_on_carrier);
   u.carrier = robot;
   u.claimed_by = -1;
   world.fleet.unit[robot] = unit;

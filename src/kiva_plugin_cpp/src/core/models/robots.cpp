@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/contact/activation.h"
 #include "core/geometry/angle.h"
 #include "core/models/load.h"
 #include "core/motion/drives.h"
 #include "core/motion/jointed_body.h"
+#include "core/motion/self_location.h"
 #include "core/physics/spatial_inertia.h"
 #include "core/sensing/scans.h"
 #include "core/state/fleet_plugin.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
+#include "core/state/random_stream.h"
 #include "core/state/tasks.h"
 
 namespace kiva {
@@ -58,11 +61,45 @@ Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   return shape;
 }
 
+/// What its motion plugin says of the real world, if it says anything.
+std::optional<Realism> realismOf(const Parameters& parameters) {
+  const auto below = parameters.values().lower_bound("realism");
+  if (below == parameters.values().end() || below->first.rfind("realism", 0) != 0) {
+    return std::nullopt;
+  }
+  parameters.text("realism", "");  // around its sections: blank
+  return readRealism(parameters, "realism/");
+}
+
+/// Throws DescriptionError if robots of this world are told otherwise already.
+void checkRealism(const WorldState& world, const Parameters& parameters) {
+  const std::optional<Realism> asked = realismOf(parameters);
+  if (!asked || world.options.realism || !world.realism_of_models) return;
+  if (*asked == world.realism) return;
+  throw DescriptionError(parameters.where() +
+                         ": <realism> is not that of the robots before; all robots of a world have "
+                         "the same");
+}
+
+/// The world's is that of the first robot whose file says anything of it, unless it was given.
+void adoptRealism(WorldState& world, const ModelDescription& description) {
+  if (world.options.realism || world.realism_of_models) return;
+  for (const PluginDescription& plugin : description.plugins) {
+    if (plugin.filename != kMotionPlugin) continue;
+    const std::optional<Realism> asked = realismOf(plugin.parameters);
+    if (!asked) continue;
+    world.realism = *asked;
+    world.realism_of_models = true;
+    world.fleet.localises = asked->localisation.enabled;
+  }
+}
+
 void configure(const WorldState& world, const ModelDescription& description, Robot* robot) {
   for (const PluginDescription& plugin : description.plugins) {
     const FleetPlugin* ours = findFleetPlugin(world, plugin.filename);
     if (!ours) continue;
     ours->configure(*robot, plugin.parameters);
+    if (plugin.filename == kMotionPlugin) checkRealism(world, plugin.parameters);
     plugin.parameters.rejectUnread();
   }
   if (world.options.drive) robot->drive.drive = *world.options.drive;
@@ -106,6 +143,19 @@ void stand(FleetState& f, int robot, const EntityState& at) {
   f.yaw_rate[robot] = at.twist.angular.Z();
 }
 
+/// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
+void setSpread(const WorldState& world, Robot* robot) {
+  constexpr double kMost = 3;  // deviations that are delivered
+  const ActuationRealism& real = world.realism.actuation;
+  if (!real.enabled) return;
+  RandomStream random(world.options.seed, Matter::kActuation, robot->id, 0);
+  const auto deviate = [&](double share) {
+    return 1 + share * std::clamp(random.normal(), -kMost, kMost);
+  };
+  robot->drive.motor_torque *= deviate(real.torque_spread);
+  for (double& friction : robot->tyre_friction) friction *= deviate(real.friction_spread);
+}
+
 }  // namespace
 
 bool isRobot(const ModelDescription& description) {
@@ -129,7 +179,10 @@ void Robots::add(WorldState& world, Model& model) const {
   const bool jointed = robot.drive.drive == Drive::kJointed;
   setRays(world, &robot);
   world.top_speed = std::max(world.top_speed, robot.drive.speed);
+  adoptRealism(world, *model.description);
+  setSpread(world, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
+  if (world.fleet.localises) calibrate(world, model.index);
   moved(world, model);
   if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
 }
@@ -141,6 +194,11 @@ void Robots::remove(WorldState& world, Model& model) const {
   for (StorageUnit& unit : world.units) {
     if (unit.claimed_by == robot) unit.claimed_by = -1;
   }
+  auto& defects = world.failures.defects;
+  const int id = world.fleet.robots[robot].id;
+  defects.erase(std::remove_if(defects.begin(), defects.end(),
+                               [id](const Defect& defect) { return defect.kiva_id == id; }),
+                defects.end());
   world.fleet.remove(robot);
   world.obstacles.removeMover(robot);
   world.scans_due.clear();  // indices have changed
@@ -153,8 +211,9 @@ void Robots::place(WorldState& world, Model& model, const EntityState& state) co
   if (world.fleet.tasks[robot].phase != Phase::kIdle) {
     endBlocked(world, robot, "", "was moved by hand");
   }
-  stand(world.fleet, robot, state);
   moved(world.fleet, robot);
+  stand(world.fleet, robot, state);
+  if (world.fleet.localises) relocate(world, robot);
   rebuildBody(world, model);
 }
 
@@ -165,11 +224,16 @@ void Robots::reset(WorldState& world, Model& model) const {
   fleet.tower[robot] = 0;
   fleet.stance[robot] = Stance();
   fleet.stopped[robot] = 0;
+  fleet.failures[robot] = 0;
+  fleet.battery[robot] = Battery();
+  fleet.charge[robot] = 1;
+  fleet.robots[robot].grip = 1;
   place(world, model, {model.spawn_pose, {}});
   fleet.path_id[robot] = fleet.reached[robot] = fleet.left[robot] = 0;
   for (int wheel = 0; wheel < 2; ++wheel) {
     fleet.wheel_speed[wheel][robot] = fleet.wheel_angle[wheel][robot] = 0;
   }
+  if (fleet.localises) relocate(world, robot);  // its wheels stand at 0 now
 }
 
 EntityState Robots::state(const WorldState& world, const Model& model) const {

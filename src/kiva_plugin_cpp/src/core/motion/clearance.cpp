@@ -83,9 +83,12 @@ double wayWithin(const FleetState& f, int i, double time) {
   return std::clamp(f.goal[i] - f.reference[i], -most, most);
 }
 
+/// Whether a robot that cruises does it in place.
+bool cruisesInPlace(const FleetState& f, int i) { return f.per_x[i] == 0 && f.per_y[i] == 0; }
+
 /// The floor that a robot covers which follows its reference exactly.
 Footprint cruiseSweep(const FleetState& f, int i, double time) {
-  if (f.per_yaw[i] != 0) return turned(boxOf(f, i));
+  if (cruisesInPlace(f, i)) return turned(boxOf(f, i));
   const double way = wayWithin(f, i, time);
   return shifted(boxOf(f, i), f.per_x[i] * way, f.per_y[i] * way);
 }
@@ -128,7 +131,7 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
 /// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its
 /// place among the obstacles.
 double horizonOf(const FleetState& f, int i, double horizon) {
-  if (f.cruising[i] == 0 || f.per_yaw[i] != 0) return horizon;
+  if (f.cruising[i] == 0 || cruisesInPlace(f, i)) return horizon;
   return std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
 }
 
@@ -140,7 +143,9 @@ bool findClearance(WorldState& world, int i) {
     const double time = horizonOf(f, i, horizon);
     const bool cruises = f.cruising[i] != 0;
     if (!isClear(world, i, cruises ? cruiseSweep(f, i, time) : sweep(f, i, time), time)) continue;
-    if (cruises) world.obstacles.follow(i, f.per_yaw[i] != 0 ? 0 : std::abs(wayWithin(f, i, time)));
+    if (cruises) {
+      world.obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
+    }
     f.clear_until[i] =
         static_cast<double>(world.total_steps) + std::max(1.0, std::floor(time / world.dt));
     return true;

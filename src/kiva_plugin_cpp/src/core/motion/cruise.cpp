@@ -6,7 +6,9 @@
 
 #include "core/motion/clearance.h"
 #include "core/motion/drives.h"
+#include "core/motion/stretches.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
@@ -127,6 +129,10 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
 void planAttention(WorldState& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
+  if (f.localises && !f.localisation[i].stretch.turns) {
+    const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.dt);
+    f.attend_at[i] = std::min(f.attend_at[i], end);
+  }
   if (!f.tasks[i].follows()) return;
   const double next = after + stepsTo(f, i, nextCount(world, i), world.dt);
   f.attend_at[i] = std::min(f.attend_at[i], next);
@@ -134,9 +140,10 @@ void planAttention(WorldState& world, int i, double after) {
 
 void attend(WorldState& world, int i, double now) {
   FleetState& f = world.fleet;
-  const bool ended = hasEnded(f, i, world.dt);
+  bool ended = hasEnded(f, i, world.dt);
   if (!ended && f.attend_at[i] > now) return;
   if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
+  if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.dt);
   if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) return moved(f, i);
   planAttention(world, i, now);
 }
@@ -163,6 +170,20 @@ void attendBlock(WorldState& world, int b, double now) {
   }
 }
 
+/// What a unit of reference moves, exactly or by the robot's own estimate.
+void setMotion(WorldState& world, int i, const ReferenceMotion& per) {
+  FleetState& f = world.fleet;
+  if (f.localises) return beginStretch(world, i, per.yaw != 0);
+  const DriveParameters& drive = f.robots[i].drive;
+  const double turn = per.yaw * drive.wheel_separation / 2;
+  const double ahead = std::cos(f.yaw[i]) * per.x + std::sin(f.yaw[i]) * per.y;
+  f.per_x[i] = per.x;
+  f.per_y[i] = per.y;
+  f.per_yaw[i] = per.yaw;
+  f.per_wheel[0][i] = (ahead - turn) / drive.wheel_radius;
+  f.per_wheel[1][i] = (ahead + turn) / drive.wheel_radius;
+}
+
 }  // namespace
 
 bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
@@ -173,24 +194,20 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
       way <= end || (f.tower[i] > 0 && f.unit[i] < 0) ||
       std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
-      !keepsUp(f, i, per) || !hasForce(f, i, per, groundOf(world))) {
+      !(f.localises ? keepsUpByEstimate(f, i, per.yaw != 0) : keepsUp(f, i, per)) ||
+      !hasForce(f, i, per, groundOf(world))) {
     return false;
   }
-  const double turn = per.yaw * r.drive.wheel_separation / 2;
-  const double ahead = std::cos(f.yaw[i]) * per.x + std::sin(f.yaw[i]) * per.y;
-  f.per_x[i] = per.x;
-  f.per_y[i] = per.y;
-  f.per_yaw[i] = per.yaw;
-  f.per_wheel[0][i] = (ahead - turn) / r.drive.wheel_radius;
-  f.per_wheel[1][i] = (ahead + turn) / r.drive.wheel_radius;
+  setMotion(world, i, per);
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (findClearance(world, i)) {
+  if (!hasEnded(f, i, world.dt) && findClearance(world, i)) {
     planAttention(world, i, static_cast<double>(world.total_steps));
     return true;
   }
   f.cruising[i] = 0;
+  if (f.localises) f.localisation[i].stretch.under_way = false;  // it has not gone anywhere
   return false;
 }
 

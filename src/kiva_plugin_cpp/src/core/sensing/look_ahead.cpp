@@ -8,6 +8,7 @@
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
@@ -20,6 +21,12 @@ constexpr double kSideMargin = 0.03;  // [m]
 constexpr double kEndMargin = 0.02;  // [m]
 constexpr int kLooksTogether = 16;   // on one thread
 constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
+
+/// What noise alone may seem to bring nearer is not yet an obstacle.
+double endMargin(const WorldState& world) {
+  const LaserRealism& real = world.realism.lasers;
+  return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
+}
 
 bool stops(const WorldState& world, int model, int robot) {
   const Model& other = *world.models[model];
@@ -67,7 +74,8 @@ Sighting look(const WorldState& world, int robot) {
 
 bool isOnGuard(const FleetState& f, int robot) {
   const Task& task = f.tasks[robot];
-  return f.robots[robot].laser.fitted && (task.drives() || task.isHeldUp()) &&
+  const bool is_blind = (f.failures[robot] & bitOf(Failure::kLaser)) != 0;
+  return f.robots[robot].laser.fitted && !is_blind && (task.drives() || task.isHeldUp()) &&
          !task.segments.front().reverse;
 }
 
@@ -103,7 +111,7 @@ double reachOfInterest(const WorldState& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const MotionSegment& segment = task.segments.front();
   if (!task.follows() || !segment.on_grid) return std::numeric_limits<double>::infinity();
-  return segment.goal + halfLength(world.fleet.robots[robot]) + kEndMargin;
+  return segment.goal + halfLength(world.fleet.robots[robot]) + endMargin(world);
 }
 
 bool isFree(const WorldState& world, int robot, double x, double y) {

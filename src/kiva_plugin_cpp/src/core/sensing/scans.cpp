@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/state/random_stream.h"
+
 namespace kiva {
 namespace {
 
@@ -47,10 +49,29 @@ void arrangeScans(WorldState& world) {
   }
 }
 
+/// As the laser tells it: each ray's error depends on robot, step and ray alone, whoever looks.
+void disturb(const WorldState& world, const Robot& robot, FanHits* hits) {
+  constexpr std::uint64_t kMostRays = 1 << 14;
+  const LaserRealism& real = world.realism.lasers;
+  for (int ray = hits->first; ray <= hits->last; ++ray) {
+    if (hits->model[ray] < 0) continue;
+    RandomStream random(world.options.seed, Matter::kLaser, robot.id,
+                        world.total_steps * kMostRays + ray);
+    const bool is_dropped = random.chance(real.dropped_rays);
+    double& range = hits->range[ray];
+    range = std::max(0.0, range + real.range_noise * random.normal());
+    if (is_dropped || range > robot.laser.max_range) hits->model[ray] = -1;
+  }
+}
+
 }  // namespace
 
 std::uint64_t scanPeriod(const WorldState& world, const Robot& robot) {
   return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * world.dt)));
+}
+
+bool isBlind(const WorldState& world, int robot) {
+  return (world.fleet.failures[robot] & bitOf(Failure::kLaser)) != 0;
 }
 
 void findDueScans(WorldState& world) {
@@ -59,6 +80,11 @@ void findDueScans(WorldState& world) {
   for (const ScanRound& round : world.scan_rounds) {
     const std::vector<int>& due = round.robots_at[world.total_steps % round.period];
     world.scans_due.insert(world.scans_due.end(), due.begin(), due.end());
+  }
+  if (!world.failures.defects.empty()) {
+    const auto is_blind = [&](int i) { return isBlind(world, i); };
+    world.scans_due.erase(std::remove_if(world.scans_due.begin(), world.scans_due.end(), is_blind),
+                          world.scans_due.end());
   }
   if (world.scan_rounds.size() > 1) std::sort(world.scans_due.begin(), world.scans_due.end());
 }
@@ -91,6 +117,7 @@ Sensor sensorOf(const WorldState& world, int robot) {
 void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits) {
   const RayFan& fan = world.ray_fans[world.fleet.robots[robot].ray_fan];
   world.obstacles.cast(fan, sensorOf(world, robot), reach, robot, hits);
+  if (world.realism.lasers.enabled) disturb(world, world.fleet.robots[robot], hits);
 }
 
 }  // namespace kiva

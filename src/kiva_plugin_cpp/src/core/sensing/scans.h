@@ -14,12 +14,15 @@ std::uint64_t scanPeriod(const WorldState& world, const Robot& robot);
 /// fleet's scans are spread over the period.
 void findDueScans(WorldState& world);
 
+/// Whether its laser is broken.
+bool isBlind(const WorldState& world, int robot);
+
 /// Gives the robot the directions of its laser's rays, shared with others of the same kind.
 void setRays(WorldState& world, Robot* robot);
 
 Sensor sensorOf(const WorldState& world, int robot);
 
-/// Casts the robot's rays.
+/// Casts the robot's rays; as far as lasers are real, with their noise.
 void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits);
 
 }  // namespace kiva

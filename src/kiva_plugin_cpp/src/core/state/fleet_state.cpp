@@ -22,12 +22,14 @@ void forEachArray(FleetState& f, Visit visit) {
   visit(f.awake);
   visit(f.activated);
   visit(f.tasks);
+  visit(f.battery);
 }
 
 }  // namespace
 
 int FleetState::add(Robot robot, double x, double y, double yaw) {
   forEachArray(*this, [](auto& array) { array.emplace_back(); });
+  if (localises) localisation.emplace_back();
   return Fleet::add(std::move(robot), x, y, yaw);
 }
 
@@ -36,7 +38,22 @@ void FleetState::remove(int i) {
     array[i] = std::move(array.back());
     array.pop_back();
   });
+  if (localises) {
+    localisation[i] = localisation.back();
+    localisation.pop_back();
+  }
   Fleet::remove(i);
+}
+
+bool isHeld(const FleetState& f, int i) {
+  if (f.stopped[i]) return true;
+  if (f.failures[i] == 0) return false;
+  const MotionSegment* at = f.tasks[i].segment();
+  const bool drives =
+      at && (at->kind == MotionSegment::Kind::kDrive || at->kind == MotionSegment::Kind::kTurn);
+  const int holds =
+      drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
+  return (f.failures[i] & (holds | kEmptyBattery)) != 0;
 }
 
 void moved(FleetState& f, int i) {
@@ -44,6 +61,9 @@ void moved(FleetState& f, int i) {
   f.clear_until[i] = 0;
   if (f.cruising[i] == 0) return;
   f.cruising[i] = 0;
+  if (f.localises) {
+    f.localisation[i].settle(f.reference[i], f.wheel_angle[0][i], f.wheel_angle[1][i]);
+  }
   for (int wheel = 0; wheel < 2; ++wheel) f.wheel_target[wheel][i] = f.wheel_speed[wheel][i];
 }
 

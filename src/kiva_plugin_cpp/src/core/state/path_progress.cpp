@@ -12,9 +12,10 @@ namespace kiva {
 namespace {
 
 constexpr double kHalfPi = M_PI / 2;
-constexpr double kCentred = 0.001;  // [m] from a point: the robot has come to it
-constexpr double kFacing = 0.002;   // [rad] off: it can drive; how it may be pushed, standing
-constexpr double kRounding = 1e-9;  // [m]
+constexpr double kCentred = 0.001;      // [m] from a point: the robot has come to it
+constexpr double kFacing = 0.002;       // [rad] off: it can drive; how it may be pushed, standing
+constexpr double kNearlyFacing = 0.02;  // [rad] off, of one that has to find out
+constexpr double kRounding = 1e-9;      // [m]
 
 /// A place seen from the origin of the present run [m].
 struct OnRun {
@@ -63,17 +64,18 @@ MotionSegment driveAlong(const WorldState& world, const ReleasedPath& path, doub
 MotionSegment nextSegment(const WorldState& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const ReleasedPath& path = task.path;
-  const double square = std::round(world.fleet.yaw[robot] / kHalfPi) * kHalfPi;
+  const double yaw = world.fleet.believed(robot).yaw;
+  const double square = std::round(yaw / kHalfPi) * kHalfPi;
   const double ahead = headingOf(path[path.origin], path[path.origin + 1]);
   const double heading = headingNear(square, ahead);
-  const bool faces_it = std::abs(heading - world.fleet.yaw[robot]) < kFacing;
+  const bool faces_it = std::abs(heading - yaw) < (world.fleet.localises ? kNearlyFacing : kFacing);
   return faces_it ? driveAlong(world, path, heading) : turnTo(heading);
 }
 
 double alongSegment(const FleetState& f, int i) {
   const MotionSegment& segment = f.tasks[i].segments.front();
-  return std::cos(segment.yaw) * (f.x[i] - segment.x) +
-         std::sin(segment.yaw) * (f.y[i] - segment.y);
+  const PlanarPose at = f.believed(i);
+  return std::cos(segment.yaw) * (at.x - segment.x) + std::sin(segment.yaw) * (at.y - segment.y);
 }
 
 double alongRun(const Task& task, std::uint32_t point) { return onRun(task, point).along; }

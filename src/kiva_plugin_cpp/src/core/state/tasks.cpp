@@ -89,8 +89,8 @@ void continuePath(WorldState& world, int robot) {
   if (path.origin + 1 >= path.released) {
     return enterPhase(world, robot, Phase::kWaiting, Status::kBusy, State::kWaiting);
   }
-  const double astray = std::hypot(world.fleet.x[robot] - path[path.origin].x,
-                                   world.fleet.y[robot] - path[path.origin].y);
+  const PlanarPose at = world.fleet.believed(robot);
+  const double astray = std::hypot(at.x - path[path.origin].x, at.y - path[path.origin].y);
   if (astray > kAstray) return endBlocked(world, robot, "", "was pushed off its path");
   path.extendRun();
   task.segments.push_back(nextSegment(world, robot));

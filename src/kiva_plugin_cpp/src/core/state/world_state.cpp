@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/state/world_state.h"
 
+#include "core/state/workers.h"
+
 namespace kiva {
 namespace {
 
@@ -15,9 +17,12 @@ WorldState::WorldState(const WorldDescription& description, const WorldOptions& 
     : name(description.name),
       gravity(description.gravity),
       options(world_options),
+      realism(world_options.realism.value_or(Realism())),
       dt(description.step_size),
       physics(description.gravity),
-      workers(std::make_shared<Workers>(options.threads)) {}
+      workers(std::make_shared<Workers>(options.threads)) {
+  fleet.localises = realism.localisation.enabled;
+}
 
 WorldState::~WorldState() {
   for (auto& model : models) {
@@ -43,6 +48,7 @@ void WorldState::warn(const std::string& subject, const std::string& text) {
 void WorldState::setStatus(int robot, Status status, State state) {
   Task& task = fleet.tasks[robot];
   const int shelf = shelfId(*this, robot);
+  const bool is_silent = (fleet.failures[robot] & bitOf(Failure::kRadio)) != 0;
   if (fleet.status[robot] == status && fleet.state[robot] == state &&
       task.reported_shelf == shelf) {
     return;
@@ -50,6 +56,7 @@ void WorldState::setStatus(int robot, Status status, State state) {
   fleet.status[robot] = status;
   fleet.state[robot] = state;
   task.reported_shelf = shelf;
+  if (is_silent) return;
   status_changes.push_back({time(), fleet.robots[robot].id, status, state, shelf, fleet.x[robot],
                             fleet.y[robot], fleet.yaw[robot]});
 }

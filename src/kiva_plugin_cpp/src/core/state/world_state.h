@@ -22,12 +22,12 @@
 #include "core/physics/physics.h"
 #include "core/state/fleet_state.h"
 #include "core/state/model.h"
-#include "core/state/workers.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
 
 class FleetPlugin;
+class Workers;
 
 /// Two models in contact.
 struct TouchingPair {
@@ -44,6 +44,32 @@ struct Crash {
   std::string with;  ///< A model's name.
 };
 
+/// What is broken now.
+struct Defect {
+  int kiva_id = 0;
+  Failure failure = Failure::kMotor;
+  double left = 0;   ///< Until it is repaired [s]; +inf = until somebody does.
+  RobotReport last;  ///< Of a lost radio: what was heard before.
+};
+
+struct FailureState {
+  std::vector<Defect> defects;  ///< In the order in which they came.
+  double exposure = 0;          ///< Until the next one by chance [robot seconds],
+  std::uint64_t count = 0;      ///< which has been drawn so often.
+};
+
+/// Where robots are charged, in world [m].
+struct Charger {
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+};
+
+/// A command on its way to its robot.
+struct RadioMessage {
+  std::uint64_t due = 0;  ///< The step, of all, at which it is there.
+  Command command;
+  FollowPath path;  ///< If it stands for one.
+};
+
 /// Robots whose scans have the same period, by the step within it.
 struct ScanRound {
   std::uint64_t period = 0;  // steps
@@ -58,12 +84,14 @@ struct WorldState {
   std::string name;
   Vector3 gravity;
   WorldOptions options;
-  double dt = 0.001;              // [s]
-  double dt_since_time = 0;       // [s]: when the present step size began,
-  std::uint64_t dt_since = 0;     // and after how many steps
-  double grid_spacing = 1;        // [m]
-  std::uint64_t steps = 0;        // since the last reset of time
-  std::uint64_t total_steps = 0;  // ever; what schedules count by
+  Realism realism;                 // of the options, or of the first robot whose file has one
+  bool realism_of_models = false;  // the latter
+  double dt = 0.001;               // [s]
+  double dt_since_time = 0;        // [s]: when the present step size began,
+  std::uint64_t dt_since = 0;      // and after how many steps
+  double grid_spacing = 1;         // [m]
+  std::uint64_t steps = 0;         // since the last reset of time
+  std::uint64_t total_steps = 0;   // ever; what schedules count by
 
   Physics physics;
   FleetState fleet;
@@ -97,7 +125,9 @@ struct WorldState {
   std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
   std::deque<Command> commands;
-  std::deque<FollowPath> paths;  // of those that are kFollow, in the same order
+  std::deque<FollowPath> paths;      // of those that are kFollow, in the same order
+  std::deque<RadioMessage> on_air;   // in the order in which they come
+  std::uint64_t radio_messages = 0;  // ever sent
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;
@@ -107,6 +137,9 @@ struct WorldState {
   std::vector<Crash> crashes;      // of the last step
   std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
+  FailureState failures;
+  std::vector<Charger> chargers;
+  std::uint64_t chargers_revision = ~0ull;  // of the models that these were found among
   std::shared_ptr<Workers> workers;
   std::vector<std::string> warnings;
   std::set<std::string> warned;

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 
-def world_of(site, seed=1):
+def world_of(site, seed=1, realism=""):
     """A kiva_plugin_cpp.World of a Site, and the Site as it stands there: (world, site).
 
     Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x.
@@ -40,7 +40,9 @@ def world_of(site, seed=1):
         for part in (folder / "models" / "kiva").iterdir():
             (robot / part.name).write_bytes(part.read_bytes())
         _set_kinematics(robot / "model.sdf", site.kinematics)
-        world = World.of_layout(laid, world=world_file, seed=seed, model_paths=[made])
+        world = World.of_layout(
+            laid, world=world_file, seed=seed, model_paths=[made], realism=realism or None
+        )
     return world, replace(site, plan=plan)
 
 

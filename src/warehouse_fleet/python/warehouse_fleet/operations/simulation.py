@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A whole shift from a description to its folder: what simulate and sweep run."""
 
+import contextlib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -37,6 +38,7 @@ class Description:
     policies: dict = field(default_factory=dict)
     seed: int = 1
     physics: bool = True
+    realism: str = ""  # of World: a preset or a YAML file
 
     @property
     def config(self):
@@ -47,6 +49,7 @@ class Description:
             "policies": Policies(self.policies).chosen,
             "physics": self.physics,
             "seconds": self.seconds,
+            **({"realism": self.realism} if self.realism else {}),
         }
 
 
@@ -71,7 +74,8 @@ def open_operations(description, database=None):
             site = replace(site, level=told.level or site.level)
         world = None
         if description.physics:
-            world, site = world_of(site, description.seed)
+            with _told_as_ours():
+                world, site = world_of(site, description.seed, description.realism)
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)
@@ -118,7 +122,16 @@ def simulate(description, folder, database=None, progress=None):
 def _preset(description):
     from kiva_plugin_cpp import World
 
+    with _told_as_ours():
+        return World.preset(
+            description.size, seed=description.seed, realism=description.realism or None
+        )
+
+
+@contextlib.contextmanager
+def _told_as_ours():
+    """An unknown preset, or a file of realism that is wrong, is one of ERRORS."""
     try:
-        return World.preset(description.size, seed=description.seed)
-    except ValueError as error:
+        yield
+    except (ValueError, FileNotFoundError) as error:
         raise InstanceError(str(error)) from error

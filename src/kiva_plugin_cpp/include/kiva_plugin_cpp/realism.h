@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What makes a day a real one: how far robots, sensors, radio and people differ from the ideal.
+// Every section is off unless it is asked for; doc/realism.md gives models, defaults and sources.
+//
+// A section lists its numbers once, in fields(): name, value, least, most. From that list they are
+// read, checked, compared and saved in checkpoints.
+#pragma once
+
+#include <string>
+
+#include "kiva_plugin_cpp/parameters.h"
+
+namespace kiva {
+
+/// Robots drive by wheel odometry and by the codes on the floor, one at each grid point.
+/// Deviations are standard deviations of a normal distribution.
+struct LocalisationRealism {
+  bool enabled = false;
+  double wheel_radius_error = 0.001;      ///< Of each wheel, as a share of its radius.
+  double wheel_separation_error = 0.002;  ///< As a share of it.
+  double slip = 0.0003;  ///< Of the way of a wheel over one metre, growing as its root.
+  double code_position_noise = 0.0005;  ///< Of a reading, along each axis [m].
+  double code_angle_noise = 0.001;      ///< Of a reading [rad].
+  double missed_codes = 0.002;          ///< Share of codes that are passed without being read.
+  double lost_after = 3.5;              ///< [m] without a code, after which a robot is lost.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("wheel_radius_error", s.wheel_radius_error, 0, 0.02);
+    field("wheel_separation_error", s.wheel_separation_error, 0, 0.02);
+    field("slip", s.slip, 0, 0.02);
+    field("code_position_noise", s.code_position_noise, 0, 0.02);
+    field("code_angle_noise", s.code_angle_noise, 0, 0.1);
+    field("missed_codes", s.missed_codes, 0, 1);
+    field("lost_after", s.lost_after, 0.1, 1000);
+  }
+};
+
+/// What laser scans lack.
+struct LaserRealism {
+  bool enabled = false;
+  double range_noise = 0.01;    ///< Standard deviation of a range [m].
+  double dropped_rays = 0.002;  ///< Share of rays that see nothing.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("range_noise", s.range_noise, 0, 1);
+    field("dropped_rays", s.dropped_rays, 0, 1);
+  }
+};
+
+/// How motors and tyres differ from robot to robot.
+struct ActuationRealism {
+  bool enabled = false;
+  double torque_spread = 0.05;    ///< Standard deviation, as a share of the motor's torque.
+  double friction_spread = 0.05;  ///< Standard deviation, as a share of the tyres' friction.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("torque_spread", s.torque_spread, 0, 0.3);
+    field("friction_spread", s.friction_spread, 0, 0.3);
+  }
+};
+
+/// What happens to commands on their way to the robots, which get theirs in the order in which they
+/// were given. Their latency is `latency_least` and a rest, exponentially distributed, that makes
+/// it `latency_mean` in the mean.
+struct RadioRealism {
+  bool enabled = false;
+  double latency_least = 0.005;  ///< [s]
+  double latency_mean = 0.03;    ///< [s]
+  double lost = 0.001;           ///< Share of commands that are lost.
+  double repeated = 0.001;       ///< Share of commands that come twice.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("latency_least", s.latency_least, 0, 10);
+    field("latency_mean", s.latency_mean, 0, 10);
+    field("lost", s.lost, 0, 0.5);
+    field("repeated", s.repeated, 0, 0.5);
+  }
+};
+
+/// Batteries: what robots use, and what they take up where charging is painted on the floor.
+struct EnergyRealism {
+  bool enabled = false;
+  double capacity = 960;              ///< Of a new battery [Wh].
+  double health = 1;                  ///< Share of it that age has left.
+  double initial_least = 0.6;         ///< State of charge at the beginning, evenly distributed
+  double initial_most = 1;            ///< between these, 0…1.
+  double electronics = 80;            ///< Used at all times [W].
+  double rolling_resistance = 0.015;  ///< Force over weight.
+  double drive_efficiency = 0.75;     ///< From the battery to the wheels.
+  double regeneration = 0.3;          ///< Share of the energy of motion that braking gives back.
+  double lift_efficiency = 0.4;       ///< From the battery to the load.
+  double charge_power = 1500;         ///< [W], into the battery,
+  double charge_taper = 0.8;          ///< up to this state of charge; beyond it falls evenly.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("capacity", s.capacity, 1, 1e6);
+    field("health", s.health, 0.1, 1);
+    field("initial_least", s.initial_least, 0, 1);
+    field("initial_most", s.initial_most, 0, 1);
+    field("electronics", s.electronics, 0, 1e5);
+    field("rolling_resistance", s.rolling_resistance, 0, 1);
+    field("drive_efficiency", s.drive_efficiency, 0.05, 1);
+    field("regeneration", s.regeneration, 0, 1);
+    field("lift_efficiency", s.lift_efficiency, 0.05, 1);
+    field("charge_power", s.charge_power, 0, 1e6);
+    field("charge_taper", s.charge_taper, 0, 1);
+  }
+};
+
+/// How often something breaks in robots by itself, and how long it takes to repair it. Times
+/// between failures and to a repair are exponentially distributed.
+struct FailureRealism {
+  bool enabled = false;
+  double per_robot_hour = 0.01;  ///< Failures an hour and robot.
+  double repair_time = 300;      ///< Mean, until it is repaired [s].
+  double motor = 0.3;  ///< How often each kind is what breaks, beside the others: the drive,
+  double lift_stuck = 0.15;
+  double laser_blind = 0.15;
+  double radio_lost = 0.25;
+  double wheel_slips = 0.15;
+  double slipping_grip = 0.3;  ///< Share of its friction that a wheel which slips has left.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("per_robot_hour", s.per_robot_hour, 0, 1e4);
+    field("repair_time", s.repair_time, 0.1, 1e6);
+    field("motor", s.motor, 0, 1);
+    field("lift_stuck", s.lift_stuck, 0, 1);
+    field("laser_blind", s.laser_blind, 0, 1);
+    field("radio_lost", s.radio_lost, 0, 1);
+    field("wheel_slips", s.wheel_slips, 0, 1);
+    field("slipping_grip", s.slipping_grip, 0.05, 1);
+  }
+};
+
+struct PeopleRealism {
+  bool enabled = false;
+
+  template <typename Self, typename Field>
+  static void fields(Self& /*s*/, Field /*field*/) {}
+};
+
+struct Realism {
+  LocalisationRealism localisation;
+  LaserRealism lasers;
+  ActuationRealism actuation;
+  RadioRealism radio;
+  EnergyRealism energy;
+  FailureRealism failures;
+  PeopleRealism people;
+};
+
+/// Calls call(name, section) for each section of a Realism.
+template <typename R, typename Call>
+void forEachSection(R& realism, Call call) {
+  call("localisation", realism.localisation);
+  call("lasers", realism.lasers);
+  call("actuation", realism.actuation);
+  call("radio", realism.radio);
+  call("energy", realism.energy);
+  call("failures", realism.failures);
+  call("people", realism.people);
+}
+
+/// Reads `prefix` + `section/name` for every number. A section of which anything is given is on,
+/// its other numbers at their defaults; so is one that is `true` itself, and `false` is off.
+/// Throws DescriptionError for what is no number or out of its range; what nobody knows is left to
+/// Parameters::rejectUnread.
+Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
+
+bool operator==(const Realism& a, const Realism& b);
+inline bool operator!=(const Realism& a, const Realism& b) { return !(a == b); }
+
+}  // namespace kiva
