@@ -281,6 +281,7 @@ class Coordinator:
 
     def _begin(self, report, time):
         self._plan_of, self._ids = self._scenery, report.kiva_id
+        self._next_state = self._next_paths = time
         if self._traffic is not None:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
@@ -382,6 +383,10 @@ class Coordinator:
         state.watchdog = traffic.watchdog
         state.alarms = [
             f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
+        ]
+        state.alarms += [
+            f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
+            for kiva in traffic.kiva_ids[traffic.lost].tolist()
         ]
         if traffic.alarm:
             state.alarms.append(traffic.alarm)
