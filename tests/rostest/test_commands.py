@@ -7,9 +7,11 @@ import unittest
 
 import rospy
 import rostest
-from warehouse_test import ANSWERS, Commander, Paused, control, place
+from node_test import call
+from warehouse_test import ANSWERS, Collector, Commander, Paused, control, place
 
-from warehouse_msgs.msg import Event, Lift, Rotate
+from warehouse_msgs.msg import Event, FleetState, Lift, Rotate
+from warehouse_msgs.srv import Fail, FailRequest
 
 BURST = 10000
 
@@ -92,6 +94,20 @@ class Commands(unittest.TestCase):
             self.assertEqual([e for e in self.commander.events.messages if e.kind in ANSWERS], [])
         self.commander.events.first(lambda e: e.kind == Event.ACCEPTED and e.model == "kiva1")
         self.commander.events.first(lambda e: e.kind == Event.REFUSED and e.model == "kiva99")
+
+    def test_what_is_broken_is_told_until_it_is_repaired(self):
+        fleet = Collector("/warehouse/fleet", FleetState)
+        self.addCleanup(fleet.close)
+        self.assertTrue(call("/warehouse/fail", Fail, 1, FailRequest.RADIO_LOST, 0.0).success)
+        self.commander.events.first(lambda e: e.kind == Event.FAILED and e.model == "kiva1")
+        self.refused("it hears nothing", "/rot", kiva_id=1, direction=1)
+        fleet.first(lambda m: m.failures[0] == 1 << FailRequest.RADIO_LOST)
+        self.assertTrue(call("/warehouse/fail", Fail, 1, FailRequest.REPAIRED, 0.0).success)
+        self.commander.events.first(lambda e: e.kind == Event.REPAIRED and e.model == "kiva1")
+        self.commander.do("/rot", kiva_id=1, direction=1)
+        self.assertEqual(fleet.first(lambda m: not m.failures[0]).charge[0], 1)
+        refused = call("/warehouse/fail", Fail, 99, FailRequest.MOTOR, 0.0)
+        self.assertEqual((refused.success, refused.message), (False, "there is no robot kiva99"))
 
 
 if __name__ == "__main__":

@@ -65,7 +65,9 @@ struct Event {
     kCollision = 6,
     kSpawned = 7,
     kDeleted = 8,
-    kLost = 9  ///< A robot no longer knows where it is, and stops.
+    kLost = 9,     ///< A robot no longer knows where it is, and stops.
+    kFailed = 10,  ///< Something in a robot is broken.
+    kRepaired = 11
   };
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/failures.h"
 #include "kiva_plugin_cpp/viewable_memory.h"
 
 namespace kiva {
@@ -78,6 +79,7 @@ struct Robot {
   double centre[2] = {0, 0};  ///< Of mass, without load, in the chassis frame [m].
   /// Coulomb coefficients of the tyres: left, right.
   double tyre_friction[2] = {1e16, 1e16};
+  double grip = 1;                 ///< Share of that friction which its wheels have left.
   double half_length = 0.38;       ///< Of the chassis, along its x axis [m].
   double half_width = 0.32;        ///< [m]
   double height = 0.40;            ///< Of its highest point above the floor, tower down [m].
@@ -110,6 +112,17 @@ struct PathPoint {
   double x = 0, y = 0;
 };
 
+/// What a robot tells of itself; as in Fleet.
+struct RobotReport {
+  double x = 0, y = 0, yaw = 0;         ///< In world [m, rad].
+  double vx = 0, vy = 0, yaw_rate = 0;  ///< [m/s, rad/s]
+  Status status = Status::kIdle;
+  State state = State::kIdle;
+  std::int32_t shelf_id = 0;  ///< 0 = none.
+  std::uint32_t path_id = 0, reached = 0, left = 0;
+  std::uint8_t last_end = 0;
+};
+
 /// One value a robot. Others may hold its memory and read it without a copy.
 template <typename T>
 using Column = std::vector<T, ViewableAllocator<T>>;
@@ -137,7 +150,9 @@ struct Fleet {
   /// load have left wholly. By how far they extend along and across the way when they drive
   /// straight: the corners of a load that turns reach some centimetres out of its cell.
   Column<std::uint32_t> left;
-  Column<std::uint8_t> stopped;  ///< 1 = it stands until Command::Kind::kGoOn.
+  Column<std::uint8_t> stopped;   ///< 1 = it stands until Command::Kind::kGoOn.
+  Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
+  Column<float> charge;           ///< Of its battery, 0…1; 1 where there is no model of that.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

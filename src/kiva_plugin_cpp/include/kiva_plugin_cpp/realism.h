@@ -82,18 +82,61 @@ struct RadioRealism {
   }
 };
 
+/// Batteries: what robots use, and what they take up where charging is painted on the floor.
 struct EnergyRealism {
   bool enabled = false;
+  double capacity = 960;              ///< Of a new battery [Wh].
+  double health = 1;                  ///< Share of it that age has left.
+  double initial_least = 0.6;         ///< State of charge at the beginning, evenly distributed
+  double initial_most = 1;            ///< between these, 0…1.
+  double electronics = 80;            ///< Used at all times [W].
+  double rolling_resistance = 0.015;  ///< Force over weight.
+  double drive_efficiency = 0.75;     ///< From the battery to the wheels.
+  double regeneration = 0.3;          ///< Share of the energy of motion that braking gives back.
+  double lift_efficiency = 0.4;       ///< From the battery to the load.
+  double charge_power = 1500;         ///< [W], into the battery,
+  double charge_taper = 0.8;          ///< up to this state of charge; beyond it falls evenly.
 
   template <typename Self, typename Field>
-  static void fields(Self& /*s*/, Field /*field*/) {}
+  static void fields(Self& s, Field field) {
+    field("capacity", s.capacity, 1, 1e6);
+    field("health", s.health, 0.1, 1);
+    field("initial_least", s.initial_least, 0, 1);
+    field("initial_most", s.initial_most, 0, 1);
+    field("electronics", s.electronics, 0, 1e5);
+    field("rolling_resistance", s.rolling_resistance, 0, 1);
+    field("drive_efficiency", s.drive_efficiency, 0.05, 1);
+    field("regeneration", s.regeneration, 0, 1);
+    field("lift_efficiency", s.lift_efficiency, 0.05, 1);
+    field("charge_power", s.charge_power, 0, 1e6);
+    field("charge_taper", s.charge_taper, 0, 1);
+  }
 };
 
+/// How often something breaks in robots by itself, and how long it takes to repair it. Times
+/// between failures and to a repair are exponentially distributed.
 struct FailureRealism {
   bool enabled = false;
+  double per_robot_hour = 0.01;  ///< Failures an hour and robot.
+  double repair_time = 300;      ///< Mean, until it is repaired [s].
+  double motor = 0.3;  ///< How often each kind is what breaks, beside the others: the drive,
+  double lift_stuck = 0.15;
+  double laser_blind = 0.15;
+  double radio_lost = 0.25;
+  double wheel_slips = 0.15;
+  double slipping_grip = 0.3;  ///< Share of its friction that a wheel which slips has left.
 
   template <typename Self, typename Field>
-  static void fields(Self& /*s*/, Field /*field*/) {}
+  static void fields(Self& s, Field field) {
+    field("per_robot_hour", s.per_robot_hour, 0, 1e4);
+    field("repair_time", s.repair_time, 0.1, 1e6);
+    field("motor", s.motor, 0, 1);
+    field("lift_stuck", s.lift_stuck, 0, 1);
+    field("laser_blind", s.laser_blind, 0, 1);
+    field("radio_lost", s.radio_lost, 0, 1);
+    field("wheel_slips", s.wheel_slips, 0, 1);
+    field("slipping_grip", s.slipping_grip, 0.05, 1);
+  }
 };
 
 struct PeopleRealism {

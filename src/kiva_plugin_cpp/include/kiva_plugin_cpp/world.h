@@ -182,6 +182,17 @@ class World {
   /// refused.
   void post(FollowPath path);
 
+  // --- failures
+  /// Breaks something in a robot now: FAILED. `repair_after` [s]; 0 = until repair() is called.
+  /// What is broken already is repaired then instead. Throws std::invalid_argument if there is no
+  /// such robot, or the time is negative or not finite.
+  void fail(int kiva_id, Failure failure, double repair_after);
+  /// Repairs all that is broken in a robot: REPAIRED for each, before its time. An empty battery is
+  /// exchanged for a full one. Throws as fail().
+  void repair(int kiva_id);
+  /// What was heard last of a robot whose radio is lost; nothing of one that is heard.
+  std::optional<RobotReport> lastHeard(int robot) const;
+
   // --- models
   /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already
   /// exists"), a plugin is unknown or a parameter is wrong. Never half a model.
@@ -259,7 +270,8 @@ class World {
   double gridSpacing() const;  ///< [m]
 
   // --- sensing
-  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117).
+  /// One range a ray [m], +inf = no return, -inf = nearer than the minimum (REP 117); NaN of a
+  /// laser that is blind.
   void scan(int robot, std::vector<float>* ranges) const;
   /// The same of several robots that have lasers, a row each, on the world's threads.
   void scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const;

@@ -50,6 +50,16 @@ class EventKind(IntEnum):
     SPAWNED = 7
     DELETED = 8
     LOST = 9
+    FAILED = 10
+    REPAIRED = 11
+
+class FailureKind(IntEnum):
+    REPAIRED = 0
+    MOTOR = 1
+    LIFT_STUCK = 2
+    LASER_BLIND = 3
+    RADIO_LOST = 4
+    WHEEL_SLIPS = 5
 
 class Fleet:
     @property
@@ -84,6 +94,10 @@ class Fleet:
     def left(self) -> NDArray[np.uint32]: ...
     @property
     def stopped(self) -> NDArray[np.uint8]: ...
+    @property
+    def failures(self) -> NDArray[np.uint8]: ...
+    @property
+    def charge(self) -> NDArray[np.float32]: ...
     @property
     def kiva_id(self) -> NDArray[np.int32]: ...
     @property
@@ -177,6 +191,8 @@ class World:
     ) -> None: ...
     def cancel(self, kiva_id: ArrayLike) -> None: ...
     def stop(self, kiva_id: ArrayLike, stop: bool = True) -> None: ...
+    def fail(self, kiva_id: int, kind: int, repair_after: float = 0.0) -> None: ...
+    def last_heard(self) -> NDArray[np.void]: ...
     def scans(self, kiva_id: ArrayLike | None = None) -> NDArray[np.float32]: ...
     def spawn(
         self, sdf: str, name: str = "", place: tuple[float, float, float, float] | None = None

@@ -12,6 +12,8 @@
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
 #include "core/control/commands.h"
+#include "core/control/energy.h"
+#include "core/control/failures.h"
 #include "core/control/radio.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
@@ -80,6 +82,8 @@ void forEachUserPlugin(WorldState& world, Call call) {
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
   haltCrashed(world);
+  wearOut(world);
+  useEnergy(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
 }
@@ -185,6 +189,7 @@ void World::reset(bool time_too) {
   for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
+  beginFailures(world);
   if (time_too) {
     world.steps = world.dt_since = 0;
     world.dt_since_time = 0;
@@ -210,6 +215,14 @@ void World::post(FollowPath path) {
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;
   send(*state_, command, std::move(path));
+}
+
+void World::fail(int kiva_id, Failure failure, double repair_after) {
+  breakDown(*state_, kiva_id, failure, repair_after);
+}
+void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
+std::optional<RobotReport> World::lastHeard(int robot) const {
+  return kiva::lastHeard(*state_, robot);
 }
 
 void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
@@ -407,6 +420,10 @@ void World::scan(int robot, std::vector<float>* ranges) const {
   static thread_local FanHits hits;
   const LaserParameters& laser = state_->fleet.robots[robot].laser;
   castRays(*state_, robot, {laser.max_range, kInfinity}, &hits);
+  if (isBlind(*state_, robot)) {
+    ranges->assign(laser.rays, std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
   ranges->assign(laser.rays, static_cast<float>(kInfinity));
   for (int ray = hits.first; ray <= hits.last; ++ray) {
     if (hits.model[ray] < 0) continue;

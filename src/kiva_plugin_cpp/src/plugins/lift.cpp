@@ -162,7 +162,7 @@ void holdTower(WorldState& world, int i) {
 
 void liftSegment(WorldState& world, int i) {
   const Task& task = world.fleet.tasks[i];
-  if (world.fleet.stopped[i]) return holdTower(world, i);
+  if (isHeld(world.fleet, i)) return holdTower(world, i);
   const MotionSegment segment = task.segments.front();
   if (task.phase == Phase::kStarting) begin(world, i);
   checkUnit(world, i, segment);
@@ -194,7 +194,7 @@ void LiftPlugin::control(WorldState& world) const {
   const FleetState& f = world.fleet;
   for (int i : world.stepped_singly) {
     const MotionSegment* at = f.tasks[i].segment();
-    if (!at && f.tower[i] > 0 && f.unit[i] < 0 && !f.stopped[i]) lowerEmptyTower(world, i);
+    if (!at && f.tower[i] > 0 && f.unit[i] < 0 && !isHeld(f, i)) lowerEmptyTower(world, i);
     if (!at) continue;
     if (at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower) {
       liftSegment(world, i);

@@ -92,10 +92,10 @@ void driveSegment(WorldState& world, int i) {
   const Robot& r = f.robots[i];
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
   const MotionSegment segment = f.tasks[i].segments.front();
-  const bool begins = f.tasks[i].phase == Phase::kStarting && !f.stopped[i];
+  const bool begins = f.tasks[i].phase == Phase::kStarting && !isHeld(f, i);
   if (f.localises && begins) readCode(world, i, true);
   const OnLine at = onLine(f, i, segment);
-  if (f.stopped[i]) return holdDrive(world, i, at);
+  if (isHeld(f, i)) return holdDrive(world, i, at);
   if (f.tasks[i].phase == Phase::kStarting) {
     begin(world, i, at);
     setWheels(f, i, 0, 0);

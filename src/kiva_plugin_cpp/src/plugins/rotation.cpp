@@ -54,7 +54,7 @@ void turnSegment(WorldState& world, int i) {
   Task& task = f.tasks[i];
   const Robot& r = f.robots[i];
   if (halting(world, i)) return;
-  if (f.stopped[i]) return holdTurn(world, i);
+  if (isHeld(f, i)) return holdTurn(world, i);
   if (task.phase == Phase::kStarting) {
     if (f.localises) readCode(world, i, true);
     task.phase = Phase::kTurning;

@@ -241,6 +241,38 @@ void stop(Host& host, const py::object& kiva_id, bool stop) {
               Ids("kiva_id", kiva_id));
 }
 
+/// `kind` 0: it is repaired.
+void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
+  const auto lock = host.use();
+  if (kind == 0) return host.world.repair(kiva_id);
+  const bool is_known = kind > 0 && kind <= kFailureKinds;
+  if (!is_known) throw py::value_error("kind is " + std::to_string(kind) + "; expected 0 to 5");
+  host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
+}
+
+/// A row of World.last_heard.
+struct HeardRow {
+  std::int32_t index;
+  double x, y, yaw, vx, vy, yaw_rate;
+  std::uint8_t status, state;
+  std::int32_t shelf_id;
+  std::uint32_t path_id, reached, left;
+  std::uint8_t last_end;
+};
+
+py::array_t<HeardRow> lastHeard(Host& host) {
+  const auto lock = host.use();
+  std::vector<HeardRow> rows;
+  for (int i = 0; i < host.world.fleet().size(); ++i) {
+    const auto last = host.world.lastHeard(i);
+    if (!last) continue;
+    rows.push_back({i, last->x, last->y, last->yaw, last->vx, last->vy, last->yaw_rate,
+                    static_cast<std::uint8_t>(last->status), static_cast<std::uint8_t>(last->state),
+                    last->shelf_id, last->path_id, last->reached, last->left, last->last_end});
+  }
+  return py::array_t<HeardRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
+}
+
 /// Rows of which each has `points[i]` entries of x and y, one after the other. All or none.
 void follow(Host& host, const py::object& kiva_id, const py::object& path_id,
             const py::object& first, const py::object& points, const py::object& x,
@@ -569,6 +601,14 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
   add(
       "stopped", [](const Fleet& f) -> auto& { return f.stopped; }, std::uint8_t(),
       "(n,) uint8: 1 while stop() holds a robot. A view.");
+  add(
+      "failures", [](const Fleet& f) -> auto& { return f.failures; }, std::uint8_t(),
+      "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up, 1 for "
+      "an empty battery; 0 nothing. A view.");
+  add(
+      "charge", [](const Fleet& f) -> auto& { return f.charge; }, 0.0f,
+      "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A "
+      "view.");
   fleet.def_property_readonly(
       "kiva_id", [](const FleetView& f) { return f.numbers(idOf); },
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
@@ -666,6 +706,15 @@ mov().)");
 
 Kiva_id 0 means every robot. What is commanded meanwhile begins when they go on. Arguments and
 errors as of mov().)");
+  world.def("fail", &fail, py::arg("kiva_id"), py::arg("kind"), py::arg("repair_after") = 0.0,
+            R"(Breaks something in a robot now, a FailureKind; FailureKind.REPAIRED mends all of it.
+
+It is repaired after so many seconds; 0: when it is asked for. ValueError for an unknown robot or
+kind, or a time that is negative or not finite.)");
+  world.def("last_heard", &lastHeard,
+            R"((n,) of robots whose radio is lost: what was heard of them last.
+
+Fields: index (in the fleet's arrays), and those of Fleet. A copy.)");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
       R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].
@@ -756,6 +805,8 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
 
 PYBIND11_MODULE(_core, m) {
   PYBIND11_NUMPY_DTYPE(Command, kind, kiva_id, x, y, direction, lift, shelf_id);
+  PYBIND11_NUMPY_DTYPE(HeardRow, index, x, y, yaw, vx, vy, yaw_rate, status, state, shelf_id,
+                       path_id, reached, left, last_end);
   PYBIND11_NUMPY_DTYPE(UnitRow, shelf_id, x, y, z, yaw, mass, kiva_id);
   PYBIND11_NUMPY_DTYPE(ItemRow, item_id, x, y, z, mass, shelf_id);
   py::register_exception<DescriptionError>(m, "DescriptionError", PyExc_ValueError);
@@ -765,6 +816,7 @@ PYBIND11_MODULE(_core, m) {
   defineFleet(m);
   defineWorld(m);
   defineWorlds(m);
+  defineCells(m);
 }
 
 }  // namespace kiva::python

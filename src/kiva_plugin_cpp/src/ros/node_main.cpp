@@ -21,6 +21,7 @@
 #include "ros/recording/replayer.h"
 #include "ros/services/checkpoint_services.h"
 #include "ros/services/command_topics.h"
+#include "ros/services/failure_service.h"
 #include "ros/services/joint_services.h"
 #include "ros/services/light_services.h"
 #include "ros/services/link_services.h"
@@ -106,6 +107,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   VisualizationTopics visualization_topics(root, simulation);
   SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths);
   MapService map_service(root, simulation);
+  FailureService failure_service(root, simulation);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.
   CheckpointServices checkpoints(
       saving.node(), simulation,

@@ -63,6 +63,10 @@ class Execution {
   /// Who is busy, and who is loaded, if that has changed since the reports. An element a robot.
   void setWork(const std::vector<std::uint8_t>& busy, const std::vector<std::uint8_t>& loaded);
 
+  /// Which robots are broken, so that they stand or can't be reached: others are sent around them
+  /// at once. An element a robot.
+  void setBroken(std::vector<std::uint8_t> broken) { broken_ = std::move(broken); }
+
   /// What the planner is to see: where robots are, what they can no longer take back. Robots that
   /// are not controlled are no part of it: their cells are closed. `goal` and `home` by robot, as
   /// in Fleet.
@@ -101,8 +105,7 @@ class Execution {
   /// Whether somebody else commands it: it is busy with neither its path nor what it is known to
   /// do.
   bool isForeign(int robot) const;
-  /// Whether it does not drive although it may: it is broken, or stopped. The planner sees its
-  /// cells closed.
+  /// Whether it is broken, or does not drive although it may. The planner sees its cells closed.
   bool isStalled(int robot) const;
   /// Whether it was pushed off the middle of its cell.
   bool isAstray(int robot) const { return courses_.at(robot).is_astray; }
@@ -182,6 +185,9 @@ class Execution {
   bool waitsAsPlanned(int robot) const;
   void endRun(Course& course) const;
 
+  bool isBroken(int robot) const {
+    return robot < static_cast<int>(broken_.size()) && broken_[robot] != 0;
+  }
   void commit(int robot, std::uint8_t* row, int horizon) const;
   void take(int robot, const Plan& plan, int index);
   void queueUp();
@@ -222,6 +228,7 @@ class Execution {
   std::vector<int> next_claim_;
   std::vector<double> closed_until_;  ///< by cell [s]
   std::vector<Cell> units_;
+  std::vector<std::uint8_t> broken_;
   std::vector<Cell> closing_;  ///< cells that are, or were
   Fleet asked_;
   Releases releases_;  ///< to be sent

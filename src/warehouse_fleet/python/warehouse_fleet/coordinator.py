@@ -12,7 +12,11 @@ import rospy
 from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import SetModelState
 from warehouse_fleet import FloorError, floor_markings
+from warehouse_fleet.failures import names_of
+from warehouse_fleet.fleet_driver import square
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
@@ -40,6 +44,8 @@ from warehouse_msgs.srv import (
     ReleaseTransportResponse,
     SetRobotMode,
     SetRobotModeResponse,
+    Tow,
+    TowResponse,
     Transport,
     TransportResponse,
 )
@@ -93,6 +99,8 @@ class Coordinator:
         rospy.Service("/warehouse/transport", Transport, self._on_transport)
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
         rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
+        rospy.Service("/warehouse/tow", Tow, self._on_tow)
+        self._place = rospy.ServiceProxy("/gazebo/set_model_state", SetModelState)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
         rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
         rospy.Subscriber(
@@ -174,6 +182,30 @@ class Coordinator:
             self._traffic.mode[robot] = request.mode
             self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
+
+    def _on_tow(self, request):
+        with self._lock:
+            if self._traffic is None:
+                return TowResponse(False, self._alarm or NOT_YET)
+            try:
+                cell = self._transports.refuge(request.kiva_id)
+            except ValueError as error:
+                return TowResponse(False, str(error))
+            robot = self._traffic.index(request.kiva_id)
+            state = ModelState(model_name=f"kiva{request.kiva_id}", reference_frame="world")
+            state.pose.position.x, state.pose.position.y = map(
+                float, self._traffic.plan.point_of(cell)
+            )
+            yaw = square(self._fleet.yaw[robot])
+            state.pose.orientation.z, state.pose.orientation.w = (
+                math.sin(yaw / 2),
+                math.cos(yaw / 2),
+            )
+        try:
+            answer = self._place(state)
+        except rospy.ServiceException as error:
+            return TowResponse(False, str(error))
+        return TowResponse(answer.success, "" if answer.success else answer.status_message)
 
     # What it does.
 
@@ -382,8 +414,11 @@ class Coordinator:
         state.collisions, state.blocked = self._collisions, traffic.blocked
         state.watchdog = traffic.watchdog
         state.alarms = [
-            f"kiva{kiva} does not move" for kiva in traffic.kiva_ids[traffic.stalled].tolist()
+            f"kiva{traffic.kiva_ids[robot]}: {names_of(traffic.failures[robot])}"
+            for robot in np.flatnonzero(traffic.failures)
         ]
+        still = traffic.kiva_ids[traffic.stalled & ~traffic.broken].tolist()
+        state.alarms += [f"kiva{kiva} does not move" for kiva in still]
         state.alarms += [
             f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
             for kiva in traffic.kiva_ids[traffic.lost].tolist()

@@ -8,12 +8,18 @@ driver.step_until(3600)
 
 import numpy as np
 
+from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
 
 UPDATE = 0.1  # between two releases [s]
 REFUSED, COLLISION = 1, 6  # EventKind
+
+
+def square(yaw):
+    """The nearest heading along an axis [rad]."""
+    return round(yaw / (np.pi / 2)) * np.pi / 2
 
 
 class FleetDriver:
@@ -36,6 +42,7 @@ class FleetDriver:
         self.events = None
         self.collisions = 0
         self.refusals = []  # texts
+        self.failures = FailureLog()
         self._steps = max(1, round(UPDATE / world.step_size))
 
     def close(self):
@@ -47,6 +54,12 @@ class FleetDriver:
             self.world.carry(kiva_id, shelf_id)
         else:
             self.world.drop(kiva_id, shelf_id)
+
+    def tow(self, kiva_id):
+        """People move a broken robot out of the way. Raises as Transports.refuge does."""
+        x, y = self.plan.point_of(self.transports.refuge(kiva_id))
+        yaw = self.world.fleet.yaw[self.world.fleet.index(kiva_id)]
+        self.world.set_pose(f"kiva{kiva_id}", float(x), float(y), yaw=square(yaw))
 
     @property
     def time(self):
@@ -67,8 +80,9 @@ class FleetDriver:
 
     def _drive(self):
         gone = self.traffic.gone
-        report = self.traffic.aligned(self.world.fleet)
+        report = self.traffic.aligned(heard(self.world))
         self.traffic.observe(self.world.time, report)
+        self.failures.observe(self.world.time, report.failures)
         looks = self.traffic.wants_map
         if looks:
             self.traffic.see(self.world.occupancy()[3])

@@ -5,6 +5,7 @@ Each of its links is a kind of marking, each visual a rectangle of whole cells:
 
     storage              storage places
     parking              where robots without work stand
+    charging             the same, and batteries are charged there
     keep_out             where no robot drives
     exits+x-y            cells that may be left towards +x and -y alone
     PICK/NAME/queue      a station's lane: a cell a visual, in driving order, from its entry
@@ -32,6 +33,7 @@ _NAMED = re.compile(rf"{NAME}\d*")
 COLOURS = {  # red green blue, each in 0…1
     "storage": (0.73, 0.76, 0.80),
     "parking": (0.70, 0.78, 0.74),
+    "charging": (0.55, 0.78, 0.55),
     "keep_out": (0.74, 0.72, 0.70),
     "exits": (0.79, 0.79, 0.81),
     QUEUE: (0.86, 0.79, 0.55),
@@ -87,7 +89,10 @@ def _painted(plan):
     # A map of the world shows these too, where something stands; they hold without it as well.
     yield "keep_out", rectangles(~plan.passable)
     yield "storage", rectangles(plan.storage)
-    yield "parking", rectangles(plan.parking)
+    charging = np.zeros(plan.shape, bool)
+    charging.flat[list(plan.charging)] = True
+    yield "parking", rectangles(plan.parking & ~charging)
+    yield "charging", rectangles(charging)
     free = with_lanes(np.full(plan.shape, 15, np.uint8), plan.passable, plan.stations)
     ruled = (plan.exits != free) & ~plan.lane
     for mask in np.unique(plan.exits[ruled]):
@@ -182,10 +187,11 @@ def _turned(label, quarters):
 
 def applied(blank, marks, belts):
     """A FloorPlan of what stands there, with Marks on its floor. Raises FloorError."""
-    storage, parking, keep_out = (np.zeros(blank.shape, bool) for _ in range(3))
+    storage, parking, charging, keep_out = (np.zeros(blank.shape, bool) for _ in range(4))
     exits = np.full(blank.shape, 15, np.uint8)
     marked = np.zeros(blank.shape, bool)
-    areas, lanes = {"storage": storage, "parking": parking, "keep_out": keep_out}, {}
+    areas = {"storage": storage, "parking": parking, "charging": charging, "keep_out": keep_out}
+    lanes = {}
     for mark in marks:
         where = _cells(blank, mark)
         marked[where] = True
@@ -207,6 +213,7 @@ def applied(blank, marks, belts):
         exits=exits,
         stations=_stations(blank, lanes, passable, belts),
         obstructed=~blank.passable,
+        charging=charging,
     )
 
 

@@ -40,6 +40,7 @@ class FloorPlan:
     obstructed: np.ndarray  # (h, w) bool: passable, but for what stands there now
     stations: tuple = ()  # of Station
     without_lane: tuple = ()  # texts: which belts have no station, and why
+    charging: np.ndarray = ()  # cells in which robots are charged, ascending
 
     @property
     def shape(self):
@@ -129,19 +130,32 @@ class FloorPlan:
 
     @classmethod
     def laid_out(
-        cls, *, origin, spacing, passable, storage, parking, exits, stations, obstructed=None
+        cls,
+        *,
+        origin,
+        spacing,
+        passable,
+        storage,
+        parking,
+        exits,
+        stations,
+        obstructed=None,
+        charging=None,
     ):
         """With `exits` made whole: nobody leaves the floor or a lane, nor enters one but at its
-        entry; places where nobody can drive are neither storage nor parking."""
+        entry; places where nobody can drive are neither storage nor parking. `charging`, (h, w)
+        bool, is parking as well."""
+        charging = np.zeros_like(passable) if charging is None else charging & passable
         return cls(
             origin=tuple(map(float, origin)),
             spacing=float(spacing),
             passable=passable,
             storage=storage & passable,
-            parking=parking & passable,
+            parking=(parking | charging) & ~storage & passable,
             exits=with_lanes(exits, passable, stations),
             obstructed=np.zeros_like(passable) if obstructed is None else obstructed & passable,
             stations=tuple(stations),
+            charging=np.flatnonzero(charging & ~storage),
         )
 
 

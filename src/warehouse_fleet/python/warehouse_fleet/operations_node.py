@@ -11,6 +11,7 @@ from nav_msgs.srv import GetMap
 from std_msgs.msg import Header
 
 from warehouse_fleet.changes import ChangeJournal
+from warehouse_fleet.failures import FailureLog
 from warehouse_fleet.floor_heat import SLICES, FloorHeat
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.operations import kpis, queries, stored
@@ -128,7 +129,7 @@ class Warehouse:
 
     def __init__(self):
         self.fleet = self.objects = self.units = self.scenery = None
-        self.distance_m, self.heat = 0.0, None
+        self.distance_m, self.heat, self.failures = 0.0, None, FailureLog()
         for topic, kind, name in (
             ("objects", msg.WarehouseObjects, "objects"),
             ("unit_states", msg.UnitStates, "units"),
@@ -146,6 +147,7 @@ class Warehouse:
             dx, dy = np.subtract(message.x, before.x), np.subtract(message.y, before.y)
             moved = np.hypot(dx, dy)
             self.distance_m += float(moved[moved < 1.0].sum())  # farther: it was put there
+        self.failures.observe(message.stamp.to_sec(), np.frombuffer(message.failures, np.uint8))
         if self.heat:
             waits = np.isin(np.frombuffer(bytes(message.state), np.uint8), WAITS)
             self.heat.see(message.stamp.to_sec(), message.x, message.y, waits)
@@ -411,6 +413,7 @@ class OperationsNode:
             watchdog=state.watchdog,
             plan_ms=[],
             executed_over_planned=state.executed_over_planned,
+            failures=self._warehouse.failures,
         )
         figures = kpis.of_shift(self._shift, fleet, self._site.kinematics, wall)
         planning = {"p50": state.plan_p50, "p99": state.plan_p99, "max": state.plan_p99}
@@ -423,7 +426,7 @@ class OperationsNode:
         for name in ("order_turnover_s", "order_throughput_s"):
             figures[name] = msg.Quantiles(**figures[name])
         message = msg.Kpis(
-            **figures,
+            **{"availability": 1.0} | figures,
             **{f"plan_{name}": value for name, value in planning.items()},
             orders_waiting=len(self._shift.backlog),
             orders_at_stations=len(self._shift.orders) - len(self._shift.backlog),

@@ -20,6 +20,7 @@ import numpy as np
 
 from warehouse_fleet import Execution, Rules, epibt
 from warehouse_fleet.door import PlanRefusedError, make_planner
+from warehouse_fleet.failures import LIFTS_NOT, STANDS
 from warehouse_fleet.floor_plan import is_taken
 from warehouse_fleet.kinematics import Kinematics
 
@@ -36,6 +37,7 @@ STAYS = 2.5  # for which what was seen is taken to stay [s]
 REPORTED = (  # of FleetState, beside kiva_id
     *("x", "y", "yaw", "vx", "vy"),
     *("status", "state", "shelf_id", "path_id", "reached", "left"),
+    *("failures", "charge"),
 )
 
 
@@ -51,7 +53,8 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-    work: it stays), `mode`, `gone` (it was deleted). `planner` is what a YAML file says of one, see
+    work: it stays), `mode`, `gone` (it was deleted), `broken` (it stands, or is not heard) and
+    `lifts_not`, by what it reports of itself. `planner` is what a YAML file says of one, see
     warehouse_fleet.door; None: the one of the house. `latency` [s] passes from a report until what
     is released for it has reached the robot. A plan is begun every tick on a thread of its
     own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
@@ -91,6 +94,10 @@ class Traffic:
         self.busy = np.zeros(count, bool)
         self.mode = np.zeros(count, np.uint8)
         self.gone = np.zeros(count, bool)
+        self.failures = np.zeros(count, np.uint8)  # what is broken, as in FleetState
+        self.charge = np.ones(count, np.float32)  # of batteries, 0…1
+        self.broken = np.zeros(count, bool)
+        self.lifts_not = np.zeros(count, bool)
         self.cell = np.full(count, NOWHERE, np.int32)  # where each stands, or stood last
         self.stands = np.zeros(count, bool)  # with nothing before it
         self.waits_for = np.full(count, NOWHERE, np.int32)  # a robot
@@ -161,6 +168,8 @@ class Traffic:
     def observe(self, time, report):
         """Takes in what all robots report: an object with the arrays of FleetState."""
         self.time = time
+        self.charge = np.array(report.charge)
+        self._see_failures(np.asarray(report.failures))
         self._execution.observe(
             time,
             report.x,
@@ -189,6 +198,12 @@ class Traffic:
         self._watch()
         self._avoid_trapped()
 
+    def _see_failures(self, failures):
+        self.failures = failures
+        self.broken = (failures & STANDS) != 0
+        self.lifts_not = (failures & LIFTS_NOT) != 0
+        self._execution.set_broken(self.broken)
+
     def inherited(self, report):
         """Which robots have been on paths since before this began, by what they report."""
         return ~self._settled & (report.path_id != 0) & (report.status != IDLE)
@@ -201,7 +216,9 @@ class Traffic:
         self.mode[self._foreign >= FOREIGN] = Mode.MANUAL
 
     def _watch(self):
-        """Counts who makes no progress; waiting for who is at work in a station is none of it."""
+        """Counts who makes no progress; waiting for who is at work in a station, or broken, is none
+        of it."""
+        self._excused[self.broken] = self.time
         for robot in np.flatnonzero(self.stuck_for > STUCK):
             if self._waits_for_work(robot):
                 self._excused[robot] = self.time
@@ -231,6 +248,8 @@ class Traffic:
             seen.add(robot)
             robot = self.ahead_of(robot)
             if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
+                return True
+            if robot != NOWHERE and self.broken[robot]:
                 return True
             if robot != NOWHERE and self._moves_up(robot):
                 return True

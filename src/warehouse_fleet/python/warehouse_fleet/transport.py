@@ -34,6 +34,8 @@ class Hooks(Protocol):
         seconds: (tasks, robots), until that robot is beneath the unit of that task.
         """
 
+    charging: object  # who is charged when: a policy, see policies.ChargingPolicy
+
     def park(self, kiva_id, cell):
         """The cell to which a robot without work goes; None: it waits where it is."""
 

@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from warehouse_fleet.charging import Charging
+from warehouse_fleet.failures import RADIO_LOST
 from warehouse_fleet.traffic import NOWHERE, STAYS, Mode
 
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
@@ -113,12 +115,12 @@ def _urgency(transport):
 class Transports:
     """All transports and who does them.
 
-    `lift(kiva_id, shelf_id, up)` sends the command. Three decisions can be made by others:
+    `lift(kiva_id, shelf_id, up)` sends the command. Decisions can be made by others:
     `match_robots(asked, free)` yields pairs of a Transport of those `asked` for and a robot of the
     indices `free`; `choose_place(shelf_id, cell, free)` is one of the cells `free` for a unit that
     is in `cell`; `park(robot)` is the cell for a robot that has no more work, or None: it waits
-    where it is. Transports get the numbers after `last`. Nothing is known of units until look() is
-    told.
+    where it is; `charging.policy` decides who is charged when. Transports get the numbers after
+    `last`. Nothing is known of units until look() is told.
     """
 
     def __init__(self, plan, traffic, lift, last=0):
@@ -145,6 +147,7 @@ class Transports:
         self._lost = set()  # units whose robots were lost: to be stored, wherever they are
         self._freed = []  # robots that have ended a transport since somebody looked
         self._shortest = {}  # of the journey that a robot is on, in cells
+        self.charging = Charging(plan, traffic, self._far)
 
     # What is asked of it.
 
@@ -225,6 +228,28 @@ class Transports:
         for transport in list(self._transports.values()):
             if transport.station == station and transport.step < Step.WAITING:
                 self.cancel(transport.number)
+
+    def refuge(self, kiva_id):
+        """The nearest cell where a broken robot would be in nobody's way, with what it carries.
+        Raises ValueError: it works, is not heard, or there is none."""
+        traffic = self.traffic
+        robot = traffic.index(kiva_id)
+        if robot == NOWHERE:
+            raise ValueError(f"there is no kiva{kiva_id}")
+        if not traffic.broken[robot]:
+            raise ValueError(f"kiva{kiva_id} is not broken")
+        if traffic.failures[robot] >> RADIO_LOST & 1:
+            raise ValueError(f"kiva{kiva_id} is not heard: nobody knows where it is")
+        out = set(traffic.closed.tolist()) | set(traffic.cell.tolist()) | set(traffic.goal.tolist())
+        if traffic.loaded[robot]:
+            out |= self._taken()
+            cells = self._places
+        else:
+            cells = np.flatnonzero(self._aside)
+        cell = self._nearest(int(traffic.cell[robot]), [c for c in cells.tolist() if c not in out])
+        if cell == NOWHERE:
+            raise ValueError("there is no place for it")
+        return cell
 
     def take_events(self):
         """All TransportEvents since the last call."""
@@ -337,6 +362,7 @@ class Transports:
                 self._leave(transport)
         self._admit()
         self._assign()
+        self.charging.advance(self._without_work(), bool(self._open))
         self._park()
 
     def _drop_lost(self):
@@ -344,12 +370,15 @@ class Transports:
         transports."""
         traffic = self.traffic
         lost = (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
-        for robot in np.flatnonzero(lost):
+        broken = traffic.broken | traffic.lifts_not
+        for robot in np.flatnonzero(lost | broken):
             transport = self._of_robot.get(int(robot))
             if transport is None:
                 continue
             if transport.step <= Step.READY:
                 self._unassign(transport)
+                continue
+            if not lost[robot]:  # it may soon go on
                 continue
             self._lost.add(transport.shelf)
             self._fail(transport, self._why_lost(robot))
@@ -364,6 +393,8 @@ class Transports:
     def _why_lost(self, robot):
         if self.traffic.gone[robot]:
             return "its robot is gone"
+        if self.traffic.broken[robot]:
+            return "its robot is broken"
         if self.traffic.mode[robot] == Mode.AUTOMATIC:
             return "its robot does not move"
         return f"its robot is {Mode(self.traffic.mode[robot]).name} now"
@@ -570,7 +601,9 @@ class Transports:
         """Robots for what waits, a few more than stations have room for."""
         if not self._open:
             return
-        free = np.flatnonzero(self._without_work() & ~self.traffic.stalled)
+        traffic = self.traffic
+        able = ~traffic.stalled & ~traffic.lifts_not & ~self.charging.kept()
+        free = np.flatnonzero(self._without_work() & able)
         asked = self._fetchable() if free.size else []
         for transport, robot in self.match_robots(asked, free) if asked else ():
             self._open.remove(transport)
@@ -597,6 +630,7 @@ class Transports:
         beneath a stored unit."""
         traffic = self.traffic
         idle = self._without_work()
+        idle[list(self.charging.cell_of)] = False
         traffic.goal[idle & (traffic.goal == traffic.cell)] = NOWHERE
         freed, self._freed = self._freed, []
         for robot in freed:

@@ -539,6 +539,7 @@ void Execution::extend(int robot) {
   Course& course = courses_[robot];
   course.waits_for = kNobody;
   if (reports_[robot].is_busy || !reports_[robot].is_controlled || course.is_withdrawn) return;
+  if (isBroken(robot)) return;
   if (course.is_astray) return recentre(robot);
   const int before = static_cast<int>(course.cells.size());
   while (!course.plan.empty() && needs(robot)) {
@@ -712,7 +713,7 @@ bool Execution::isForeign(int robot) const {
 
 bool Execution::isStalled(int robot) const {
   const Course& course = courses_.at(robot);
-  return course.is_active && now_ - course.moved > kStalledFor;
+  return isBroken(robot) || (course.is_active && now_ - course.moved > kStalledFor);
 }
 
 bool Execution::isLost(int robot) const {

@@ -104,6 +104,10 @@ void bindExecution(py::module_& module) {
                                   {loaded.data(), loaded.data() + loaded.size()});
           },
           py::arg("busy"), py::arg("loaded"))
+      .def("set_broken",
+           [](Run& run, const Bytes& broken) {
+             run.execution.setBroken({broken.data(), broken.data() + broken.size()});
+           })
       .def(
           "fleet",
           [](Run& run, const Array<Cell>& goal, const Array<Cell>& home, int horizon) {

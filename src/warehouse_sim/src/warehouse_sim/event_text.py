@@ -16,6 +16,8 @@ COLOURS = {
     Event.LOST: _RED,
     Event.LIFTED: _BLUE,
     Event.DROPPED: _BLUE,
+    Event.FAILED: _RED,
+    Event.REPAIRED: _GREEN,
 }
 # What a terminal would obey rather than show; models have the names that their files give them.
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")

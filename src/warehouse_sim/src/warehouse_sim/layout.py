@@ -40,6 +40,7 @@ EMPTY_FLOOR = 101  # cells along x and y
 QUEUE, WAIT, FETCH = 6, 4, 60
 CROWDED = 20  # so many picking stations need a third street beside them
 
+CHARGED = 0.2  # places to charge at a robot
 FILLED = 0.85  # share of the storage places on which a unit stands
 PICKS_TO_REPLENISH = 2  # stations of the one kind for each of the other
 
@@ -194,7 +195,7 @@ def _build(request, shape, rng):
         item_place=item_place,
         belts=np.pad(belts + origin, ((0, 0), (0, 1))),
         drops=drops + origin,
-        plan=_marked(shape, places, drops, origin),
+        plan=_marked(shape, places, drops, origin, _charging(request.robots, shape)),
     )
 
 
@@ -256,7 +257,14 @@ def _spread(count, of):
 # --- streets and stations
 
 
-def _marked(shape, places, drops, origin):
+def _charging(robots, shape):
+    """Cells of parking where robots are charged, evenly spread."""
+    cells = _parking(shape)
+    count = min(math.ceil(CHARGED * robots - 1e-9), len(cells))
+    return cells[np.arange(count) * len(cells) // max(count, 1)]
+
+
+def _marked(shape, places, drops, origin, charging):
     """The FloorPlan of a shape; all its arrays are (y, x)."""
     width, height = shape.cells
     right, top = shape.street_x[-1], shape.street_y[-1]
@@ -275,6 +283,7 @@ def _marked(shape, places, drops, origin):
         parking=(blocks[0] | blocks[1]) & ~storage,
         exits=_one_way(shape, streets, stations),
         stations=stations,
+        charging=_mask(charging, shape),
     )
 
 

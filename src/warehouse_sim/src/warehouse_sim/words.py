@@ -21,6 +21,15 @@ MODE = _constants(SetRobotModeRequest)
 THEN = _constants(TransportRequest)
 
 
+# Bits of FleetState.failures.
+FAILURES = ("battery empty", "drive", "lift stuck", "laser blind", "radio lost", "wheels slip")
+
+
+def failures_of(bits):
+    """What is broken in a robot, as words."""
+    return [name for bit, name in enumerate(FAILURES) if bits >> bit & 1]
+
+
 def shown_status(fleet):
     """The status of each robot in a FleetState, (n,) uint8, as a person shall see it.
 

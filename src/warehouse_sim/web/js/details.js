@@ -3,7 +3,7 @@
 
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
-import { STATE, STATUS } from './world.js';
+import { FAILURE, STATE, STATUS } from './world.js';
 
 const LIFT = { drop: 0, carry: 1 };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
@@ -81,6 +81,9 @@ export class Details {
     out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
     if (thing.kind === 'robot') {
       out.push(['does', STATE[this.world.state[index]]], ...this.planOf(scene.robots[index]));
+      const broken = FAILURE.filter((_, bit) => this.world.failures[index] >> bit & 1);
+      if (broken.length) out.push(['broken', broken.join(', ')]);
+      if (this.world.charge.some((c) => c < 100)) out.push(['battery', `${this.world.charge[index]} %`]);
       const load = this.world.loadOf(index);
       out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
       if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);

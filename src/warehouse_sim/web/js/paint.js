@@ -5,9 +5,9 @@ import * as THREE from '/three/build/three.module.js';
 
 const HEIGHT = -0.005; // between the floor and the borders of its cells [m]
 const COLOURS = {
-  dark: { storage: 0x343b46, parking: 0x2e3d39, keep_out: 0x24272c, exits: 0x2d333c,
+  dark: { storage: 0x343b46, parking: 0x2e3d39, charging: 0x2c5138, keep_out: 0x24272c, exits: 0x2d333c,
     queue: 0x5a5030, service: 0x8a6a2a, exit: 0x47432f },
-  light: { storage: 0xc3cad4, parking: 0xc2d2cb, keep_out: 0xcac8c4, exits: 0xd0d5dc,
+  light: { storage: 0xc3cad4, parking: 0xc2d2cb, charging: 0xa4d2ae, keep_out: 0xcac8c4, exits: 0xd0d5dc,
     queue: 0xe2d6a8, service: 0xd9ae5b, exit: 0xdcd8bd },
 };
 

@@ -5,6 +5,7 @@ const SNAP = 3; // [m]; further, it was put there, it did not drive
 const REACH = 0.3; // from a robot's centre to that of a unit which it may lift [m]
 
 export const STATUS = ['idle', 'busy', 'blocked'];
+export const FAILURE = ['battery empty', 'drive', 'lift stuck', 'laser blind', 'radio lost', 'wheels slip'];
 export const STATE = ['stands', 'drives along x', 'drives along y', 'turns', 'lifts', 'blocked', 'waits for its turn'];
 
 export class World {
@@ -38,6 +39,8 @@ export class World {
     this.shelf = new Int32Array(robots);
     this.status = new Uint8Array(robots);
     this.state = new Uint8Array(robots);
+    this.charge = new Uint8Array(robots).fill(100); // [%]
+    this.failures = new Uint8Array(robots); // bits of FAILURE
     this.moving = new Set();
     this.unitPose = new Float32Array(7 * scene.units.length);
     this.carrier = new Int32Array(scene.units.length);
@@ -67,6 +70,8 @@ export class World {
       this.shelf[i] = i32[at + 4];
       this.status[i] = u8[4 * (at + 5)];
       this.state[i] = u8[4 * (at + 5) + 1];
+      this.charge[i] = u8[4 * (at + 5) + 2];
+      this.failures[i] = u8[4 * (at + 5) + 3];
       this.aim(i, f32[at + 1], f32[at + 2], f32[at + 3], now);
     }
     return changed;

@@ -9,6 +9,8 @@
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
+#include "core/control/energy.h"
+#include "core/control/failures.h"
 #include "core/sensing/scans.h"
 
 namespace kiva {
@@ -89,6 +91,8 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
          world.sighted, world.crashes);
   FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
   FIELDS(physics);
+  if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
+  if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
 }
 
 /// What is on its way in or out.
@@ -107,6 +111,8 @@ void indexModels(WorldState& world) {
   }
   for (Item& item : world.items) item.name = world.models[item.model]->name;
   for (Robot& robot : world.fleet.robots) setRays(world, &robot);
+  markDefects(world);
+  markCharge(world);
 }
 
 struct Header {

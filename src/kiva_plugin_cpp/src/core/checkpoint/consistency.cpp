@@ -308,6 +308,8 @@ void checkFleet(WorldState& world) {
   describe(columns, f);
   require(f.tasks.size() == f.robots.size(), "fleet.tasks", f.tasks.size(), "",
           "there is one for every robot");
+  require(!world.realism.energy.enabled || f.battery.size() == f.robots.size(), "fleet.battery",
+          f.battery.size(), "", "there is one for every robot");
   require(f.localisation.size() == (f.localises ? f.robots.size() : 0), "fleet.localisation",
           f.localisation.size(), "", "there is one for every robot that has to find out");
   for (int i = 0; i < f.size(); ++i) checkRobot(world, i);
@@ -365,6 +367,11 @@ void checkLists(const WorldState& world) {
   const std::size_t robots = world.fleet.robots.size();
   for (std::size_t i = 0; i < world.scans_due.size(); ++i) {
     require(isIn(world.scans_due[i], robots), "scans_due", i, "", "there is no such robot");
+  }
+  for (std::size_t i = 0; i < world.failures.defects.size(); ++i) {
+    const Defect& defect = world.failures.defects[i];
+    const bool is_known = world.fleet.find(defect.kiva_id) >= 0 && bitOf(defect.failure) > 1;
+    require(is_known, "failures.defects", i, "", "there is no such robot, or nothing like that");
   }
   for (std::size_t i = 0; i < world.sighted.size(); ++i) {
     require(isIn(world.sighted[i], robots), "sighted", i, "", "there is no such robot");

@@ -23,13 +23,14 @@ constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
 constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
 constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
-constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kLost; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kRepaired; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
 constexpr State lastOf(State) { return State::kWaiting; }
 constexpr Drive lastOf(Drive) { return Drive::kJointed; }
 constexpr MotionSegment::Kind lastOf(MotionSegment::Kind) { return MotionSegment::Kind::kLower; }
 constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
+constexpr Failure lastOf(Failure) { return Failure::kWheelSlip; }
 constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOther; }
 
 // --- descriptions
@@ -183,7 +184,7 @@ void describe(A& a, Task& t) {
 
 template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 24);
+  DESCRIBED(Robot, 25);
   FIELDS(r.name, within(r.id, 1, kMaxKivaId), r.model, within(r.mass, 1e-9, 1e12),
          within(r.inertia, 0, 1e15), within(r.half_length, 0, 100), within(r.half_width, 0, 100),
          within(r.height, -100, 100));
@@ -193,13 +194,19 @@ void describe(A& a, Robot& r) {
          within(r.load_centre[0], -100, 100), within(r.load_centre[1], -100, 100),
          within(r.load_half_length, 0, 100), within(r.load_half_width, 0, 100));
   FIELDS(r.drive, r.lift, r.laser, r.has_motion,
-         r.has_rotation);  // its ray_fan comes with its laser
+         r.has_rotation);  // its ray_fan comes with its laser, its grip with what is broken
 }
 
 template <class A>
 void describe(A& a, Stance& s) {
   DESCRIBED(Stance, 6);
   FIELDS(s.height, s.roll, s.pitch, s.climb_rate, s.roll_rate, s.pitch_rate);
+}
+
+template <class A>
+void describe(A& a, Battery& b) {
+  DESCRIBED(Battery, 5);
+  FIELDS(b.energy, b.wheel_angle, b.kinetic, b.tower);
 }
 
 template <class A>
@@ -226,8 +233,8 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 22);  // its localisation: with the world
-  DESCRIBED(Fleet, 22);
+  DESCRIBED(FleetState, 23);  // its localisation: with the world
+  DESCRIBED(Fleet, 24);       // what is broken, and charges, follow from what else the world holds
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,
@@ -462,6 +469,25 @@ template <class A>
 void describe(A& a, Crash& c) {
   DESCRIBED(Crash, 2);
   FIELDS(c.kiva_id, c.with);
+}
+
+template <class A>
+void describe(A& a, RobotReport& r) {
+  DESCRIBED(RobotReport, 13);
+  FIELDS(r.x, r.y, r.yaw, r.vx, r.vy, r.yaw_rate, r.status, r.state, r.shelf_id, r.path_id,
+         r.reached, r.left, r.last_end);
+}
+
+template <class A>
+void describe(A& a, Defect& d) {
+  DESCRIBED(Defect, 4);
+  FIELDS(d.kiva_id, d.failure, within(d.left, 0, kEndless), d.last);
+}
+
+template <class A>
+void describe(A& a, FailureState& f) {
+  DESCRIBED(FailureState, 3);
+  FIELDS(f.defects, within(f.exposure, 0, kEndless), f.count);
 }
 
 template <class A>

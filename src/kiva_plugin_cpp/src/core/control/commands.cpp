@@ -166,14 +166,21 @@ Order orderOf(Command::Kind kind) {
   }
 }
 
-void obeyAll(WorldState& world, Order order) {
-  for (int robot = 0; robot < world.fleet.size(); ++robot) order(world, robot);
+bool hears(const WorldState& world, int robot) {
+  return (world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0;
 }
 
 int findRobot(const WorldState& world, int id) {
   const int robot = world.fleet.find(id);
   if (robot < 0) throw Refusal("there is no robot kiva" + std::to_string(id));
+  if (!hears(world, robot)) throw Refusal("its radio is lost: it hears nothing");
   return robot;
+}
+
+void obeyAll(WorldState& world, Order order) {
+  for (int robot = 0; robot < world.fleet.size(); ++robot) {
+    if (hears(world, robot)) order(world, robot);
+  }
 }
 
 /// Gives the command to its robot; `path` is what it stands for, if it is to follow one. Counts it,

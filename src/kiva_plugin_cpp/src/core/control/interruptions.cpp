@@ -67,6 +67,11 @@ void goOn(WorldState& world, int robot) {
   FleetState& f = world.fleet;
   if (!f.stopped[robot]) return;
   f.stopped[robot] = 0;
+  if (!isHeld(f, robot)) planAnew(world, robot);
+}
+
+void planAnew(WorldState& world, int robot) {
+  FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   moved(f, robot);
   const bool resumes = task.phase == Phase::kDriving || task.phase == Phase::kTurning ||

@@ -14,5 +14,7 @@ void cancel(WorldState& world, int robot);
 void stop(WorldState& world, int robot);
 /// It goes on with what it did, from where it is now.
 void goOn(WorldState& world, int robot);
+/// It stood, or can do less than was planned with: what it is at begins again, from where it is.
+void planAnew(WorldState& world, int robot);
 
 }  // namespace kiva

@@ -194,6 +194,11 @@ void Robots::remove(WorldState& world, Model& model) const {
   for (StorageUnit& unit : world.units) {
     if (unit.claimed_by == robot) unit.claimed_by = -1;
   }
+  auto& defects = world.failures.defects;
+  const int id = world.fleet.robots[robot].id;
+  defects.erase(std::remove_if(defects.begin(), defects.end(),
+                               [id](const Defect& defect) { return defect.kiva_id == id; }),
+                defects.end());
   world.fleet.remove(robot);
   world.obstacles.removeMover(robot);
   world.scans_due.clear();  // indices have changed
@@ -219,6 +224,10 @@ void Robots::reset(WorldState& world, Model& model) const {
   fleet.tower[robot] = 0;
   fleet.stance[robot] = Stance();
   fleet.stopped[robot] = 0;
+  fleet.failures[robot] = 0;
+  fleet.battery[robot] = Battery();
+  fleet.charge[robot] = 1;
+  fleet.robots[robot].grip = 1;
   place(world, model, {model.spawn_pose, {}});
   fleet.path_id[robot] = fleet.reached[robot] = fleet.left[robot] = 0;
   for (int wheel = 0; wheel < 2; ++wheel) {

@@ -35,7 +35,7 @@ Vehicle plannedVehicle(WorldState& world, int robot) {
   Vehicle vehicle = is_jointed ? jointedVehicle(world, robot, ground) : vehicleOf(r, ground);
   for (int wheel = 0; wheel < 2; ++wheel) {
     const double known =
-        vehicle.friction[wheel] > 0 ? r.drive.friction / vehicle.friction[wheel] : 1;
+        vehicle.friction[wheel] > 0 ? r.grip * r.drive.friction / vehicle.friction[wheel] : 1;
     vehicle.friction[wheel] *= known;
     vehicle.grip[wheel] *= known * kGripReserve;
   }

@@ -55,7 +55,7 @@ void readBody(WorldState& world, int robot) {
 bool hasNothingToDo(const FleetState& f, int robot) {
   const Phase phase = f.tasks[robot].phase;
   if (phase == Phase::kIdle || phase == Phase::kWaiting) return true;
-  return f.stopped[robot] && (phase == Phase::kStarting || f.reference_speed[robot] == 0);
+  return isHeld(f, robot) && (phase == Phase::kStarting || f.reference_speed[robot] == 0);
 }
 
 /// A robot that stands without a command, or waits or is stopped at one, is left alone until it is
@@ -67,7 +67,7 @@ void letRest(FleetState& f, int robot) {
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
   // An empty tower still comes down.
   f.awake[robot] = f.tasks[robot].phase == Phase::kIdle && f.tower[robot] > 0 &&
-                   f.unit[robot] < 0 && !f.stopped[robot];
+                   f.unit[robot] < 0 && !isHeld(f, robot);
 }
 
 void integrateRobots(WorldState& world) {

@@ -149,7 +149,8 @@ class Step {
     for (int wheel = 0; wheel < 2; ++wheel) {
       const JointedBody::Wheel& w = body_.wheels[wheel];
       const btVector3 at = w.centre + down * w.radius;
-      add({at, heightOf(at), std::min(w.friction, floor_friction_), wheel});
+      add({at, heightOf(at), f_.robots[robot_].grip * std::min(w.friction, floor_friction_),
+           wheel});
     }
     const double tilted = up_.x() * up_.x() + up_.y() * up_.y();
     const bool low_only = tilted < body_.low_feet_reach * body_.low_feet_reach;
@@ -321,7 +322,7 @@ Vehicle jointedVehicle(WorldState& world, int robot, const Ground& ground) {
   const double leaning = std::abs(v.centre[0]) / reach;  // share of the weight on a caster's stop
   const double on_wheels = r.drive.drive_wheel_load - leaning;
   for (int wheel = 0; wheel < 2; ++wheel) {
-    v.friction[wheel] = std::min(body.wheels[wheel].friction, ground.friction);
+    v.friction[wheel] = r.grip * std::min(body.wheels[wheel].friction, ground.friction);
     v.grip[wheel] = v.friction[wheel] * v.mass * ground.gravity * v.weight(wheel, on_wheels);
   }
   return v;

@@ -26,7 +26,7 @@ double alongLimit(const Vehicle& v, double lift) {
 }  // namespace
 
 double wheelFriction(const Robot& robot, int wheel, const Ground& ground) {
-  return std::min({robot.drive.friction, robot.tyre_friction[wheel], ground.friction});
+  return robot.grip * std::min({robot.drive.friction, robot.tyre_friction[wheel], ground.friction});
 }
 
 Vehicle vehicleOf(const Robot& robot, const Ground& ground) {

@@ -10,6 +10,7 @@ namespace kiva {
 bool setWheelSpeeds(World& world, int robot, double left, double right) {
   FleetState& f = insideOf(world).fleet;
   if (f.tasks[robot].phase != Phase::kIdle) return false;
+  if (f.failures[robot] & (bitOf(Failure::kMotor) | kEmptyBattery)) return false;
   const DriveParameters& drive = f.robots[robot].drive;
   const double most = drive.speed / drive.wheel_radius;
   const double wanted[2] = {left, right};

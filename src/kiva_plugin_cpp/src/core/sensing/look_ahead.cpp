@@ -74,7 +74,8 @@ Sighting look(const WorldState& world, int robot) {
 
 bool isOnGuard(const FleetState& f, int robot) {
   const Task& task = f.tasks[robot];
-  return f.robots[robot].laser.fitted && (task.drives() || task.isHeldUp()) &&
+  const bool is_blind = (f.failures[robot] & bitOf(Failure::kLaser)) != 0;
+  return f.robots[robot].laser.fitted && !is_blind && (task.drives() || task.isHeldUp()) &&
          !task.segments.front().reverse;
 }
 

@@ -70,12 +70,21 @@ std::uint64_t scanPeriod(const WorldState& world, const Robot& robot) {
   return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * world.dt)));
 }
 
+bool isBlind(const WorldState& world, int robot) {
+  return (world.fleet.failures[robot] & bitOf(Failure::kLaser)) != 0;
+}
+
 void findDueScans(WorldState& world) {
   if (world.scan_rounds_revision != world.models_revision) arrangeScans(world);
   world.scans_due.clear();
   for (const ScanRound& round : world.scan_rounds) {
     const std::vector<int>& due = round.robots_at[world.total_steps % round.period];
     world.scans_due.insert(world.scans_due.end(), due.begin(), due.end());
+  }
+  if (!world.failures.defects.empty()) {
+    const auto is_blind = [&](int i) { return isBlind(world, i); };
+    world.scans_due.erase(std::remove_if(world.scans_due.begin(), world.scans_due.end(), is_blind),
+                          world.scans_due.end());
   }
   if (world.scan_rounds.size() > 1) std::sort(world.scans_due.begin(), world.scans_due.end());
 }

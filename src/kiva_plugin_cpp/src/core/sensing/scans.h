@@ -14,6 +14,9 @@ std::uint64_t scanPeriod(const WorldState& world, const Robot& robot);
 /// fleet's scans are spread over the period.
 void findDueScans(WorldState& world);
 
+/// Whether its laser is broken.
+bool isBlind(const WorldState& world, int robot);
+
 /// Gives the robot the directions of its laser's rays, shared with others of the same kind.
 void setRays(WorldState& world, Robot* robot);
 

@@ -23,6 +23,8 @@ void forEachArray(Fleet& f, Visit visit) {
   visit(f.reached);
   visit(f.left);
   visit(f.stopped);
+  visit(f.failures);
+  visit(f.charge);
 }
 
 }  // namespace
@@ -34,6 +36,7 @@ int Fleet::add(Robot robot, double at_x, double at_y, double at_yaw) {
   y[i] = at_y;
   yaw[i] = at_yaw;
   unit[i] = -1;
+  charge[i] = 1;
   if (robot.id >= static_cast<int>(index_of_id.size())) index_of_id.resize(robot.id + 1, -1);
   index_of_id[robot.id] = i;
   robots.push_back(std::move(robot));

@@ -22,6 +22,7 @@ void forEachArray(FleetState& f, Visit visit) {
   visit(f.awake);
   visit(f.activated);
   visit(f.tasks);
+  visit(f.battery);
 }
 
 }  // namespace
@@ -42,6 +43,17 @@ void FleetState::remove(int i) {
     localisation.pop_back();
   }
   Fleet::remove(i);
+}
+
+bool isHeld(const FleetState& f, int i) {
+  if (f.stopped[i]) return true;
+  if (f.failures[i] == 0) return false;
+  const MotionSegment* at = f.tasks[i].segment();
+  const bool drives =
+      at && (at->kind == MotionSegment::Kind::kDrive || at->kind == MotionSegment::Kind::kTurn);
+  const int holds =
+      drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
+  return (f.failures[i] & (holds | kEmptyBattery)) != 0;
 }
 
 void moved(FleetState& f, int i) {

@@ -79,10 +79,19 @@ struct Task {
   const MotionSegment* segment() const { return segments.empty() ? nullptr : &segments.front(); }
 };
 
+/// A battery, and what its robot was like when its energy was reckoned last.
+struct Battery {
+  double energy = -1;              ///< [J]; -1 = not known yet.
+  double wheel_angle[2] = {0, 0};  ///< [rad]
+  double kinetic = 0;              ///< [J]
+  double tower = 0;                ///< [m]
+};
+
 struct FleetState : Fleet {
   std::vector<Task> tasks;
   Column<double> wheel_target[2];  ///< Left, right: what the motors are asked for [rad/s].
   Column<std::uint8_t> awake;      ///< 0 = at rest without a command: costs nothing.
+  Column<Battery> battery;
   Column<std::uint8_t> activated;  ///< 1 = stepped by Bullet, since something is near.
 
   // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
@@ -124,6 +133,9 @@ struct FleetState : Fleet {
   /// Removes robot `i`; the last one takes its index.
   void remove(int i);
 };
+
+/// Whether wheels, or the tower if that is what it moves, are to stand: it is stopped, or broken.
+bool isHeld(const FleetState& fleet, int i);
 
 /// Robot `i` moves otherwise than was foreseen from now on, by a command, a push or another load:
 /// it is awake, no longer cruises, and looks around before it goes on. Whoever changes how a robot

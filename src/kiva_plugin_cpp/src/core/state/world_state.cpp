@@ -48,6 +48,7 @@ void WorldState::warn(const std::string& subject, const std::string& text) {
 void WorldState::setStatus(int robot, Status status, State state) {
   Task& task = fleet.tasks[robot];
   const int shelf = shelfId(*this, robot);
+  const bool is_silent = (fleet.failures[robot] & bitOf(Failure::kRadio)) != 0;
   if (fleet.status[robot] == status && fleet.state[robot] == state &&
       task.reported_shelf == shelf) {
     return;
@@ -55,6 +56,7 @@ void WorldState::setStatus(int robot, Status status, State state) {
   fleet.status[robot] = status;
   fleet.state[robot] = state;
   task.reported_shelf = shelf;
+  if (is_silent) return;
   status_changes.push_back({time(), fleet.robots[robot].id, status, state, shelf, fleet.x[robot],
                             fleet.y[robot], fleet.yaw[robot]});
 }

@@ -44,6 +44,25 @@ struct Crash {
   std::string with;  ///< A model's name.
 };
 
+/// What is broken now.
+struct Defect {
+  int kiva_id = 0;
+  Failure failure = Failure::kMotor;
+  double left = 0;   ///< Until it is repaired [s]; +inf = until somebody does.
+  RobotReport last;  ///< Of a lost radio: what was heard before.
+};
+
+struct FailureState {
+  std::vector<Defect> defects;  ///< In the order in which they came.
+  double exposure = 0;          ///< Until the next one by chance [robot seconds],
+  std::uint64_t count = 0;      ///< which has been drawn so often.
+};
+
+/// Where robots are charged, in world [m].
+struct Charger {
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+};
+
 /// A command on its way to its robot.
 struct RadioMessage {
   std::uint64_t due = 0;  ///< The step, of all, at which it is there.
@@ -118,6 +137,9 @@ struct WorldState {
   std::vector<Crash> crashes;      // of the last step
   std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
+  FailureState failures;
+  std::vector<Charger> chargers;
+  std::uint64_t chargers_revision = ~0ull;  // of the models that these were found among
   std::shared_ptr<Workers> workers;
   std::vector<std::string> warnings;
   std::set<std::string> warned;

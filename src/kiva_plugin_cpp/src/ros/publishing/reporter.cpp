@@ -47,6 +47,11 @@ RobotPose poseOf(const kiva::World& world, int i) {
   return out;
 }
 
+/// Whether nothing comes from the robot itself.
+bool isSilent(const kiva::World& world, int robot) {
+  return (world.fleet().failures[robot] & kiva::bitOf(kiva::Failure::kRadio)) != 0;
+}
+
 /// As the robot's own odometry has it.
 RobotPose believedOf(const kiva::World& world, int i) {
   RobotPose out = poseOf(world, i);
@@ -206,7 +211,7 @@ void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   if (all) heartbeat_sent_[slot] = now;
   for (int i = 0; i < world.fleet().size(); ++i) {
     const int id = world.fleet().robots[i].id;
-    if (id % kHeartbeatSlots != slot) continue;
+    if (id % kHeartbeatSlots != slot || isSilent(world, i)) continue;
     if (all) {
       out->statuses.push_back(statusOf(world, i));
     } else if (std::binary_search(status_ids_.begin(), status_ids_.end(), id)) {
@@ -252,7 +257,8 @@ void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
 void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
   out->odometry.clear();
   for (int id : odometry_ids_) {
-    if (const int i = world.fleet().find(id); i >= 0) out->odometry.push_back(believedOf(world, i));
+    const int i = world.fleet().find(id);
+    if (i >= 0 && !isSilent(world, i)) out->odometry.push_back(believedOf(world, i));
   }
 }
 
@@ -266,7 +272,8 @@ void Reporter::addScans(const kiva::World& world, Snapshot* out) const {
   std::vector<int> heard;
   for (int i : world.scansDue()) {
     const int id = world.fleet().robots[i].id;
-    if (std::binary_search(scan_ids_.begin(), scan_ids_.end(), id)) heard.push_back(i);
+    const bool is_heard = std::binary_search(scan_ids_.begin(), scan_ids_.end(), id);
+    if (is_heard && !isSilent(world, i)) heard.push_back(i);
   }
   std::vector<std::vector<float>> ranges;
   world.scan(heard, &ranges);

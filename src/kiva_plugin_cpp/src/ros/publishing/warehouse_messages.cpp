@@ -19,6 +19,7 @@ static_assert(int(kiva::State::kWaiting) == int(KivaStatus::STATE_WAITING));
 static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
 static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
 static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
+static_assert(int(kiva::Event::Kind::kRepaired) == int(warehouse_msgs::Event::REPAIRED));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
@@ -28,6 +29,22 @@ int idOf(const kiva::Fleet& fleet, int robot) { return robot < 0 ? 0 : fleet.rob
 int shelfOf(const kiva::World& world, int robot) {
   const int unit = world.fleet().unit[robot];
   return unit < 0 ? 0 : world.storageUnits()[unit].id;
+}
+
+void overwrite(const kiva::RobotReport& last, int i, warehouse_msgs::FleetState* out) {
+  out->x[i] = last.x;
+  out->y[i] = last.y;
+  out->yaw[i] = kiva::wrapAngle(last.yaw);
+  out->vx[i] = last.vx;
+  out->vy[i] = last.vy;
+  out->yaw_rate[i] = last.yaw_rate;
+  out->status[i] = static_cast<std::uint8_t>(last.status);
+  out->state[i] = static_cast<std::uint8_t>(last.state);
+  out->shelf_id[i] = last.shelf_id;
+  out->path_id[i] = last.path_id;
+  out->reached[i] = last.reached;
+  out->left[i] = last.left;
+  out->last_end[i] = last.last_end;
 }
 
 }  // namespace
@@ -96,6 +113,10 @@ nav_msgs::Odometry toMessage(const RobotPose& robot, double time) {
 
 kiva::StatusChange statusOf(const kiva::World& world, int robot) {
   const kiva::Fleet& f = world.fleet();
+  if (const auto last = world.lastHeard(robot)) {
+    return {world.time(), f.robots[robot].id, last->status, last->state, last->shelf_id, last->x,
+            last->y,      last->yaw};
+  }
   return {world.time(),          f.robots[robot].id, f.status[robot], f.state[robot],
           shelfOf(world, robot), f.x[robot],         f.y[robot],      f.yaw[robot]};
 }
@@ -113,12 +134,15 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   out.reached.assign(f.reached.begin(), f.reached.end());
   out.left.assign(f.left.begin(), f.left.end());
   out.last_end.assign(f.last_end.begin(), f.last_end.end());
+  out.failures.assign(f.failures.begin(), f.failures.end());
+  out.charge.assign(f.charge.begin(), f.charge.end());
   for (int i = 0; i < f.size(); ++i) {
     out.kiva_id.push_back(f.robots[i].id);
     out.yaw.push_back(kiva::wrapAngle(f.yaw[i]));
     out.status.push_back(static_cast<std::uint8_t>(f.status[i]));
     out.state.push_back(static_cast<std::uint8_t>(f.state[i]));
     out.shelf_id.push_back(shelfOf(world, i));
+    if (const auto last = world.lastHeard(i)) overwrite(*last, i, &out);
   }
   return out;
 }

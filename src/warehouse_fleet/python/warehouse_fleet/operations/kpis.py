@@ -126,7 +126,19 @@ def of_shift(shift, fleet, kinematics, wall_s):
         "plan_ms": _planning(fleet.plan_ms),
         "executed_over_planned": fleet.executed_over_planned,
         "state_hash": shift.state_hash(),
-    }
+    } | _of_troubles(fleet, tally.items_picked)
+
+
+def _of_troubles(fleet, items_picked):
+    """What failures and charging cost; nothing where there were none. As many pieces are lost as
+    are picked in so many robot hours at work."""
+    log = getattr(fleet, "failures", None)
+    figures = log.figures() if log else {}
+    figures |= getattr(fleet, "energy", {})
+    if "availability" in figures:
+        up = max(figures["availability"], 1e-9)
+        figures["items_lost_to_failures"] = items_picked * (1 - up) / up
+    return figures
 
 
 def quantiles(values):

@@ -30,6 +30,15 @@ ROWS = (
     ("executed_over_planned", "Driven time over planned time", "", 1, 3),
     ("real_time_factor", "Faster than real time", "times", 1, 1),
 )
+TROUBLES = (
+    ("availability", "Availability: robot hours at work", "%", 100, 2),
+    ("mtbf_h", "Robot hours between failures (MTBF)", "h", 1, 1),
+    ("mttr_s", "Time to repair, mean (MTTR)", "min", 1 / 60, 1),
+    ("items_lost_to_failures", "Pieces not picked for want of robots", "", 1, 0),
+    ("charging_fraction", "Robot hours at a charging place", "%", 100, 1),
+    ("charge_mean", "Charge of batteries at the end, mean", "%", 100, 0),
+    ("charge_least", "Charge of the emptiest at the end", "%", 100, 0),
+)
 COMPARED = (
     ("item_throughput_per_hour", "pieces an hour"),
     ("order_throughput_per_hour", "orders an hour"),
@@ -64,6 +73,10 @@ def page(runs):
     for group in groups[:4]:
         name = f": {group.label}" if len(groups) > 1 else ""
         parts += [_section(f"Stations{escape(name)}", plots.stations(group))]
+        troubles = _troubles(group)
+        if troubles:
+            note = "What was lost is estimated from the pieces picked in the robot hours at work."
+            parts += [_section(f"Troubles of the day{escape(name)}", troubles, note)]
         maps = _maps(group.runs[0])
         if maps:
             parts += [_section(f"The floor{escape(name)}", _row(maps))]
@@ -148,6 +161,26 @@ def _table(groups):
         rows.append(f"<tr><td>{words}</td>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
     header = f"<tr><th></th>{head}</tr>" if len(groups) > 1 else ""
     return f"<table>{header}{''.join(rows)}</table>"
+
+
+def _troubles(group):
+    """What broke in the first run, how often and for how long, and what that cost in all runs."""
+    kinds = group.runs[0].data.get("failures") or []
+    cost = [
+        f"<tr><td>{words}</td><td>{_number(group.estimate(kpi), factor, digits, unit)}</td></tr>"
+        for kpi, words, unit, factor, digits in TROUBLES
+        if all(kpi in run.kpis for run in group.runs)
+    ]
+    if not cost:
+        return ""
+    rows = [
+        f"<tr><td>{escape(one['kind'])}</td><td>{one['count']}</td><td>{one['repairs']}</td>"
+        f"<td>{one['mean_repair_s'] / 60:.1f} min</td></tr>"
+        for one in kinds
+    ]
+    head = "<tr><th>Robots</th><th>failures</th><th>repaired</th><th>after, mean</th></tr>"
+    table = f"<table>{head}{''.join(rows)}</table><p></p>" if rows else ""
+    return f"{table}<table>{''.join(cost)}</table>"
 
 
 def _number(estimate, factor, digits, unit):

@@ -4,6 +4,7 @@
 run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
 stored, completed: a list each}, stations [{name, kind, busy_fraction, pieces, visits}], turnover_s
 and throughput_s of each order, robots {activity: seconds}, traffic and waiting (h, w) or null,
+failures [{kind, count, repairs, mean_repair_s}],
 lateness.
 """
 
@@ -90,6 +91,7 @@ def describe(ops, config, seed):
         "robots": _robots(ops),
         "traffic": _map(ops.fleet, "traffic"),
         "waiting": _map(ops.fleet, "waiting_map"),
+        "failures": log.by_kind() if (log := getattr(ops.fleet, "failures", None)) else [],
     }
 
 

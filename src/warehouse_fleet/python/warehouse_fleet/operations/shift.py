@@ -531,6 +531,10 @@ class _Hooks:
     def park(self, kiva_id, cell):
         return self._shift.policies.idle.park(kiva_id, cell, self._shift)
 
+    @property
+    def charging(self):
+        return self._shift.policies.charging
+
 
 def _ranks_of(assortment):
     order = np.argsort(-assortment.popularity, kind="stable")

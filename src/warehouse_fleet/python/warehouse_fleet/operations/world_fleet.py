@@ -30,6 +30,7 @@ class WorldFleet:
         self.transports.match_robots = self._match_robots
         self.transports.choose_place = self._choose_place
         self.transports.park = self._park
+        self.transports.charging.policy = hooks.charging
 
     def _match_robots(self, asked, free):
         traffic, transports = self._driver.traffic, self.transports
@@ -99,6 +100,24 @@ class WorldFleet:
     @property
     def blocked(self):
         return self._driver.blocked
+
+    @property
+    def energy(self):
+        """How batteries are, and the robots' time at charging; empty where there are none."""
+        charge = self._driver.traffic.charge
+        robot_s = self._driver.failures.robot_s
+        if not (charge < 1).any():
+            return {}
+        return {
+            "charge_mean": float(charge.mean()),
+            "charge_least": float(charge.min()),
+            "charging_fraction": self.transports.charging.robot_s / max(robot_s, 1e-9),
+        }
+
+    @property
+    def failures(self):
+        """What broke: a FailureLog."""
+        return self._driver.failures
 
     @property
     def plan_ms(self):

@@ -6,7 +6,7 @@ import numpy as np
 from warehouse_sim import tracking
 from warehouse_sim.models import kind_and_number
 from warehouse_sim.viewer import schemas
-from warehouse_sim.words import EVENT, STATE, STATUS, shown_status
+from warehouse_sim.words import EVENT, STATE, STATUS, failures_of, shown_status
 
 
 def robots(fleet):
@@ -23,6 +23,8 @@ def robots(fleet):
             y=fleet.y[i],
             yaw=fleet.yaw[i],
             storage_unit=f"storage_unit{fleet.shelf_id[i]}" if fleet.shelf_id[i] else "",
+            charge=fleet.charge[i],
+            failures=failures_of(fleet.failures[i]),
         )
         for i, number in enumerate(map(int, fleet.kiva_id))
     ]

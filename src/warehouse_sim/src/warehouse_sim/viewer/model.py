@@ -85,6 +85,8 @@ class Model:
             shelf=fleet.shelf_id,
             status=shown_status(fleet),
             state=np.frombuffer(bytes(fleet.state), np.uint8),
+            charge=np.rint(100 * np.asarray(fleet.charge)),
+            failures=np.frombuffer(bytes(fleet.failures), np.uint8),
         )
 
     def _take_units(self, states):

@@ -29,7 +29,7 @@ VERSION = 2
 UPDATE, SCAN, WAYS = 1, 2, 3
 
 # x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
-# KivaStatus.
+# KivaStatus; charge in percent; failures as in FleetState.
 ROBOT = np.dtype(
     [
         ("index", "<u4"),
@@ -39,7 +39,8 @@ ROBOT = np.dtype(
         ("shelf", "<i4"),
         ("status", "u1"),
         ("state", "u1"),
-        ("unused", "<u2"),
+        ("charge", "u1"),
+        ("failures", "u1"),
     ]
 )
 # x y z [m] qx qy qz qw in world; or, where a robot carries it, in that robot's frame.

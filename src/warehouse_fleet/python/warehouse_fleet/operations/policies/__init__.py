@@ -14,6 +14,7 @@ from typing import Protocol
 
 import yaml
 
+from warehouse_fleet import charging
 from warehouse_fleet.operations.policies import (
     bins,
     idle,
@@ -63,6 +64,21 @@ class Idle(Protocol):
         """The cell that a robot without work goes to; None: it waits where it is."""
 
 
+class ChargingPolicy(Protocol):
+    """charge: state of charge of batteries, (n,), 0…1; answers are (n,) bool."""
+
+    low: float  # who is below comes before who charges though it need not
+
+    def sends(self, charge, is_wanted):
+        """Which robots without work are to charge; is_wanted: transports wait for robots."""
+
+    def frees(self, charge):
+        """Which of those that charge may be given work."""
+
+    def spares(self, charge):
+        """Which robots get no work even if no place to charge at is free."""
+
+
 ROLES = {
     "orders": order_assignment.NAMES,
     "units": unit_choice.NAMES,
@@ -71,6 +87,7 @@ ROLES = {
     "replenishment": replenishment.NAMES,
     "robots": robots.NAMES,
     "idle": idle.NAMES,
+    "charging": charging.NAMES,
 }
 METHODS = {
     "orders": "choose",
@@ -80,6 +97,7 @@ METHODS = {
     "replenishment": "bundles",
     "robots": "match",
     "idle": "park",
+    "charging": "sends",
 }
 DEFAULTS = {
     "orders": "pile-on",
@@ -89,6 +107,7 @@ DEFAULTS = {
     "replenishment": "threshold",
     "robots": "nearest",
     "idle": "wait",
+    "charging": "threshold",
 }
 
 

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/control/interruptions.h"
+#include "core/state/random_stream.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kPeriod = 0.1;        // [s]
+constexpr double kJoule = 3600;        // in a watt hour
+constexpr double kLeastCharge = 0.05;  // share of the power that a nearly full battery takes
+constexpr double kRestarts = 0.02;     // state of charge from which an empty robot works again
+constexpr double kStandstill = 1e-3;   // [m/s]
+constexpr char kMarkings[] = "floor_markings";
+constexpr char kChargingLink[] = "charging";
+
+double capacityOf(const EnergyRealism& e) { return e.capacity * e.health * kJoule; }
+
+/// What is painted: a static model's links of that name, each visual a rectangle along the axes.
+void addChargers(const Model& model, std::vector<Charger>* out) {
+  for (const Link& link : model.description->links) {
+    if (link.name != kChargingLink) continue;
+    for (const Visual& visual : link.visuals) {
+      const Pose at = model.pose * link.pose_in_model * visual.pose_in_link;
+      const double c = std::abs(std::cos(at.Yaw())), s = std::abs(std::sin(at.Yaw()));
+      const double hx = (c * visual.shape.size.X() + s * visual.shape.size.Y()) / 2;
+      const double hy = (s * visual.shape.size.X() + c * visual.shape.size.Y()) / 2;
+      out->push_back({at.X() - hx, at.X() + hx, at.Y() - hy, at.Y() + hy});
+    }
+  }
+}
+
+void findChargers(WorldState& world) {
+  if (world.chargers_revision == world.models_revision) return;
+  world.chargers_revision = world.models_revision;
+  world.chargers.clear();
+  for (const auto& model : world.models) {
+    if (model && model->name.rfind(kMarkings, 0) == 0) addChargers(*model, &world.chargers);
+  }
+}
+
+bool isOnCharger(const WorldState& world, int i) {
+  const Fleet& f = world.fleet;
+  if (std::hypot(f.vx[i], f.vy[i]) > kStandstill) return false;
+  return std::any_of(world.chargers.begin(), world.chargers.end(), [&](const Charger& c) {
+    return f.x[i] > c.min_x && f.x[i] < c.max_x && f.y[i] > c.min_y && f.y[i] < c.max_y;
+  });
+}
+
+double kineticEnergy(const Fleet& f, int i) {
+  const Robot& r = f.robots[i];
+  const double v2 = f.vx[i] * f.vx[i] + f.vy[i] * f.vy[i], w = f.yaw_rate[i];
+  return ((r.mass + r.load_mass) * v2 + (r.inertia + r.load_inertia) * w * w) / 2;
+}
+
+/// Its battery as it is at the beginning.
+void begin(WorldState& world, int i) {
+  const EnergyRealism& e = world.realism.energy;
+  const FleetState& f = world.fleet;
+  RandomStream random(world.options.seed, Matter::kEnergy, f.robots[i].id, 0);
+  const double most = std::max(e.initial_least, e.initial_most);
+  const double charge = e.initial_least + (most - e.initial_least) * random.uniform();
+  Battery& battery = world.fleet.battery[i];
+  battery.energy = charge * capacityOf(e);
+  for (int wheel = 0; wheel < 2; ++wheel) battery.wheel_angle[wheel] = f.wheel_angle[wheel][i];
+  battery.kinetic = kineticEnergy(f, i);
+  battery.tower = f.tower[i];
+}
+
+/// Since the last time [J]: electronics, rolling, speeding up less what braking gives back,
+/// lifting.
+double used(const WorldState& world, int i, double seconds) {
+  const EnergyRealism& e = world.realism.energy;
+  const FleetState& f = world.fleet;
+  const Battery& before = f.battery[i];
+  const Robot& r = f.robots[i];
+  double rolled = 0;  // [m], of both wheels in the mean
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    rolled += std::abs(f.wheel_angle[wheel][i] - before.wheel_angle[wheel]);
+  }
+  rolled *= r.drive.wheel_radius / 2;
+  const double gravity = world.gravityDown();
+  const double weight = (r.mass + r.load_mass) * gravity;
+  const double rolling = e.rolling_resistance * weight * rolled;
+  const double faster = kineticEnergy(f, i) - before.kinetic;
+  const double moving = faster > 0 ? faster / e.drive_efficiency : faster * e.regeneration;
+  const double lifted = std::max(0.0, f.tower[i] - before.tower) * r.load_mass * gravity;
+  return e.electronics * seconds + rolling / e.drive_efficiency + moving +
+         lifted / e.lift_efficiency;
+}
+
+/// Into its battery in that time [J].
+double takenUp(const WorldState& world, int i, double seconds) {
+  const EnergyRealism& e = world.realism.energy;
+  if (!isOnCharger(world, i)) return 0;
+  const double charge = world.fleet.battery[i].energy / capacityOf(e);
+  const double falling = (1 - charge) / std::max(1e-9, 1 - e.charge_taper);
+  return e.charge_power * std::clamp(falling, kLeastCharge, 1.0) * seconds;
+}
+
+void show(WorldState& world, int i) {
+  const double charge = world.fleet.battery[i].energy / capacityOf(world.realism.energy);
+  world.fleet.charge[i] = static_cast<float>(charge);
+}
+
+void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) {
+  FleetState& f = world.fleet;
+  f.failures[i] =
+      static_cast<std::uint8_t>((f.failures[i] & ~kEmptyBattery) | (is_empty ? kEmptyBattery : 0));
+  const auto kind = is_empty ? Event::Kind::kFailed : Event::Kind::kRepaired;
+  world.report(kind, f.robots[i].name, "", text);
+  if (is_empty && f.awake[i]) moved(f, i);
+  if (!is_empty && !isHeld(f, i)) planAnew(world, i);
+}
+
+void reckon(WorldState& world, int i, double seconds) {
+  FleetState& f = world.fleet;
+  Battery& battery = f.battery[i];
+  if (battery.energy < 0) begin(world, i);
+  const double most = capacityOf(world.realism.energy);
+  const double energy = battery.energy - used(world, i, seconds) + takenUp(world, i, seconds);
+  battery.energy = std::clamp(energy, 0.0, most);
+  for (int wheel = 0; wheel < 2; ++wheel) battery.wheel_angle[wheel] = f.wheel_angle[wheel][i];
+  battery.kinetic = kineticEnergy(f, i);
+  battery.tower = f.tower[i];
+  show(world, i);
+  const bool was_empty = (f.failures[i] & kEmptyBattery) != 0;
+  if (!was_empty && battery.energy == 0) setEmpty(world, i, true, "its battery is empty");
+  if (was_empty && battery.energy > kRestarts * most) {
+    setEmpty(world, i, false, "its battery is being charged");
+  }
+}
+
+}  // namespace
+
+void useEnergy(WorldState& world) {
+  if (!world.realism.energy.enabled) return;
+  const auto period = std::max<std::uint64_t>(1, std::llround(kPeriod / world.dt));
+  if (world.total_steps % period != 0) return;
+  findChargers(world);
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    reckon(world, i, static_cast<double>(period) * world.dt);
+  }
+}
+
+void exchangeBattery(WorldState& world, int robot) {
+  world.fleet.battery[robot].energy = capacityOf(world.realism.energy);
+  show(world, robot);
+  setEmpty(world, robot, false, "repaired: it has a full battery");
+}
+
+void markCharge(WorldState& world) {
+  FleetState& f = world.fleet;
+  f.charge.assign(f.size(), 1);
+  f.battery.resize(f.size());
+  if (!world.realism.energy.enabled) return;
+  for (int i = 0; i < f.size(); ++i) {
+    if (f.battery[i].energy < 0) continue;
+    show(world, i);
+    if (f.battery[i].energy == 0) f.failures[i] |= kEmptyBattery;
+  }
+}
+
+}  // namespace kiva

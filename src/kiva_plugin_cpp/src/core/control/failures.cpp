@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/failures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "core/control/energy.h"
+#include "core/control/interruptions.h"
+#include "core/state/random_stream.h"
+#include "core/state/tasks.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kHour = 3600;  // [s]
+
+const char* nameOf(Failure failure) {
+  switch (failure) {
+    case Failure::kMotor:
+      return "its drive has no torque";
+    case Failure::kLift:
+      return "its lift is stuck";
+    case Failure::kLaser:
+      return "its laser is blind";
+    case Failure::kRadio:
+      return "its radio is lost";
+    case Failure::kWheelSlip:
+      return "its wheels slip";
+  }
+  return "";
+}
+
+int findRobot(const WorldState& world, int kiva_id) {
+  const int robot = world.fleet.find(kiva_id);
+  if (robot >= 0) return robot;
+  throw std::invalid_argument("there is no robot kiva" + std::to_string(kiva_id));
+}
+
+RobotReport reportOf(const WorldState& world, int robot) {
+  const Fleet& f = world.fleet;
+  const int unit = f.unit[robot];
+  return {f.x[robot],       f.y[robot],       f.yaw[robot],
+          f.vx[robot],      f.vy[robot],      f.yaw_rate[robot],
+          f.status[robot],  f.state[robot],   unit < 0 ? 0 : world.units[unit].id,
+          f.path_id[robot], f.reached[robot], f.left[robot],
+          f.last_end[robot]};
+}
+
+void apply(WorldState& world, int robot, Failure failure) {
+  FleetState& fleet = world.fleet;
+  fleet.failures[robot] |= bitOf(failure);
+  if (failure != Failure::kWheelSlip) return;
+  fleet.robots[robot].grip = world.realism.failures.slipping_grip;
+}
+
+void tell(WorldState& world, Event::Kind kind, int robot, const std::string& text) {
+  world.report(kind, world.fleet.robots[robot].name, "", text);
+}
+
+std::string within(double seconds) {
+  if (std::isinf(seconds)) return "";
+  char text[64];
+  std::snprintf(text, sizeof text, "; repaired in %.0f s", seconds);
+  return text;
+}
+
+/// Its motion goes on with what it can do now. Who stands has nothing to do anew.
+void adapt(WorldState& world, int robot) {
+  FleetState& f = world.fleet;
+  const Phase phase = f.tasks[robot].phase;
+  const bool moves = phase == Phase::kDriving || phase == Phase::kTurning;
+  if (moves && !isHeld(f, robot)) planAnew(world, robot);
+  if (f.awake[robot]) moved(f, robot);
+}
+
+void mend(WorldState& world, const Defect& defect) {
+  FleetState& f = world.fleet;
+  const int robot = f.find(defect.kiva_id);
+  const bool was_held = isHeld(f, robot);
+  f.failures[robot] &= static_cast<std::uint8_t>(~bitOf(defect.failure));
+  if (defect.failure == Failure::kWheelSlip) {
+    f.robots[robot].grip = 1;
+    adapt(world, robot);
+  }
+  if (was_held && !isHeld(f, robot)) planAnew(world, robot);
+  tell(world, Event::Kind::kRepaired, robot, std::string("repaired: ") + nameOf(defect.failure));
+  if (defect.failure != Failure::kRadio) return;
+  // What nobody heard of meanwhile.
+  f.tasks[robot].reported_shelf = -1;
+  world.setStatus(robot, f.status[robot], f.state[robot]);
+}
+
+Failure drawFailure(const FailureRealism& r, double chance) {
+  const double share[] = {r.motor, r.lift_stuck, r.laser_blind, r.radio_lost, r.wheel_slips};
+  double left = chance * std::accumulate(std::begin(share), std::end(share), 0.0);
+  int kind = 0;
+  while (kind + 1 < kFailureKinds && left >= share[kind]) left -= share[kind++];
+  return static_cast<Failure>(kind + static_cast<int>(Failure::kMotor));
+}
+
+void breakSomething(WorldState& world, RandomStream& random) {
+  const FailureRealism& realism = world.realism.failures;
+  const int robots = world.fleet.size();
+  const int robot = std::min(robots - 1, static_cast<int>(random.uniform() * robots));
+  const Failure failure = drawFailure(realism, random.uniform());
+  const double repair = std::max(world.dt, random.exponential(realism.repair_time));
+  breakDown(world, world.fleet.robots[robot].id, failure, repair);
+}
+
+void repairWhoIsDue(WorldState& world) {
+  auto& defects = world.failures.defects;
+  for (Defect& defect : defects) defect.left -= world.dt;
+  const auto is_due = [](const Defect& defect) { return defect.left <= 0; };
+  for (auto at = defects.begin();
+       (at = std::find_if(at, defects.end(), is_due)) != defects.end();) {
+    const Defect defect = *at;
+    at = defects.erase(at);
+    mend(world, defect);
+  }
+}
+
+}  // namespace
+
+void breakDown(WorldState& world, int kiva_id, Failure failure, double repair_after) {
+  const int robot = findRobot(world, kiva_id);
+  if (!(repair_after >= 0 && std::isfinite(repair_after))) {
+    throw std::invalid_argument("repair_after must be finite and at least 0 s");
+  }
+  if (nameOf(failure)[0] == 0) throw std::invalid_argument("there is no such failure");
+  const double left = repair_after > 0 ? repair_after : HUGE_VAL;
+  FleetState& f = world.fleet;
+  for (Defect& defect : world.failures.defects) {
+    if (defect.kiva_id != kiva_id || defect.failure != failure) continue;
+    defect.left = left;
+    return;
+  }
+  tell(world, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
+  world.failures.defects.push_back({kiva_id, failure, left, reportOf(world, robot)});
+  apply(world, robot, failure);
+  adapt(world, robot);
+}
+
+void repair(WorldState& world, int kiva_id) {
+  const int robot = findRobot(world, kiva_id);
+  if (world.fleet.failures[robot] & kEmptyBattery) exchangeBattery(world, robot);
+  auto& defects = world.failures.defects;
+  const auto is_its = [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; };
+  for (auto at = defects.begin();
+       (at = std::find_if(at, defects.end(), is_its)) != defects.end();) {
+    const Defect defect = *at;
+    at = defects.erase(at);
+    mend(world, defect);
+  }
+}
+
+std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
+  if ((world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0) return std::nullopt;
+  const int id = world.fleet.robots[robot].id;
+  for (const Defect& defect : world.failures.defects) {
+    if (defect.kiva_id == id && defect.failure == Failure::kRadio) return defect.last;
+  }
+  return std::nullopt;
+}
+
+void wearOut(WorldState& world) {
+  FailureState& failures = world.failures;
+  if (!failures.defects.empty()) repairWhoIsDue(world);
+  const FailureRealism& realism = world.realism.failures;
+  if (!realism.enabled || realism.per_robot_hour == 0 || world.fleet.size() == 0) return;
+  const bool is_first = failures.count == 0;  // then only the time of the next one is drawn
+  failures.exposure -= is_first ? 0 : world.fleet.size() * world.dt;
+  if (failures.exposure > 0) return;
+  RandomStream random(world.options.seed, Matter::kFailure, 0, failures.count++);
+  if (!is_first) breakSomething(world, random);
+  failures.exposure = random.exponential(kHour / realism.per_robot_hour);
+}
+
+void beginFailures(WorldState& world) { world.failures = {}; }
+
+bool mayFail(const WorldState& world) {
+  return world.realism.failures.enabled || !world.failures.defects.empty();
+}
+
+void markDefects(WorldState& world) {
+  FleetState& f = world.fleet;
+  f.failures.assign(f.size(), 0);
+  for (const Defect& defect : world.failures.defects) {
+    apply(world, f.find(defect.kiva_id), defect.failure);
+  }
+}
+
+}  // namespace kiva

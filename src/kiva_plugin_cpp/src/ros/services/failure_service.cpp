@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "failure_service.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "service_answer.h"
+
+namespace kiva_ros {
+namespace {
+
+using warehouse_msgs::FailRequest;
+static_assert(int(kiva::Failure::kMotor) == int(FailRequest::MOTOR));
+static_assert(int(kiva::Failure::kLift) == int(FailRequest::LIFT_STUCK));
+static_assert(int(kiva::Failure::kLaser) == int(FailRequest::LASER_BLIND));
+static_assert(int(kiva::Failure::kRadio) == int(FailRequest::RADIO_LOST));
+static_assert(int(kiva::Failure::kWheelSlip) == int(FailRequest::WHEEL_SLIPS));
+
+void act(kiva::World& world, const FailRequest& request) {
+  if (request.kind > FailRequest::WHEEL_SLIPS) {
+    throw std::invalid_argument("kind is " + std::to_string(request.kind) +
+                                "; 0 to 5 was expected");
+  }
+  if (request.kind == FailRequest::REPAIRED) return world.repair(request.kiva_id);
+  world.fail(request.kiva_id, static_cast<kiva::Failure>(request.kind), request.repair_time);
+}
+
+}  // namespace
+
+FailureService::FailureService(ros::NodeHandle& root, SimulationThread& simulation)
+    : simulation_(simulation),
+      server_(root.advertiseService("/warehouse/fail", &FailureService::fail, this)) {}
+
+bool FailureService::fail(warehouse_msgs::Fail::Request& request,
+                          warehouse_msgs::Fail::Response& response) {
+  return reply(response, [&] {
+    simulation_.change([&](kiva::World& world) { act(world, request); });
+    return std::string();
+  });
+}
+
+}  // namespace kiva_ros
