@@ -14,8 +14,9 @@ JOBS ?= $(shell nproc)
 PREFIX ?= install
 SEEDS ?= 20
 BUILD = cmake --build build -j$(JOBS) -- --no-print-directory
-# If make is killed, what it started still ends.
-DEVEL := . devel/setup.bash; exec setpriv --pdeathsig TERM
+# If make is killed, what it started still ends. roslaunch asks for distutils, in whose place it would
+# get all of setuptools, half of its time to start.
+DEVEL := . devel/setup.bash; export SETUPTOOLS_USE_DISTUTILS=stdlib; exec setpriv --pdeathsig TERM
 
 help:  ## list the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1\t\2/p' Makefile | expand -t 26
@@ -24,7 +25,7 @@ run: build  ## start the warehouse; make run ARGS="size:=medium rviz:=true"
 	@$(DEVEL) roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch $(ARGS)
 
 demo: build  ## watch robots fetch storage units, meet head on, recover; and a fleet deliver
-	@. devel/setup.bash; export ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
+	@. devel/setup.bash; export SETUPTOOLS_USE_DISTUTILS=stdlib ROS_MASTER_URI=http://localhost:$$((20000 + $$$$ % 10000)); \
 	roslaunch --sigint-timeout=3 --sigterm-timeout=1 warehouse_sim warehouse.launch rtf:=5 $(ARGS) >/dev/null & \
 	trap "kill $$!; wait" EXIT; rosrun warehouse_sim demo
 

@@ -2,13 +2,15 @@
 //
 // One client of a whole warehouse under ROS: gives every idle robot a random command, and listens
 // to the status and the scan of each robot. Prints how many messages came, how late they were, and
-// how long commands took to be accepted.
+// how long commands took to be accepted; and the CPU time that this took here and in another
+// process.
 //
 // How late: a message's wall time less its stamp, against the quickest message of the same second.
 // That needs simulated time to follow the wall clock, that is, rtf:=1.
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
+#include <unistd.h>
 #include <warehouse_msgs/Event.h>
 #include <warehouse_msgs/FleetState.h>
 #include <warehouse_msgs/KivaStatus.h>
@@ -22,8 +24,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -32,16 +36,18 @@
 namespace {
 
 constexpr char kHelp[] =
-    "fleet_client [--no-listen] [--no-command] [--seconds S]\n"
+    "fleet_client [--no-listen] [--no-command] [--seconds S] [--watch PID]\n"
     "  --no-listen   to no topic of a single robot\n"
     "  --no-command  robots stand\n"
-    "  --seconds     of wall time, once all is connected (30)\n";
+    "  --seconds     of wall time, once all is connected (30)\n"
+    "  --watch       whose CPU time to tell besides its own\n";
 constexpr double kPatience = 120;  // until all is connected [s]
 constexpr int kQueue = 100000;
 
 struct Options {
   bool listen = true, command = true;
   double seconds = 30;
+  int watched = 0;  // process
 };
 
 Options parse(int argc, char** argv) {
@@ -54,6 +60,8 @@ Options parse(int argc, char** argv) {
       options.command = false;
     } else if (word == "--seconds" && i + 1 < argc) {
       options.seconds = std::atof(argv[++i]);
+    } else if (word == "--watch" && i + 1 < argc) {
+      options.watched = std::atoi(argv[++i]);
     } else {
       std::fputs(kHelp, stderr);
       std::exit(2);
@@ -63,6 +71,20 @@ Options parse(int argc, char** argv) {
 }
 
 double now() { return ros::WallTime::now().toSec(); }
+
+/// Of all threads of a process, 0 = this one [s]; 0 for one that isn't there.
+double cpuTime(int process) {
+  const std::string name = process ? std::to_string(process) : "self";
+  std::ifstream file("/proc/" + name + "/stat");
+  std::string text;
+  std::getline(file, text);
+  std::istringstream fields(text.substr(std::min(text.rfind(')') + 1, text.size())));
+  std::string skipped;
+  for (int k = 0; k < 11; ++k) fields >> skipped;  // state to cmajflt
+  double user = 0, system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
 
 int numberOf(const std::string& name) {
   return std::atoi(name.c_str() + std::min(name.find_first_of("0123456789"), name.size()));
@@ -290,6 +312,7 @@ int run(const Options& options) {
   listener.restart();
   commander.restart();
   const double begin = now(), simulated_begin = simulated;
+  const double cpu_begin = cpuTime(0), watched_begin = cpuTime(options.watched);
   spinUntil(begin + options.seconds, [] { return false; });
   const double took = now() - begin;
   using warehouse_msgs::Event;
@@ -297,7 +320,8 @@ int run(const Options& options) {
       "{\"robots\": %zu, \"rtf\": %.3f, \"messages_per_second\": %.0f, "
       "\"least_rate\": %.2f, \"late_p50_ms\": %s, \"late_p99_ms\": %s, "
       "\"accepted_p50_ms\": %s, \"accepted_p99_ms\": %s, \"accepted\": %ld, \"refused\": %ld, "
-      "\"done\": %ld, \"blocked\": %ld, \"lifted\": %ld, \"collision\": %ld}\n",
+      "\"done\": %ld, \"blocked\": %ld, \"lifted\": %ld, \"collision\": %ld, "
+      "\"cpu_s\": %.2f, \"watched_cpu_s\": %.2f}\n",
       fleet->kiva_id.size(), (simulated - simulated_begin) / took,
       static_cast<double>(listener.messages()) / took,
       static_cast<double>(listener.fewest()) / took, listener.late().percentile(0.5).c_str(),
@@ -305,7 +329,8 @@ int run(const Options& options) {
       commander.took().percentile(0.99).c_str(), commander.count(Event::ACCEPTED),
       commander.count(Event::REFUSED), commander.count(Event::DONE),
       commander.count(Event::BLOCKED), commander.count(Event::LIFTED),
-      commander.count(Event::COLLISION));
+      commander.count(Event::COLLISION), cpuTime(0) - cpu_begin,
+      cpuTime(options.watched) - watched_begin);
   return 0;
 }
 

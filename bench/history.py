@@ -1,54 +1,76 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the fleet's benchmark measured at each commit: history.jsonl, a line a run."""
+"""What was measured at each commit: history.jsonl, a line a run.
 
+A line: {"commit", "time" (of the run), "load" (of the machine before it, programs that wanted a
+core), "cores", "parts": {part: [figure, ...]}}, a figure being the members of figures.Figure that
+are not empty. Lines from before the history began have "note" instead of a load.
+"""
+
+import dataclasses
+import datetime
 import json
+import os
 import subprocess
 
+from figures import Figure
 from programs import BENCH
 
 FILE = BENCH / "history.jsonl"
 
-# The bare arrays do the same work, with as many rays.
-ARRAYS = {"default": "arrays, 121 rays", "at_once": "arrays"}
+
+class History:
+    """The lines of a file; none where there is no file."""
+
+    def __init__(self, path=FILE):
+        self._path = path
+        self.lines = [json.loads(line) for line in _lines(path)]
+
+    def newest(self, part):
+        """{name: (figure, line)} of the newest line that has that figure, in the order of names in
+        the newest line that has the part."""
+        out = {}
+        for line in reversed(self.lines):
+            for members in line["parts"].get(part, []):
+                figure = Figure(**members)
+                out.setdefault(figure.name, (figure, line))
+        return out
+
+    def append(self, parts, load):
+        """Adds what a run measured: {part: [Figure, ...]}."""
+        if not parts:
+            return
+        line = {"commit": commit(), "time": now(), "load": load, "cores": os.cpu_count()}
+        line["parts"] = {part: [_members(f) for f in found] for part, found in parts.items()}
+        self.lines.append(line)
+        with self._path.open("a") as file:
+            file.write(json.dumps(line) + "\n")
 
 
-def name(figure):
-    """Of what it is a figure, such as "default, N = 1,000, no scan read"."""
-    read = "" if figure.get("read", True) else ", no scan read"
-    lasers = read if figure["lasers"] else ", no lasers"
-    return f"{figure['engine']}, N = {figure['robots']:,}{lasers}"
+def commit():
+    """That is checked out; `+` marks changes that it doesn't have."""
+    changed = _git("status", "--porcelain", "--", ".", ":!bench/history.jsonl", ":!bench/README.md")
+    return _git("rev-parse", "--short", "HEAD") + ("+" if changed else "")
 
 
-def ratios(figures):
-    """Real-time factors by CPU over those of the bare arrays with as many robots, by name."""
-    arrays = {(f["engine"], f["robots"]): f["rtf_cpu"] for f in figures if f["lasers"]}
+def now():
+    return datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
+
+
+def _lines(path):
+    return path.read_text().splitlines() if path.exists() else []
+
+
+def _members(figure):
+    """Without what is empty, and no more digits than mean something."""
+    default = Figure("", 0)
     out = {}
-    for figure in figures:
-        beside = arrays.get((ARRAYS.get(figure["engine"]), figure["robots"]))
-        if beside and figure["lasers"]:
-            out[name(figure)] = figure["rtf_cpu"] / beside
+    for field in dataclasses.fields(figure):
+        value = getattr(figure, field.name)
+        if value != getattr(default, field.name) or field.name in ("name", "value"):
+            out[field.name] = float(f"{value:.4g}") if isinstance(value, float) else value
     return out
 
 
-def last():
-    """The newest line, a dict, or None."""
-    lines = FILE.read_text().splitlines() if FILE.exists() else []
-    return json.loads(lines[-1]) if lines else None
-
-
-def append(figures):
-    """Adds a line for the commit that is checked out; `+` marks changes that it doesn't have."""
-    commit = _git("rev-parse", "--short", "HEAD") + ("+" if _git("status", "--porcelain") else "")
-    line = {
-        "commit": commit,
-        "time": _git("log", "-1", "--format=%cI"),
-        "rtf_cpu": {name(f): f["rtf_cpu"] for f in figures},
-        "ratios": {what: round(ratio, 3) for what, ratio in ratios(figures).items()},
-    }
-    with FILE.open("a") as file:
-        file.write(json.dumps(line) + "\n")
-
-
 def _git(*words):
-    command = ["git", "-C", str(BENCH), *words]
+    command = ["git", "-C", str(BENCH.parent), *words]
     return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()

@@ -21,34 +21,51 @@ SHORT = {
 }
 
 
+# Of one program [s, wall]. None takes a third of it on a quiet machine; a crowded one is slower by
+# as much as it has programs.
+PATIENCE = 900
+
+
 class FailedError(RuntimeError):
     """A program ended with an error; the message is its last line."""
 
 
-def figures(command, **more):
-    """The JSON objects that a command prints, each a dict to which `more` is added.
+def say(text):
+    """How far it is, for who waits; the figures themselves go to standard output."""
+    print(text, file=sys.stderr, flush=True)
 
-    The command's progress goes on to the terminal. Raises FailedError.
+
+def figures(command, patience=PATIENCE):
+    """The JSON objects that a command prints, each a dict.
+
+    The command's progress goes on to the terminal. Raises FailedError, also where it takes longer
+    than `patience` [s] and is ended.
     """
-    print(f"$ {' '.join(map(str, command))}", file=sys.stderr, flush=True)
-    done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, text=True, check=False)
+    words = list(map(str, command))
+    say(f"$ {' '.join(words)}")
+    try:
+        done = subprocess.run(
+            words, stdout=subprocess.PIPE, text=True, check=False, timeout=patience
+        )
+    except subprocess.TimeoutExpired as error:
+        name = Path(command[0]).name
+        raise FailedError(f"{name} was ended, not being done after {patience:g} s") from error
     if done.returncode:
         raise FailedError(f"{Path(command[0]).name} ended with {done.returncode}")
-    lines = (line for line in done.stdout.splitlines() if line.startswith("{"))
-    out = [json.loads(line) | more for line in lines]
+    out = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
     for figure in out:
-        print(f"  {figure}", file=sys.stderr, flush=True)
+        say(f"  {figure}")
     return out
 
 
-def sweep(program, options, fleets):
-    """A program's figures for fleets of so many robots."""
+def sweep(program, options, fleets, seconds=2):
+    """A program's figures for fleets of so many robots, in chunks of simulated time [s]."""
     out = []
     for robots in fleets:
         keys = [key for key in SHORT if key[1] == robots]
         words = f"{program.name} {options}"
-        seconds = next((SHORT[key] for key in keys if key[0] in words), 2)
-        command = [program, *options.split(), "--seconds", seconds, robots]
+        chunk = min(seconds, next((SHORT[key] for key in keys if key[0] in words), seconds))
+        command = [program, *options.split(), "--seconds", chunk, robots]
         if program.suffix == ".py":
             command.insert(0, VENV / "bin" / "python")
         out += figures(command)

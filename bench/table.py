@@ -1,45 +1,91 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the benchmarks measured, against what they are to reach, as one table."""
+"""Figures against what they are to reach and what they were before, as a Markdown table."""
 
 import math
 import operator
 
 BEYOND = {">=": operator.ge, "<=": operator.le}
+MUCH = 1.2  # times slower than before is worth a word
+
+RUN = ("what", "figure", "by the wall clock", "ratio to the arrays", "before", "limit", "")
+README = ("what", "figure", "by the wall clock", "ratio to the arrays", "limit", "", "measured at")
 
 
-class Table:
-    """Lines of: what, figure, the same by CPU seconds, limit, and whether it is met."""
-
-    def __init__(self):
-        self._lines = []
-
-    def add(self, what, figure, cpu=None, limit=None, unit=""):
-        """`limit` is such as ">= 12". A `figure` that is text says why there is none."""
-        self._lines.append((what, _text(figure, unit), _text(cpu, ""), limit or "", ""))
-        if limit and isinstance(figure, (int, float)):
-            word, value = limit.split()
-            met = [BEYOND[word](f, float(value)) for f in (figure, cpu) if f is not None]
-            verdict = "yes" if met[0] else "by CPU" if any(met) else "NO"
-            self._lines[-1] = (*self._lines[-1][:4], verdict)
-
-    def __str__(self):
-        rows = [("what", "figure", "by CPU s", "limit", "met"), *self._lines]
-        rows.insert(1, ("-",) * 5)
-        widths = [max(len(row[i]) for row in rows) for i in range(5)]
-        return "\n".join(_row(row, widths) for row in rows)
+def of_run(figures, history):
+    """`figures`: {part: [Figure, ...]} of a run whose line the history doesn't have yet."""
+    rows = []
+    for part, found in figures.items():
+        before = history.newest(part)
+        rows += [_row(f) | _compared(f, *before.get(f.name, (None, None))) for f in found]
+    return _text(RUN, rows)
 
 
-def _row(row, widths):
-    fill = "-" if row[0] == "-" else " "
-    cells = [row[0].ljust(widths[0], fill)]
-    cells += [cell.rjust(width, fill) for cell, width in zip(row[1:], widths[1:])]
-    return "| " + " | ".join(cells) + " |"
+def of_part(history, part):
+    """The newest figures of a part, wherever they were measured."""
+    rows = [
+        _row(figure) | {"measured at": _place(line)}
+        for figure, line in history.newest(part).values()
+    ]
+    return _text(README, rows)
 
 
-def _text(figure, unit):
-    if figure is None:
+def met(figure):
+    """Whether a figure keeps its limit; by CPU time or by the wall clock, as it has them."""
+    if not figure.limit:
         return ""
-    if isinstance(figure, str):
-        return figure
-    digits = 0 if figure >= 100 else max(0, 2 - math.floor(math.log10(figure)) if figure else 0)
-    return f"{figure:,.{min(digits, 4)}f}{unit and ' ' + unit}"
+    if figure.value is None:
+        return "nothing came"
+    word, limit = figure.limit.split()
+    beyond = [BEYOND[word](f, float(limit)) for f in (figure.wall, figure.value) if f is not None]
+    return "met" if beyond[0] else "met by CPU" if any(beyond) else "**not met**"
+
+
+def _row(figure):
+    return {
+        "what": figure.name,
+        "figure": number(figure.value, figure.unit),
+        "by the wall clock": number(figure.wall),
+        "ratio to the arrays": number(figure.ratio),
+        "limit": figure.limit.replace(">=", "≥").replace("<=", "≤"),
+        "": met(figure),
+    }
+
+
+def _compared(figure, before, line):
+    """With the ratios, where there are; else with the figures themselves."""
+    if before is None or None in (figure.value, before.value):
+        return {"before": ""}
+    ratios = figure.ratio is not None and before.ratio is not None
+    a, b = (figure.ratio, before.ratio) if ratios else (figure.value, before.value)
+    worse = b / a if figure.more_is_faster else a / b
+    slower = ratios and worse > MUCH
+    word = f", {worse:.1f} x slower now" if slower else ""
+    return {"before": f"{number(b)} at {line['commit']}{word}"}
+
+
+def _place(line):
+    if "load" not in line:
+        return line["commit"]
+    return f"{line['commit']}, {line['time'][:10]}, load {line['load']:.0f} on {line['cores']}"
+
+
+def _text(columns, rows):
+    lines = [dict(zip(columns, columns)), dict.fromkeys(columns, "-"), *rows]
+    used = [c for c in columns if c in ("what", "figure") or any(row[c] for row in rows)]
+    lines[0][""] = " "
+    widths = {c: max(len(line[c]) for line in lines) for c in used}
+    return "\n".join(
+        "| " + " | ".join(_cell(line[c], widths[c]) for c in used) + " |" for line in lines
+    )
+
+
+def _cell(text, width):
+    return "-" * width if text == "-" else text.ljust(width)
+
+
+def number(value, unit=""):
+    """With three digits that mean something."""
+    if value is None:
+        return ""
+    digits = 0 if abs(value) >= 100 else 2 - math.floor(math.log10(abs(value))) if value else 0
+    return f"{value:,.{max(0, min(digits, 4))}f}{unit and unit != 'RTF' and ' ' + unit or ''}"

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import xmlrpc.client
 from pathlib import Path
@@ -17,17 +18,24 @@ import rosgraph
 import rospy
 import rosservice
 
+from warehouse_msgs.msg import WarehouseState
 from warehouse_msgs.srv import CreateWarehouse
+from warehouse_sim import request
 from warehouse_sim.tracker import topics_allowed
 
 PATIENCE = 120  # [s]
 TICK = os.sysconf("SC_CLK_TCK")
+NODE = "kiva_world_node"
 
 
 class Session:
-    """A master and a warehouse of its own."""
+    """A master and a warehouse of its own.
 
-    def __init__(self, **arguments):
+    `await_ready`: entering waits until it takes calls. Arguments are those of warehouse.launch.
+    """
+
+    def __init__(self, await_ready=True, **arguments):
+        self._await_ready = await_ready
         self._words = [f"{name}:={value}" for name, value in arguments.items()]
 
     def __enter__(self):
@@ -49,8 +57,9 @@ class Session:
         )
         try:
             self._wait(rosgraph.is_master_online, "the master")
-            name = "/warehouse/create_warehouse_models"
-            self._wait(lambda: name in rosservice.get_service_list(), "the warehouse")
+            if self._await_ready:
+                name = "/warehouse/create_warehouse_models"
+                self._wait(lambda: name in rosservice.get_service_list(), "the warehouse")
         except BaseException:  # a Ctrl-C too: nothing may be left running
             self.__exit__()
             raise
@@ -76,10 +85,23 @@ class Session:
             with contextlib.suppress(OSError, rosservice.ROSServiceException):
                 if condition():
                     return
-            time.sleep(0.2)
+            time.sleep(0.05)
         self._log.seek(0)
         told = " | ".join(self._log.read().strip().splitlines()[-3:])
         raise programs.FailedError(f"{what} did not come up: {told}")
+
+    def wait_for_state(self, name):
+        """Until /warehouse/state tells that a preset stands. Once in the life of a process."""
+        seen = threading.Event()
+
+        def look(state):
+            if len(state.kivas) == request.PRESETS[name].robots:
+                seen.set()
+
+        rospy.init_node("bench", anonymous=True, disable_signals=True, disable_rostime=True)
+        rospy.Subscriber("/warehouse/state", WarehouseState, look)
+        if not seen.wait(PATIENCE):
+            raise programs.FailedError(f"{name} did not stand within {PATIENCE} s")
 
     def create(self, name):
         """Seconds from call to reply."""
@@ -117,6 +139,10 @@ class Session:
     def memory(self):
         """Of all nodes together [MB]; what they share is counted once."""
         return sum(_memory(pid) for pid in self.nodes()) / 1e3
+
+    def node_memory(self):
+        """Of the world's node alone [MB]."""
+        return sum(_memory(p) for p, name in self.nodes().items() if name == NODE) / 1e3
 
     def cpu(self):
         """CPU seconds by program name."""
@@ -159,12 +185,13 @@ def _cpu(pid):
 def client(session, seconds, *options):
     """What one client of the whole fleet gets, and each program's share of a core meanwhile."""
     before, begin = session.cpu(), time.monotonic()
-    command = [programs.BUILT / "fleet_client", "--seconds", seconds, *options]
-    out = programs.figures(command)[0]
+    world = next(pid for pid, name in session.nodes().items() if name == NODE)
+    command = [programs.BUILT / "fleet_client", "--seconds", seconds, "--watch", world, *options]
+    out = programs.figures(command, seconds + 300)[0]
     took, after = time.monotonic() - begin, session.cpu()
     out["cores"] = {name: (used - before.get(name, 0)) / took for name, used in after.items()}
     out["memory_mb"] = session.memory()
-    return out
+    return out | {"seconds": seconds}
 
 
 def listening(seconds):
@@ -181,15 +208,3 @@ def unheard(seconds):
     with Session(size="huge", rtf=0) as session:
         session.item_topics_stand()
         return client(session, seconds, "--no-listen")
-
-
-def recreations(count):
-    """Memory after the second and after the last of so many creations [MB]."""
-    with Session(size="huge", rtf=1) as session:
-        memory = []
-        for i in range(count):
-            session.create("huge")
-            session.item_topics_stand()
-            memory.append(session.memory())
-            print(f"  creation {i + 1}: {memory[-1]:.0f} MB", file=sys.stderr, flush=True)
-        return {"memory_second_mb": memory[1], "memory_last_mb": memory[-1]}

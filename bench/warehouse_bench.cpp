@@ -2,7 +2,7 @@
 //
 // How fast a whole warehouse is, in-process: every robot under random commands, lifts included.
 //
-//   bench/warehouse huge > huge.sdf; warehouse_bench [--scans] [--seconds S] huge.sdf
+//   bench/warehouse huge > huge.sdf; warehouse_bench [--scans] [--seconds S] [--chunks N] huge.sdf
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "chunks.h"
+#include "core/state/poses.h"
 #include "core/state/world_state.h"
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
@@ -19,14 +20,16 @@
 namespace {
 
 constexpr char kHelp[] =
-    "warehouse_bench [--scans] [--seconds S] WAREHOUSE.sdf\n"
+    "warehouse_bench [--scans] [--seconds S] [--chunks N] WAREHOUSE.sdf\n"
     "  --scans    every laser scan that is due is read; else robots look as they need to\n"
-    "  --seconds  of simulated time a chunk (5)\n";
+    "  --seconds  of simulated time a chunk (5)\n"
+    "  --chunks   that are simulated before those that are measured (1)\n";
 constexpr int kStepsPerLook = 10;  // between two looks at what happened
 
 struct Options {
   bool scans = false;
   double seconds = 5;
+  int chunks = 1;
   std::string file;
 };
 
@@ -38,6 +41,8 @@ Options parse(int argc, char** argv) {
       options.scans = true;
     } else if (word == "--seconds" && i + 1 < argc) {
       options.seconds = std::atof(argv[++i]);
+    } else if (word == "--chunks" && i + 1 < argc) {
+      options.chunks = std::atoi(argv[++i]);
     } else {
       options.file = word;
     }
@@ -109,27 +114,45 @@ class Dispatcher {
   std::map<kiva::Event::Kind, long> counts_;
 };
 
-/// How many robots of a hundred do something, and are stepped by Bullet.
+/// How many robots of a hundred do something, and are stepped by Bullet; and how many storage units
+/// Bullet holds, has awake, and have fallen over.
 class Shares {
  public:
   void add(const kiva::World& world) {
-    const kiva::FleetState& fleet = insideOf(world).fleet;
+    const kiva::WorldState& inside = insideOf(world);
+    const kiva::FleetState& fleet = inside.fleet;
+    ++looks_;
     robots_ += fleet.size();
     for (int i = 0; i < fleet.size(); ++i) {
       busy_ += fleet.status[i] != kiva::Status::kIdle;
       in_bullet_ += fleet.activated[i];
     }
+    for (int slot : inside.activated) {
+      const kiva::Model& model = *inside.models[slot];
+      if (model.kind != kiva::ModelKind::kStorageUnit) continue;
+      units_ += 1;
+      awake_ += isAwake(model);
+      const double up = canonicalState(model).pose.Rot().ZAxis().Z();
+      tilted_ += up < kTilted;
+      fallen_ += up < kFallen;
+    }
   }
 
   std::string text() const {
-    char text[80];
-    std::snprintf(text, sizeof text, ", \"busy\": %.3f, \"in_bullet\": %.3f", busy_ / robots_,
-                  in_bullet_ / robots_);
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  ", \"busy\": %.3f, \"in_bullet\": %.3f, \"units_in_bullet\": %.1f, "
+                  "\"units_awake\": %.1f, \"units_tilted\": %.1f, \"units_fallen\": %.1f",
+                  busy_ / robots_, in_bullet_ / robots_, units_ / looks_, awake_ / looks_,
+                  tilted_ / looks_, fallen_ / looks_);
     return text;
   }
 
  private:
-  double robots_ = 0, busy_ = 0, in_bullet_ = 0;
+  static constexpr double kTilted = 0.99985, kFallen = 0.9;  // cosines: 1° and 26°
+
+  double looks_ = 0, robots_ = 0, busy_ = 0, in_bullet_ = 0;
+  double units_ = 0, awake_ = 0, tilted_ = 0, fallen_ = 0;
 };
 
 void readScans(const kiva::World& world, std::vector<float>* ranges) {
@@ -143,13 +166,14 @@ void run(const Options& options) {
   Dispatcher dispatcher(world);
   std::vector<float> ranges;
   const long steps = std::lround(options.seconds / world.stepSize());
-  Shares shares;
-  const auto chunk = [&] {
+  const auto chunk = [&](Shares* all) {
+    Shares shares;
     const double begin = bench::cpuTime();
     for (long s = 0; s < steps; ++s) {
       if (s % kStepsPerLook == 0) {
         dispatcher.dispatch(world);
         shares.add(world);
+        all->add(world);
       }
       world.step();
       if (options.scans) readScans(world, &ranges);
@@ -158,9 +182,10 @@ void run(const Options& options) {
     std::fprintf(stderr, "  simulated %.0f s: RTF %.2f%s\n", world.time(), factor,
                  shares.text().c_str());
   };
-  chunk();  // from the start, where all stand still, to how a warehouse is
-  shares = {};
-  const auto factors = bench::measure(options.seconds, chunk);
+  Shares before, shares;
+  // From the start, where all stand still, to how a warehouse is.
+  for (int i = 0; i < options.chunks; ++i) chunk(&before);
+  const auto factors = bench::measure(options.seconds, [&] { chunk(&shares); });
   bench::print("warehouse", world.fleet().size(), options.scans, factors,
                shares.text() + dispatcher.counts());
 }

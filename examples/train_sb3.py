@@ -23,7 +23,7 @@ def main():
     check_env(env.unwrapped)
     model = PPO("MlpPolicy", env, seed=0, n_steps=min(2048, decisions), verbose=1)
     model.learn(decisions)
-    mean, deviation = evaluate_policy(model, env, n_eval_episodes=5)
+    mean, deviation = evaluate_policy(model, model.get_env(), n_eval_episodes=5)
     print(f"reward of an episode: {mean:.2f} ± {deviation:.2f}")
 
 

@@ -26,6 +26,11 @@ from warehouse_learning.page import Page  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("error")
 TINY = {"size": "tiny"}
+REGISTERED = [
+    f"{name}{size}-v0"
+    for name in ("KivaWarehouse", "KivaRobots")
+    for size in ("", "-tiny", "-small", "-medium", "-large")
+]
 
 
 def parallel(**options):
@@ -36,36 +41,49 @@ def turns(**options):
     return warehouse_learning.env(**TINY | options)
 
 
-@pytest.mark.parametrize(
-    ("options", "cycles"), [({}, 1000), ({"continuous": True}, 50), ({"lasers": True}, 50)]
-)
-def test_parallel_api(options, cycles):
-    parallel_api_test(parallel(**options), cycles)
+VARIANTS = [
+    {},
+    {"size": "small"},
+    {"size": "medium"},
+    {"continuous": True},
+    {"lasers": True},
+    {"decision": 0.5},
+    {"reserve": False},
+]
 
 
-def test_api_in_turns():
-    api_test(turns(max_cycles=100), 1000)
+@pytest.mark.parametrize("options", VARIANTS, ids=str)
+def test_pettingzoo(options):
+    parallel_api_test(parallel(**options), 1000)
+    api_test(turns(max_cycles=100, **options), 1000)
+    parallel_seed_test(lambda: parallel(**options), 100)
+    seed_test(lambda: turns(**options), 50)
+    render_test(lambda **mode: turns(**options | mode))
 
 
-def test_seeds():
-    parallel_seed_test(parallel, 100)
-    seed_test(turns, 50)
+def test_pettingzoo_large():
+    parallel_api_test(parallel(size="large"), 100)
 
 
-def test_render_and_max_cycles():
-    render_test(turns)
+def test_max_cycles():
     max_cycles_test(warehouse_learning)
 
 
-@pytest.mark.parametrize("name", ["KivaWarehouse-tiny-v0", "KivaRobots-tiny-v0"])
+@pytest.mark.parametrize("name", REGISTERED)
 def test_gymnasium(name):
     check_env(gymnasium.make(name).unwrapped)
-
-
-def test_sizes_are_registered():
-    for name in ("KivaWarehouse", "KivaRobots"):
-        for size in ("", "-tiny", "-small", "-medium", "-large"):
-            assert f"{name}{size}-v0" in gymnasium.registry
+    # Half a second of a dispatcher is a decision too, and a tenth of its own.
+    options = {"decision": 0.5} if "Warehouse" in name else {}
+    env = gymnasium.make(name, max_cycles=400, **options)
+    env.action_space.seed(1)
+    env.reset(seed=1)
+    for step in range(1, 1001):
+        observation, reward, ended, cut, _ = env.step(env.action_space.sample())
+        assert env.observation_space.contains(observation) and np.isfinite(reward)
+        assert not ended and cut == (step % 400 == 0)
+        if cut:
+            env.reset()
+    env.close()
 
 
 @pytest.mark.parametrize("mode", list(AutoresetMode))

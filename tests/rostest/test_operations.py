@@ -6,12 +6,21 @@ import unittest
 
 import rospy
 import rostest
-from node_test import Listener, call, kill, latched, wait_until
+from node_test import Listener, call, kill, latched, pid, wait_until
 from page_test import ask
+from sqlalchemy import func, select
+from std_srvs.srv import Empty
 
-from warehouse_fleet.operations import check
+from warehouse_fleet.operations import check, schema
 from warehouse_fleet.operations.database import open_engine
-from warehouse_msgs.msg import Kpis, OrderEvent, OrderLine, StationStates, TransportEvent
+from warehouse_msgs.msg import (
+    Kpis,
+    OrderEvent,
+    OrderLine,
+    StationStates,
+    Throughput,
+    TransportEvent,
+)
 from warehouse_msgs.srv import (
     CancelOrder,
     ConfirmPick,
@@ -152,6 +161,25 @@ class Operations(unittest.TestCase):
             "the station lets the unit go",
             LONG,
         )
+        # What was picked before is not forgotten.
+        with engine.connect() as connection:
+            picked = select(func.sum(-schema.move.c.quantity)).where(schema.move.c.reason == "pick")
+            pieces = connection.execute(picked).scalar()
+        latched("/warehouse/throughput", Throughput, lambda told: sum(told.items_picked) == pieces)
+
+    def test_6_time_goes_back_and_it_goes_on(self):
+        orders = [submit((f"sku-{i}", 1)).order_id for i in range(1, 5)]
+        self.wait_for(orders[0], OrderEvent.ASSIGNED)
+        before, node = rospy.get_time(), pid("/operations")
+        call("/gazebo/reset_simulation", Empty)
+        wait_until(lambda: rospy.get_time() < before, "time goes back")
+        wait_until(lambda: all(self.is_complete(o) for o in orders), "all orders complete", LONG)
+        self.assertEqual(pid("/operations"), node)
+        self.assertLess(rospy.get_time(), before + LONG)
+        throughput = latched("/warehouse/throughput", Throughput)
+        self.assertLessEqual(throughput.end, rospy.get_time())
+        engine = open_engine(rospy.get_param("~database"))
+        self.assertEqual(check.faults(engine), [])
 
     def is_complete(self, order_id):
         told = self.told(order_id, OrderEvent.COMPLETED)

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A world is the same on however many threads it is stepped.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <random>
+#include <stdexcept>
 
+#include "core/state/workers.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
 
@@ -95,6 +100,40 @@ TEST(Threads, TakeEachTurnOnce) {
     });
     for (const auto& times : turns) ASSERT_EQ(times, round);
   }
+}
+
+TEST(Threads, HandOnWhatIsThrownWhenAllIsDone) {
+  for (const unsigned threads : {1u, 3u}) {
+    Workers workers(threads);
+    std::atomic<int> done{0};
+    const auto loop = [&](int begin, int) {
+      ++done;
+      if (begin == 5) throw std::runtime_error("the fifth");
+    };
+    EXPECT_THROW(workers.share(20, 1, loop), std::runtime_error) << threads;
+    EXPECT_EQ(done, 20) << threads;
+    EXPECT_NO_THROW(workers.share(5, 1, loop)) << threads;
+  }
+}
+
+/// Where the parent's threads are gone.
+TEST(Threads, WorkInAForkedChild) {
+  Workers workers(3);
+  const auto sum = [&] {
+    std::atomic<int> all{0};
+    workers.share(100, 1, [&](int begin, int) { all += begin; });
+    return all.load();
+  };
+  EXPECT_EQ(sum(), 4950);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    _exit(sum() == 4950 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(sum(), 4950);
 }
 
 TEST(Threads, AreOfANumberThatThereCanBe) {

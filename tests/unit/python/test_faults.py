@@ -4,6 +4,7 @@
 Robots and physics are the real ones; what goes wrong is drawn by seeds.
 """
 
+import itertools
 import os
 from functools import partial
 
@@ -14,12 +15,16 @@ from faults import BadConnection, Stops
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.stations import PICK
+from warehouse_fleet.traffic import Mode
 from warehouse_fleet.transports import Kind
 
 BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
   <collision name="body"><pose>0 0 0.3 0 0 0</pose>
     <geometry><box><size>0.5 0.5 0.6</size></box></geometry></collision>
 </link></model></sdf>"""
+PILLAR = BOX.replace("0.5 0.5 0.6", "0.1 0.1 0.6")
+AROUND = list(itertools.product((-0.5, 0.95), (-0.9, 0.0, 0.9)))  # no room on any grid point there [m]
 WARM_UP = 60  # until units arrive as fast as they are taken [s]
 WINDOW = 240  # over which deliveries are counted [s]
 AS_BEFORE = 0.8  # of the deliveries of a calm fleet: they vary so much by chance
@@ -178,9 +183,73 @@ def test_a_robot_pushed_aside_finds_back(calm, is_loaded):
     assert np.mean(after) > AS_BEFORE * calm
 
 
+@pytest.mark.parametrize(
+    ("dx", "yaw"), [(0.15, 0.1), (-0.45, 0.3)], ids=["towards the belt", "away from it"]
+)
+def test_a_robot_pushed_beneath_its_station_finds_back(dx, yaw):
+    """The belt leaves no room to turn beside it: the robot must drive out of there."""
+    with Site() as site:
+        robot = site.until(partial(served, site))
+        service = int(site.traffic.cell[robot])
+        shelf = int(site.world.fleet.shelf_id[robot])
+        pose = site.world.pose(site.name(robot))
+        turned = site.world.fleet.yaw[robot] + yaw
+        site.world.set_pose(site.name(robot), pose[0] + dx, pose[1], pose[2], turned)
+        site.until(lambda: site.traffic.astray[robot])
+        site.until(lambda: not site.traffic.astray[robot], 40)
+        site.until(partial(site.has_seen, Kind.STORED, shelf), 180)
+        behind = site.transports.totals.delivered
+        site.until(lambda: site.transports.totals.delivered > behind + 5)
+        assert site.driver.collisions == 0
+        assert len(site.driver.refusals) < 10, site.driver.refusals
+        assert not site.traffic.mode.any()
+        assert site.traffic.cell[robot] != service
+
+
+def served(site):
+    """A robot that stands at the belt of a station, where it is served; or None."""
+    cells = {station.service_cell for station in site.plan.stations if station.kind == PICK}
+    at = np.flatnonzero(np.isin(site.traffic.cell, list(cells)) & site.traffic.busy)
+    return next((int(robot) for robot in at if site.world.fleet.shelf_id[robot]), None)
+
+
+def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
+    """Between things that leave it no room anywhere; the others drive around it."""
+    during = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(partial(pushable, site, True, 0.3, 0.0))[0]
+            x, y = site.world.pose(site.name(robot))[:2]
+            site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
+            for number, (dx, dy) in enumerate(AROUND):
+                site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
+            site.until(lambda: site.traffic.lost[robot])
+            refusals = len(site.driver.refusals)
+            assert site.traffic.mode[robot] == Mode.OUT_OF_SERVICE
+            assert site.until(partial(failed, site)) == ["its robot is OUT_OF_SERVICE now"]
+            for number in range(len(AROUND)):
+                site.world.delete(f"pillar{number}")
+            during.append(site.run(WINDOW))
+            assert len(site.driver.refusals) == refusals
+            assert site.traffic.lost[robot]
+            site.traffic.mode[robot] = Mode.AUTOMATIC
+            site.until(lambda: site.traffic.astray[robot])
+            site.until(lambda: not site.traffic.astray[robot])
+            assert not site.traffic.lost[robot]
+            assert site.driver.collisions == 0
+    told(calm, during, [])
+    assert np.mean(during) > 0.3 * calm
+
+
+def failed(site):
+    return [event.text for event in site.events if event.kind == Kind.FAILED]
+
+
 def pushable(site, is_loaded, dx, dy):
     """Robots that can be pushed so without touching anybody."""
     fleet, found = site.world.fleet, []
+    passable, reach = site.plan.passable.ravel(), 0.5
+    corners = reach * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
     for robot in np.flatnonzero((fleet.shelf_id != 0) == is_loaded):
         x, y = fleet.x[robot] + dx, fleet.y[robot] + dy
         far = np.maximum(abs(fleet.x - x), abs(fleet.y - y))
@@ -188,11 +257,13 @@ def pushable(site, is_loaded, dx, dy):
         units = site.world.storage_units
         free = units["kiva_id"] == 0
         away = np.maximum(abs(units["x"] - x), abs(units["y"] - y))[free]
+        covered = site.plan.cell_of(*(np.array([x, y]) + corners).T)
         is_street = all(
-            cell >= 0 and site.plan.passable.flat[cell] and not site.plan.storage.flat[cell]
+            cell >= 0 and passable[cell] and not site.plan.storage.flat[cell]
             for cell in (site.plan.cell_of(x, y), site.traffic.cell[robot])
         )
-        if is_street and far.min() > 1.3 and away.min() > (1.1 if is_loaded else 0.9):
+        is_room = (covered >= 0).all() and passable[covered].all()
+        if is_street and is_room and far.min() > 1.3 and away.min() > (1.1 if is_loaded else 0.9):
             found.append(int(robot))
     return found
 

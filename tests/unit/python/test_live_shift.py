@@ -95,6 +95,10 @@ def test_heat_is_where_robots_drove_and_waited_within_the_last_hour():
     assert {i: traffic[i] for i in np.flatnonzero(traffic)} == {at(1, 0): 1, at(0, 0): 1}
     assert {i: waiting[i] for i in np.flatnonzero(waiting)} == {at(5, 3): 1.5}
     assert heat.seconds(104.0) == 4.0
+    anew = FloorHeat(plan, now=110.0)
+    anew.restore([(began, maps) for _, began, maps in heat.kept(SLICES)])
+    assert np.array_equal(anew.maps(), heat.maps())
+    assert anew.seconds(110.0) == 10.0
     heat.see(100.0 + WINDOW, [0.0, 5.0], [0.0, 3.0], waits)
     assert heat.maps()[WAITING].sum() == GAP  # since long ago nothing was heard
     assert heat.maps()[TRAFFIC][at(0, 0)] == 1

@@ -16,7 +16,7 @@ from postgres import server
 from sqlalchemy import text
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.operations import Operations, check
+from warehouse_fleet.operations import Operations, check, queries, stored
 from warehouse_fleet.operations.database import DatabaseError, open_engine
 from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.opening import SiteError
@@ -154,6 +154,37 @@ def test_times_of_orders_go_on_in_the_next_run(tmp_path):
     with shift_on(tmp_path / "run.db", orders="none") as ops:
         (order,) = ops.shift.orders.values()
         assert (order.reference, order.created, order.due) == ("mine", -50.0, 250.0)
+        engine = open_engine(tmp_path / "run.db")
+        assert is_late(engine, 249.0) == []
+        assert is_late(engine, 251.0) == ["mine"]
+        for station in ops.shift.stations:
+            ops.shift.set_station(station.name, True, Mode.AUTOMATIC)
+        ops.run(seconds=240)
+        assert order.state == OrderState.COMPLETED
+        ops.shift.journal.flush()
+        assert is_late(engine, 500.0) == []
+
+
+def is_late(engine, now):
+    _, found = queries.find_orders(engine, late_at=now)
+    return [row.reference for row, _ in found]
+
+
+def test_what_was_done_is_known_to_the_next_run(tmp_path):
+    with shift_on(tmp_path / "run.db") as ops:
+        ops.run(minutes=30)
+        tally, end = ops.shift.tally, ops.shift.now
+    engine = open_engine(tmp_path / "run.db")
+    of_tally = [dict(c) for c in (tally.picked_in, tally.stored_in, tally.completed_in)]
+    assert sum(of_tally[0].values()) > 100
+    begin, *counts = stored.throughput(engine, end + 20, since=0.0)
+    assert (begin, [dict(c) for c in counts]) == (0.0, of_tally)  # time has gone on
+    begin, *counts = stored.throughput(engine, 600.0, since=0.0)  # it went back by 20 minutes
+    assert begin == 0.0
+    later = {i - 20: n for i, n in of_tally[0].items() if i >= 20}
+    assert dict(counts[0]) == later
+    begin, *counts = stored.throughput(engine, end + 7200, since=end + 3600)
+    assert begin == end + 7200 and not any(counts)
 
 
 def test_a_database_of_another_warehouse_is_refused(tmp_path):
@@ -171,7 +202,7 @@ def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_pat
     with engine.begin() as connection:
         schema.prepare(connection, schema.VERSION + 1, steps)
         assert connection.execute(text("SELECT colour FROM unit")).all() == []
-    with pytest.raises(DatabaseError, match="schema version 2; this program knows 1"):
+    with pytest.raises(DatabaseError, match="schema version 3; this program knows 2"):
         open_engine(tmp_path / "run.db")
 
 

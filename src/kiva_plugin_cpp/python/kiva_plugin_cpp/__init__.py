@@ -13,9 +13,9 @@ SI units, radians, x forward, y left, z up. One thread at a time uses a world.
 
 import sys
 from enum import IntEnum
+from html import escape
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 _built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
 if _built and not set(_built) & set(EXTENSION_SUFFIXES):
@@ -129,7 +129,7 @@ def worlds_folder():
 
 def _ours(text):
     """SDF that includes models of worlds/models, whatever else is called like them."""
-    return text.replace("model://", escape(f"file://{worlds_folder()}/models/"))
+    return text.replace("model://", escape(f"file://{worlds_folder()}/models/", quote=False))
 
 
 def _find(world):

@@ -25,6 +25,7 @@
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
 #include "core/state/poses.h"
+#include "core/state/workers.h"
 #include "plugins/plugin_table.h"
 
 namespace kiva {

@@ -55,5 +55,6 @@ py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 
 void defineWorlds(py::module_& m);
+void defineCells(py::module_& m);
 
 }  // namespace kiva::python

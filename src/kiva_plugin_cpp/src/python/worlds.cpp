@@ -7,12 +7,13 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <mutex>
 
 #include "arrays.h"
 #include "core/motion/wheels.h"
-#include "crew.h"
+#include "core/state/workers.h"
 #include "host.h"
 #include "kiva_plugin_cpp/command.h"
 
@@ -84,7 +85,7 @@ class Worlds {
  public:
   Worlds(std::vector<HostPtr> hosts, unsigned threads)
       : hosts_(std::move(hosts)),
-        crew_(threads),
+        workers_(threads),
         robots_(hosts_.empty() ? 0 : hosts_[0]->world.fleet().size()),
         rows_(hosts_.size() * static_cast<std::size_t>(robots_)),
         events_(hosts_.size()) {
@@ -102,7 +103,7 @@ class Worlds {
   }
 
   std::size_t size() const { return hosts_.size(); }
-  unsigned threads() const { return crew_.threads(); }
+  unsigned threads() const { return workers_.threads(); }
 
   /// How many steps each world made: all, or, if `until_idle`, as many as it took.
   py::array_t<std::int64_t> step(std::int64_t steps, bool until_idle) {
@@ -116,7 +117,7 @@ class Worlds {
       const std::int64_t now = std::min(steps - done, kStepsBetweenSignals);
       {
         py::gil_scoped_release release;
-        crew_.each(size(), [&](std::size_t i) {
+        forEach(size(), [&](std::size_t i) {
           if (!ready[i]) ready[i] = advance(i, now, until_idle, &made[i]);
         });
       }
@@ -161,7 +162,7 @@ class Worlds {
     std::vector<int> at(count);
     for (std::size_t i = 0; i < count; ++i) at[i] = worlds[static_cast<py::ssize_t>(i)];
     py::gil_scoped_release release;
-    crew_.each(count, [&](std::size_t i) {
+    forEach(count, [&](std::size_t i) {
       Host& restored = *hosts_[at[i]];
       const auto lock = restored.use();
       restored.world.restore(bytes[bytes.size() == 1 ? 0 : i]);
@@ -235,7 +236,7 @@ class Worlds {
     if (ranges_.size() != size() * row) ranges_ = Column<float>(size() * row);
     {
       py::gil_scoped_release release;
-      crew_.each(size(), [&](std::size_t i) { scanInto(i, ranges_.data() + i * row, rays); });
+      forEach(size(), [&](std::size_t i) { scanInto(i, ranges_.data() + i * row, rays); });
     }
     return view<float>(ranges_, shape(static_cast<py::ssize_t>(rays)));
   }
@@ -263,7 +264,7 @@ class Worlds {
     py::array_t<std::uint64_t> out(static_cast<py::ssize_t>(size()));
     std::uint64_t* const hashes = out.mutable_data();
     py::gil_scoped_release release;
-    crew_.each(size(), [&](std::size_t i) {
+    forEach(size(), [&](std::size_t i) {
       const auto lock = hosts_[i]->use();
       hashes[i] = hosts_[i]->world.stateHash();
     });
@@ -347,6 +348,13 @@ class Worlds {
     }
   }
 
+  /// In any order, on all threads.
+  void forEach(std::size_t count, const std::function<void(std::size_t)>& job) {
+    workers_.share(static_cast<int>(count), 1, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) job(static_cast<std::size_t>(i));
+    });
+  }
+
   void scanInto(std::size_t i, float* out, std::size_t rays) {
     const auto lock = hosts_[i]->use();
     const World& world = hosts_[i]->world;
@@ -361,7 +369,7 @@ class Worlds {
 
   mutable std::mutex mutex_;
   std::vector<HostPtr> hosts_;
-  Crew crew_;
+  Workers workers_;
   int robots_;
   FleetRows rows_;
   std::vector<std::vector<Event>> events_;  // of the last step()

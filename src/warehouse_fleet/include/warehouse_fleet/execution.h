@@ -109,6 +109,8 @@ class Execution {
   bool isStalled(int robot) const;
   /// Whether it was pushed off the middle of its cell.
   bool isAstray(int robot) const { return courses_.at(robot).is_astray; }
+  /// Whether it does not find back from where it was pushed, and is not asked to any more.
+  bool isLost(int robot) const;
   /// Cells that it holds ahead, and those planned beyond.
   std::vector<Cell> released(int robot) const;
   std::vector<Cell> planned(int robot) const;
@@ -127,6 +129,11 @@ class Execution {
     Cell cell;
     int tick;
   };
+  /// How one that was pushed comes back to the middle of a cell.
+  struct Recovery {
+    double since = -1;          ///< [s]; -1: there is nothing to come back from
+    std::vector<Cell> refused;  ///< where it can't begin a path
+  };
   /// One robot's path and what it holds of it.
   struct Course {
     bool is_member = false;     ///< drives as it is told; or an obstacle
@@ -138,14 +145,15 @@ class Execution {
     double sent = 0;            ///< when a release was sent last [s]
     std::vector<Cell> cells;    ///< points 0 to released - 1; where it stands if there is no path
     int reached = 1, left = 0;
-    bool is_short = false;       ///< of the middle of the last of those that it reached
-    std::vector<Step> plan;      ///< beyond those
-    int committed = 0;           ///< cells that it had before it when the plan was asked for
-    std::vector<Cell> granted;   ///< what it was released since then
-    bool is_off = false;         ///< is not any more where the plan was asked for
-    Cell at = kNowhere;          ///< where it stands, or was last
-    Cell turning = kNowhere;     ///< where it has been released around a corner
-    bool is_astray = false;      ///< was pushed, and is not in the middle of its cell
+    bool is_short = false;      ///< of the middle of the last of those that it reached
+    std::vector<Step> plan;     ///< beyond those
+    int committed = 0;          ///< cells that it had before it when the plan was asked for
+    std::vector<Cell> granted;  ///< what it was released since then
+    bool is_off = false;        ///< is not any more where the plan was asked for
+    Cell at = kNowhere;         ///< where it stands, or was last
+    Cell turning = kNowhere;    ///< where it has been released around a corner
+    bool is_astray = false;     ///< was pushed, and is not in the middle of its cell
+    Recovery recovery;
     std::vector<Cell> occupied;  ///< what it stands on beyond `cells`: an obstacle, or astray
     bool travels = false;        ///< has somewhere to go
     bool waits_by_plan = false;
@@ -168,6 +176,7 @@ class Execution {
   void finish(int robot);
   bool isOver(int robot) const;
   void occupy(int robot);
+  void renew(int robot);
   void keepAround(int robot);
   void cover(int robot);
   void vacate(int robot);
@@ -189,6 +198,8 @@ class Execution {
   bool keepsFromTurning(int robot, Cell in, Cell from) const;
   void extend(int robot);
   void recentre(int robot);
+  Cell refuge(int robot) const;
+  bool mayRest(int robot, Cell cell) const;
   bool isAtEnd(int robot) const;
   void releaseUpTo(int robot, int points);
   void send(int robot, int first);
@@ -202,7 +213,8 @@ class Execution {
   int headingTo(Cell from, Cell to) const;
   double speedOf(int robot) const;
   double toGo(int robot) const;
-  bool isCentred(int robot) const;
+  bool isCentred(int robot, double within) const;
+  bool isBack(int robot) const;
   bool isSquare(int robot) const;
 
   const Floor& floor_;

@@ -313,6 +313,7 @@ class Coordinator:
 
     def _begin(self, report, time):
         self._plan_of, self._ids = self._scenery, report.kiva_id
+        self._next_state = self._next_paths = time
         if self._traffic is not None:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
@@ -418,6 +419,10 @@ class Coordinator:
         ]
         still = traffic.kiva_ids[traffic.stalled & ~traffic.broken].tolist()
         state.alarms += [f"kiva{kiva} does not move" for kiva in still]
+        state.alarms += [
+            f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
+            for kiva in traffic.kiva_ids[traffic.lost].tolist()
+        ]
         if traffic.alarm:
             state.alarms.append(traffic.alarm)
         return state

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where on the floor robots drive and where they wait, over the last hour."""
 
+import zlib
+
 import numpy as np
 
 WINDOW, SLICES = 3600.0, 12  # what is older than the window is forgotten a slice at a time [s]
@@ -23,10 +25,28 @@ class FloorHeat:
         counts = self._slices[self._slice % SLICES]
         cells = self._plan.cell_of(x, y)
         inside = cells >= 0
-        np.add.at(counts[WAITING], cells[inside & waits], min(now - self._time, GAP))
+        np.add.at(counts[WAITING], cells[inside & waits], np.clip(now - self._time, 0, GAP))
         if self._cells is not None and len(self._cells) == len(cells):
             np.add.at(counts[TRAFFIC], cells[inside & (cells != self._cells)], 1)
         self._cells, self._time = cells, now
+
+    def kept(self, slices=1):
+        """The last slices, to be kept for restore(): each (slot, when it began [s], bytes). Later ones
+        of a slot take its place."""
+        for number in range(self._slice + 1 - slices, self._slice + 1):
+            slot = number % SLICES
+            packed = zlib.compress(self._slices[slot].tobytes(), level=1)
+            yield slot, max(number * (WINDOW / SLICES), self._began), packed
+
+    def restore(self, kept):
+        """Goes on with what was kept: pairs (when it began [s], bytes), if it is of this floor."""
+        for began, packed in kept:
+            counts = np.frombuffer(zlib.decompress(packed), np.float32)
+            number = self._slice_of(began)
+            if counts.size != self._slices[0].size or not 0 <= self._slice - number < SLICES:
+                continue
+            self._slices[number % SLICES] += counts.reshape(self._slices[0].shape)
+            self._began = min(self._began, began)
 
     def seconds(self, now):
         """That the maps cover."""

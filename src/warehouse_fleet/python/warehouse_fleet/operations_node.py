@@ -12,7 +12,7 @@ from std_msgs.msg import Header
 
 from warehouse_fleet.changes import ChangeJournal
 from warehouse_fleet.failures import FailureLog
-from warehouse_fleet.floor_heat import FloorHeat
+from warehouse_fleet.floor_heat import SLICES, FloorHeat
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
@@ -69,6 +69,12 @@ class Coordinator:
         except rospy.ServiceException as error:
             return False, str(error)
         return answer.success, answer.message
+
+    def begin(self):
+        """A run that has asked for nothing yet."""
+        with self._lock:
+            self._heard = []
+        self._open, self._left, self._last_left = set(), set(), None
 
     def set_open(self, station, is_open):
         """The coordinator is not told: a shift asks for nothing at a closed station, and cancels
@@ -151,6 +157,10 @@ class Warehouse:
         told = self.fleet, self.objects, self.units, self.scenery
         return None not in told and self.objects.revision == self.units.revision
 
+    def is_known_at(self, now):
+        """Not from a time that is still to come, before that was gone back [s]."""
+        return self.is_known and self.fleet.stamp.to_sec() <= now
+
     def site(self):
         """The Site of it."""
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
@@ -193,24 +203,10 @@ class OperationsNode:
         self._orders = _queued("/warehouse/order_changes", msg.OrderStatuses)
         self._stock = _queued("/warehouse/stock_changes", msg.StockPlaces)
         self._events = rospy.Publisher("/warehouse/order_events", msg.OrderEvent, queue_size=10000)
+        self._chosen = {"orders": orders, "policies": policies, "seed": seed}
         self._wait_for_warehouse()
-        self._site = self._warehouse.site()
         self._database = Database(database)
-        self._coordinator.release_left(*stored.transports_left(self._database.engine))
-        self._shift = open_shift(
-            self._site,
-            self._coordinator,
-            orders=orders,
-            seed=seed,
-            policies=policies,
-            database=self._database,
-            now=rospy.get_time(),
-        )
-        self._shift.on_order_event = self._tell
-        self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
-        self._warehouse.heat = FloorHeat(self._site.plan, rospy.get_time())
-        self._began = clock()
-        self._next_stations = self._next_kpis = rospy.get_time()
+        self._begin()
         for name, kind, call in (
             ("submit_order", srv.SubmitOrder, self._submit),
             ("cancel_order", srv.CancelOrder, self._cancel),
@@ -223,6 +219,26 @@ class OperationsNode:
             rospy.Service(f"/warehouse/{name}", kind, call)
         # Last of all: whoever hears it finds the services there.
         self._stations = _publisher("/warehouse/stations", msg.StationStates)
+
+    def _begin(self):
+        """A shift that goes on with what the database has."""
+        engine, now = self._database.engine, rospy.get_time()
+        self._site = self._warehouse.site()
+        self._coordinator.begin()
+        self._coordinator.release_left(*stored.transports_left(engine))
+        heat = FloorHeat(self._site.plan, now)
+        heat.restore(stored.heat(engine, now))
+        since = max(0.0, (now // kpis.INTERVAL + 1 - SHOWN) * kpis.INTERVAL)
+        self._before = stored.throughput(engine, now, since)
+        self._shift = open_shift(
+            self._site, self._coordinator, database=self._database, now=now, **self._chosen
+        )
+        self._shift.on_order_event = self._tell
+        self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
+        self._warehouse.heat, self._warehouse.distance_m = heat, 0.0
+        self._keep_heat(SLICES)  # by the times of this run
+        self._began = clock()
+        self._next_stations = self._next_kpis = now
         rospy.loginfo(
             f"{len(self._site.units)} storage units, {len(self._site.items)} bins, "
             f"{len(self._shift.orders)} orders to go on with"
@@ -232,8 +248,25 @@ class OperationsNode:
         """Until ROS shuts down."""
         while not rospy.is_shutdown():
             with self._lock:
-                self._step(rospy.get_time())
-            rospy.sleep(CYCLE)
+                now = rospy.get_time()
+                if now < self._shift.now:
+                    self._begin_anew(now)
+                else:
+                    self._step(now)
+            _pause()
+
+    def _keep_heat(self, slices):
+        for kept in self._warehouse.heat.kept(slices):
+            self._shift.journal.heat(*kept)
+
+    def _begin_anew(self, now):
+        """The world was reset, restored or undone: stock and orders are as they are, transports are
+        not."""
+        rospy.logwarn(f"simulated time went back from {self._shift.now:g} s to {now:g} s")
+        self._shift.journal.end(self._shift, self._figures())
+        self._shift.journal.flush()
+        self._wait_for_warehouse()
+        self._begin()
 
     def close(self):
         """Writes what is left to the database."""
@@ -242,17 +275,16 @@ class OperationsNode:
             self._database.close()
 
     def _wait_for_warehouse(self):
-        rate = rospy.Rate(10)
-        while not (self._warehouse.is_known and self._is_coordinated()):
-            rate.sleep()
+        while not (self._warehouse.is_known_at(rospy.get_time()) and self._is_coordinated()):
+            if rospy.is_shutdown():
+                raise rospy.ROSInterruptException("shut down before there was a warehouse")
+            _pause()
 
     def _is_coordinated(self):
         state = self._coordinator.state
         return state is not None and len(state.station)
 
     def _step(self, now):
-        if now < self._shift.now:
-            raise rospy.ROSInterruptException("simulated time has gone back: beginning anew")
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
         self._shift.advance(now)
@@ -265,6 +297,7 @@ class OperationsNode:
             self._kpis.publish(self._kpis_message(now))
             self._throughput.publish(self._throughput_message(now))
             self._heat.publish(self._heat_message(now))
+            self._keep_heat(slices=1)
 
     # Services.
 
@@ -347,10 +380,14 @@ class OperationsNode:
 
     def _throughput_message(self, now):
         tally, last = self._shift.tally, int(now // kpis.INTERVAL)
-        first = max(int(self._shift.began // kpis.INTERVAL), last + 1 - SHOWN)
-        counts = (tally.picked_in, tally.stored_in, tally.completed_in)
-        series = ([of.get(i, 0) for i in range(first, last + 1)] for of in counts)
-        begin = max(first * kpis.INTERVAL, self._shift.began)
+        began, *before = self._before
+        first = max(int(began // kpis.INTERVAL), last + 1 - SHOWN)
+        counts = zip(before, (tally.picked_in, tally.stored_in, tally.completed_in))
+        series = (
+            [of.get(i, 0) + now_of.get(i, 0) for i in range(first, last + 1)]
+            for of, now_of in counts
+        )
+        begin = max(first * kpis.INTERVAL, began)
         return msg.Throughput(_header(now), kpis.INTERVAL, begin, now, *series)
 
     def _heat_message(self, now):
@@ -398,6 +435,14 @@ class OperationsNode:
         )
         message.header.stamp = rospy.Time.from_sec(now)
         return message
+
+
+def _pause():
+    """Until it is worth while to look again."""
+    try:
+        rospy.sleep(CYCLE)
+    except rospy.ROSTimeMovedBackwardsException:
+        pass  # whoever goes on looks at the time itself
 
 
 def _stored_order(row, lines):

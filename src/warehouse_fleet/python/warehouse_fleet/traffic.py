@@ -105,6 +105,7 @@ class Traffic:
         self.stalled = np.zeros(count, bool)  # does not drive although it may
         self.stalled_since = np.full(count, np.inf)  # [s]
         self.astray = np.zeros(count, bool)  # was pushed off the middle of its cell
+        self.lost = np.zeros(count, bool)  # and did not find back: it is OUT_OF_SERVICE since then
         self.plan_seconds = collections.deque(maxlen=10000)  # computing time of the last plans
         self.watchdog = 0  # how often a robot made no progress for STUCK
         self._settled = np.zeros(count, bool)  # has been idle since this began
@@ -190,6 +191,8 @@ class Traffic:
         self.stalled = self._execution.stalled()
         self.stalled_since = np.where(self.stalled, np.minimum(self.stalled_since, time), np.inf)
         self.astray = self._execution.astray()
+        self.lost = (self.lost & (self.mode == Mode.OUT_OF_SERVICE)) | self._execution.lost()
+        self.mode[self.lost] = Mode.OUT_OF_SERVICE
         self.still_since = self._execution.still_since()
         self._find_foreign(report)
         self._watch()

@@ -13,7 +13,7 @@ constexpr int kFine = 16;
 }  // namespace
 
 Candidates::Candidates(const Floor& floor, const Edges& edges, int depth, int horizon)
-    : floor_(floor), edges_(edges), depth_(depth), horizon_(horizon) {
+    : floor_(floor), edges_(edges), depth_(depth), horizon_(horizon), is_kept_(floor.size()) {
   operations_.emplace_back();
   for (int free = 1; free <= depth; ++free) {
     operations_.push_back(std::make_unique<Operations>(free));
@@ -23,6 +23,13 @@ Candidates::Candidates(const Floor& floor, const Edges& edges, int depth, int ho
 void Candidates::begin(int robots) {
   paths_.resize(robots);
   is_known_.assign(robots, 0);
+  for (const Cell cell : kept_) is_kept_[cell] = 0;
+  kept_.clear();
+}
+
+void Candidates::keep(Cell cell) {
+  is_kept_[cell] = 1;
+  kept_.push_back(cell);
 }
 
 const std::vector<Path>& Candidates::of(int robot, const Wish& wish) {
@@ -109,7 +116,8 @@ Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   const int edge = cell * kHeadings + heading;
   Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
   if (to == kNowhere && wish.home != kNowhere && edges_.next[0][edge] == wish.home) to = wish.home;
-  return to != kNowhere && isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
+  if (to == kNowhere || (is_kept_[to] && to != wish.goal)) return kNowhere;
+  return isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
 }
 
 void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {

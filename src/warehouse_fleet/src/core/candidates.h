@@ -29,8 +29,10 @@ class Candidates {
   /// Operations of `depth` ticks, in plans of `horizon` ticks.
   Candidates(const Floor& floor, const Edges& edges, int depth, int horizon);
 
-  /// A new step, nobody's candidates are known.
+  /// A new step, nobody's candidates are known, no cell is kept.
   void begin(int robots);
+  /// In this step nobody enters a cell whose goal it is not, but those who are committed to.
+  void keep(Cell cell);
 
   /// Works them out, once a step.
   const std::vector<Path>& of(int robot, const Wish& wish);
@@ -60,6 +62,8 @@ class Candidates {
   std::vector<std::unique_ptr<Operations>> operations_;  ///< by ticks that are free
   std::vector<std::vector<Path>> paths_;
   std::vector<std::uint8_t> is_known_;
+  std::vector<std::uint8_t> is_kept_;  ///< by cell
+  std::vector<Cell> kept_;
   std::vector<Cell> reached_;  ///< by node of a tree of operations
 };
 

@@ -14,7 +14,11 @@ constexpr std::uint8_t kStateMovingX = 1, kStateMovingY = 2;
 constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
 
 constexpr double kCentred = 0.02;    // from a grid point [m]
+constexpr double kOnGrid = 0.001;    // where a robot takes itself to stand on a grid point [m]
+constexpr int kRefuges = 1;          // cells around a robot in which it may come back to the grid
+constexpr double kFindsBack = 30;    // time in which one that was pushed does [s]
 constexpr double kReach = 0.43;      // of a robot with its load, from its centre along x and y [m]
+constexpr double kRoom = 1.2;        // that one takes which turns and drives back to the grid [m]
 constexpr double kTurnsSoon = 0.35;  // from a corner, where what comes after it is released [m]
 constexpr double kUnanswered = 0.5;  // after which something is sent again [s]
 constexpr double kSettled = 1;       // after which nothing that was sent is on its way any more [s]
@@ -45,6 +49,14 @@ double timeUntil(double metres, const Motion& motion, double& speed) {
   speed = motion.speed;
   const double ramp = (speed * speed - begin * begin) / (2 * motion.acceleration);
   return std::max(0.0, speed - begin) / motion.acceleration + (metres - ramp) / speed;
+}
+
+/// From one end to the other, no further apart than a cell.
+std::vector<double> marks(double from, double to, double spacing) {
+  const int gaps = static_cast<int>(std::ceil((to - from) / spacing));
+  std::vector<double> marks;
+  for (int i = 0; i <= gaps; ++i) marks.push_back(from + (to - from) * i / gaps);
+  return marks;
 }
 
 }  // namespace
@@ -81,7 +93,11 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
     if (courses_[robot].is_member) continue;
     courses_[robot].still_since = now_;
     vacate(robot);
-    if (reports[robot].is_controlled) admit(robot);
+    if (reports[robot].is_controlled) {
+      admit(robot);
+    } else {
+      courses_[robot].recovery = {};
+    }
     courses_[robot].is_member ? keepAround(robot) : occupy(robot);
   }
 }
@@ -98,13 +114,16 @@ void Execution::setWork(const std::vector<std::uint8_t>& busy,
 void Execution::admit(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  const Cell at = cellAt(report.x, report.y);
-  if (report.status != kStatusIdle || at == kNowhere || !floor_.isPassable(at)) return;
-  if (holder_[at] != kNobody) return;
-  const std::uint32_t id = std::max(course.id, report.path_id);
+  if (report.status != kStatusIdle) return;
+  Cell at = cellAt(report.x, report.y);
+  if (at == kNowhere || !floor_.isPassable(at)) {
+    if (course.recovery.since < 0) course.recovery.since = now_;
+    at = refuge(robot);
+  }
+  if (at == kNowhere || holder_[at] != kNobody) return;
   vacate(robot);
-  course = {};
-  course.id = id;
+  renew(robot);
+  course.id = std::max(course.id, report.path_id);
   course.is_member = true;
   course.at = at;
   course.cells = {at};
@@ -127,9 +146,15 @@ void Execution::dismiss(int robot) {
   Course& course = courses_[robot];
   vacate(robot);
   for (const Cell cell : course.cells) free(cell, robot);
-  const std::uint32_t id = course.id;
-  course = {};
-  course.id = id;
+  renew(robot);
+}
+
+/// Forgets all of its way but that it has to find back, while it is to be told where to.
+void Execution::renew(int robot) {
+  Course next;
+  next.id = courses_[robot].id;
+  if (reports_[robot].is_controlled) next.recovery = std::move(courses_[robot].recovery);
+  courses_[robot] = std::move(next);
 }
 
 /// An obstacle has what it stands on, and what it drives onto next.
@@ -142,8 +167,9 @@ void Execution::occupy(int robot) {
 void Execution::keepAround(int robot) {
   Course& course = courses_[robot];
   const bool rests = !course.is_active && reports_[robot].status == kStatusIdle;
-  if (isCentred(robot) && isSquare(robot)) {
+  if (isBack(robot)) {
     course.is_astray = false;
+    course.recovery = {};
   } else if (rests) {
     course.is_astray = true;
   }
@@ -154,12 +180,16 @@ void Execution::keepAround(int robot) {
 void Execution::cover(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  const double reach = kReach * motion_.spacing, ahead = 0.7 * motion_.spacing;
+  const bool is_coming_back = course.is_astray && course.is_active;
+  const double reach = (is_coming_back ? kRoom : kReach) * motion_.spacing;
+  const double ahead = 0.7 * motion_.spacing;
   const double speed = std::hypot(report.vx, report.vy);
   const double dx = speed > kStandstill ? ahead * report.vx / speed : 0;
   const double dy = speed > kStandstill ? ahead * report.vy / speed : 0;
-  for (const double x : {std::min(0.0, dx) - reach, std::max(0.0, dx) + reach}) {
-    for (const double y : {std::min(0.0, dy) - reach, std::max(0.0, dy) + reach}) {
+  for (const double x :
+       marks(std::min(0.0, dx) - reach, std::max(0.0, dx) + reach, motion_.spacing)) {
+    for (const double y :
+         marks(std::min(0.0, dy) - reach, std::max(0.0, dy) + reach, motion_.spacing)) {
       const Cell cell = cellAt(report.x + x, report.y + y);
       if (cell == kNowhere || holder_[cell] != kNobody) continue;
       hold(cell, robot);
@@ -185,7 +215,7 @@ void Execution::follow(int robot) {
   if (!course.is_active) {
     // Somebody else has moved it.
     const Cell at = cellAt(report.x, report.y);
-    if (at != course.at) {
+    if (at != course.at && !course.is_astray) {
       dismiss(robot);
       admit(robot);
     }
@@ -259,10 +289,13 @@ void Execution::finish(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
   const Cell at = cellAt(report.x, report.y);
+  if (course.is_refused) course.recovery.refused.push_back(course.cells.front());
   if (at == course.cells.back()) pass(robot, static_cast<int>(course.cells.size()), 0);
   const bool was_withdrawn = course.is_withdrawn;
+  vacate(robot);
   for (const Cell cell : course.cells) free(cell, robot);
-  if (at == kNowhere || (holder_[at] != kNobody && holder_[at] != robot)) return dismiss(robot);
+  const bool is_held = at != kNowhere && holder_[at] != kNobody && holder_[at] != robot;
+  if (at == kNowhere || is_held || !floor_.isPassable(at)) return dismiss(robot);
   if (at != course.cells.back() || was_withdrawn) {
     course.is_off = true;
     course.plan.clear();
@@ -288,7 +321,8 @@ void Execution::refused(int robot) {
 /// until it says that it has. Said again until then: where it drives on meanwhile that is refused.
 void Execution::withdraw(int robot) {
   Course& course = courses_[robot];
-  const int keep = std::min<int>(course.cells.size(), course.reached + (isCentred(robot) ? 0 : 1));
+  const int keep =
+      std::min<int>(course.cells.size(), course.reached + (isCentred(robot, kCentred) ? 0 : 1));
   const bool is_blocked = reports_[robot].state == kStateBlocked;
   if (is_blocked && keep < static_cast<int>(course.cells.size())) {
     close(course.cells[keep], now_ + kClosedFor);
@@ -549,16 +583,60 @@ bool Execution::isAtEnd(int robot) const {
          course.reached == static_cast<int>(course.cells.size());
 }
 
-/// A path begins in the middle of a cell: one without a way leads there.
+/// A path begins in the middle of a cell: one without a way leads there. Which cells it has room in
+/// to turn is the robot's to say.
 void Execution::recentre(int robot) {
   Course& course = courses_[robot];
-  if (course.is_accepted || course.is_refused) return;
+  if (course.is_accepted || course.is_refused || isLost(robot)) return;
   if (course.is_active && now_ - course.sent <= kUnanswered) return;
-  if (!course.is_active) ++course.id;
+  if (course.recovery.since < 0) course.recovery.since = now_;
+  if (!course.is_active) {
+    const Cell back = refuge(robot);
+    if (back == kNowhere) {
+      course.recovery.refused.clear();  // perhaps there is room by now
+      return;
+    }
+    vacate(robot);
+    free(course.at, robot);
+    hold(back, robot);
+    course.at = back;
+    course.cells = {back};
+    cover(robot);
+    ++course.id;
+  }
   course.is_active = true;
   course.plan.clear();
   course.is_off = true;
   send(robot, 0);
+}
+
+/// The nearest cell in which a path can begin, of those that it has not refused; kNowhere.
+Cell Execution::refuge(int robot) const {
+  const Report& report = reports_[robot];
+  Cell nearest = kNowhere;
+  double least = 0;
+  for (int row = -kRefuges; row <= kRefuges; ++row) {
+    for (int column = -kRefuges; column <= kRefuges; ++column) {
+      const Cell cell =
+          cellAt(report.x + column * motion_.spacing, report.y + row * motion_.spacing);
+      if (cell == kNowhere || !mayRest(robot, cell)) continue;
+      const double far = std::hypot(xOf(cell) - report.x, yOf(cell) - report.y);
+      if (nearest != kNowhere && far >= least) continue;
+      nearest = cell;
+      least = far;
+    }
+  }
+  return nearest;
+}
+
+bool Execution::mayRest(int robot, Cell cell) const {
+  const Course& course = courses_[robot];
+  if (!floor_.isPassable(cell) || closed_until_[cell] > now_) return false;
+  if (holder_[cell] != kNobody && holder_[cell] != robot) return false;
+  const std::vector<Cell>& refused = course.recovery.refused;
+  if (std::find(refused.begin(), refused.end(), cell) != refused.end()) return false;
+  if (!reports_[robot].is_loaded || cell == course.at) return true;
+  return !floor_.isStorage(cell) && std::find(units_.begin(), units_.end(), cell) == units_.end();
 }
 
 bool Execution::mayHave(int robot, Cell cell) {
@@ -638,6 +716,11 @@ bool Execution::isStalled(int robot) const {
   return isBroken(robot) || (course.is_active && now_ - course.moved > kStalledFor);
 }
 
+bool Execution::isLost(int robot) const {
+  const double since = courses_.at(robot).recovery.since;
+  return since >= 0 && now_ - since > kFindsBack;
+}
+
 bool Execution::stands(int robot) const {
   const Course& course = courses_.at(robot);
   return course.is_member && !course.is_active && !course.is_astray;
@@ -695,10 +778,16 @@ double Execution::toGo(int robot) const {
          (points - course.reached - 1) * motion_.spacing;
 }
 
-bool Execution::isCentred(int robot) const {
+bool Execution::isCentred(int robot, double within) const {
   const Report& report = reports_[robot];
   const Cell at = courses_[robot].at;
-  return std::hypot(xOf(at) - report.x, yOf(at) - report.y) < kCentred;
+  return std::hypot(xOf(at) - report.x, yOf(at) - report.y) < within;
+}
+
+/// Whether a path can begin where it stands. One that has refused one says itself where that is.
+bool Execution::isBack(int robot) const {
+  const bool has_refused = !courses_[robot].recovery.refused.empty();
+  return isCentred(robot, has_refused ? kOnGrid : kCentred) && isSquare(robot);
 }
 
 bool Execution::isSquare(int robot) const {

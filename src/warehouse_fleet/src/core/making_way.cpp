@@ -13,10 +13,15 @@ constexpr int kPatienceEach = 3;
 constexpr int kEffort = 2000;  // cells that are tried for one robot
 constexpr int kPressing = 16;  // robots a step
 
+/// Whether it is committed to leave the cell where it is.
+bool drivesOn(const Wish& wish) {
+  const auto end = wish.commitment.begin() + wish.committed;
+  return std::find(wish.commitment.begin(), end, Action::kForward) != end;
+}
+
 }  // namespace
 
-void MakingWay::direct(const Fleet& fleet, const Candidates& candidates,
-                       std::vector<Wish>& wishes) {
+void MakingWay::direct(const Fleet& fleet, Candidates& candidates, std::vector<Wish>& wishes) {
   watch(candidates, wishes);
   std::vector<int> pressing;
   for (int robot = 0; robot < fleet.size(); ++robot) {
@@ -37,6 +42,7 @@ void MakingWay::direct(const Fleet& fleet, const Candidates& candidates,
     if (told == kNowhere) continue;
     wishes[robot].goal = told;
     wishes[robot].table = nullptr;
+    candidates.keep(told);
   }
 }
 
@@ -95,7 +101,7 @@ bool MakingWay::move(int robot, const Candidates& candidates, const std::vector<
     if (entering_[cell] >= 0) continue;
     const int other = standing_[cell];
     if (other >= 0) {
-      const bool is_leaving = progress_[other].told != kNowhere;
+      const bool is_leaving = progress_[other].told != kNowhere || drivesOn(wishes[other]);
       const bool can_leave =
           !is_asked_[other] && !wishes[other].stopped && wishes[other].committed == 0;
       if (!is_leaving && !can_leave) continue;

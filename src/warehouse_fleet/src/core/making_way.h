@@ -17,8 +17,9 @@ class MakingWay {
   explicit MakingWay(const Floor& floor) : floor_(floor) {}
 
   /// Tells who presses and who makes way where to go: overwrites their goals in `wishes`.
-  /// `candidates` knows how far it is.
-  void direct(const Fleet& fleet, const Candidates& candidates, std::vector<Wish>& wishes);
+  /// `candidates` knows how far it is, and keeps their next cells for them: whoever drives past
+  /// would else always be there before one that must turn first.
+  void direct(const Fleet& fleet, Candidates& candidates, std::vector<Wish>& wishes);
 
   /// Whether a robot was told where to go; those come first of all.
   bool isTold(int robot) const { return progress_[robot].told != kNowhere; }

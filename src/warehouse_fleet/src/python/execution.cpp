@@ -132,6 +132,7 @@ void bindExecution(py::module_& module) {
       .def("foreign", ofAll<bool>(&Execution::isForeign))
       .def("stalled", ofAll<bool>(&Execution::isStalled))
       .def("astray", ofAll<bool>(&Execution::isAstray))
+      .def("lost", ofAll<bool>(&Execution::isLost))
       .def("still_since", ofAll<double>(&Execution::stillSince))
       .def("holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); })
       .def("released", [](const Run& run, int robot) { return run.execution.released(robot); })

@@ -7,14 +7,16 @@ enter: so every neighbourhood lies inside. Headings count quarter turns from +x 
 
 import numpy as np
 
+from kiva_plugin_cpp._core import Cells
 from warehouse_fleet.stations import PICK
 
+BLOCKED, STORAGE, STATION = 1, 2, 4  # bits of a cell, numbered as fields.LAYERS
 FAR = np.iinfo(np.int16).max  # no way leads there
 UNLOADED, LOADED = range(2)
 
 
 class Grid:
-    """Of a warehouse_fleet FloorPlan."""
+    """Of a warehouse_fleet FloorPlan. rim: cells around it, and how far robots see."""
 
     def __init__(self, plan, rim):
         self.spacing = plan.spacing
@@ -34,6 +36,10 @@ class Grid:
         self.steps = np.array([1, self.width, -1, -self.width])
         self.places = np.flatnonzero(self.storage)
         self.longest = max(plan.shape)
+        look = BLOCKED * ~self.passable | STORAGE * self.storage | STATION * self.is_station
+        self.native = Cells(
+            self.width, self.height, rim, rim, tuple(self.origin), self.spacing, look
+        )
         self._far = np.full((16, self.cells), FAR, np.int16)
         self._far[0] = 0  # a goal that is none: nothing is nearer
         self._rows, self.nowhere = 1, 0
@@ -42,11 +48,13 @@ class Grid:
     def _rimmed(self, mask):
         return np.pad(mask, self.rim).ravel()
 
+    def locate(self, x, y, yaw):
+        """(cells, headings) nearest to places in world [m, rad]: int32 and int8, of their shape."""
+        return self.native.locate(x, y, yaw)
+
     def cell_of(self, x, y):
         """The cells around places in world [m]."""
-        column = np.rint((x - self.origin[0]) / self.spacing).astype(np.int32)
-        row = np.rint((y - self.origin[1]) / self.spacing).astype(np.int32)
-        return np.clip(row, 0, self.height - 1) * self.width + np.clip(column, 0, self.width - 1)
+        return self.locate(x, y, np.zeros(np.shape(x)))[0]
 
     def point_of(self, cell):
         """(x, y) of the centres of cells, in world [m]."""

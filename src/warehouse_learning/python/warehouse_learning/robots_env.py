@@ -7,15 +7,11 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from warehouse_learning import episodes, fields
-from warehouse_learning.observing import Observer
-from warehouse_learning.options import Options
-from warehouse_learning.picture import Picture
-from warehouse_learning.screen import RENDER_MODES, Screen
+from warehouse_learning import fields
+from warehouse_learning.screen import FRAMES, RENDER_MODES
 from warehouse_learning.spaces import WHEELS, joint_action_space
-from warehouse_learning.warehouses import ActionError, Warehouses
-
-FRAMES = 4  # a second
+from warehouse_learning.stage import OneWarehouse, Stage
+from warehouse_learning.warehouses import ActionError
 
 
 def _joint_space(robot_fields, robots):
@@ -23,78 +19,47 @@ def _joint_space(robot_fields, robots):
     return spaces.Box(np.tile(low, robots), np.tile(high, robots))
 
 
-class KivaRobotsEnv(gymnasium.Env):
+class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
     """One policy moves every robot; options as of warehouse_learning.Options.
 
     Observations are those of the robots in a row, (robots * size,) float32; the reward is the sum
-    of theirs, which info["rewards"] has one by one; info["action_mask"] is (robots, 5) int8.
+    of theirs, which info["rewards"] has one by one; info["action_mask"] is (robots, 5) int8; wheels
+    have none.
     """
 
     metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
 
     def __init__(self, render_mode=None, **options):
-        self.options = Options.of(options)
-        self._in = Warehouses(1, self.options, threads=1)
-        self._see = Observer(self._in)
-        self.fields, self.state_fields = self._see.fields, self._see.state_fields
+        self._set_up(render_mode, options)
         self.observation_space = _joint_space(self.fields, self.options.robots)
         self.action_space = joint_action_space(self.options)
-        self.render_mode = render_mode
-        self._screen = Screen(render_mode, lambda: Picture(self._in))
-        self._seed, self._actions = None, []
 
     def reset(self, *, seed=None, options=None):
         """A new episode: the same seed, the same episode."""
         super().reset(seed=seed)
-        self._seed = int(self.np_random.integers(2**62)) if seed is None else int(seed)
-        self._actions = []
-        self._in.reset([0], [self._seed])
-        self._screen.stepped()
-        return self._observation(), self._info(None, {})
+        self._begin(self.np_random.integers(2**62) if seed is None else seed)
+        return self._observation(), self._mask()
 
     def step(self, action):
         """ActionError if the action is none."""
         if self._seed is None:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
-        chosen = _by_robot(action, 1, self.options)
-        rewards, happened = self._in.step(chosen)
-        self._actions.append(chosen[0])
-        ends = bool(self._in.cycle[0] >= self.options.max_cycles)
-        self._screen.stepped()
-        info = self._info(rewards, happened)
+        rewards, happened, ends = self._decide(_by_robot(action, 1, self.options)[0])
+        info = self._mask() | {"rewards": rewards} | happened
         return self._observation(), float(rewards.sum()), False, ends, info
 
     def action_masks(self):
         """(robots * 5,) bool, as sb3_contrib's MaskablePPO asks for."""
         return self._in.masks()[0].ravel()
 
-    def state(self):
-        """(size,) float32: the whole warehouse, as `state_fields` says."""
-        return self._see.state()[0]
-
-    def render(self):
-        return self._screen.render()
-
-    def close(self):
-        self._screen.close()
-
-    def save_episode(self, path):
-        """The episode up to now as a file; `python3 -m warehouse_learning.watch` plays it."""
-        if self._seed is None:
-            raise ValueError("there is no episode yet: reset() begins one")
-        episodes.save(path, self.options, self._seed, self._actions)
+    def _mask(self):
+        return {name: mask[0] for name, mask in self._masks().items()}
 
     def _observation(self):
         return self._see.observations().reshape(-1)
 
-    def _info(self, rewards, happened):
-        info = {"action_mask": self._in.masks()[0].astype(np.int8)}
-        if rewards is not None:
-            info["rewards"] = rewards[0].copy()
-        return info | {name: events[0].copy() for name, events in happened.items()}
 
-
-class KivaRobotsVectorEnv(VectorEnv):
+class KivaRobotsVectorEnv(Stage, VectorEnv):
     """num_envs warehouses, stepped on all cores in one call.
 
     Options as of KivaRobotsEnv; `threads` as of kiva_plugin_cpp.Worlds. Observations are
@@ -111,18 +76,14 @@ class KivaRobotsVectorEnv(VectorEnv):
         autoreset_mode=AutoresetMode.NEXT_STEP,
         **options,
     ):
-        self.num_envs, self.options = num_envs, Options.of(options)
+        self._set_up(num_envs, render_mode, options, threads)
+        self.num_envs = num_envs
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {**KivaRobotsEnv.metadata, "autoreset_mode": self.autoreset_mode}
-        self.render_mode = render_mode
-        self._in = Warehouses(num_envs, self.options, threads)
-        self._see = Observer(self._in)
-        self.fields, self.state_fields = self._see.fields, self._see.state_fields
         self.single_observation_space = _joint_space(self.fields, self.options.robots)
         self.single_action_space = joint_action_space(self.options)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
-        self._screen = Screen(render_mode, lambda: Picture(self._in))
         self._ended = np.zeros(num_envs, bool)
         self._begun = False
 
@@ -170,7 +131,7 @@ class KivaRobotsVectorEnv(VectorEnv):
             which = np.flatnonzero(begins)
             self._begin(which, self._next_seeds(len(which)))
             rewards[begins] = 0
-        ends = (self._in.cycle >= self.options.max_cycles) & ~begins
+        ends = self._ends() & ~begins
         self._ended = ends.copy()
         infos = self._infos(rewards, happened)
         observations = self._observations()
@@ -186,7 +147,7 @@ class KivaRobotsVectorEnv(VectorEnv):
 
     def render(self):
         """The first one's picture."""
-        picture = self._screen.render()
+        picture = super().render()
         return None if picture is None else (picture,)
 
     def close_extras(self, **_):
@@ -206,13 +167,13 @@ class KivaRobotsVectorEnv(VectorEnv):
             final[i] = observations[i].copy()
         self._begin(which, self._next_seeds(len(which)))
         fresh = self._observations()
-        mask = self._in.masks().astype(np.int8)
-        infos = infos | {
+        infos = {
+            **infos,
             "final_obs": final,
             "_final_obs": ends.copy(),
             "final_info": dict(infos),
             "_final_info": ends.copy(),
-            "action_mask": mask,
+            **self._masks(),
         }
         return fresh, infos
 
@@ -220,7 +181,7 @@ class KivaRobotsVectorEnv(VectorEnv):
         return self._see.observations().reshape(self.num_envs, -1)
 
     def _infos(self, rewards, happened):
-        infos = {"action_mask": self._in.masks().astype(np.int8)}
+        infos = self._masks()
         if rewards is not None:
             infos["rewards"] = rewards.copy()
         infos |= happened

@@ -4,6 +4,7 @@
 from warehouse_learning.page import Page
 
 RENDER_MODES = ["human", "rgb_array"]
+FRAMES = 4  # a second, of a film
 
 
 class Screen:

@@ -32,6 +32,12 @@ class Action(IntEnum):
     LIFT = 4  # lift the unit above, or put down the one that is carried
 
 
+# Of commands, by action and heading.
+KIND = np.full((5, 4), Kind.ROTATE)
+KIND[Action.FORWARD] = [Kind.MOVE_X, Kind.MOVE_Y, Kind.MOVE_X, Kind.MOVE_Y]
+KIND[Action.LIFT] = Kind.LIFT
+
+
 class ActionError(ValueError):
     """Actions that are none; the message names the robot and what was expected."""
 
@@ -54,6 +60,8 @@ class Warehouses:
         self._unit_of[self._shelf_id] = np.arange(self.units)
         self._first_cells = grid.cell_of(units["x"], units["y"])
         self._w = np.arange(n)[:, None]  # rows, beside arrays of (n, robots)
+        self._floor = grid.cells * self._w  # and where theirs begin in arrays of (n, cells)
+        self._masks = None  # of now, once somebody has asked
         shape = (n, self.robots)
         self.cell = np.zeros(shape, np.int32)
         self.heading = np.zeros(shape, np.int8)
@@ -78,6 +86,8 @@ class Warehouses:
         seconds = 0 if not self._fixed else self._fixed * options.physics_step
         self.decision_seconds = seconds  # 0: as long as it takes
         self._rewards = options.rewards
+        self._way_x = grid.spacing * np.array([1.0, 0.0, -1.0, 0.0])  # a cell, by heading [m]
+        self._way_y = grid.spacing * np.array([0.0, 1.0, 0.0, -1.0])
         self.top_wheel_speed = TOP_SPEED / WHEEL_RADIUS  # [rad/s]
 
     # --- episodes
@@ -116,22 +126,25 @@ class Warehouses:
     # --- decisions
 
     def masks(self):
-        """(n, robots, 5) bool: which actions are possible now."""
-        grid, w = self.grid, self._w
-        out = np.zeros((self.n, self.robots, 5), bool)
-        free = ~self.busy
-        out[..., Action.WAIT] = True
+        """(n, robots, 5) bool, read-only: which actions are possible now."""
+        if self._masks is None:
+            self._masks = self._possible()
+            self._masks.flags.writeable = False
+        return self._masks
+
+    def _possible(self):
+        grid = self.grid
+        out = np.empty((self.n, self.robots, 5), bool)
+        free, loaded = ~self.busy, self.load >= 0
         ahead = self._ahead()
-        held = self._held()
         open_ = grid.passable[ahead]
         if self.options.reserve:
-            open_ &= ~held[w, ahead]
-        loaded = self.load >= 0
-        open_ &= ~(loaded & (self.unit_at[w, ahead] >= 0))
+            open_ &= ~self._held().take(self._floor + ahead)
+        open_ &= ~(loaded & self._has_unit(ahead))
+        out[..., Action.WAIT] = True
         out[..., Action.FORWARD] = free & open_
         out[..., Action.LEFT] = out[..., Action.RIGHT] = free
-        here = np.where(loaded, grid.storage[self.cell], self.unit_at[w, self.cell] >= 0)
-        out[..., Action.LIFT] = free & here
+        out[..., Action.LIFT] = free & self._may_lift()
         return out
 
     def check(self, actions):
@@ -175,8 +188,8 @@ class Warehouses:
         {name: (n, robots)}. ActionError if an action is none."""
         actions = self.check(actions)
         done = (self._begin_wheels if self.options.continuous else self._begin)(actions)
-        before, load = self.goals.distance(), self.load.copy()
-        goal = self.goals.cell.copy()
+        load, goal = self.load.copy(), self.goals.cell.copy()
+        before = self.goals.distance() if self._rewards["approached"] else 0
         if self._fixed:
             self.worlds.step(self._fixed)
         else:
@@ -191,46 +204,53 @@ class Warehouses:
         happened["refused"] = ~done & ~self.busy | (counts[..., EventKind.REFUSED] > 0)
         happened["collided"] = collided
         self.goals.renew()
-        same = goal == self.goals.cell
-        nearer = np.where(same, before - self.goals.distance(), 0)
-        return self._reward(happened, nearer), happened
+        rewards = self._reward(happened)
+        if self._rewards["approached"]:
+            nearer = np.where(goal == self.goals.cell, before - self.goals.distance(), 0)
+            rewards += np.float32(self._rewards["approached"]) * nearer
+        return rewards, happened
 
-    def _reward(self, happened, nearer):
+    def _reward(self, happened):
         rewards = np.full((self.n, self.robots), self._rewards["step"], np.float32)
         for name, events in happened.items():
             if self._rewards[name]:
                 rewards += np.float32(self._rewards[name]) * events
-        if self._rewards["approached"]:
-            rewards += np.float32(self._rewards["approached"]) * nearer
         return rewards
 
     def _ahead(self):
         return self.cell + self.grid.steps[self.heading]
 
     def _held(self):
-        """(n, cells) bool: where a robot stands or goes."""
-        out = np.zeros((self.n, self.grid.cells), bool)
-        out[self._w, self.cell] = True
-        out[self._w, self.bound_for] = True
+        """(n * cells,) bool: where a robot stands or goes."""
+        out = np.zeros(self.n * self.grid.cells, bool)
+        out[self._floor + self.cell] = True
+        out[self._floor + self.bound_for] = True
         return out
+
+    def _has_unit(self, cells):
+        """(n, robots) bool: whether a unit stands in those cells."""
+        return self.unit_at.take(self._floor + cells) >= 0
+
+    def _may_lift(self):
+        """(n, robots) bool: whether it stands where it can lift or put down."""
+        return np.where(self.load < 0, self._has_unit(self.cell), self.grid.storage[self.cell])
 
     def _begin(self, actions):
         """Posts what is possible; returns who does what it was told, (n, robots) bool."""
-        w = self._w
-        possible = np.take_along_axis(self.masks(), actions[..., None].astype(int), 2)[..., 0]
+        each = 5 * np.arange(self.n * self.robots).reshape(actions.shape)
+        possible = self.masks().take(each + actions)
         forward = possible & (actions == Action.FORWARD)
+        ahead = self._ahead()
         if self.options.reserve:
             # Of several that want into one cell, the first goes.
-            target = np.where(forward, self._ahead(), 0)
-            first = np.empty((self.n, self.grid.cells), np.int32)
-            first[w, target[:, ::-1]] = np.arange(self.robots)[::-1]
-            forward &= first[w, target] == np.arange(self.robots)
+            target = self._floor + np.where(forward, ahead, 0)
+            first = np.empty(self.n * self.grid.cells, np.int32)
+            first[target[:, ::-1]] = np.arange(self.robots)[::-1]
+            forward &= first.take(target) == np.arange(self.robots)
         turn = possible & ((actions == Action.LEFT) | (actions == Action.RIGHT))
         turn &= ~self._beside_a_turn(turn)
         lift = possible & (actions == Action.LIFT)
-        self.bound_for = np.where(
-            forward, self._ahead(), np.where(self.busy, self.bound_for, self.cell)
-        )
+        self.bound_for = np.where(forward, ahead, np.where(self.busy, self.bound_for, self.cell))
         self.turning = turn | (self.turning & self.busy)
         self._post(forward, turn, lift, actions)
         return forward | turn | lift | (actions == Action.WAIT)
@@ -242,10 +262,9 @@ class Warehouses:
         up = (actions[..., 2] > 0.5) & ~loaded
         down = (actions[..., 2] < -0.5) & loaded
         wants = (up | down) & ~self.busy
-        here = np.where(loaded, self.grid.storage[self.cell], self.unit_at[self._w, self.cell] >= 0)
         speeds = np.where(wants[..., None], 0, actions[..., :2]) * self.top_wheel_speed
         self.worlds.drive(speeds[..., 0], speeds[..., 1])
-        lift = wants & here & standing
+        lift = wants & self._may_lift() & standing
         none = np.zeros_like(lift)
         self.bound_for = self.cell
         self._post(none, none, lift, np.where(lift, Action.LIFT, Action.WAIT))
@@ -256,10 +275,11 @@ class Warehouses:
         would touch. The first of them may."""
         rank = np.where(turn, np.arange(self.robots), self.robots)
         rank[self.turning & self.busy] = -1
-        who = np.full((self.n, self.grid.cells), self.robots, np.int32)
-        who[self._w, self.cell] = rank
-        beside = self.cell[..., None] + self.grid.steps
-        return turn & (who[self._w[..., None], beside].min(-1) < np.arange(self.robots))
+        who = np.full(self.n * self.grid.cells, self.robots, np.int32)
+        here = self._floor + self.cell
+        who[here] = rank
+        first = np.minimum.reduce([who.take(here + step) for step in self.grid.steps.tolist()])
+        return turn & (first < np.arange(self.robots))
 
     def _post(self, forward, turn, lift, actions):
         w, robot = np.nonzero(forward | turn | lift)
@@ -268,15 +288,11 @@ class Warehouses:
         rows = np.zeros(len(w), COMMAND)
         rows["kiva_id"] = self._kiva_id[robot]
         heading, action, load = self.heading[w, robot], actions[w, robot], self.load[w, robot]
-        drives = action == Action.FORWARD
-        along_y = drives & (heading % 2 == 1)
-        way = np.where(heading < 2, self.grid.spacing, -self.grid.spacing)
         lifts = action == Action.LIFT
-        rows["kind"] = np.select(
-            [along_y, drives, lifts], [Kind.MOVE_Y, Kind.MOVE_X, Kind.LIFT], Kind.ROTATE
-        )
-        rows["x"] = np.where(drives & ~along_y, way, 0)
-        rows["y"] = np.where(along_y, way, 0)
+        rows["kind"] = KIND[action, heading]
+        drives = action == Action.FORWARD
+        rows["x"] = drives * self._way_x[heading]
+        rows["y"] = drives * self._way_y[heading]
         rows["direction"] = np.where(action == Action.LEFT, LEFT, RIGHT)
         rows["lift"] = lifts & (load < 0)
         unit = np.where(load < 0, self.unit_at[w, self.cell[w, robot]], load)
@@ -288,11 +304,13 @@ class Warehouses:
     def _see(self, which):
         """Takes in where robots are and what they carry."""
         worlds = self.worlds
-        self.cell[which] = self.grid.cell_of(worlds.x[which], worlds.y[which])
-        self.heading[which] = np.rint(worlds.yaw[which] / (np.pi / 2)).astype(np.int64) % 4
+        self.cell[which], self.heading[which] = self.grid.locate(
+            worlds.x[which], worlds.y[which], worlds.yaw[which]
+        )
         self.busy[which] = worlds.status[which] != Status.IDLE
         shelf = worlds.shelf_id[which]
-        self.load[which] = np.where(shelf > 0, self._unit_of[shelf], -1)
+        self.load[which] = self._unit_of[shelf]  # of 0: none
+        self._masks = None
 
     def _look_at_units(self, worlds):
         """Where units stand after a collision, which may have pushed some."""

@@ -202,7 +202,8 @@ void startPath(WorldState& world, int robot, std::uint32_t number, const FollowP
   }
   path.released = m.released;
   checkTurns(world, robot, path.points);
-  Route route(world, robot);
+  const Point begin{path.points[0].x, path.points[0].y};
+  Route route(world, robot, &begin);
   const PathPoint here{route.at().x, route.at().y};
   if (!isSame(here, path.points[0])) {
     throw Refusal(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/control/route.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/angle.h"
@@ -33,6 +34,12 @@ Point nearestFree(const WorldState& world, int robot, const Point& from) {
   }
   if (least > 1e8) throw Refusal("it is off the grid and no free grid point is near");
   return best;
+}
+
+/// Whether a robot may be told to return there.
+bool isNear(const WorldState& world, const Point& here, const Point& back) {
+  const double far = std::max(std::abs(back.x - here.x), std::abs(back.y - here.y));
+  return far < kRecoverCells * world.grid_spacing && isOnFloor(world, back);
 }
 
 /// The nearest place straight ahead or behind where the robot has room to turn; here, if it has
@@ -84,7 +91,7 @@ bool isOnFloor(const WorldState& world, const Point& p) {
          p.y + half <= floor.max_y;
 }
 
-Route::Route(const WorldState& world, int robot)
+Route::Route(const WorldState& world, int robot, const Point* back)
     : world_(world),
       robot_(robot),
       here_(world.fleet.believed(robot)),
@@ -93,7 +100,7 @@ Route::Route(const WorldState& world, int robot)
   const bool localises = world.fleet.localises;
   const double off = std::hypot(here_.x - at_.x, here_.y - at_.y);
   if (off > (localises ? kNearGrid : kOnGrid)) {
-    recover();
+    recover(back);
   } else if (std::abs(here_.yaw - yaw_) > (localises ? kNearGrid : kSquare)) {
     turnTo(yaw_);
   }
@@ -139,9 +146,11 @@ MotionSegment Route::makeDrive(State state) const {
 
 /// Back to the grid from wherever it was pushed: out to where there is room to turn, then straight
 /// to a grid point, by the smaller turn, forwards or backwards.
-void Route::recover() {
+void Route::recover(const Point* back) {
   const Point here{here_.x, here_.y}, room = roomToTurn(world_, robot_);
-  const Point to = nearestFree(world_, robot_, room);
+  const bool is_told =
+      back != nullptr && isNear(world_, here, *back) && isFree(world_, robot_, back->x, back->y);
+  const Point to = is_told ? *back : nearestFree(world_, robot_, room);
   yaw_ = here_.yaw;
   driveOff(here, room);
   driveOff(room, to);

@@ -46,9 +46,9 @@ bool isOnFloor(const WorldState& world, const Point& p);
 /// Plans the way of one robot, segment by segment; knows where each segment will leave it.
 class Route {
  public:
-  /// From where the robot stands; from off the grid it first returns to it. Throws Refusal if there
-  /// is no way back.
-  Route(const WorldState& world, int robot);
+  /// From where the robot stands; from off the grid it first returns to it: to `back`, if that is a
+  /// free grid point near it, else to the nearest one. Throws Refusal if there is no way back.
+  Route(const WorldState& world, int robot, const Point* back = nullptr);
 
   Point at() const { return at_; }
   void rotate(int direction);
@@ -60,7 +60,7 @@ class Route {
  private:
   void turnTo(double heading);
   MotionSegment makeDrive(State state) const;
-  void recover();
+  void recover(const Point* back);
   void driveOff(const Point& from, const Point& to);
 
   const WorldState& world_;

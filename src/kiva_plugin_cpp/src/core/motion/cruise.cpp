@@ -8,6 +8,7 @@
 #include "core/motion/drives.h"
 #include "core/motion/stretches.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {

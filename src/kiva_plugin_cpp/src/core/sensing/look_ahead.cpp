@@ -8,6 +8,7 @@
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {

@@ -1,44 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The threads that share a world's loops over robots. A loop's turns touch nothing that another one
-// reads, so that its result does not depend on how many threads there are or who takes which.
+// The threads that share loops: over the robots of a world, or over many worlds. A loop's turns
+// touch nothing that another one reads, so that its result does not depend on how many threads
+// there are or who takes which.
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <memory>
 
 namespace kiva {
 
-/// The caller and `threads` − 1 others, which sleep until there is work: nobody spins.
+/// The caller and `threads` − 1 others, which are started when there is work for them and sleep
+/// between two loops: nobody spins. In a forked child, where they are gone, others are started.
 class Workers {
  public:
-  explicit Workers(int threads);
+  using Loop = std::function<void(int begin, int end)>;
+
+  /// 0: as many as the machine has cores.
+  explicit Workers(unsigned threads);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
+  unsigned threads() const { return threads_; }
+
   /// Calls loop(begin, end) until all of [0, count) is done, in blocks of `block`, on all threads;
-  /// where one block is all, on the caller's. The loop throws nothing.
-  void share(int count, int block, const std::function<void(int begin, int end)>& loop);
+  /// where one block is all, on the caller's. If some throw, the others are done nevertheless, and
+  /// what the first of them threw is thrown then.
+  void share(int count, int block, const Loop& loop);
 
   /// For tests: in blocks of one, so that a small fleet is shared too.
   void shareAll() { shares_all_ = true; }
 
  private:
   struct Job;
-  void serve();
+  struct Board;
+  static void serve(const std::shared_ptr<Board>& board);
   static void work(Job& job);
+  void start(int others);
+  void quit();
 
-  std::mutex mutex_;
-  std::condition_variable posted_, left_;
-  Job* job_ = nullptr;  // that others may take part in
-  int at_job_ = 0;      // who do
-  bool ends_ = false, shares_all_ = false;
-  std::vector<std::thread> threads_;
+  const unsigned threads_;
+  bool shares_all_ = false;
+  int process_ = 0;  // that board_ and its threads belong to
+  std::shared_ptr<Board> board_;
 };
 
 }  // namespace kiva

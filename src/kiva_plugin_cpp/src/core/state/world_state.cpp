@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/state/world_state.h"
 
+#include "core/state/workers.h"
+
 namespace kiva {
 namespace {
 

@@ -22,12 +22,12 @@
 #include "core/physics/physics.h"
 #include "core/state/fleet_state.h"
 #include "core/state/model.h"
-#include "core/state/workers.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
 
 class FleetPlugin;
+class Workers;
 
 /// Two models in contact.
 struct TouchingPair {

@@ -13,8 +13,6 @@ class PollThread {
  public:
   PollThread();
   ~PollThread();
-  /// Lets that thread write what BulkTopics published.
-  void wake();
   /// Returns when that thread has handed all that was published before to the sockets.
   void flush();
 

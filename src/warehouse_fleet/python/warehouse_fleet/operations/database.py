@@ -30,6 +30,7 @@ TABLES = (  # in the order in which rows may refer to each other
     schema.visit,
     schema.move,
     schema.event,
+    schema.heat,
 )
 
 
@@ -184,6 +185,7 @@ class DatabaseJournal(Journal):
                     schema.event,
                 )
             }
+            self._heat_slots = set(connection.execute(select(schema.heat.c.slot)).scalars())
         self.run_id = self._id(schema.run)
         self._first_visit = self._next[schema.visit] - 1
         self._assignments = {}
@@ -220,9 +222,12 @@ class DatabaseJournal(Journal):
                 capacity=one.capacity,
             )
 
-    def resume(self, shift):
-        """What an earlier run left under way has ended: its visits, assignments and promises."""
+    def resume(self, stored):
+        """What an earlier run left under way has ended: its visits, assignments and promises. The
+        orders of a Stored warehouse are this run's from now on, and so are their times."""
         with self._database.engine.begin() as connection:
+            self._rows.write(connection)  # with this run
+            self._rows = Rows()
             connection.execute(
                 update(schema.visit)
                 .where(schema.visit.c.ended.is_(None))
@@ -241,11 +246,18 @@ class DatabaseJournal(Journal):
                 .values(ended=schema.assignment.c.stamp)
             )
             connection.execute(update(schema.bin_).values(reserved=0))
-            connection.execute(
-                update(schema.orders)
-                .where(schema.orders.c.state == int(OrderState.ASSIGNED))
-                .values(state=int(OrderState.OPEN), station="")
-            )
+            rows = Rows()
+            for order in stored.orders:
+                rows.update(
+                    schema.orders,
+                    order.order_id,
+                    run=self.run_id,
+                    created=order.created,
+                    due=order.due,
+                    state=int(OrderState.OPEN),
+                    station="",
+                )
+            rows.write(connection)
 
     def move(self, now, one, quantity, reason, line, station, visit):
         self._rows.insert(
@@ -355,6 +367,12 @@ class DatabaseJournal(Journal):
             shelf_id=unit,
             text=text,
         )
+
+    def heat(self, slot, began, maps):
+        """A part of the FloorHeat, in place of what was in that slot; `maps` as bytes."""
+        put = self._rows.update if slot in self._heat_slots else self._rows.insert
+        self._heat_slots.add(slot)
+        put(schema.heat, slot, run=self.run_id, began_s=began, maps=maps)
 
     def commit(self, shift):
         changed = shift.inventory.changed

@@ -72,7 +72,7 @@ def open_shift(
         now=now,
     )
     if stored:
-        journal.resume(shift)
+        journal.resume(stored)
         shift.resume(stored)
     else:
         if journal:

@@ -13,6 +13,7 @@ from sqlalchemy import (
     ForeignKeyConstraint,
     Index,
     Integer,
+    LargeBinary,
     MetaData,
     String,
     Table,
@@ -23,7 +24,7 @@ from sqlalchemy import (
     update,
 )
 
-VERSION = 1
+VERSION = 2
 metadata = MetaData()
 
 
@@ -79,7 +80,8 @@ orders = Table(
     "orders",
     metadata,
     _id(),
-    Column("run", ForeignKey("run.id"), nullable=False),  # in which it came
+    # Whose times are meant: in which it came, or which went on with it.
+    Column("run", ForeignKey("run.id"), nullable=False),
     Column("reference", String(200), nullable=False, index=True),
     Column("created", Float, nullable=False),
     Column("due", Float, nullable=False),
@@ -161,8 +163,18 @@ event = Table(
     Column("text", Text, nullable=False),
 )
 
+# Where robots drove and waited in the last hour, a row a twelfth of it; rows are used again.
+heat = Table(
+    "heat",
+    metadata,
+    Column("slot", Integer, primary_key=True, autoincrement=False),
+    Column("run", ForeignKey("run.id"), nullable=False),
+    Column("began_s", Float, nullable=False),
+    Column("maps", LargeBinary, nullable=False),  # FloorHeat's of that time, compressed
+)
+
 # From each older version to the next: a function of a connection.
-MIGRATIONS = {}
+MIGRATIONS = {1: heat.create}
 
 
 def prepare(connection, version=VERSION, migrations=None):

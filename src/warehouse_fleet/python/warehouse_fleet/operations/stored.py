@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse as a database has it: what a shift goes on with after it ended or was killed."""
 
+from collections import defaultdict
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,8 @@ from sqlalchemy import func, select
 
 from warehouse_fleet.operations import schema
 from warehouse_fleet.operations.assortment import Assortment
-from warehouse_fleet.operations.inventory import Bin
+from warehouse_fleet.operations.inventory import Bin, Reason
+from warehouse_fleet.operations.kpis import INTERVAL
 from warehouse_fleet.operations.orders import Order, OrderState
 
 
@@ -52,6 +54,45 @@ def transports_left(engine):
         return set(connection.execute(still_open).scalars()), connection.execute(last).scalar()
 
 
+def throughput(engine, now, since):
+    """(begin, picked, stored, completed) of the runs before one that begins at `now`: how many in
+    each kpis.INTERVAL from `since` on, by its number, as kpis.Tally counts them; their first moment.
+    Times are that run's [s]."""
+    move, order, begin = schema.move.c, schema.orders.c, now
+    counts = [defaultdict(int) for _ in range(3)]
+    with engine.connect() as connection:
+        later = _shifts(connection, now)
+        for run in connection.execute(select(schema.run)):
+            by = later[run.id]
+            if run.simulated_s + by <= since:
+                continue
+            begin = min(begin, max(run.began_s + by, since))
+            queries = [
+                select(move.stamp, func.abs(move.quantity))
+                .where(move.run == run.id, move.reason == reason.value)
+                .where(move.stamp >= since - by)
+                for reason in (Reason.PICK, Reason.PUT)
+            ]
+            queries.append(
+                select(order.completed, 1).where(order.run == run.id)
+                .where(order.state == int(OrderState.COMPLETED), order.completed >= since - by)
+            )
+            for query, count in zip(queries, counts):
+                for stamp, number in connection.execute(query):
+                    count[int((stamp + by) // INTERVAL)] += number
+    return begin, *counts
+
+
+def heat(engine, now):
+    """[(when it began, by the time of a run that begins at `now` [s], the maps as bytes)]: what was
+    kept of the FloorHeat."""
+    with engine.connect() as connection:
+        later = _shifts(connection, now)
+        rows = connection.execute(select(schema.heat)).all()
+    kept = [(row.began_s + later[row.run], row.maps) for row in rows]
+    return [(began, maps) for began, maps in kept if began >= 0]
+
+
 def _bins(connection):
     result = []
     for row in connection.execute(select(schema.bin_).order_by(schema.bin_.c.id)):
@@ -82,11 +123,12 @@ def _orders(connection, now):
 
 
 def _shifts(connection, now):
-    """What is added to a time of each run to make it one of a run that begins at `now`."""
+    """What is added to a time of each run to make it one of a run that begins at `now`: nothing if
+    simulated time has gone on; where it began anew, or went back, the next run follows at once."""
     rows = connection.execute(select(schema.run).order_by(schema.run.c.id.desc()))
     result, begins, by = {}, now, 0.0
     for row in rows:
-        by += begins - row.simulated_s
+        by += min(0.0, begins - row.simulated_s)
         result[row.id] = by
         begins = row.began_s
     return result

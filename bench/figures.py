@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What each part of the benchmarks measured, as figures: names, units, limits, and ratios to the
+bare arrays' loop of the same run, which takes a slow or crowded machine out of the comparison."""
+
+from dataclasses import dataclass
+
+LISTENING, UNHEARD = "one client hears all robots", "nobody listens"
+
+# The bare arrays that do the same work as a robot, with as many rays.
+ARRAYS = {"default": "arrays, 121 rays", "at_once": "arrays", "jointed": "arrays"}
+
+# The least real-time factor.
+LIMITS = {
+    "default, N = 1,000, no scan read": ">= 48",
+    "default, N = 10,000, no scan read": ">= 4",
+    "at_once, N = 1,000": ">= 12",
+    "at_once, N = 10,000": ">= 1.2",
+    "at_once, N = 1,000, no lasers": ">= 60",
+    "jointed, N = 100": ">= 2.5",
+    "jointed, N = 1,000": ">= 0.2",
+}
+NODE_LIMIT = "<= 0.3"  # cores, of those that follow the warehouse
+FOLLOWING_NODES = ("track_", "create_warehouse_topics")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """`name`: what was measured. `ratio`: over the arrays' real-time factor where more is faster,
+    times it where less is: seconds that the arrays' loop simulates meanwhile. None: a machine's
+    speed changes nothing of it."""
+
+    name: str
+    value: float
+    unit: str = ""
+    limit: str = ""  # such as ">= 12"
+    wall: float | None = None  # the same by the wall clock, where `value` is by CPU time
+    ratio: float | None = None
+    more_is_faster: bool = True
+
+
+def of(part, measured, arrays):
+    """The figures of one part. `arrays`: real-time factor by CPU of a thousand of them, then."""
+    return OF_PART[part](measured, Scale(arrays))
+
+
+class Scale:
+    """Makes figures that a machine's speed changes."""
+
+    def __init__(self, arrays):
+        self._arrays = arrays
+
+    def speed(self, name, value, unit="RTF", limit="", wall=None):
+        ratio = value / self._arrays if value is not None else None
+        return Figure(name, value, unit, limit, wall, ratio)
+
+    def time(self, name, value, unit, limit=""):
+        ratio = value * self._arrays * SECONDS[unit] if value is not None else None
+        return Figure(name, value, unit, limit, None, ratio, more_is_faster=False)
+
+
+SECONDS = {"s": 1, "ms": 1e-3, "us": 1e-6, "CPU s": 1, "CPU us": 1e-6, "cores": 1}
+
+# --- in one process
+
+
+def name(figure):
+    """Of an in-process figure, such as "default, N = 1,000, no scan read"."""
+    read = "" if figure.get("read", True) else ", no scan read"
+    lasers = read if figure["lasers"] else ", no lasers"
+    return f"{figure['engine']}, N = {figure['robots']:,}{lasers}"
+
+
+def _fleet(measured, _):
+    arrays = {(f["engine"], f["robots"]): f["rtf_cpu"] for f in measured if f["lasers"]}
+    out = []
+    for figure in measured:
+        beside = arrays.get((ARRAYS.get(figure["engine"]), figure["robots"]))
+        ratio = figure["rtf_cpu"] / beside if beside and figure["lasers"] else None
+        what = name(figure)
+        limit = LIMITS.get(what, "")
+        out.append(Figure(what, figure["rtf_cpu"], "RTF", limit, figure["rtf"], ratio))
+        if what == "default, N = 1,000" and ratio:
+            out.append(Figure(f"{what}, over the arrays", ratio, "", ">= 0.75"))
+    return out + _scaling(measured)
+
+
+def _scaling(measured):
+    """Of one robot's step: how much more it costs in a larger fleet."""
+    out = []
+    for engine, few, limit in (("default", 1000, "<= 1.3"), ("at_once", 100, "<= 1.5")):
+        ours = [f for f in measured if f["engine"] == engine and f["lasers"]]
+        ours = [f for f in ours if f["read"] == (engine == "at_once")]
+        cost = {f["robots"]: 1 / f["rtf_cpu"] / f["robots"] for f in ours}
+        if few in cost and 10000 in cost:
+            what = f"{engine}: cost of a robot at N = 10,000 over {few:,}"
+            out.append(Figure(what, cost[10000] / cost[few], "", limit))
+    return out
+
+
+def _others(measured, scale):
+    return [scale.speed(name(f), f["rtf_cpu"], wall=f["rtf"]) for f in measured if "engine" in f]
+
+
+def _following(measured, _):
+    return [
+        Figure(
+            f"{figure['robots']:,} followers, {way}: step over that of one long command",
+            figure[way]["ratio"],
+            limit="<= 1.05",
+        )
+        for figure in measured
+        for way in ("path", "releases")
+    ]
+
+
+def _warehouse(measured, scale):
+    out = []
+    for f in measured:
+        scans = "all scans read" if f["lasers"] else "no scans read"
+        what = f"huge in-process, random commands, {scans}"
+        out.append(scale.speed(what, f["rtf_cpu"], limit=">= 4", wall=f["rtf"]))
+    return out
+
+
+# --- under ROS
+
+
+def _ros(found, scale):
+    what = f"huge, {LISTENING}, {found['seconds']:g} s: "
+    growth = found["memory_mb"] / found["memory_before_mb"]
+    us = found["messages_per_second"] * found["seconds"] / 1e6  # of messages, in millions
+    out = [
+        scale.time("create_warehouse_models huge", found["create_s"], "s", "<= 10"),
+        Figure(what + "RTF", found["rtf"], "", ">= 0.99"),
+        Figure(what + "messages", found["messages_per_second"], "/s", ">= 19000"),
+        Figure(what + "fewest of one topic", found["least_rate"], "Hz"),
+        scale.time(what + "how late, p99", found["late_p99_ms"], "ms", "<= 20"),
+        scale.time(what + "command to ACCEPTED, p99", found["accepted_p99_ms"], "ms", "<= 30"),
+        scale.time(what + "the world's node, a message", found["watched_cpu_s"] / us, "CPU us"),
+        scale.time(what + "the client, a message", found["cpu_s"] / us, "CPU us"),
+        Figure(what + "memory, after over before", growth, "", "<= 1.02"),
+    ]
+    if found["topics_s"] is not None:
+        stand = scale.time("then until all items' topics stand", found["topics_s"], "s", "<= 60")
+        out.insert(1, stand)
+    return out + _nodes(found, what, scale)
+
+
+def _unheard(found, scale):
+    what = f"huge, {UNHEARD}, rtf:=0, {found['seconds']:g} s: "
+    accepted = scale.time(what + "command to ACCEPTED, p99", found["accepted_p99_ms"], "ms")
+    return [
+        scale.speed(what + "RTF", found["rtf"], "", ">= 4"),
+        accepted,
+        *_nodes(found, what, scale),
+    ]
+
+
+def _nodes(found, what, scale):
+    out = [Figure(what + "memory of all nodes", found["memory_mb"], "MB", "<= 1500")]
+    for node, cores in sorted(found["cores"].items()):
+        if cores > 0.02:
+            limit = NODE_LIMIT if node.startswith(FOLLOWING_NODES) else ""
+            out.append(scale.time(what + node, cores, "cores", limit))
+    return out
+
+
+def _recreations(found, _):
+    memory = found["memory_mb"]
+    growth = memory[-1] / memory[1]
+    what = f"{found['size']}, memory of all nodes, creation {len(memory)} over 2"
+    node = found["node_mb"]
+    alone = f"{found['size']}, memory of the world's node, creation {len(node)} over 2"
+    return [
+        Figure(what, growth, "", "<= 1.02"),
+        Figure(alone, node[-1] / node[1], "", "<= 1.02"),
+    ]
+
+
+def _start(found, scale):
+    return [
+        scale.time("small stands after roslaunch", found["stands_s"], "s", "<= 4"),
+        scale.time(
+            "small stands: CPU time of all nodes until then", found["stands_cpu_s"], "CPU s"
+        ),
+        scale.time("import kiva_plugin_cpp", found["import_s"], "s", "<= 0.15"),
+        scale.time("import kiva_plugin_cpp: CPU time", found["import_cpu_s"], "CPU s"),
+    ]
+
+
+def _build(found, scale):
+    return [
+        scale.time("make build, from nothing", found["build_s"], "s", "<= 120"),
+        scale.time("make build: CPU time", found["build_cpu_s"], "CPU s"),
+    ]
+
+
+OF_PART = {
+    "fleet": _fleet,
+    "references": _others,
+    "peers": _others,
+    "following": _following,
+    "warehouse": _warehouse,
+    "ros": _ros,
+    "unheard": _unheard,
+    "recreations": _recreations,
+    "start": _start,
+    "build": _build,
+}

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What environments of robots have in common, whatever their interface: warehouses, what is
+observed of them, who watches, and, of one warehouse, the episode as it goes."""
+
+import numpy as np
+
+from warehouse_learning import episodes
+from warehouse_learning.observing import Observer
+from warehouse_learning.options import Options
+from warehouse_learning.picture import Picture
+from warehouse_learning.screen import Screen
+from warehouse_learning.warehouses import Warehouses
+
+
+class Stage:
+    """Of n warehouses; a mixin, to be the first among an environment's bases."""
+
+    def _set_up(self, n, render_mode, options, threads):
+        """options: by name, as of warehouse_learning.Options."""
+        self.options = Options.of(options)
+        self._in = Warehouses(n, self.options, threads)
+        self._see = Observer(self._in)
+        self.fields, self.state_fields = self._see.fields, self._see.state_fields
+        self._screen = Screen(render_mode, lambda: Picture(self._in))
+
+    @property
+    def render_mode(self):
+        return self._screen.mode
+
+    def render(self):
+        return self._screen.render()
+
+    def _masks(self):
+        """{"action_mask": (n, robots, 5) int8}; nothing of wheels, which may do anything."""
+        if self.options.continuous:
+            return {}
+        return {"action_mask": self._in.masks().astype(np.int8)}
+
+    def _ends(self):
+        """(n,) bool: whose episodes are over."""
+        return self._in.cycle >= self.options.max_cycles
+
+
+class OneWarehouse(Stage):
+    """Of one warehouse: its episode can be saved."""
+
+    def _set_up(self, render_mode, options):
+        super()._set_up(1, render_mode, options, threads=1)
+        self._seed, self._actions = None, []
+
+    def _begin(self, seed):
+        self._seed, self._actions = int(seed), []
+        self._in.reset([0], [self._seed])
+        self._screen.stepped()
+
+    def _decide(self, chosen):
+        """One decision, (robots,) or of wheels (robots, 3). Returns rewards (robots,), what
+        happened, {name: (robots,)}, and whether the episode is over."""
+        rewards, happened = self._in.step(chosen[None])
+        self._actions.append(chosen)
+        self._screen.stepped()
+        happened = {name: events[0] for name, events in happened.items()}
+        return rewards[0], happened, bool(self._ends()[0])
+
+    def state(self):
+        """(size,) float32: the whole warehouse, as `state_fields` says, for centralised critics."""
+        return self._see.state()[0]
+
+    def close(self):
+        self._screen.close()
+
+    def save_episode(self, path):
+        """The episode up to now as a file; `python3 -m warehouse_learning.watch` plays it."""
+        if self._seed is None:
+            raise ValueError("there is no episode yet: reset() begins one")
+        episodes.save(path, self.options, self._seed, self._actions)
