@@ -57,6 +57,15 @@ def bring_a_unit(station):
     raise AssertionError("all units are under way")
 
 
+def picked(engine):
+    """Pieces, by what the database has."""
+    move = schema.move.c
+    with engine.connect() as connection:
+        return -connection.execute(
+            select(func.sum(move.quantity)).where(move.reason == "pick")
+        ).scalar()
+
+
 def set_station(name, is_open, mode):
     return call("/warehouse/set_station", SetStation, name, is_open, mode)
 
@@ -162,10 +171,11 @@ class Operations(unittest.TestCase):
             LONG,
         )
         # What was picked before is not forgotten.
-        with engine.connect() as connection:
-            picked = select(func.sum(-schema.move.c.quantity)).where(schema.move.c.reason == "pick")
-            pieces = connection.execute(picked).scalar()
-        latched("/warehouse/throughput", Throughput, lambda told: sum(told.items_picked) == pieces)
+        latched(
+            "/warehouse/throughput",
+            Throughput,
+            lambda told: sum(told.items_picked) == picked(engine),
+        )
 
     def test_6_time_goes_back_and_it_goes_on(self):
         orders = [submit((f"sku-{i}", 1)).order_id for i in range(1, 5)]
@@ -175,7 +185,6 @@ class Operations(unittest.TestCase):
         wait_until(lambda: rospy.get_time() < before, "time goes back")
         wait_until(lambda: all(self.is_complete(o) for o in orders), "all orders complete", LONG)
         self.assertEqual(pid("/operations"), node)
-        self.assertLess(rospy.get_time(), before + LONG)
         throughput = latched("/warehouse/throughput", Throughput)
         self.assertLessEqual(throughput.end, rospy.get_time())
         engine = open_engine(rospy.get_param("~database"))
