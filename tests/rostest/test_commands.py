@@ -8,12 +8,14 @@ import unittest
 import rospy
 import rostest
 from node_test import call
+from slow_subscriber import SlowSubscriber
 from warehouse_test import ANSWERS, Collector, Commander, Paused, control, place
 
 from warehouse_msgs.msg import Event, FleetState, Lift, Rotate
 from warehouse_msgs.srv import Fail, FailRequest
 
 BURST = 10000
+FLOOD = 60000  # of answers, more than sockets hold
 
 
 class Commands(unittest.TestCase):
@@ -85,6 +87,21 @@ class Commands(unittest.TestCase):
         for i in range(5):
             mine = [e for e in events if e.model == f"kiva{901 + i}"]
             self.assertEqual(len(mine), BURST // 5, f"kiva{901 + i}")
+
+    def test_what_a_subscriber_has_no_room_for_comes_later_in_order(self):
+        slow = SlowSubscriber("/gazebo", "/warehouse/events", Event)
+        self.addCleanup(slow.close)
+        rows = dict.fromkeys(("path_id", "first", "points", "released"), [1] * FLOOD)
+        nowhere = {"x": [0.0] * FLOOD, "y": [0.0] * FLOOD}
+        self.commander.send("/warehouse/follow", kiva_id=[901] * FLOOD, **rows, **nowhere)
+        self.commander.events.wait_for(lambda messages: len(messages) >= FLOOD)
+        late = slow.messages(FLOOD)
+        first = late[0]
+        self.assertEqual((first.kind, first.model), (Event.REFUSED, "kiva901"))
+        for i, event in enumerate(late):  # every byte: the last ones are the command's number
+            self.assertEqual(event.header.seq, first.header.seq + i)
+            self.assertEqual(event.command, first.command + i)
+            self.assertEqual((event.model, event.text), (first.model, first.text))
 
     def test_a_command_waits_while_time_stands_still(self):
         with Paused():
