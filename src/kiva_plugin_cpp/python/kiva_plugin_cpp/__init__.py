@@ -231,8 +231,9 @@ class World(_core.World):
 
         For one robot: numbers, and arrays x, y of grid points in world [m], of which the first is
         point number `first` of the path; neighbours differ along one axis, point 0 is where the
-        robot stands. `released` counts points of the whole path; all, unless it is told. For many:
-        arrays of shape (n,), `points` says how many entries of x and y each of them has, in a row.
+        robot stands, or off the grid a free grid point near it, to which it returns first.
+        `released` counts points of the whole path; all, unless it is told. For many: arrays of
+        shape (n,), `points` says how many entries of x and y each of them has, in a row.
 
         The path_id of a path under way changes it: points beyond the released ones are replaced
         from `first` on, or none if there are none here; `released` may shrink as far as the robot
