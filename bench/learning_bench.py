@@ -107,9 +107,7 @@ def main():
         print(f"RWARE, {wanted.robots} robots, no physics: {text}")
     for name, options in CASES.items():
         among_possible = "possible" in name
-        wall, cpu = measure(
-            wanted.worlds, wanted.robots, wanted.seconds, among_possible, **options
-        )
+        wall, cpu = measure(wanted.worlds, wanted.robots, wanted.seconds, among_possible, **options)
         text = f"{name}: {wall:,.0f} agent steps/s; {cpu:,.0f} a second of CPU"
         if theirs:
             text += f"; {wall / theirs[0]:.1f} x RWARE, by CPU {cpu / theirs[1]:.1f} x"

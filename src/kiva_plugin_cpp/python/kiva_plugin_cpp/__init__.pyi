@@ -158,6 +158,7 @@ class World:
         drive: str = "",
         model_paths: Iterable[str | PathLike[str]] = (),
         threads: int = 1,
+        realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
     @property
     def fleet(self) -> Fleet: ...

@@ -15,9 +15,10 @@ from warehouse_learning.warehouses import ActionError
 class KivaParallelEnv(OneWarehouse, ParallelEnv):
     """Agents robot_1, robot_2 …; options as of warehouse_learning.Options.
 
-    Observations are (size,) float32, as `fields` says; infos hold "action_mask", (5,) int8
-    (not of wheels), and what happened to the robot. An action that is not possible now is a wait. state() is the whole
-    warehouse, as `state_fields` says. Every episode is truncated after max_cycles decisions.
+    Observations are (size,) float32, as `fields` says; infos hold "action_mask", (5,) int8, but
+    for wheels, and what happened to the robot. An action that is not possible now is a wait.
+    state() is the whole warehouse, as `state_fields` says. Every episode is truncated after
+    max_cycles decisions.
     """
 
     def __init__(self, render_mode=None, **options):
