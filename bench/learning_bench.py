@@ -1,64 +1,75 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Agent steps a second with physics, beside RWARE where it is installed, in one run.
+"""Agent steps a second of the vector environment with physics, beside RWARE where it is installed,
+in one run: .venv/bin/pip install rware; .venv/bin/python bench/learning_bench.py
 
-    bench/learning_bench.py [--worlds 64] [--robots 10] [--seconds 10]
+    [--worlds 64] [--robots 10] [--seconds 10]
 
 An agent step is one decision of one robot, its observation and mask included. `tick` lets a
 decision last 2/3 s, the time of a cell at top speed; `action` lasts until every robot has ended
-what it does; without acceleration (0) a tick is a whole cell, as RWARE's step is.
+what it does; without acceleration a tick is a whole cell, as RWARE's step is. Actions are drawn
+among all, as RWARE's are: what is not possible is a wait; `possible`: only among those that are.
 """
 
 import argparse
 import os
 import time
 
+import gymnasium
 import numpy as np
 
+import warehouse_learning  # noqa: F401  registers the environments
 from kiva_plugin_cpp import Worlds
-from warehouse_learning.observing import Observer
-from warehouse_learning.options import Options
-from warehouse_learning.warehouses import Warehouses
 
 TICK = 2 / 3  # [s]
 CASES = {
     "tick": {"decision": TICK},
-    "tick, no acceleration": {"decision": TICK, "acceleration": 0.0},
-    "action": {},
+    "tick, possible": {"decision": TICK},
+    "tick, possible, no acceleration": {"decision": TICK, "acceleration": 0.0},
+    "action, possible": {},
 }
 
 
-def measure(worlds, robots, seconds, threads=0, **options):
-    """(agent steps a second, milliseconds of physics a decision) by wall clock, and by CPU."""
-    warehouses = Warehouses(
-        worlds, Options.of({"robots": robots, "shelves": 4 * robots} | options), threads
+def measure(worlds, robots, seconds, among_possible, **options):
+    """Agent steps a second, by wall clock and by CPU."""
+    env = gymnasium.make_vec(
+        "KivaRobots-v0",
+        num_envs=worlds,
+        robots=robots,
+        shelves=4 * robots,
+        max_cycles=10**9,
+        **options,
     )
-    observer = Observer(warehouses)
     random = np.random.default_rng(1)
-    warehouses.reset(np.arange(worlds), range(worlds))
-    masks, steps = warehouses.masks(), 0
+    _, infos = env.reset(seed=1)
+    steps = 0
     begin, cpu = time.perf_counter(), time.process_time()
     while time.perf_counter() < begin + seconds:
-        warehouses.step((masks * random.random(masks.shape, np.float32)).argmax(-1))
-        observer.observations()
-        masks = warehouses.masks()
+        if among_possible:
+            mask = infos["action_mask"]
+            actions = (mask * random.random(mask.shape, np.float32)).argmax(-1)
+        else:
+            actions = random.integers(5, size=(worlds, robots))
+        _, _, _, _, infos = env.step(actions)
         steps += worlds * robots
-    return steps / (time.perf_counter() - begin), steps / (time.process_time() - cpu)
+    rates = steps / (time.perf_counter() - begin), steps / (time.process_time() - cpu)
+    env.close()
+    return rates
 
 
 def rware(robots, seconds):
-    """Agent steps a second of RWARE's own environment of its `tiny` floor; None without it."""
+    """The same of RWARE's own environment of its `tiny` floor; None without it."""
     try:
         from rware.warehouse import RewardType, Warehouse
     except ImportError:
         return None
     env = Warehouse(3, 8, 1, robots, 0, 1, robots, None, 10**9, RewardType.INDIVIDUAL)
     env.reset(seed=1)
-    steps, begin = 0, time.perf_counter()
+    steps, begin, cpu = 0, time.perf_counter(), time.process_time()
     while time.perf_counter() < begin + seconds:
         env.step(env.action_space.sample())
         steps += robots
-    return steps / (time.perf_counter() - begin)
+    return steps / (time.perf_counter() - begin), steps / (time.process_time() - cpu)
 
 
 def many_worlds(seconds):
@@ -91,11 +102,18 @@ def main():
     print(f"64 worlds of small: {speed_up:.2f} x one thread; {overhead:.3f} ms a call at rest")
     theirs = rware(wanted.robots, wanted.seconds)
     if theirs:
-        print(f"RWARE, {wanted.robots} robots, no physics: {theirs:,.0f} agent steps/s")
+        wall, cpu = theirs
+        text = f"{wall:,.0f} agent steps/s; {cpu:,.0f} a second of CPU"
+        print(f"RWARE, {wanted.robots} robots, no physics: {text}")
     for name, options in CASES.items():
-        wall, cpu = measure(wanted.worlds, wanted.robots, wanted.seconds, **options)
-        ratio = f", {wall / theirs:.1f} x RWARE" if theirs else ""
-        print(f"{name}: {wall:,.0f} agent steps/s{ratio}; {cpu:,.0f} a second of CPU")
+        among_possible = "possible" in name
+        wall, cpu = measure(
+            wanted.worlds, wanted.robots, wanted.seconds, among_possible, **options
+        )
+        text = f"{name}: {wall:,.0f} agent steps/s; {cpu:,.0f} a second of CPU"
+        if theirs:
+            text += f"; {wall / theirs[0]:.1f} x RWARE, by CPU {cpu / theirs[1]:.1f} x"
+        print(text)
 
 
 if __name__ == "__main__":

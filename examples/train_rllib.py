@@ -29,7 +29,8 @@ def main():
     config = (
         PPOConfig()
         .environment("kiva")
-        .env_runners(num_env_runners=1)
+        .env_runners(num_env_runners=1, sample_timeout_s=600)  # on a busy machine, too
+        .training(train_batch_size_per_learner=1000, minibatch_size=128, num_epochs=4)
         .multi_agent(policies={"robot"}, policy_mapping_fn=lambda *_, **__: "robot")
     )
     algorithm = config.build_algo()

@@ -6,8 +6,9 @@ import urllib.request
 import numpy as np
 import pytest
 
-gymnasium = pytest.importorskip("gymnasium", reason="scripts/learning_packages installs it")
-pytest.importorskip("pettingzoo", reason="scripts/learning_packages installs it")
+MISSING = "gymnasium or pettingzoo is missing: scripts/learning_packages brings them from PyPI"
+gymnasium = pytest.importorskip("gymnasium", reason=MISSING)
+pytest.importorskip("pettingzoo", reason=MISSING)
 
 from gymnasium.utils.env_checker import check_env  # noqa: E402
 from gymnasium.vector import AutoresetMode  # noqa: E402

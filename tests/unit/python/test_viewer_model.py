@@ -39,6 +39,8 @@ def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, 
         list(shelf),
         *[[0] * n] * 3,  # of paths
         bytes(ended) or bytes(n),
+        bytes(n),
+        [1.0] * n,  # charge
     )
 
 

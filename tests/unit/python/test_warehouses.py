@@ -4,7 +4,15 @@
 import numpy as np
 import pytest
 
-from warehouse_learning import Action, ActionError, OptionError, Options, Warehouses, episodes
+from warehouse_learning import (
+    Action,
+    ActionError,
+    OptionError,
+    Options,
+    Warehouses,
+    episodes,
+    fields,
+)
 from warehouse_learning.observing import Observer
 
 TURNS = {0: [], 1: [Action.LEFT], 2: [Action.LEFT, Action.LEFT], 3: [Action.RIGHT]}
@@ -126,6 +134,74 @@ def test_observations_stay_within_their_bounds(options):
         assert observations.min() >= -1 and observations.max() <= 1
 
 
+def seen_from(warehouses, w, robot, ahead, left):
+    """The layers of the cell so many cells ahead and to the left, one by one."""
+    grid, heading = warehouses.grid, warehouses.heading[w, robot]
+    cell = warehouses.cell[w, robot]
+    cell += ahead * grid.steps[heading] + left * grid.steps[(heading + 1) % 4]
+    units = np.flatnonzero(warehouses.unit_cell[w] == cell)
+    robots = np.flatnonzero(warehouses.cell[w] == cell)
+    return [
+        not grid.passable[cell],
+        grid.storage[cell],
+        grid.is_station[cell],
+        len(units) > 0,
+        warehouses.requested[w, units].any(),
+        len(robots) > 0,
+        (warehouses.load[w, robots] >= 0).any(),
+    ]
+
+
+def test_robots_observe_what_is_around_them_as_they_face_it():
+    warehouses, seen, _ = random_run(4, decisions=60, n=2, radius=3)
+    assert (warehouses.load >= 0).any() and len(np.unique(warehouses.heading)) > 2
+    see = fields.split(seen[-3], fields.robot_fields(warehouses.options))
+    grid, goals = warehouses.grid, warehouses.goals
+    for w, robot in np.ndindex(warehouses.cell.shape):
+        for i, j in np.ndindex(7, 7):
+            expected = seen_from(warehouses, w, robot, i - 3, j - 3)
+            assert see["neighbourhood"][w, robot, i, j].tolist() == expected
+        cell, heading = warehouses.cell[w, robot], warehouses.heading[w, robot]
+        assert see["heading"][w, robot].argmax() == heading
+        way = np.array([1, 1j, -1, -1j])[heading] * (see["goal"][w, robot] @ [1, 1j])
+        (row, column), (own_row, own_column) = (
+            np.divmod(c, grid.width) for c in (goals.cell[w, robot], cell)
+        )
+        expected = complex(column - own_column, row - own_row) / grid.longest
+        assert way == pytest.approx(expected, abs=1e-6)
+
+
+def test_cells_refuse_what_they_would_misread():
+    warehouses = one()
+    warehouses.reset([0], [0])
+    good = Observer(warehouses).observations()
+    cells, goals = warehouses.grid.native, warehouses.goals
+    arguments = {
+        "out": good,
+        "goal_cell": goals.cell,
+        "goal_row": goals.row,
+        "far": warehouses.grid.far,
+    }
+    for name in ("cell", "heading", "busy", "load", "requested", "unit_cell"):
+        arguments[name] = getattr(warehouses, name)
+    for error, bad in (
+        (ValueError, {"out": good[:, :, ::2]}),
+        (ValueError, {"cell": warehouses.cell.astype(float)}),
+        (ValueError, {"busy": np.zeros((1, 2), bool)}),
+        (IndexError, {"load": np.full((1, 1), 6, np.int32)}),
+        (IndexError, {"unit_cell": np.full((1, 6), -2, np.int32)}),
+        (IndexError, {"cell": np.full((1, 1), 10**6, np.int32)}),
+        (IndexError, {"goal_row": np.full((1, 1), 10**6, np.int32)}),
+    ):
+        with pytest.raises(error, match=next(iter(bad))):
+            cells.observe(**arguments | bad)
+    with pytest.raises(ValueError, match="one shape"):
+        cells.locate([0.0, 1.0], [0.0], [0.0])
+    # Whatever lies beyond the floor counts as its edge.
+    cell, heading = cells.locate([-1e9, np.nan], [0.0, 1e9], [-1e-9, -np.pi / 2])
+    assert heading.tolist() == [0, 3] and (cell < warehouses.grid.cells).all()
+
+
 def test_a_robot_at_an_action_goes_on_with_it():
     warehouses = one(decision=0.5, acceleration=1.0)
     warehouses.reset([0], [0])
@@ -142,7 +218,7 @@ def test_a_robot_at_an_action_goes_on_with_it():
 
 
 def test_larger_steps_of_physics_end_in_the_same_places():
-    fine, _, _ = random_run(7, decisions=30, physics_step=0.005)
+    fine, _, _ = random_run(7, decisions=30, physics_step=0.001)
     coarse, _, _ = random_run(7, decisions=30, physics_step=0.05)
     np.testing.assert_allclose(fine.worlds.x, coarse.worlds.x, atol=1e-3)
     np.testing.assert_allclose(fine.worlds.y, coarse.worlds.y, atol=1e-3)

@@ -205,13 +205,24 @@ class World(_core.World):
 
         ValueError if items find no room or a number is negative or beyond the limits.
         """
-        from warehouse_sim import layout, models, request
+        from warehouse_sim import layout, request
 
         wanted = request.resolve(name, robots=robots, items=items, shelves=shelves)
         plan = layout.plan(wanted, options.get("seed", layout.SEED))
+        return cls.of_layout(plan, own_models=True, **options)
+
+    @classmethod
+    def of_layout(cls, laid, *, own_models=False, **options):
+        """A warehouse as warehouse_sim.layout.plan() lays it out; options as of World.
+
+        Robots and units are those that model_paths have, if they have some, unless own_models.
+        """
+        from warehouse_sim import models
+
         world = cls(**options)
         world.delete(models.FLOOR)
-        world.spawn(_ours(models.document(models.of_layout(plan))))
+        text = models.document(models.of_layout(laid))
+        world.spawn(_ours(text) if own_models else text)
         world.events()
         return world
 
@@ -220,8 +231,9 @@ class World(_core.World):
 
         For one robot: numbers, and arrays x, y of grid points in world [m], of which the first is
         point number `first` of the path; neighbours differ along one axis, point 0 is where the
-        robot stands. `released` counts points of the whole path; all, unless it is told. For many:
-        arrays of shape (n,), `points` says how many entries of x and y each of them has, in a row.
+        robot stands, or off the grid a free grid point near it, to which it returns first.
+        `released` counts points of the whole path; all, unless it is told. For many: arrays of
+        shape (n,), `points` says how many entries of x and y each of them has, in a row.
 
         The path_id of a path under way changes it: points beyond the released ones are replaced
         from `first` on, or none if there are none here; `released` may shrink as far as the robot

@@ -147,6 +147,18 @@ class World:
         threads: int = 1,
         realism: str | PathLike[str] | dict[str, Any] | None = None,
     ) -> World: ...
+    @classmethod
+    def of_layout(
+        cls,
+        laid: Any,
+        *,
+        own_models: bool = False,
+        world: str | PathLike[str] = "empty",
+        seed: int = 1,
+        drive: str = "",
+        model_paths: Iterable[str | PathLike[str]] = (),
+        threads: int = 1,
+    ) -> World: ...
     @property
     def fleet(self) -> Fleet: ...
     @property

@@ -31,8 +31,8 @@ class FloorHeat:
         self._cells, self._time = cells, now
 
     def kept(self, slices=1):
-        """The last slices, to be kept for restore(): each (slot, when it began [s], bytes). Later ones
-        of a slot take its place."""
+        """The last slices, to be kept for restore(): each (slot, when it began [s], bytes). Later
+        ones of a slot take its place."""
         for number in range(self._slice + 1 - slices, self._slice + 1):
             slot = number % SLICES
             packed = zlib.compress(self._slices[slot].tobytes(), level=1)

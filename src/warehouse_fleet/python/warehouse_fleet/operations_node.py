@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders and stock as a ROS node: a shift over the coordinator of a running warehouse."""
 
+import contextlib
 import threading
 from time import monotonic as clock
 from types import SimpleNamespace
@@ -138,6 +139,10 @@ class Warehouse:
             rospy.Subscriber(f"/warehouse/{topic}", kind, self._keep, name, queue_size=1)
         rospy.Subscriber("/warehouse/fleet", msg.FleetState, self._on_fleet, queue_size=10)
 
+    def begin(self, heat):
+        """Counts from now on, heat where it is told."""
+        self.distance_m, self.heat, self.failures = 0.0, heat, FailureLog()
+
     def _keep(self, message, name):
         setattr(self, name, message)
 
@@ -235,7 +240,7 @@ class OperationsNode:
         )
         self._shift.on_order_event = self._tell
         self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
-        self._warehouse.heat, self._warehouse.distance_m = heat, 0.0
+        self._warehouse.begin(heat)
         self._keep_heat(SLICES)  # by the times of this run
         self._began = clock()
         self._next_stations = self._next_kpis = now
@@ -439,10 +444,9 @@ class OperationsNode:
 
 def _pause():
     """Until it is worth while to look again."""
-    try:
+    # Whoever goes on looks at the time itself.
+    with contextlib.suppress(rospy.ROSTimeMovedBackwardsException):
         rospy.sleep(CYCLE)
-    except rospy.ROSTimeMovedBackwardsException:
-        pass  # whoever goes on looks at the time itself
 
 
 def _stored_order(row, lines):

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from kiva_plugin_cpp import World, Worlds, worlds_folder
-from warehouse_sim import layout, models, request
+from warehouse_sim import layout, request
 
 
 def build(n, options, threads=0):
@@ -15,11 +15,7 @@ def build(n, options, threads=0):
     wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
     with tempfile.TemporaryDirectory() as folder:
         _write_kiva(Path(folder), options)
-        first = World(model_paths=[folder])
-        first.delete(models.FLOOR)
-        # Not by World.create(): that takes the project's own robot, whatever model_paths say.
-        first.spawn(models.document(models.of_layout(layout.plan(wanted))))
-    first.events()
+        first = World.of_layout(layout.plan(wanted), model_paths=[folder])
     first.step_size = options.physics_step
     checkpoint = first.checkpoint()
     others = [World() for _ in range(n - 1)]

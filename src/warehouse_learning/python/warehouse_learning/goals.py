@@ -35,19 +35,24 @@ class Goals:
         self.row[w, robot] = self._in.grid.nowhere
         self._news[w] = True
 
+    def changed(self, w):
+        """Units of that world stand elsewhere."""
+        self._news[w] = True
+
     def renew(self):
-        """Finds goals for those whose own is gone."""
+        """Finds goals for those whose own is gone, which it can be only where there are news."""
         see, grid = self._in, self._in.grid
-        loaded = see.load >= 0
-        aim = self.aim
-        unit = np.where(aim < see.units, aim, 0)
-        w = np.arange(see.n)[:, None]
-        gone = ~loaded & (aim >= 0) & ((see.unit_cell[w, unit] < 0) | ~see.requested[w, unit])
-        served = loaded & ~see.requested[w, np.maximum(see.load, 0)]
-        gone |= served & (aim >= 0) & (see.unit_at[w, np.maximum(aim, 0)] >= 0)
-        if gone.any():
-            aim[gone], self.row[gone] = -1, grid.nowhere
-            self._news |= gone.any(1)
+        which = self._news.nonzero()[0]
+        if len(which):
+            w = which[:, None]
+            aim, load = self.aim[which], see.load[which]
+            unit = np.where(aim < see.units, aim, 0)
+            gone = (load < 0) & (aim >= 0)
+            gone &= (see.unit_cell[w, unit] < 0) | ~see.requested[w, unit]
+            served = (load >= 0) & ~see.requested[w, np.maximum(load, 0)]
+            gone |= served & (aim >= 0) & (see.unit_at[w, np.maximum(aim, 0)] >= 0)
+            self.aim[which] = np.where(gone, -1, aim)
+            self.row[which] = np.where(gone, grid.nowhere, self.row[which])
         self._find()
 
     def distance(self):
@@ -58,7 +63,7 @@ class Goals:
     def _find(self):
         see = self._in
         lacks = self.row == see.grid.nowhere
-        self.cell[lacks] = see.cell[lacks]
+        np.copyto(self.cell, see.cell, where=lacks)
         for w, robot in np.argwhere(lacks & self._news[:, None]).tolist():
             load = int(see.load[w, robot])
             if load < 0:

@@ -321,6 +321,7 @@ class Warehouses:
             standing = self.unit_cell[w] >= 0
             self.unit_at[w] = -1
             self.unit_at[w, cells[standing]] = np.flatnonzero(standing)
+            self.goals.changed(w)
 
     def _tasks(self, load):
         """Lifts, deliveries, returns, by what robots carried before."""

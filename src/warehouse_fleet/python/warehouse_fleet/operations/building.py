@@ -15,7 +15,7 @@ def world_of(site, seed=1, realism=""):
     Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x.
     """
     from kiva_plugin_cpp import World, worlds_folder
-    from warehouse_sim import layout, models
+    from warehouse_sim import layout
 
     plan = replace(site.plan, origin=(0.0, 0.0))
     (height, width), spacing = plan.shape, plan.spacing
@@ -40,10 +40,9 @@ def world_of(site, seed=1, realism=""):
         for part in (folder / "models" / "kiva").iterdir():
             (robot / part.name).write_bytes(part.read_bytes())
         _set_kinematics(robot / "model.sdf", site.kinematics)
-        world = World(world_file, seed=seed, model_paths=[made], realism=realism or None)
-        world.delete(models.FLOOR)
-        world.spawn(models.document(models.of_layout(laid)))
-    world.events()
+        world = World.of_layout(
+            laid, world=world_file, seed=seed, model_paths=[made], realism=realism or None
+        )
     return world, replace(site, plan=plan)
 
 

@@ -55,9 +55,9 @@ def transports_left(engine):
 
 
 def throughput(engine, now, since):
-    """(begin, picked, stored, completed) of the runs before one that begins at `now`: how many in
-    each kpis.INTERVAL from `since` on, by its number, as kpis.Tally counts them; their first moment.
-    Times are that run's [s]."""
+    """(begin, picked, stored, completed) of the runs before one that begins at `now`: their first
+    moment, and how many in each kpis.INTERVAL from `since` on, by its number, as kpis.Tally counts
+    them. Times are that run's [s]."""
     move, order, begin = schema.move.c, schema.orders.c, now
     counts = [defaultdict(int) for _ in range(3)]
     with engine.connect() as connection:
@@ -74,7 +74,8 @@ def throughput(engine, now, since):
                 for reason in (Reason.PICK, Reason.PUT)
             ]
             queries.append(
-                select(order.completed, 1).where(order.run == run.id)
+                select(order.completed, 1)
+                .where(order.run == run.id)
                 .where(order.state == int(OrderState.COMPLETED), order.completed >= since - by)
             )
             for query, count in zip(queries, counts):

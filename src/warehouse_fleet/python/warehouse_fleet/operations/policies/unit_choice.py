@@ -14,9 +14,13 @@ class Nearest:
 
 
 class MostLines:
-    """The one that completes most lines; of equals, the one with most work in lines to come."""
+    """The one that completes most lines; of equals, the one with most work in lines to come. A
+    station that nothing is on the way to would stand idle until it comes: it gets the nearest."""
 
     def choose(self, station, candidates, view):
+        if not station.coming:
+            return Nearest().choose(station, candidates, view)
+
         def lines(unit):
             return sum(pieces >= line.missing for line, pieces in candidates[unit].items())
 
