@@ -44,7 +44,7 @@ class Opportunity(Threshold):
         return charge >= self.enough
 
 
-NAMES = {"threshold": Threshold, "opportunity": Opportunity}
+NAMES = {"opportunity": Opportunity, "threshold": Threshold}
 
 
 class Charging:
@@ -53,7 +53,7 @@ class Charging:
     def __init__(self, plan, traffic, far):
         """far(cell, cells): how far those are."""
         self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
-        self.policy = Threshold()
+        self.policy = Opportunity()
         self.cell_of = {}  # by robot
         self.robot_s = 0.0  # spent at a place to charge at, in all
         self._time = None
