@@ -44,7 +44,7 @@ class Opportunity(Threshold):
         return charge >= self.enough
 
 
-NAMES = {"threshold": Threshold, "opportunity": Opportunity}
+NAMES = {"opportunity": Opportunity, "threshold": Threshold}
 
 
 class Charging:
@@ -53,7 +53,7 @@ class Charging:
     def __init__(self, plan, traffic, far):
         """far(cell, cells): how far those are."""
         self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
-        self.policy = Threshold()
+        self.policy = Opportunity()
         self.cell_of = {}  # by robot
         self.robot_s = 0.0  # spent at a place to charge at, in all
         self._time = None
@@ -84,7 +84,10 @@ class Charging:
         wants[list(self.cell_of)] = False
         for robot in sorted(np.flatnonzero(wants), key=lambda r: traffic.charge[r]):
             if not self._place(int(robot)):
-                return
+                break
+        for robot, cell in self.cell_of.items():  # back, too, whom others pushed out
+            if traffic.goal[robot] != cell:
+                traffic.send(robot, cell)
 
     def _place(self, robot):
         """Whether there was a place for it: a free one, or that of a robot which needs it less."""
@@ -100,10 +103,7 @@ class Charging:
         # Where others only wait it is to wait for them to go.
         far = self._far(int(traffic.cell[robot]), cells) + 10 * np.isin(cells, traffic.cell)
         far[cells == traffic.cell[robot]] = 0
-        cell = int(cells[far.argmin()])
-        self.cell_of[robot] = cell
-        if cell != traffic.cell[robot]:
-            traffic.send(robot, cell)
+        self.cell_of[robot] = int(cells[far.argmin()])
         return True
 
     def _count(self):

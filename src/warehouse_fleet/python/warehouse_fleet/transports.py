@@ -361,6 +361,7 @@ class Transports:
             if transport.step == Step.WAITING and transport.let_go:
                 self._leave(transport)
         self._admit()
+        self.charging.advance(self._without_work(), True)
         self._assign()
         self.charging.advance(self._without_work(), bool(self._open))
         self._park()

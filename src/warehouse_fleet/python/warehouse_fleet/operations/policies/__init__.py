@@ -107,7 +107,7 @@ DEFAULTS = {
     "replenishment": "threshold",
     "robots": "nearest",
     "idle": "wait",
-    "charging": "threshold",
+    "charging": "opportunity",
 }
 
 
