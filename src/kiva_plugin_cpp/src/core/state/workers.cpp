@@ -17,7 +17,7 @@ struct Workers::Job {
   const int count, block;
   std::atomic<int> next{0};
   std::mutex mutex;  // of the error
-  std::exception_ptr error;
+  std::exception_ptr error = nullptr;
 };
 
 /// What the threads read; it lives until the last of them has left.
