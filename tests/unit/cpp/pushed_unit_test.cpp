@@ -21,8 +21,8 @@ std::string unitWithFriction(double friction) {
 std::string boxText(double mass, const std::string& size, bool falls) {
   const std::string inertia = number(mass * 0.02);
   return "<sdf version='1.9'><model name='box'><link name='l'><gravity>" + number(falls) +
-         "</gravity><inertial><mass>" + number(mass) +
-         "</mass><inertia><ixx>" + inertia + "</ixx><iyy>" + inertia + "</iyy><izz>" + inertia +
+         "</gravity><inertial><mass>" + number(mass) + "</mass><inertia><ixx>" + inertia +
+         "</ixx><iyy>" + inertia + "</iyy><izz>" + inertia +
          "</izz></inertia></inertial><collision name='c'><geometry><box><size>" + size +
          "</size></box></geometry></collision></link></model></sdf>";
 }
@@ -35,11 +35,12 @@ class PushedUnit : public ::testing::Test {
     w.world.setState("storage_unit1", {Pose::Zero, {linear, angular}});
   }
   void runUntilOutOfBullet() {
-    w.runUntil([&] { return !model().in_physics; }, 5, [&] {
-      if (!model().in_physics) return;
-      planar += model().upright;
-      whole += !model().upright;
-    });
+    w.runUntil([&] { return !model().in_physics; }, 5,
+               [&] {
+                 if (!model().in_physics) return;
+                 planar += model().upright;
+                 whole += !model().upright;
+               });
   }
   double up() { return w.unitPose(1).Rot().ZAxis().Z(); }
   /// Straight at the unit.
@@ -140,9 +141,7 @@ struct Row {
     w.runUntilIdle(1);
     w.movx(1, 10);
   }
-  const Model& unit(int id) {
-    return *insideOf(w.world).find("storage_unit" + std::to_string(id));
-  }
+  const Model& unit(int id) { return *insideOf(w.world).find("storage_unit" + std::to_string(id)); }
   bool slides() {
     const bool is = unit(2).upright && unit(2).disturbed;
     return is && modelState(insideOf(w.world), unit(2)).twist.linear.Length() > 0.1;

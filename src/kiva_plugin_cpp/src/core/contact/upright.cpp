@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/activation.h"
 #include "core/physics/sliding_friction.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
@@ -78,8 +77,7 @@ double leastSupport(const std::vector<Foot>& feet) {
   return least;
 }
 
-Rocking rockingOf(const WorldState& world, const btRigidBody& body,
-                  const std::vector<Foot>& feet) {
+Rocking rockingOf(const WorldState& world, const btRigidBody& body, const std::vector<Foot>& feet) {
   Rocking r;
   r.weight = body.getMass() * world.gravityDown();
   if (feet.empty()) return r;

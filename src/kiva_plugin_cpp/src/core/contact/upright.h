@@ -13,8 +13,7 @@ namespace kiva {
 /// Whether the floor is such that a unit may be planar where it stands on its feet.
 bool canSlideUpright(const WorldState& world, const Model& model);
 /// The planar body of a unit that is like `description`, at model.pose.
-ModelBodies buildUpright(const WorldState& world, const Model& model,
-                         ModelDescription description);
+ModelBodies buildUpright(const WorldState& world, const Model& model, ModelDescription description);
 
 /// Adds what pushed the units over in the last step.
 void rock(WorldState& world);

@@ -147,9 +147,9 @@ ModelBodies StorageUnits::build(const WorldState& world, const Model& model) con
     link.mass *= unit.mass / own;
     link.principal_moments *= unit.mass / own;
   }
-  ModelBodies bodies =
-      model.upright ? buildUpright(world, model, loaded)
-                    : world.physics.build(loaded, model.pose, model.slot, kDynamicGroup, ~0);
+  ModelBodies bodies = model.upright
+                           ? buildUpright(world, model, loaded)
+                           : world.physics.build(loaded, model.pose, model.slot, kDynamicGroup, ~0);
   for (LinkBody& link : bodies.links) link.body->setActivationState(ISLAND_SLEEPING);
   return bodies;
 }

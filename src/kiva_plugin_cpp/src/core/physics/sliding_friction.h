@@ -12,7 +12,7 @@ namespace kiva {
 
 /// Where a body stands on the floor.
 struct Foot {
-  btVector3 at;          ///< From the centre of mass, in the body's frame [m].
+  btVector3 at;           ///< From the centre of mass, in the body's frame [m].
   double grip_limit = 0;  ///< The most that friction holds there [N].
 };
 

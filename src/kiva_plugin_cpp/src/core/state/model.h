@@ -125,9 +125,9 @@ struct Model {
   std::uint64_t active_until = 0;  ///< Step up to which something near keeps it in Bullet.
   bool disturbed = false;          ///< Touched since it was activated.
   bool upright = false;            ///< It is there as a body that slides on its feet, no more.
-  Vector3 rocking;     ///< Momentum that its feet did not hold since, about its centre of mass,
-                       ///< in world [Nms].
-  bool tips = false;   ///< That is too much, or something lies on it: it is a whole body.
+  Vector3 rocking;    ///< Momentum that its feet did not hold since, about its centre of mass,
+                      ///< in world [Nms].
+  bool tips = false;  ///< That is too much, or something lies on it: it is a whole body.
   std::shared_ptr<const JointedBody>
       jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<CollisionGeometry> geometries;
