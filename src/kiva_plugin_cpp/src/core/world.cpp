@@ -11,6 +11,7 @@
 #include "core/contact/activation.h"
 #include "core/contact/collisions.h"
 #include "core/contact/external_wrenches.h"
+#include "core/contact/upright.h"
 #include "core/control/commands.h"
 #include "core/control/energy.h"
 #include "core/control/failures.h"
@@ -178,6 +179,7 @@ void World::setGravity(const Vector3& gravity) {
   if (gravity == state_->gravity) return;
   state_->gravity = gravity;
   state_->physics.setGravity(gravity);
+  letAllTip(*state_);
   wakeBodies(*state_);
   beginAnew(*state_);
 }

@@ -138,6 +138,8 @@ void checkModel(const WorldState& world, const Model& model, std::size_t slot) {
   require(mayBeInPhysics(world, model), "models", slot, "in_physics", "it can't be");
   const bool may_be_disturbed = model.kind == ModelKind::kStorageUnit && model.in_physics;
   require(!model.disturbed || may_be_disturbed, "models", slot, "disturbed", "it can't be");
+  require(!model.upright || (may_be_disturbed && description.links.size() == 1), "models", slot,
+          "upright", "it can't be");
   require(model.joints.empty() || model.joints.size() == description.joints.size(), "models", slot,
           "joints", "their number is not that of its description");
   require(model.joints.empty() || (model.in_physics && !isActivatable(model)), "models", slot,

@@ -269,11 +269,12 @@ void describe(A& a, JointState& s) {
 
 template <class A>
 void describe(A& a, Model& m) {
-  DESCRIBED(Model, 19);
+  DESCRIBED(Model, 22);
   FIELDS(m.name, m.kind, m.serial, m.spawn_pose);
   if constexpr (A::kReads) m.owner = &ownerOf(m.kind);
   a.mostly(m.pose, m.spawn_pose);
-  FIELDS(m.index, m.in_physics, m.active_until, m.disturbed, m.joints, m.robot_namespace);
+  FIELDS(m.index, m.in_physics, m.active_until, m.disturbed, m.upright, m.rocking, m.tips, m.joints,
+         m.robot_namespace);
   if (m.kind == ModelKind::kRobot) FIELDS(m.geometries);  // others follow from the description
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/contact/upright.h"
 #include "core/motion/clearance.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/traction.h"
@@ -69,7 +70,12 @@ void lookAroundBody(WorldState& world, Model& model) {
     own.z_max += near;
     findClose(world, own, 4 * fastest, near, &close);
   }
-  activateAll(world, std::move(close));
+  activateAll(world, close);
+  if (model.owner->isActivatedWhenNear()) return;
+  for (int slot : close) {
+    Model& other = *world.models[slot];
+    other.tips = other.in_physics && other.owner->isActivatedWhenNear();  // it may fall on it
+  }
 }
 
 void release(WorldState& world) {
@@ -104,6 +110,7 @@ void findSteppedSingly(WorldState& world) {
 void activate(WorldState& world, Model& model) {
   model.active_until = world.total_steps + world.stepsIn(kLinger);
   if (model.in_physics) return;
+  model.upright = model.owner->mayBeUpright(world, model);
   model.bodies = model.owner->build(world, model);
   world.physics.insert(model.bodies);
   model.in_physics = true;
@@ -115,7 +122,8 @@ void deactivate(WorldState& world, Model& model) {
   model.owner->deactivated(world, model);
   world.physics.remove(model.bodies);
   model.bodies = ModelBodies();
-  model.in_physics = false;
+  model.in_physics = model.upright = model.tips = false;
+  model.rocking = Vector3::Zero;
   auto& slots = world.activated;
   slots.erase(std::remove(slots.begin(), slots.end(), model.slot), slots.end());
   moved(world, model);
@@ -129,6 +137,7 @@ void rebuildBody(WorldState& world, Model& model) {
 
 void letFall(WorldState& world, Model& model) {
   activate(world, model);
+  if (model.upright) letTip(world, model);
   for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
   model.disturbed = true;
 }
@@ -149,6 +158,7 @@ void updateActivation(WorldState& world) {
   for (int slot : activated) {
     if (world.models[slot]->disturbed) lookAroundBody(world, *world.models[slot]);
   }
+  updateUprightness(world);
   const bool has_more = world.activated.size() > before;
   release(world);
   if (has_more) findSteppedSingly(world);  // who was activated has woken

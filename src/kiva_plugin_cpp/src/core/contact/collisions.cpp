@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/upright.h"
 #include "core/state/footprints.h"
 
 namespace kiva {
@@ -99,6 +100,7 @@ void observeCollisions(WorldState& world) {
   for (const Contact& contact : world.contacts) {
     if (isCollision(world, contact)) touch(world, contact);
   }
+  rock(world);
   tellWhatIsOver(world);
   const auto keep = world.stepsIn(kForget);
   const auto over = [&](const TouchingPair& pair) {

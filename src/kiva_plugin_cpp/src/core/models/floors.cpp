@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/contact/activation.h"
+#include "core/contact/upright.h"
 #include "core/state/floors.h"
 #include "core/state/footprints.h"
 
@@ -93,6 +94,7 @@ void measureFloor(WorldState& world) {
       world.floor_friction = surface.friction;
     });
   }
+  letAllTip(world);
   if (world.floor.z != before) fitToFloor(world);
 }
 

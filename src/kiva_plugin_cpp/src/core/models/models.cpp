@@ -235,7 +235,7 @@ void placeModel(WorldState& world, Model& model, const EntityState& state) {
 
 void placeLink(WorldState& world, Model& model, int link, const EntityState& state) {
   const Pose way = state.pose * linkPose(world, model, link).Inverse();
-  if (!model.owner->followsBodies(model)) {
+  if (!model.owner->followsBodies(model) || model.upright) {
     return placeModel(world, model, {way * modelState(world, model).pose, state.twist});
   }
   checkPose(model.name, state.pose);

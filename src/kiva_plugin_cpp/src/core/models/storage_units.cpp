@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contact/activation.h"
+#include "core/contact/upright.h"
 #include "core/models/load.h"
 #include "core/models/ordinary_models.h"
 #include "core/state/floors.h"
@@ -146,9 +147,15 @@ ModelBodies StorageUnits::build(const WorldState& world, const Model& model) con
     link.mass *= unit.mass / own;
     link.principal_moments *= unit.mass / own;
   }
-  ModelBodies bodies = world.physics.build(loaded, model.pose, model.slot, kDynamicGroup, ~0);
+  ModelBodies bodies = model.upright
+                           ? buildUpright(world, model, loaded)
+                           : world.physics.build(loaded, model.pose, model.slot, kDynamicGroup, ~0);
   for (LinkBody& link : bodies.links) link.body->setActivationState(ISLAND_SLEEPING);
   return bodies;
+}
+
+bool StorageUnits::mayBeUpright(const WorldState& world, const Model& model) const {
+  return canSlideUpright(world, model) && standsUpright(world, model.index);
 }
 
 /// Takes over where Bullet left the unit, upright on its legs.

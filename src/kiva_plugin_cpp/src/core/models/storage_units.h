@@ -21,6 +21,7 @@ class StorageUnits : public ModelOwner {
             const Vector3& torque) const override;
   ModelBodies build(const WorldState& world, const Model& model) const override;
   bool isActivatedWhenNear() const override { return true; }
+  bool mayBeUpright(const WorldState& world, const Model& model) const override;
   void deactivated(WorldState& world, Model& model) const override;
   bool mayLeaveBullet(const WorldState& world, const Model& model, bool is_alone) const override;
   bool tellsCollisions() const override { return true; }

@@ -30,6 +30,12 @@ constexpr double kAsleep = 0.005;  // [m/s, rad/s]
 // The solver ends when an iteration changes no velocity by more than the root of this.
 constexpr double kSolved = 1e-12;  // [m2/s2]
 
+// Cosine of the angle at which an unbounded plane is not level any more.
+constexpr double kLevel = 1 - 1e-12;
+
+// Cosine to the vertical of a contact's normal, of which one body lies on the other.
+constexpr double kLyingOn = 0.5;
+
 /// A shape whose bounding box is padded by that distance: within compounds Bullet compares bare
 /// boxes, and a fast body would sink in before its parts are looked at.
 template <typename Base>
@@ -282,6 +288,25 @@ int modelOfPart(const btCollisionObject* object, int part) {
   return touched ? touched->model : object->getUserIndex();
 }
 
+bool isFloor(const btCollisionObject& body) {
+  return body.getBroadphaseHandle()->m_collisionFilterGroup == kFloorGroup;
+}
+
+bool isUnevenFloor(const LinkBody& link) {
+  const btCollisionShape& shape = *link.body->getCollisionShape();
+  if (link.group != kFloorGroup || (shape.isCompound() && link.shape.parts.empty())) return false;
+  if (shape.getShapeType() != STATIC_PLANE_PROXYTYPE) return true;
+  const btVector3 normal = static_cast<const btStaticPlaneShape&>(shape).getPlaneNormal();
+  return (link.body->getWorldTransform().getBasis() * normal).z() < kLevel;
+}
+
+/// On the first body, with friction, in the last step [Ns].
+btVector3 impulseOf(const btManifoldPoint& point) {
+  return point.m_normalWorldOnB * point.m_appliedImpulse +
+         point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
+         point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+}
+
 bool isTouching(const btManifoldPoint& point) {
   return point.getDistance() <= 0 || point.getAppliedImpulse() > 0;
 }
@@ -417,7 +442,10 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
 
 void Physics::insert(ModelBodies& bodies) {
   for (auto* list : {&bodies.links, &bodies.surfaces}) {
-    for (LinkBody& link : *list) world_.addRigidBody(link.body.get(), link.group, link.mask);
+    for (LinkBody& link : *list) {
+      world_.addRigidBody(link.body.get(), link.group, link.mask);
+      uneven_floors_ += isUnevenFloor(link);
+    }
   }
   for (auto& joint : bodies.joints) world_.addConstraint(joint.get(), true);
 }
@@ -425,7 +453,10 @@ void Physics::insert(ModelBodies& bodies) {
 void Physics::remove(ModelBodies& bodies) {
   for (auto& joint : bodies.joints) world_.removeConstraint(joint.get());
   for (auto* list : {&bodies.links, &bodies.surfaces}) {
-    for (LinkBody& link : *list) world_.removeRigidBody(link.body.get());
+    for (LinkBody& link : *list) {
+      world_.removeRigidBody(link.body.get());
+      uneven_floors_ -= isUnevenFloor(link);
+    }
   }
 }
 
@@ -543,14 +574,33 @@ std::vector<btPersistentManifold*> Physics::makeManifolds() {
   return dispatcher_.makeManifolds(world_.getPairCache(), world_.getDispatchInfo());
 }
 
+std::vector<Push> Physics::pushes() const {
+  std::vector<Push> out(motions_.size());
+  for (const btPersistentManifold* manifold : manifolds()) {
+    if (isFloor(*manifold->getBody0()) || isFloor(*manifold->getBody1())) continue;
+    for (int p = 0; p < manifold->getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold->getContactPoint(p);
+      const btVector3 impulse = impulseOf(point);
+      for (const bool is_a : {true, false}) {
+        const btCollisionObject* body = is_a ? manifold->getBody0() : manifold->getBody1();
+        const int index = body->isStaticObject() ? -1 : body->getUserIndex2();
+        if (index < 0 || index >= static_cast<int>(out.size())) continue;
+        const btVector3 on_it = is_a ? impulse : -impulse;
+        const btVector3 arm = point.getPositionWorldOnB() - body->getWorldTransform().getOrigin();
+        if (std::abs(point.m_normalWorldOnB.z()) > kLyingOn) out[index].load -= on_it.z();
+        out[index].moment += arm.cross(on_it);
+      }
+    }
+  }
+  return out;
+}
+
 std::vector<TouchPoint> Physics::touchPoints(int model) const {
   std::vector<TouchPoint> out;
   forEachTouch(
       [&](const btPersistentManifold& manifold, const btManifoldPoint& point, int a, int b) {
         if (a != model && b != model) return;
-        const btVector3 impulse = point.m_normalWorldOnB * point.m_appliedImpulse +
-                                  point.m_lateralFrictionDir1 * point.m_appliedImpulseLateral1 +
-                                  point.m_lateralFrictionDir2 * point.m_appliedImpulseLateral2;
+        const btVector3 impulse = impulseOf(point);
         TouchPoint touch{manifold.getBody0(),
                          manifold.getBody1(),
                          touchedPart(manifold.getBody0(), point.m_index0),

@@ -91,6 +91,12 @@ struct TouchPoint {
   Vector3 impulse;        ///< On a in the last step, with friction [Ns].
 };
 
+/// What contacts did to a body in the last step, in world.
+struct Push {
+  btVector3 moment{0, 0, 0};  ///< About its centre of mass [Nms].
+  double load = 0;            ///< Of what lies on it [Ns].
+};
+
 class Physics {
  public:
   explicit Physics(const Vector3& gravity);
@@ -114,6 +120,10 @@ class Physics {
   std::vector<btPersistentManifold*> makeManifolds();
   /// Every point at which that model touches another now, itself being a.
   std::vector<TouchPoint> touchPoints(int model) const;
+  /// Of every body that can move, by its second user index; what floors did is not in it.
+  std::vector<Push> pushes() const;
+  /// Whether all that lies at the floor is unbounded and level.
+  bool hasPlainFloor() const { return uneven_floors_ == 0; }
   /// First body on a ray, as a fraction of `range`; +inf = none.
   double cast(const Vector3& from, const Vector3& direction, double range) const;
 
@@ -147,6 +157,7 @@ class Physics {
 
   std::vector<Motion> motions_;  ///< By a body's second user index.
   double dt_ = 0;                ///< Of the last step [s].
+  int uneven_floors_ = 0;        ///< Bodies of the floor's group that are no level planes.
 };
 
 }  // namespace kiva

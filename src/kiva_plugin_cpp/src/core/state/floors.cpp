@@ -155,8 +155,11 @@ bool isFloor(const ModelInstance& instance) {
 }
 
 ModelBodies buildStatic(const WorldState& world, const Model& model) {
+  // What stands still touches nothing that does.
+  const int mask = ~(kFloorGroup | kStaticGroup);
   const auto build = [&](bool low, int group) {
-    return world.physics.build(partOf(model, world.floor, low), model.pose, model.slot, group, ~0);
+    return world.physics.build(partOf(model, world.floor, low), model.pose, model.slot, group,
+                               mask);
   };
   ModelBodies bodies = build(false, kStaticGroup), floor = build(true, kFloorGroup);
   for (auto* list : {&floor.links, &floor.surfaces}) {

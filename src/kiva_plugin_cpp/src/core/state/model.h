@@ -74,6 +74,10 @@ class ModelOwner {
   /// It is in Bullet from now on, or was taken out of it: `model.bodies` are still there.
   virtual void activated(WorldState& /*world*/, Model& /*model*/) const {}
   virtual void deactivated(WorldState& /*world*/, Model& /*model*/) const {}
+  /// Whether it can be there as a body that slides on its feet, as long as it does not tip.
+  virtual bool mayBeUpright(const WorldState& /*world*/, const Model& /*model*/) const {
+    return false;
+  }
   /// Whether it may leave Bullet, if `is_alone`: nothing was near it for a while.
   virtual bool mayLeaveBullet(const WorldState& /*world*/, const Model& /*model*/,
                               bool is_alone) const {
@@ -120,6 +124,10 @@ struct Model {
   bool in_physics = false;         ///< Its bodies are in Bullet now.
   std::uint64_t active_until = 0;  ///< Step up to which something near keeps it in Bullet.
   bool disturbed = false;          ///< Touched since it was activated.
+  bool upright = false;            ///< It is there as a body that slides on its feet, no more.
+  Vector3 rocking;    ///< Momentum that its feet did not hold since, about its centre of mass,
+                      ///< in world [Nms].
+  bool tips = false;  ///< That is too much, or something lies on it: it is a whole body.
   std::shared_ptr<const JointedBody>
       jointed;  ///< Of a robot of that drive; made when it is asked for.
   std::vector<CollisionGeometry> geometries;
