@@ -43,7 +43,8 @@ class Session:
         os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
         self._home = tempfile.TemporaryDirectory(prefix="bench_ros_")
         os.environ["ROS_HOME"] = self._home.name
-        command = ["roslaunch", "-p", str(port), "--sigint-timeout=3", "--sigterm-timeout=1"]
+        command = ["setpriv", "--pdeathsig", "TERM"]  # nothing is left if this is killed
+        command += ["roslaunch", "-p", str(port), "--sigint-timeout=3", "--sigterm-timeout=1"]
         command += [
             "warehouse_sim",
             "warehouse.launch",

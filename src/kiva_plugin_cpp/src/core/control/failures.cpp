@@ -132,7 +132,6 @@ void breakDown(WorldState& world, int kiva_id, Failure failure, double repair_af
   }
   if (nameOf(failure)[0] == 0) throw std::invalid_argument("there is no such failure");
   const double left = repair_after > 0 ? repair_after : HUGE_VAL;
-  FleetState& f = world.fleet;
   for (Defect& defect : world.failures.defects) {
     if (defect.kiva_id != kiva_id || defect.failure != failure) continue;
     defect.left = left;

@@ -56,7 +56,7 @@ void Workers::start(int others) {
 void Workers::share(int count, int block, const Loop& loop) {
   if (count <= 0) return;
   if (shares_all_) block = 1;
-  Job job{loop, count, block};
+  Job job{loop, count, block, {}, {}, {}};
   const int others = std::min((count - 1) / block, static_cast<int>(threads_) - 1);
   if (others == 0) {
     work(job);
