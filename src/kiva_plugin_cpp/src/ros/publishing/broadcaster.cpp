@@ -36,8 +36,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
       robots_(root, subscribers),
       transforms_(root, subscribers),
       clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kStreamQueue, kLatched)),
-      events_(
-          DirectTopic::advertise<warehouse_msgs::Event>(root, "/warehouse/events", kEventQueue)),
+      events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
       collisions_(root.advertise<warehouse_msgs::Collision>("/warehouse/collisions", kEventQueue)),
       objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
                                                                 kLatched)),
@@ -71,7 +70,8 @@ void Broadcaster::run() {
       publish(snapshot);
       bulk += snapshot.bulk();
     }
-    // Together rather than one by one: so this thread and each client's wake less often.
+    if (bulk > 0) poll_thread_.wake();
+    // Together rather than one by one: so this thread, roscpp's and each client's wake less often.
     if (bulk >= kCrowd && !batch.back().reliable) std::this_thread::sleep_for(kBatch);
   }
 }
@@ -93,7 +93,7 @@ void Broadcaster::publish(const Snapshot& s) {
   }
   for (const kiva::Event& event : s.events) publishEvent(event);
   for (const kiva::StatusChange& status : s.statuses) robots_.publish(status);
-  for (const kiva::StatusChange& status : s.heartbeats) robots_.publish(status);
+  for (const kiva::StatusChange& status : s.heartbeats) robots_.publishHeartbeat(status);
   for (const Scan& scan : s.scans) robots_.publish(scan, s.time);
   for (const RobotPose& robot : s.odometry) robots_.publishOdometry(robot, s.time);
   if (!s.transforms.empty()) transforms_.publish(s.transforms, s.time);

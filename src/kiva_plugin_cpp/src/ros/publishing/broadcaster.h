@@ -12,7 +12,6 @@
 
 #include "robot_topics.h"
 #include "robot_transforms.h"
-#include "ros/transport/direct_topic.h"
 #include "ros/transport/poll_thread.h"
 #include "ros/transport/subscriber_counts.h"
 #include "snapshot_queue.h"
@@ -41,9 +40,7 @@ class Broadcaster {
   RobotTopics robots_;
   RobotTransforms transforms_;
   PollThread poll_thread_;
-  ros::Publisher clock_;
-  DirectTopic events_;
-  ros::Publisher collisions_, fleet_, objects_, units_, hash_;
+  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
   // Kept, since their names seldom change.
   std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.

@@ -39,30 +39,36 @@ void RobotTopics::update(const RobotInfos& robots) {
 }
 
 template <typename Message>
-DirectTopic RobotTopics::advertise(int kiva_id, const char* topic,
-                                   SubscriberCounts::RobotTopic kind, int queue_size,
-                                   bool latched) {
+ros::Publisher RobotTopics::advertise(int kiva_id, const char* topic,
+                                      SubscriberCounts::RobotTopic kind, int queue_size,
+                                      bool latched) {
   const auto count = [this, kind, kiva_id](int change) {
     subscribers_.count(kind, kiva_id, change);
   };
   const std::string name = "/kiva" + std::to_string(kiva_id) + "/" + topic;
-  return DirectTopic::advertise<Message>(node_, name, queue_size, latched, count);
+  return advertiseCounted<Message>(node_, name, queue_size, count, latched);
 }
 
 RobotTopics::Topics RobotTopics::advertise(const RobotInfo& robot) {
   using Kind = SubscriberCounts::RobotTopic;
   Topics out;
   out.laser = robot.laser;
-  out.status =
-      advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true);
-  out.odometry = advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue);
+  out.status = BulkPublisher(
+      advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true));
+  out.odometry =
+      BulkPublisher(advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue));
   if (!robot.laser.fitted) return out;
-  out.scan =
-      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue);
+  out.scan = BulkPublisher(
+      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue));
   return out;
 }
 
 void RobotTopics::publish(const kiva::StatusChange& status) {
+  const auto at = robots_.find(status.kiva_id);
+  if (at != robots_.end()) at->second.status.publisher().publish(toMessage(status));
+}
+
+void RobotTopics::publishHeartbeat(const kiva::StatusChange& status) {
   const auto at = robots_.find(status.kiva_id);
   if (at != robots_.end()) at->second.status.publish(toMessage(status));
 }

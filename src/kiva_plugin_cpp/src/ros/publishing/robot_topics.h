@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "ros/transport/direct_topic.h"
+#include "ros/transport/bulk_publisher.h"
 #include "ros/transport/subscriber_counts.h"
 #include "snapshot.h"
 
@@ -18,20 +18,23 @@ class RobotTopics {
       : node_(node), subscribers_(subscribers) {}
 
   void update(const RobotInfos& robots);
-  void publish(const kiva::StatusChange& status);  ///< Latched.
+  /// Latched, and sent at once.
+  void publish(const kiva::StatusChange& status);
+  /// Neither: sent with the next wake-up of roscpp's thread, as the following are.
+  void publishHeartbeat(const kiva::StatusChange& status);
   void publish(const Scan& scan, double time);
   void publishOdometry(const RobotPose& robot, double time);
 
  private:
   struct Topics {
     kiva::LaserParameters laser;
-    DirectTopic status, scan, odometry;
+    BulkPublisher status, scan, odometry;
   };
 
   Topics advertise(const RobotInfo& robot);
   template <typename Message>
-  DirectTopic advertise(int kiva_id, const char* topic, SubscriberCounts::RobotTopic kind,
-                        int queue_size, bool latched = false);
+  ros::Publisher advertise(int kiva_id, const char* topic, SubscriberCounts::RobotTopic kind,
+                           int queue_size, bool latched = false);
 
   ros::NodeHandle& node_;
   SubscriberCounts& subscribers_;

@@ -23,6 +23,8 @@ PollThread::PollThread()
 
 PollThread::~PollThread() { ros::PollManager::instance()->removePollThreadListener(connection_); }
 
+void PollThread::wake() { ros::PollManager::instance()->getPollSet().signal(); }
+
 void PollThread::flush() {
   std::unique_lock<std::mutex> lock(mutex_);
   // The turn under way may have looked before; the next one empties the queues.
@@ -31,7 +33,7 @@ void PollThread::flush() {
   while (turns_ < enough && std::chrono::steady_clock::now() < end) {
     const std::uint64_t now = turns_;
     lock.unlock();
-    ros::PollManager::instance()->getPollSet().signal();
+    wake();
     lock.lock();
     turned_.wait_until(lock, end, [&] { return turns_ > now; });
   }

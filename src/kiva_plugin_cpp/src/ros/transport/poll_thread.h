@@ -13,6 +13,8 @@ class PollThread {
  public:
   PollThread();
   ~PollThread();
+  /// Lets that thread write what BulkTopics published.
+  void wake();
   /// Returns when that thread has handed all that was published before to the sockets.
   void flush();
 

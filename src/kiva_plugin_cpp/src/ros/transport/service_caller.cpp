@@ -6,12 +6,15 @@
 #include <ros/service_manager.h>
 #include <ros/service_publication.h>
 
-#include "private_member.h"
-
 namespace kiva_ros {
 namespace {
 
-// roscpp tells a service's callback nothing of the connection, and offers no way to ask for it.
+// roscpp tells a service's callback nothing of the connection, and offers no way to ask for it. An
+// explicit instantiation may name private members.
+template <typename Tag, typename Tag::Type member>
+struct Access {
+  friend typename Tag::Type memberOf(Tag) { return member; }
+};
 struct Links {
   using Type = ros::V_ServiceClientLink ros::ServicePublication::*;
   friend Type memberOf(Links);
@@ -20,8 +23,8 @@ struct LinksMutex {
   using Type = boost::mutex ros::ServicePublication::*;
   friend Type memberOf(LinksMutex);
 };
-template struct PrivateMember<Links, &ros::ServicePublication::client_links_>;
-template struct PrivateMember<LinksMutex, &ros::ServicePublication::client_links_mutex_>;
+template struct Access<Links, &ros::ServicePublication::client_links_>;
+template struct Access<LinksMutex, &ros::ServicePublication::client_links_mutex_>;
 
 }  // namespace
 
