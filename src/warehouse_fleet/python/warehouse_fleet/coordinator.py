@@ -31,6 +31,7 @@ from warehouse_msgs.msg import (
     Event,
     FleetFollow,
     FleetState,
+    KivaStatus,
     Lift,
     Scenery,
     UnitStates,
@@ -53,6 +54,7 @@ from warehouse_msgs.srv import (
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
 OVERTAKEN = 1.0  # a report that is older by more comes from a world that began anew [s]
 WAITS_LONG = 10.0  # [s]
+ON_ITS_WAY = 2.0  # for which a message may still come to a robot [s]
 CONNECTING = 5.0  # wall time that listeners of this node's events get to hear it [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
@@ -86,6 +88,7 @@ class Coordinator:
         self._ledger = Ledger()
         self._abandoned = []  # transports that were open when this began, until it was told
         self._refused, self._collisions = [], 0
+        self._leaving = {}  # robots taken out of the fleet: since when each is idle [s], or None
         self._next_state = self._next_paths = 0.0
         self._fleet, self._news = None, threading.Event()
         publish = rospy.Publisher
@@ -177,8 +180,11 @@ class Coordinator:
             if request.mode not in list(Mode):
                 text = f"mode is {request.mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE)"
                 return SetRobotModeResponse(False, text + " was expected")
-            if request.mode != Mode.AUTOMATIC and not self._traffic.stands[robot]:
-                self._cancel.publish(request.kiva_id)
+            self._leaving.pop(robot, None)
+            if request.mode != Mode.AUTOMATIC:
+                self._leaving[robot] = None
+                if not self._traffic.stands[robot]:
+                    self._cancel.publish(request.kiva_id)
             self._traffic.mode[robot] = request.mode
             self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
@@ -209,6 +215,19 @@ class Coordinator:
 
     # What it does.
 
+    def _end_paths(self, report, time):
+        """Ends the paths on which robots that left the fleet wait: one that was sent to a robot
+        just before its cancellation may have come to it after that."""
+        for robot, idle_since in list(self._leaving.items()):
+            if report.status[robot] != KivaStatus.STATUS_IDLE:
+                self._leaving[robot] = None
+                if report.state[robot] == KivaStatus.STATE_WAITING:
+                    self._cancel.publish(int(self._traffic.kiva_ids[robot]))
+            elif idle_since is None:
+                self._leaving[robot] = time
+            elif time - idle_since > ON_ITS_WAY:
+                del self._leaving[robot]
+
     def _step(self, fleet):
         report = SimpleNamespace(
             **{name: _array(getattr(fleet, name)) for name in ("kiva_id", *REPORTED)}
@@ -224,6 +243,7 @@ class Coordinator:
             # Paths that somebody gave out before end where robots can stop.
             for kiva_id in traffic.kiva_ids[traffic.inherited(report)]:
                 self._cancel.publish(int(kiva_id))
+            self._end_paths(report, time)
         traffic.observe(time, report)
         if traffic.wants_map:
             self._see_map()
@@ -317,6 +337,7 @@ class Coordinator:
         if self._traffic is not None:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
+        self._leaving.clear()
         try:
             grid = _map()
             if not grid.data:
