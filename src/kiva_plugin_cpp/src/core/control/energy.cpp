@@ -58,18 +58,23 @@ double kineticEnergy(const Fleet& f, int i) {
   return ((r.mass + r.load_mass) * v2 + (r.inertia + r.load_inertia) * w * w) / 2;
 }
 
-/// Its battery as it is at the beginning.
-void begin(WorldState& world, int i) {
-  const EnergyRealism& e = world.realism.energy;
-  const FleetState& f = world.fleet;
-  RandomStream random(world.options.seed, Matter::kEnergy, f.robots[i].id, 0);
-  const double most = std::max(e.initial_least, e.initial_most);
-  const double charge = e.initial_least + (most - e.initial_least) * random.uniform();
-  Battery& battery = world.fleet.battery[i];
-  battery.energy = charge * capacityOf(e);
+/// What the robot's use is reckoned from the next time.
+void markUse(FleetState& f, int i) {
+  Battery& battery = f.battery[i];
   for (int wheel = 0; wheel < 2; ++wheel) battery.wheel_angle[wheel] = f.wheel_angle[wheel][i];
   battery.kinetic = kineticEnergy(f, i);
   battery.tower = f.tower[i];
+}
+
+/// Its battery as it is at the beginning.
+void begin(WorldState& world, int i) {
+  const EnergyRealism& e = world.realism.energy;
+  FleetState& f = world.fleet;
+  RandomStream random(world.options.seed, Matter::kEnergy, f.robots[i].id, 0);
+  const double most = std::max(e.initial_least, e.initial_most);
+  const double charge = e.initial_least + (most - e.initial_least) * random.uniform();
+  f.battery[i].energy = charge * capacityOf(e);
+  markUse(f, i);
 }
 
 /// Since the last time [J]: electronics, rolling, speeding up less what braking gives back,
@@ -125,9 +130,7 @@ void reckon(WorldState& world, int i, double seconds) {
   const double most = capacityOf(world.realism.energy);
   const double energy = battery.energy - used(world, i, seconds) + takenUp(world, i, seconds);
   battery.energy = std::clamp(energy, 0.0, most);
-  for (int wheel = 0; wheel < 2; ++wheel) battery.wheel_angle[wheel] = f.wheel_angle[wheel][i];
-  battery.kinetic = kineticEnergy(f, i);
-  battery.tower = f.tower[i];
+  markUse(f, i);
   show(world, i);
   const bool was_empty = (f.failures[i] & kEmptyBattery) != 0;
   if (!was_empty && battery.energy == 0) setEmpty(world, i, true, "its battery is empty");

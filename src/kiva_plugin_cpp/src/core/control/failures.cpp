@@ -111,16 +111,21 @@ void breakSomething(WorldState& world, RandomStream& random) {
   breakDown(world, world.fleet.robots[robot].id, failure, repair);
 }
 
-void repairWhoIsDue(WorldState& world) {
+/// Mends all defects of which is_meant(defect) holds, in order.
+template <typename IsMeant>
+void mendWhere(WorldState& world, IsMeant is_meant) {
   auto& defects = world.failures.defects;
-  for (Defect& defect : defects) defect.left -= world.dt;
-  const auto is_due = [](const Defect& defect) { return defect.left <= 0; };
-  for (auto at = defects.begin();
-       (at = std::find_if(at, defects.end(), is_due)) != defects.end();) {
+  auto at = defects.begin();
+  while ((at = std::find_if(at, defects.end(), is_meant)) != defects.end()) {
     const Defect defect = *at;
     at = defects.erase(at);
     mend(world, defect);
   }
+}
+
+void repairWhoIsDue(WorldState& world) {
+  for (Defect& defect : world.failures.defects) defect.left -= world.dt;
+  mendWhere(world, [](const Defect& defect) { return defect.left <= 0; });
 }
 
 }  // namespace
@@ -146,14 +151,7 @@ void breakDown(WorldState& world, int kiva_id, Failure failure, double repair_af
 void repair(WorldState& world, int kiva_id) {
   const int robot = findRobot(world, kiva_id);
   if (world.fleet.failures[robot] & kEmptyBattery) exchangeBattery(world, robot);
-  auto& defects = world.failures.defects;
-  const auto is_its = [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; };
-  for (auto at = defects.begin();
-       (at = std::find_if(at, defects.end(), is_its)) != defects.end();) {
-    const Defect defect = *at;
-    at = defects.erase(at);
-    mend(world, defect);
-  }
+  mendWhere(world, [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; });
 }
 
 std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
