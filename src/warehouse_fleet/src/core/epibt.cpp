@@ -222,7 +222,9 @@ void Epibt::wish(const Fleet& fleet) {
     if (wish.goal == kNowhere || wish.stopped) continue;
     const bool waits = way_->still(robot) >= kImpatient && !floor_->isLane(wish.state.cell);
     wish.table = tables_->find(wish.deck, wish.goal, waits);
-    if (wish.table != nullptr && !wish.table->reaches(wish.state.cell)) wish.goal = kNowhere;
+    if (wish.table == nullptr || wish.table->reaches(wish.state.cell)) continue;
+    tables_->find(wish.deck, wish.goal, true);  // perhaps there is a way by now
+    wish.goal = kNowhere;
   }
   tables_->renew(options_.renewal_age, tables(options_.renewal_work));
   candidates_->begin(fleet.size());
