@@ -209,14 +209,17 @@ void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   const auto now = WallClock::now();
   const bool all = second && now >= heartbeat_sent_[slot] + kLatchedStatusInterval;
   if (all) heartbeat_sent_[slot] = now;
-  for (int i = 0; i < world.fleet().size(); ++i) {
-    const int id = world.fleet().robots[i].id;
-    if (id % kHeartbeatSlots != slot || isSilent(world, i)) continue;
-    if (all) {
-      out->statuses.push_back(statusOf(world, i));
-    } else if (std::binary_search(status_ids_.begin(), status_ids_.end(), id)) {
-      out->heartbeats.push_back(statusOf(world, i));
+  if (all) {
+    for (int i = 0; i < world.fleet().size(); ++i) {
+      const bool is_due = world.fleet().robots[i].id % kHeartbeatSlots == slot;
+      if (is_due && !isSilent(world, i)) out->statuses.push_back(statusOf(world, i));
     }
+    return;
+  }
+  for (int id : status_ids_) {
+    if (id % kHeartbeatSlots != slot) continue;
+    const int i = world.fleet().find(id);
+    if (i >= 0 && !isSilent(world, i)) out->heartbeats.push_back(statusOf(world, i));
   }
 }
 
