@@ -99,8 +99,7 @@ class FleetDriver:
     def _see_people(self):
         people = people_in(self.world)
         self.people.observe(self.world.time, people, len(self.traffic.kiva_ids))
-        if people.name or self.traffic.minds.any():
-            self.traffic.see_people(people)
+        self.traffic.see_people(people)
 
     def step_until(self, time):
         """Goes on until that simulated time [s]."""

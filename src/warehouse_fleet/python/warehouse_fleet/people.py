@@ -12,9 +12,7 @@ def people_in(world):
     """Who walks in a kiva_plugin_cpp.World, and which robots mind: as warehouse_msgs/People."""
     people = world.people
     if not people:
-        return SimpleNamespace(
-            name=[], x=[], y=[], ahead_x=[], ahead_y=[], slowed=[], stopped=[]
-        )
+        return SimpleNamespace(name=[], x=[], y=[], ahead_x=[], ahead_y=[], slowed=[], stopped=[])
     columns = {
         key: [float(person[key]) for person in people.values()]
         for key in ("x", "y", "ahead_x", "ahead_y")

@@ -55,11 +55,11 @@ class Traffic:
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
     work: it stays), `mode`, `gone` (it was deleted), `broken` (it stands, or is not heard) and
-    `lifts_not`, by what it reports of itself, `minds` (it is slow, or stands, since people are near). `planner` is what a YAML file says of one, see
-    warehouse_fleet.door; None: the one of the house. `latency` [s] passes from a report until what
-    is released for it has reached the robot. A plan is begun every tick on a thread of its
-    own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
-    machine.
+    `lifts_not`, by what it reports of itself, `minds` (it is slow, or waits, for people's sake).
+    `planner` is what a YAML file says of one, see warehouse_fleet.door; None: the one of the house.
+    `latency` [s] passes from a report until what is released for it has reached the robot. A plan
+    is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever it is
+    ready: so a run does not depend on the machine.
     """
 
     def __init__(
@@ -132,6 +132,7 @@ class Traffic:
         self._plan, self._due, self._next = None, 0.0, 0.0
         self._next_look = self._obstructed_until = 0.0
         self._units = np.zeros(0, np.int32)
+        self._somebody = False  # was there when people were told last
 
     def close(self):
         """Ends the planner's thread."""
@@ -318,6 +319,9 @@ class Traffic:
     def see_people(self, people):
         """Who walks on the floor, as warehouse_fleet.people has them: a zone is closed around each,
         and opened behind. Whoever stands at its edge waits for them."""
+        if not people.name and not self._somebody:
+            return
+        self._somebody = bool(people.name)
         zone = zone_around(self.plan, people)
         self._execution.set_zone(zone)
         edge = self.plan.beside(zone) if len(zone) else zone

@@ -77,7 +77,7 @@ class Reporter {
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_, heartbeat_every_,
       hash_every_;  // steps
 
-  bool somebody_there_ = false;  ///< When people were told last.
+  bool somebody_there_ = false;              ///< When people were told last.
   std::uint64_t clock_sent_steps_ = kNever;  ///< Of the last reliable clock.
   WallClock::time_point clock_sent_;
   std::uint64_t last_steps_ = kNever;

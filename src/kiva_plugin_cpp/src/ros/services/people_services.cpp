@@ -78,8 +78,8 @@ bool PeopleServices::setCurtain(warehouse_msgs::LightCurtain::Request& request,
   return reply(response, [&] {
     const kiva::LightCurtain curtain{request.name, request.min_x, request.max_x, request.min_y,
                                      request.max_y};
-    const bool is_removal = curtain.min_x == 0 && curtain.max_x == 0 && curtain.min_y == 0 &&
-                            curtain.max_y == 0;
+    const bool is_removal =
+        curtain.min_x == 0 && curtain.max_x == 0 && curtain.min_y == 0 && curtain.max_y == 0;
     simulation_.change([&](kiva::World& world) {
       if (!is_removal) return world.setLightCurtain(curtain);
       if (!world.removeLightCurtain(curtain.name)) {
