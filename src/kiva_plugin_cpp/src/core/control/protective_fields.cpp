@@ -17,9 +17,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMargin = 0.15;      // [m] ahead of where it stands
 constexpr double kTurnMargin = 0.05;  // [m] to the circle in which it turns
-constexpr double kCreep = 0.05;       // [m/s]: more slowly it does not drive,
-constexpr double kSetOff = 0.15;      // [m/s] and it sets off again for no less
-constexpr int kHalvings = 20;         // of top speed: to a micrometre a second
+constexpr double kBeside = 2;     // [m]: farther off nobody is within reach of a robot's corners
+constexpr double kCreep = 0.05;   // [m/s]: more slowly it does not drive,
+constexpr double kSetOff = 0.15;  // [m/s] and it sets off again for no less
+constexpr int kHalvings = 20;     // of top speed: to a micrometre a second
 
 /// What a robot needs to stand.
 struct Braking {
@@ -103,10 +104,14 @@ bool isWithin(const WorldState& world, int robot, const Walker& walker, double r
   return dx * dx + dy * dy < (reach + walker.radius) * (reach + walker.radius);
 }
 
+bool isAt(const FleetState& fleet, int robot, MotionSegment::Kind kind) {
+  const MotionSegment* at = fleet.tasks[robot].segment();
+  return at && at->kind == kind;
+}
+
 double allowedSpeed(WorldState& world, int robot) {
-  const MotionSegment* at = world.fleet.tasks[robot].segment();
-  const bool turns = at && at->kind == MotionSegment::Kind::kTurn;
-  if (!turns && !(at && at->kind == MotionSegment::Kind::kDrive)) return kInfinity;
+  const bool turns = isAt(world.fleet, robot, MotionSegment::Kind::kTurn);
+  if (!turns && !isAt(world.fleet, robot, MotionSegment::Kind::kDrive)) return kInfinity;
   const double reach = farthestOf(world, robot);
   double least = kInfinity;
   for (const Walker& walker : world.walkers) {
@@ -131,6 +136,18 @@ void restrain(WorldState& world, int robot, Change change) {
 void allow(WorldState& world, int robot, double speed) {
   double& allowed = world.fleet.allowed_speed[robot];
   if (speed != allowed) restrain(world, robot, [&] { allowed = speed; });
+}
+
+/// A turn is fast: nobody waits for a scan before it.
+void holdTurns(WorldState& world) {
+  const FleetState& f = world.fleet;
+  for (const Walker& walker : world.walkers) {
+    for (int i = 0; i < f.size(); ++i) {
+      if (!isWithin(world, i, walker, kBeside)) continue;
+      const bool turns = isAt(f, i, MotionSegment::Kind::kTurn);
+      if (turns && whileTurning(world, i, walker) == 0) allow(world, i, 0);
+    }
+  }
 }
 
 // --- light curtains
@@ -177,6 +194,7 @@ void keepFromPeople(WorldState& world) {
   } else {
     for (int i : world.scans_due) allow(world, i, allowedSpeed(world, i));
   }
+  holdTurns(world);
   watchCurtains(world);
   world.keeps_off = !world.walkers.empty();
 }
