@@ -21,8 +21,7 @@ from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
-from warehouse_fleet.transport import ENDS
-from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
+from warehouse_fleet.transports import ENDS, NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs.msg import (
     Cancel,

@@ -20,8 +20,7 @@ from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.people import PeopleLog
-from warehouse_fleet.transport import ENDS
-from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
@@ -33,7 +32,7 @@ UNKEPT = 100  # most transports that a run asks for between two writes to the da
 
 
 class Coordinator:
-    """The coordinator of another node, with the face of transport.Requests."""
+    """The coordinator of another node, with the face of protocols.Requests."""
 
     def __init__(self):
         self._heard = []

@@ -32,6 +32,7 @@ GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by mea
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
+WAITS = 5.0  # without progress, from when on it is looked at whom a robot waits for [s]
 MOVES_UP = 10.0  # who has moved in a lane within this is about to be served, or leaves [s]
 LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
@@ -222,7 +223,7 @@ class Traffic:
         """Counts who makes no progress; waiting for who is at work in a station, or broken, is none
         of it."""
         self._excused[self.broken | self.minds] = self.time
-        for robot in np.flatnonzero(self.stuck_for > STUCK):
+        for robot in np.flatnonzero(self.stuck_for > WAITS):
             if self._waits_for_work(robot):
                 self._excused[robot] = self.time
         stuck = self.stuck_for > STUCK
@@ -231,7 +232,7 @@ class Traffic:
 
     @property
     def stuck_for(self):
-        """How long each has made no progress although it waits for nobody at work [s]; STUCK is
+        """How long each has made no progress although it waits for nobody at work [s]; WAITS is
         the first moment at which that is looked at."""
         return self.time - np.maximum(self.still_since, self._excused)
 

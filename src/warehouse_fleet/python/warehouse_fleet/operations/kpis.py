@@ -6,7 +6,7 @@ from collections import defaultdict
 
 import numpy as np
 
-from warehouse_fleet.transport import Kind
+from warehouse_fleet.transports import Kind
 
 INTERVAL = 60.0  # of the series [s]
 
