@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/state/world_state.h"
 #include "warehouse.h"
 
 namespace kiva::test {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/actors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
