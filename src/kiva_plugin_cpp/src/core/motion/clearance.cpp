@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/state/footprints.h"
+#include "core/state/people.h"
 
 namespace kiva {
 namespace {
@@ -130,8 +131,9 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
   lifted.z_min += world.floor.z;
   lifted.z_max += world.floor.z;
   const auto meets = [&](const Footprint& other) {
-    return shareHeight(other, lifted) && mayBeWithin(kNear, swept, other) &&
-           gap(swept, other) < kNear;
+    const double reach = kNear + walkingSpeed(world, other.model) * time;
+    return shareHeight(other, lifted) && mayBeWithin(reach, swept, other) &&
+           gap(swept, other) < reach;
   };
   const auto approaches = [&](int i, double radius) {
     if (i == robot) return false;
@@ -141,7 +143,8 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double farthest = (world.top_speed + kPushed) * time + kNear;
+  const double fastest = world.walkers.empty() ? 0 : kMostWalkingSpeed;
+  const double farthest = std::max(world.top_speed + kPushed, fastest) * time + kNear;
   return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
 }
 
@@ -223,7 +226,8 @@ double findClose(const WorldState& world, const std::vector<Footprint>& all, dou
     const double distance = gap(own, other);
     least = std::min(least, distance);
     const bool is_robot = other.group >= 0 && other.group < world.fleet.size();
-    const double theirs = is_robot ? pointSpeed(world.fleet, other.group) : 0;
+    const double theirs =
+        is_robot ? pointSpeed(world.fleet, other.group) : walkingSpeed(world, other.model);
     if (distance < kNear + (speed + theirs) * world.dt) close->push_back(other.model);
   };
   world.obstacles.near(whole.x, whole.y, whole.hx + reach, [&](const Footprint& other) {

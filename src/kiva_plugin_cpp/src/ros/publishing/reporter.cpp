@@ -228,7 +228,10 @@ void Reporter::addPeriodic(const kiva::World& world, bool reliable, Snapshot* ou
   updateSubscribedRobots();
   addClock(world, reliable, out);
   if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
-  if (steps % fleet_every_ == 0) addFleet(world, out);
+  if (steps % fleet_every_ == 0) {
+    addPeople(world, out);
+    addFleet(world, out);
+  }
   if (steps % robots_every_ == 0) {
     addOdometry(world, out);
     addTransforms(world, out);
@@ -255,6 +258,12 @@ void Reporter::updateSubscribedRobots() {
 
 void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
   if (subscribers_.hasSubscribers(SubscriberCounts::Topic::kFleet)) out->fleet = fleetState(world);
+}
+
+void Reporter::addPeople(const kiva::World& world, Snapshot* out) {
+  warehouse_msgs::People people = peopleMessage(world);
+  if (!people.name.empty() || somebody_there_) out->people = people;
+  somebody_there_ = !people.name.empty();
 }
 
 void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
