@@ -16,6 +16,7 @@ import { EventLog } from './log.js';
 import { marginsOf, Sheets } from './sheets.js';
 import { Navigator } from './navigator.js';
 import { Overlays } from './overlays.js';
+import { isPerson, People } from './people.js';
 import { Picker } from './picker.js';
 import { Pointer } from './pointer.js';
 import { VERSION } from './protocol.js';
@@ -42,6 +43,7 @@ class Page {
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, wayOf: (id) => this.ways.get(id) });
     this.builder = new Builder(say);
+    this.people = new People(say, (...request) => this.builder.attempt(...request));
     this.sheets = new Sheets(() => this.fitPanels());
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
@@ -241,21 +243,25 @@ class Page {
 
   /** Of what a click on the floor does: whether it needs a cell, what it says, and does. */
   get wantsCell() {
-    return this.builder.wantsCell || this.details.selectedRobot >= 0;
+    return this.builder.wantsCell || this.people.wantsCell || isPerson(this.selected)
+      || this.details.selectedRobot >= 0;
   }
 
   told(cell) {
-    return `${this.builder.wantsCell ? 'a robot at' : 'go to'} ${cell.join(', ')}`;
+    const what = this.builder.wantsCell ? 'a robot at' : this.people.wantsCell ? 'a person at' : 'go to';
+    return `${what} ${cell.join(', ')}`;
   }
 
   take(cell, at) {
     if (this.builder.wantsCell) this.builder.add(cell, at);
+    else if (this.people.wantsCell) this.people.come(cell, at);
+    else if (isPerson(this.selected)) this.people.go(this.selected, cell, at);
     else this.details.go(...cell, at);
   }
 
   /** Selects what was clicked; no cell is wanted any more. */
   choose(name) {
-    this.builder.want(false);
+    this.wantNone();
     this.select(name);
   }
 
@@ -268,8 +274,13 @@ class Page {
   }
 
   leave() {
-    if (this.builder.wantsCell) this.builder.want(false);
+    if (this.builder.wantsCell || this.people.wantsCell) this.wantNone();
     else this.select(null);
+  }
+
+  wantNone() {
+    this.builder.want(false);
+    this.people.want(false);
   }
 
   /** Asks the server for what the selected needs. */

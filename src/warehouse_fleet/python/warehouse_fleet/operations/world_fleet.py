@@ -120,6 +120,11 @@ class WorldFleet:
         return self._driver.failures
 
     @property
+    def people(self):
+        """What people on the floor cost: a PeopleLog."""
+        return self._driver.people
+
+    @property
     def plan_ms(self):
         return self._driver.plan_ms
 
