@@ -55,6 +55,5 @@ py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 
 void defineWorlds(py::module_& m);
-void defineCells(py::module_& m);
 
 }  // namespace kiva::python
