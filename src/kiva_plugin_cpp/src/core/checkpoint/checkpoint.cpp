@@ -11,13 +11,14 @@
 #include "core/checkpoint/rebuild.h"
 #include "core/control/energy.h"
 #include "core/control/failures.h"
+#include "core/control/protective_fields.h"
 #include "core/sensing/scans.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -93,6 +94,10 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   FIELDS(physics);
   if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
   if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
+  if (!std::is_same_v<A, Hasher> || minds(world)) {
+    FIELDS(world.walkers, world.keeps_off, world.curtains,
+           within(world.fleet.allowed_speed, 0, kEndless), within(world.fleet.curtained, 0, 1));
+  }
 }
 
 /// What is on its way in or out.

@@ -13,9 +13,12 @@
 #include "core/motion/traction.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
+
+constexpr int kDrivesTogether = 128;  // on one thread: less is not worth waking another
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
@@ -70,6 +73,20 @@ void letRest(FleetState& f, int robot) {
                    f.unit[robot] < 0 && !isHeld(f, robot);
 }
 
+/// Each by itself, on all threads.
+void driveByTraction(WorldState& world) {
+  FleetState& f = world.fleet;
+  const Ground ground = groundOf(world);
+  const std::vector<int>& robots = world.stepped_singly;
+  world.workers->share(static_cast<int>(robots.size()), kDrivesTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const int i = robots[k];
+      if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
+      applyTraction(f, i, ground, world.dt);
+    }
+  });
+}
+
 void integrateRobots(WorldState& world) {
   FleetState& f = world.fleet;
   for (int i : world.stepped_singly) {
@@ -101,14 +118,11 @@ void followBodies(WorldState& world) {
 }  // namespace
 
 void actuate(WorldState& world) {
-  FleetState& f = world.fleet;
+  driveByTraction(world);
   for (int i : world.stepped_singly) {
+    const FleetState& f = world.fleet;
     if (f.cruising[i] != 0) continue;
-    if (isJointed(f.robots[i])) {
-      driveJointed(world, i);
-    } else {
-      applyTraction(f, i, groundOf(world), world.dt);
-    }
+    if (isJointed(f.robots[i])) driveJointed(world, i);
     if (f.activated[i]) pushBody(world, i);
   }
   driveJoints(world);

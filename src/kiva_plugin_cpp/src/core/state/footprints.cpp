@@ -32,10 +32,17 @@ double topOf(const Model& model, const CollisionGeometry& geometry) {
 /// The footprints of one model, of `group`, in the frame whose inverse is given.
 void appendFootprints(const WorldState& world, const Model& model, const Pose& to_frame, int group,
                       std::vector<Footprint>* out) {
+  constexpr int kNone = -2;  // -1 is a robot's base
+  int link = kNone;
+  Pose link_in_frame;  // of several geometries, mostly
+  out->reserve(out->size() + model.geometries.size());
   for (const CollisionGeometry& geometry : model.geometries) {
-    const Pose link =
-        geometry.link < 0 ? basePose(world, model.index) : linkPose(world, model, geometry.link);
-    const Pose pose = to_frame * link * geometry.pose_in_link;
+    if (geometry.link != link) {
+      link = geometry.link;
+      link_in_frame =
+          to_frame * (link < 0 ? basePose(world, model.index) : linkPose(world, model, link));
+    }
+    const Pose pose = link_in_frame * geometry.pose_in_link;
     Footprint footprint;
     if (geometry.triangle >= 0) {
       *geometry.corners = cornersOf(*geometry.shape.mesh, geometry.triangle, pose);
@@ -89,6 +96,9 @@ void refitGeometry(WorldState& world, Model& model) {
 void addCollisionGeometry(const WorldState& world, Model& model) {
   const auto& links = model.description->links;
   if (model.isStatic()) model.level_surfaces = levelSurfaces(*model.description, model.pose);
+  std::size_t collisions = 0;
+  for (const Link& link : links) collisions += link.collisions.size();
+  model.geometries.reserve(collisions);
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (const Collision& collision : links[i].collisions) {
       if (collision.shape.kind == Shape::Kind::kPlane) continue;
