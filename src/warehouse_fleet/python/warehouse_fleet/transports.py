@@ -246,7 +246,9 @@ class Transports:
             cells = self._places
         else:
             cells = np.flatnonzero(self._aside)
-        cell = self._nearest(int(traffic.cell[robot]), [c for c in cells.tolist() if c not in out])
+        # Nor may anybody be about to pass there.
+        free = [c for c in cells.tolist() if c not in out and traffic.holder(c) == NOWHERE]
+        cell = self._nearest(int(traffic.cell[robot]), free)
         if cell == NOWHERE:
             raise ValueError("there is no place for it")
         return cell
@@ -363,14 +365,15 @@ class Transports:
         self._admit()
         self.charging.advance(self._without_work(), True)
         self._assign()
-        self.charging.advance(self._without_work(), bool(self._open))
+        is_wanted = not all(self._is_supplied(transport.station) for transport in self._open)
+        self.charging.advance(self._without_work(), is_wanted)
         self._park()
 
     def _drop_lost(self):
         """Robots that somebody else commands now, or that are broken, have lost their
         transports."""
         traffic = self.traffic
-        lost = (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
+        lost = self._are_lost()
         broken = traffic.broken | traffic.lifts_not
         for robot in np.flatnonzero(lost | broken):
             transport = self._of_robot.get(int(robot))
@@ -383,6 +386,11 @@ class Transports:
                 continue
             self._lost.add(transport.shelf)
             self._fail(transport, self._why_lost(robot))
+
+    def _are_lost(self):
+        """Which robots nobody waits for any longer, (n,) bool."""
+        traffic = self.traffic
+        return (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
 
     def _avoid(self, closed):
         """Units that can't get to the place that was chosen for them go to another."""
@@ -409,7 +417,7 @@ class Transports:
         without = np.ones(len(loaded), bool)
         without[known] = False
         traffic.loaded[without] = loaded[without]
-        ready = without & loaded & traffic.stands & (traffic.mode == Mode.AUTOMATIC)
+        ready = without & loaded & traffic.stands & ~traffic.broken & ~self._are_lost()
         for robot in np.flatnonzero(ready):
             self.adopt(int(robot), int(shelf[robot]))
 
@@ -606,7 +614,25 @@ class Transports:
         able = ~traffic.stalled & ~traffic.lifts_not & ~self.charging.kept()
         free = np.flatnonzero(self._without_work() & able)
         asked = self._fetchable() if free.size else []
-        for transport, robot in self.match_robots(asked, free) if asked else ():
+        # Who may charge as well does not bring what only would wait there.
+        charges = np.isin(free, self.charging.rather(free))
+        self._give(asked, free[~charges])
+        pressing = [t for t in asked if t.robot == NOWHERE and not self._is_supplied(t.station)]
+        self._give(pressing, free[charges])
+
+    def _is_supplied(self, station):
+        """Whether a unit stands behind the one that is served there, and another comes."""
+        lane = self.plan.lane.flat
+        there = sum(
+            transport.station == station and lane[self.traffic.cell[transport.robot]]
+            for transport in self._of_robot.values()
+            if transport.step in (Step.BRINGING, Step.WAITING)
+        )
+        return bool(station) and 2 <= there < self.waiting(station)
+
+    def _give(self, asked, free):
+        """Sends robots of those that are free for transports."""
+        for transport, robot in self.match_robots(asked, free) if asked and free.size else ():
             self._open.remove(transport)
             transport.robot, transport.step = int(robot), Step.FETCHING
             transport.since = self.traffic.time
