@@ -365,8 +365,7 @@ class Transports:
         self._admit()
         self.charging.advance(self._without_work(), True)
         self._assign()
-        is_wanted = not all(self._is_supplied(transport.station) for transport in self._open)
-        self.charging.advance(self._without_work(), is_wanted)
+        self.charging.advance(self._without_work(), bool(self._open))
         self._park()
 
     def _drop_lost(self):
@@ -614,25 +613,7 @@ class Transports:
         able = ~traffic.stalled & ~traffic.lifts_not & ~self.charging.kept()
         free = np.flatnonzero(self._without_work() & able)
         asked = self._fetchable() if free.size else []
-        # Who may charge as well does not bring what only would wait there.
-        charges = np.isin(free, self.charging.rather(free))
-        self._give(asked, free[~charges])
-        pressing = [t for t in asked if t.robot == NOWHERE and not self._is_supplied(t.station)]
-        self._give(pressing, free[charges])
-
-    def _is_supplied(self, station):
-        """Whether a unit stands behind the one that is served there, and another comes."""
-        lane = self.plan.lane.flat
-        there = sum(
-            transport.station == station and lane[self.traffic.cell[transport.robot]]
-            for transport in self._of_robot.values()
-            if transport.step in (Step.BRINGING, Step.WAITING)
-        )
-        return bool(station) and 2 <= there < self.waiting(station)
-
-    def _give(self, asked, free):
-        """Sends robots of those that are free for transports."""
-        for transport, robot in self.match_robots(asked, free) if asked and free.size else ():
+        for transport, robot in self.match_robots(asked, free) if asked else ():
             self._open.remove(transport)
             transport.robot, transport.step = int(robot), Step.FETCHING
             transport.since = self.traffic.time
