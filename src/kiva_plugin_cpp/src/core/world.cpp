@@ -16,9 +16,12 @@
 #include "core/control/energy.h"
 #include "core/control/failures.h"
 #include "core/control/radio.h"
+#include "core/control/reports.h"
+#include "core/control/tipping.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
+#include "core/motion/ground.h"
 #include "core/motion/joints.h"
 #include "core/sensing/look_ahead.h"
 #include "core/sensing/scans.h"
@@ -62,6 +65,8 @@ void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
     const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
     plugin.parameters.rejectUnread();
     world.grid_spacing = spacing;
+  } else if (plugin.filename == kFloorPatchPlugin) {
+    world.floor_patches.push_back(readFloorPatch(plugin.parameters));
   } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
     world.world_plugins.push_back(std::move(own));
     world.world_plugin_descriptions.push_back(plugin);
@@ -85,6 +90,7 @@ void decide(WorldState& world) {
   haltCrashed(world);
   wearOut(world);
   useEnergy(world);
+  exchangeReports(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
 }
@@ -149,6 +155,7 @@ void World::step() {
   advanceTime(world);
   sense(world);
   observeCollisions(world);
+  swayLoads(world);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.dt); });
 }
 
@@ -168,6 +175,7 @@ void World::setStepSize(double seconds) {
   state_->dt_since_time = time();
   state_->dt_since = state_->steps;
   state_->dt = seconds;
+  state_->applyRealism();
   state_->scan_rounds_revision = ~0ull;  // those were counted in the old steps, as was
   beginAnew(*state_);                    // when to look around again
 }

@@ -7,6 +7,7 @@
 #include "core/geometry/angle.h"
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/motion/ground.h"
 #include "core/motion/jointed.h"
 #include "core/motion/joints.h"
 #include "core/motion/self_location.h"
@@ -61,7 +62,9 @@ bool hasNothingToDo(const FleetState& f, int robot) {
 /// A robot that stands without a command, or waits or is stopped at one, is left alone until it is
 /// to go on, or is hit.
 void letRest(FleetState& f, int robot) {
-  if (!hasNothingToDo(f, robot) || f.activated[robot] || !atRest(f, robot)) return;
+  if (!hasNothingToDo(f, robot) || f.sway[robot].tilt > 0 || f.activated[robot] ||
+      !atRest(f, robot))
+    return;
   if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
@@ -107,7 +110,7 @@ void actuate(WorldState& world) {
     if (isJointed(f.robots[i])) {
       driveJointed(world, i);
     } else {
-      applyTraction(f, i, groundOf(world), world.dt);
+      applyTraction(f, i, groundUnder(world, i), world.dt);
     }
     if (f.activated[i]) pushBody(world, i);
   }
