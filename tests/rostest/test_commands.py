@@ -9,10 +9,10 @@ import rospy
 import rostest
 from node_test import call
 from slow_subscriber import SlowSubscriber
-from warehouse_test import ANSWERS, Collector, Commander, Paused, control, place
+from warehouse_test import ANSWERS, Collector, Commander, Paused, control, delete, place, world
 
-from warehouse_msgs.msg import Event, FleetState, Lift, Rotate
-from warehouse_msgs.srv import Fail, FailRequest
+from warehouse_msgs.msg import Event, FleetState, Lift, People, Rotate
+from warehouse_msgs.srv import Fail, FailRequest, LightCurtain, Person
 
 BURST = 10000
 FLOOD = 60000  # of answers, more than sockets hold
@@ -125,6 +125,35 @@ class Commands(unittest.TestCase):
         self.assertEqual(fleet.first(lambda m: not m.failures[0]).charge[0], 1)
         refused = call("/warehouse/fail", Fail, 99, FailRequest.MOTOR, 0.0)
         self.assertEqual((refused.success, refused.message), (False, "there is no robot kiva99"))
+
+    def test_people_come_and_walk_and_stop_robots(self):
+        told = Collector("/warehouse/people", People)
+        self.addCleanup(told.close)
+        self.walk("person1", [5, 5], [8, 4])
+        self.addCleanup(delete, "person1")
+        self.assertEqual(told.first(lambda m: m.name == ["person1"] and m.vy[0] < 0).stopped, ())
+        told.first(lambda m: m.name == ["person1"] and m.y[0] == 4)
+        self.assertAlmostEqual(place("person1")[1], 4)
+        self.assertTrue(call("/warehouse/light_curtain", LightCurtain, "c", -9, -9, 9, 9).success)
+        told.first(lambda m: 1 in m.stopped)
+        self.assertTrue(call("/warehouse/light_curtain", LightCurtain, "c", 0, 0, 0, 0).success)
+        told.first(lambda m: m.name and not m.stopped)
+        for name, x, y, why in (
+            ("person1", [400], [0], "waypoint 0 at (400, 0) is not on the floor"),
+            ("person1", [1, 2], [0], "2 x and 1 y"),
+            ("person2", [], [], "there is no 'person2', and no place to come to"),
+            ("person2", [float("nan")], [0], "person2"),
+            ("kiva1", [1], [1], "kiva1: it is no person"),
+        ):
+            refused = call("/warehouse/person", Person, name, x, y, 0, False)
+            self.assertFalse(refused.success)
+            self.assertIn(why, refused.message)
+        self.assertNotIn("person2", world().model_names)
+        self.assertFalse(call("/warehouse/light_curtain", LightCurtain, "c", 0, 0, 0, 0).success)
+
+    def walk(self, name, x, y):
+        answer = call("/warehouse/person", Person, name, x, y, 0, False)
+        self.assertTrue(answer.success, answer.message)
 
 
 if __name__ == "__main__":

@@ -255,6 +255,17 @@ class ViewerPage(PageTest):
         self.page.click_on("question-yes")
         self.page.until(f"page.world.scene.robots.length === {ROBOTS}")
 
+    def test_a_person_comes_where_it_is_clicked_and_walks(self):
+        self.page.click_on("add-person")
+        self.page.click(2, -4)
+        self.page.until("page.world.scene.scenery.includes('person1')")
+        self.addCleanup(delete, "person1")
+        self.assertEqual(place("person1")[:2], (2, -4))
+        self.page.read("page.select('person1')")
+        self.page.click(2, -6, 0.0)
+        wait_until(lambda: abs(place("person1")[1] + 6) < 1e-3, "person1 at y = -6")
+        self.page.until("page.world.placeOf(page.details.thing)[1] < -5.9")
+
     def test_builds_a_warehouse(self):
         self.build("my own", robots=3, shelves=10, items=20)
         self.page.until(STANDS.format(robots=3, units=10, items=20))

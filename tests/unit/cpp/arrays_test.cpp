@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Robots that nothing can touch are stepped in arrays: the same motion as Bullet gives.
+#include <map>
 #include <random>
 
+#include "core/motion/clearance.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
 
@@ -135,6 +137,34 @@ std::string parcel(double edge) {
          "<inertia><ixx>0.03</ixx><iyy>0.03</iyy><izz>0.03</izz></inertia></inertial>"
          "<collision name='c'><geometry><box><size>" +
          size + "</size></box></geometry></collision></link></model></sdf>";
+}
+
+/// Asking for little first where little is to be expected, as a robot among others does, finds the
+/// same.
+TEST(Arrays, FindAWayFreeForAsLongHoweverTheyAsk) {
+  Floorplan plan;
+  plan.size = 12;
+  Warehouse w(plan);
+  constexpr int kCrowd = 16;
+  for (int id = 1; id <= kCrowd; ++id) {
+    w.spawn("kiva", "kiva" + std::to_string(id), 2 * (id % 4) - 3, id / 4 * 2 - 4);
+  }
+  std::mt19937 random(5);
+  const auto cells = [&] { return std::uniform_int_distribution<int>(-3, 3)(random); };
+  std::map<double, int> found;
+  for (int round = 0; round < 300; ++round) {
+    const int id = round % kCrowd + 1;
+    round % 2 ? w.movx(id, cells()) : w.movy(id, cells());
+    w.run(0.05);
+    const WorldState& world = insideOf(w.world);
+    for (int i = 0; i < kCrowd; ++i) {
+      const double time = clearTime(world, i, false);
+      ++found[time];
+      ASSERT_EQ(clearTime(world, i, true), time) << "kiva" << i + 1 << " at " << w.world.time();
+    }
+  }
+  EXPECT_GE(found.size(), 4u);  // no time, little, more and much
+  for (const auto& [time, times] : found) EXPECT_GT(times, 5) << time;
 }
 
 TEST(Arrays, LetGoOfARobotBeforeABoxHitsIt) {

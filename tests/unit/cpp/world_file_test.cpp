@@ -839,17 +839,16 @@ TEST(Warnings, NameWhatIsLeftOutOnceEach) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   std::sort(warnings.begin(), warnings.end());
   const std::string m = "world 'w', model 'm', ";
-  EXPECT_EQ(
-      warnings,
-      (std::vector<std::string>{
-          "text:2: world 'w', actor 'a': actors don't walk: a person stands at its first waypoint",
-          "text:3: " + m +
-              "strange: XML Element[strange], child of element[model], not "
-              "defined in SDF",
-          "text:5: " + m +
-              "link 'l', collision 'c', surface/friction/ode: mu2 is left out: "
-              "friction is the same in every direction",
-      }));
+  EXPECT_EQ(warnings, (std::vector<std::string>{
+                          "text:2: world 'w', actor 'a': people look alike here: its skin and "
+                          "animations are left out",
+                          "text:3: " + m +
+                              "strange: XML Element[strange], child of element[model], not "
+                              "defined in SDF",
+                          "text:5: " + m +
+                              "link 'l', collision 'c', surface/friction/ode: mu2 is left out: "
+                              "friction is the same in every direction",
+                      }));
 }
 
 TEST(Sensors, HoldWhatTheirPluginsNeed) {

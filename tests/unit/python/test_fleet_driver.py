@@ -101,6 +101,20 @@ def test_a_unit_stays_where_it_was_brought_and_is_fetched_from_there(drive):
     assert_clean(driver)
 
 
+def test_who_queues_is_not_stuck_however_long_a_service_takes(drive):
+    driver = drive(World.preset("small"))
+    transports, traffic = driver.transports, driver.traffic
+    station = driver.stations[0].name
+    first, second = (transports.submit(unit, station).transport_id for unit in (7, 9))
+    served = run_until(driver, {Kind.ARRIVED})[-1].transport_id
+    behind = next(t.robot for t in transports if t.number == first + second - served)
+    while driver.time - traffic.still_since[behind] < 29:
+        driver.step()
+        # There is time to move up when the service ends, before the watchdog counts it.
+        assert traffic.stuck_for[behind] < 10
+    assert traffic.plan.lane.flat[traffic.cell[behind]]
+
+
 @pytest.mark.parametrize(
     ("request_", "text"),
     [

@@ -108,8 +108,8 @@ from operations_site import site
 from postgres import server
 from warehouse_fleet.operations import Operations
 ops = Operations(site=site(), physics=False, database=sys.argv[2], orders="fill:40")
-print("up", flush=True)
 while True:
+    print("running", flush=True)
     ops.run(seconds=20)
     ops.database.flush()
 """
@@ -118,12 +118,13 @@ while True:
 def test_killed_at_any_moment_nothing_is_lost_or_done_twice(tmp_path):
     database, chance = str(tmp_path / "run.db"), random.Random(4)
     known = set()
-    for _ in range(5):
+    for writes in range(5):
         worker = subprocess.Popen(
             [sys.executable, "-c", WORKER, str(Path(__file__).parent), database],
             stdout=subprocess.PIPE,
         )
-        worker.stdout.readline()
+        for _ in range(1 + writes):
+            worker.stdout.readline()
         time.sleep(chance.uniform(0.05, 0.5))
         os.kill(worker.pid, signal.SIGKILL)
         worker.wait()

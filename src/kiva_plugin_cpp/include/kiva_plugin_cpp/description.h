@@ -8,10 +8,12 @@
 #include <ignition/math/Pose3.hh>
 #include <ignition/math/Vector3.hh>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "kiva_plugin_cpp/parameters.h"
+#include "kiva_plugin_cpp/people.h"
 
 namespace kiva {
 
@@ -151,7 +153,8 @@ struct ModelInstance {
   Pose pose;  ///< In world.
   std::shared_ptr<const ModelDescription> description;
   std::string
-      robot_namespace{};  ///< Told to its plugins as `robotNamespace`, unless they have one.
+      robot_namespace{};       ///< Told to its plugins as `robotNamespace`, unless they have one.
+  std::optional<Walk> walk{};  ///< Of an `<actor>`: it is a person, who walks so.
 };
 
 struct WorldDescription {

@@ -156,6 +156,10 @@ struct Fleet {
   Column<std::uint8_t> stopped;   ///< 1 = it stands until Command::Kind::kGoOn.
   Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
   Column<float> charge;           ///< Of its battery, 0…1; 1 where there is no model of that.
+  /// What its protective field allows, for the sake of people near [m/s]: 0 = it stands, +inf =
+  /// nobody is near.
+  Column<double> allowed_speed;
+  Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain where somebody is.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

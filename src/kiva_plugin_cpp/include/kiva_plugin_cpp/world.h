@@ -21,6 +21,7 @@
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/external_inputs.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/people.h"
 #include "kiva_plugin_cpp/realism.h"
 
 namespace kiva {
@@ -193,6 +194,21 @@ class World {
   /// What was heard last of a robot whose radio is lost, and of every robot where reports go by
   /// radio; nothing of one that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
+
+  // --- people
+  /// Has somebody go that way from now on: an actor, or a static model that is no larger than a
+  /// person, which is one from then on: robots keep away from people. Without waypoints they stay
+  /// where they are. They stop before what is in their way, and walk around it where they can.
+  /// Throws std::invalid_argument, with nothing changed, if there is no such model, it is no
+  /// person, or a waypoint is not finite, off the floor, or to be reached too fast.
+  void walk(const std::string& person, const Walk& walk);
+  /// In the order in which they came.
+  std::vector<Person> people() const;
+  /// A new one, or in place of the one of that name. Throws std::invalid_argument if it has no
+  /// name, or its edges are not finite or in the wrong order.
+  void setLightCurtain(const LightCurtain& curtain);
+  bool removeLightCurtain(const std::string& name);
+  const std::vector<LightCurtain>& lightCurtains() const;
 
   // --- models
   /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already

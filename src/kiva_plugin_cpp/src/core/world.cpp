@@ -15,9 +15,11 @@
 #include "core/control/commands.h"
 #include "core/control/energy.h"
 #include "core/control/failures.h"
+#include "core/control/protective_fields.h"
 #include "core/control/radio.h"
 #include "core/control/reports.h"
 #include "core/control/tipping.h"
+#include "core/control/walking.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
@@ -60,6 +62,18 @@ void addOrLeaveOut(WorldState& world, Add add) {
   }
 }
 
+/// `<min>` and `<max>`: x and y of two corners [m].
+void addLightCurtain(WorldState& world, const PluginDescription& plugin) {
+  const Parameters& p = plugin.parameters;
+  const std::vector<double> min = p.numbers("min", {0, 0}), max = p.numbers("max", {0, 0});
+  p.rejectUnread();
+  try {
+    setLightCurtain(world, {plugin.name, min[0], max[0], min[1], max[1]});
+  } catch (const std::invalid_argument& error) {
+    throw DescriptionError(p.where() + ": " + error.what());
+  }
+}
+
 void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
   if (plugin.filename == kGridPlugin) {
     const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
@@ -67,6 +81,8 @@ void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
     world.grid_spacing = spacing;
   } else if (plugin.filename == kFloorPatchPlugin) {
     world.floor_patches.push_back(readFloorPatch(plugin.parameters));
+  } else if (plugin.filename == kLightCurtainPlugin) {
+    addLightCurtain(world, plugin);
   } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
     world.world_plugins.push_back(std::move(own));
     world.world_plugin_descriptions.push_back(plugin);
@@ -91,6 +107,7 @@ void decide(WorldState& world) {
   wearOut(world);
   useEnergy(world);
   exchangeReports(world);
+  keepFromPeople(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
 }
@@ -152,6 +169,7 @@ void World::step() {
   actuate(world);
   world.physics.step(world.dt);
   integrate(world);
+  walkOn(world);
   advanceTime(world);
   sense(world);
   observeCollisions(world);
@@ -200,6 +218,7 @@ void World::reset(bool time_too) {
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
   beginFailures(world);
+  restartScripts(world);
   if (time_too) {
     world.steps = world.dt_since = 0;
     world.dt_since_time = 0;
@@ -235,12 +254,26 @@ std::optional<RobotReport> World::lastHeard(int robot) const {
   return kiva::lastHeard(*state_, robot);
 }
 
-void World::spawn(const ModelInstance& instance) { spawnModel(*state_, instance); }
+void World::walk(const std::string& person, const Walk& walk) { kiva::walk(*state_, person, walk); }
+std::vector<Person> World::people() const { return peopleIn(*state_); }
+void World::setLightCurtain(const LightCurtain& curtain) {
+  kiva::setLightCurtain(*state_, curtain);
+}
+bool World::removeLightCurtain(const std::string& name) {
+  return kiva::removeLightCurtain(*state_, name);
+}
+const std::vector<LightCurtain>& World::lightCurtains() const { return state_->curtains; }
+
+void World::spawn(const ModelInstance& instance) {
+  spawnModel(*state_, instance);
+  if (!instance.walk) return;
+  beginScript(*state_, state_->slot_of_name.at(instance.name), *instance.walk);
+}
 
 void World::spawn(const std::vector<ModelInstance>& instances) {
   std::size_t done = 0;
   try {
-    for (; done < instances.size(); ++done) spawnModel(*state_, instances[done]);
+    for (; done < instances.size(); ++done) spawn(instances[done]);
   } catch (const DescriptionError&) {
     while (done > 0) remove(instances[--done].name);
     throw;

@@ -58,12 +58,10 @@ struct View {
   double obstacle;   // where it is now
   double approach;   // how fast it comes by itself
   double speed;      // of this robot
-  double usual;      // its braking, and
-  double hardest;    // that for an obstacle [m/s²]
   double scan_time;  // until the next look [s]
 };
 
-View viewOf(WorldState& world, int i) {
+View viewOf(const WorldState& world, int i) {
   const FleetState& f = world.fleet;
   const Sighting& now = f.tasks[i].sighting;
   View view;
@@ -73,37 +71,46 @@ View viewOf(WorldState& world, int i) {
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
   view.speed = std::abs(f.command(i).speed);
-  const double usual = plannedAcceleration(world, i);
-  view.usual = usual > 0 ? usual : 1e9;
-  view.hardest = plannedBraking(world, i);
   return view;
 }
 
+/// [m/s²]
+double usualBraking(WorldState& world, int i) {
+  const double usual = plannedAcceleration(world, i);
+  return usual > 0 ? usual : 1e9;
+}
+
 /// Where the obstacle is to be met: the other one comes on until it has seen this robot too, then
-/// brakes as this one does.
-double expectedObstacle(const View& view) {
+/// brakes as this one does, with `braking` [m/s²].
+double expectedObstacle(const View& view, double braking) {
   return view.obstacle - 2 * view.approach * view.scan_time -
-         view.approach * view.approach / (2 * view.usual);
+         view.approach * view.approach / (2 * braking);
 }
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(const WorldState& world, int robot, const View& view) {
-  const double expected = expectedObstacle(view);
+double firstStop(WorldState& world, int robot, const View& view) {
+  const auto isBehindGoal = [&](double stop) { return stop >= view.goal - kSoon; };
+  // Most looks end here: how it can brake is worked out for the others alone.
+  if (view.approach == 0 && isBehindGoal(farthestStop(world, robot, view.obstacle))) {
+    return view.goal;
+  }
+  const double usual = usualBraking(world, robot);
+  const double expected = expectedObstacle(view, usual);
   const double stop = farthestStop(world, robot, expected);
-  if (stop >= view.goal - kSoon) return view.goal;  // the way ends before, anyway
+  if (isBehindGoal(stop)) return view.goal;  // its way ends before, anyway
   const double next = farthestStop(world, robot, expected - view.approach * view.scan_time);
-  const double braking = view.speed * view.speed / (2 * view.usual) + view.speed * view.scan_time;
+  const double braking = view.speed * view.speed / (2 * usual) + view.speed * view.scan_time;
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
-double revisedStop(const WorldState& world, int robot, const View& view) {
+double revisedStop(WorldState& world, int robot, const View& view) {
   const Robot& r = world.fleet.robots[robot];
+  const double hardest = plannedBraking(world, robot);
   const double gap = view.obstacle - view.reference - halfLength(r);
-  const double needed =
-      (view.speed * view.speed + view.approach * view.approach) / (2 * view.hardest) +
-      (view.speed + view.approach) * view.scan_time + kClearance;
+  const double needed = (view.speed * view.speed + view.approach * view.approach) / (2 * hardest) +
+                        (view.speed + view.approach) * view.scan_time + kClearance;
   if (view.speed > 0 && gap < needed) return view.reference;
   if (view.goal + halfLength(r) + kClearance <= view.obstacle) return view.goal;
   return std::min(view.goal, farthestStop(world, robot, view.obstacle));
@@ -114,7 +121,8 @@ bool mayResume(WorldState& world, int i) {
   const Task& task = world.fleet.tasks[i];
   const View view = viewOf(world, i);
   if (task.sighting.model < 0 || view.obstacle >= reachOfInterest(world, i)) return true;
-  return farthestStop(world, i, expectedObstacle(view)) > view.goal + kSoon;
+  const double expected = expectedObstacle(view, usualBraking(world, i));
+  return farthestStop(world, i, expected) > view.goal + kSoon;
 }
 
 void brake(WorldState& world, int i) {

@@ -65,6 +65,14 @@ bool giveUp(WorldState& world, int i, const OnLine& at) {
   return true;
 }
 
+/// What it may drive for the sake of people now, on its way down to what is allowed.
+double allowedSpeed(WorldState& world, int i) {
+  const FleetState& f = world.fleet;
+  const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
+  if (speed <= allowed || f.robots[i].drive.acceleration == 0) return allowed;
+  return std::max(allowed, speed - plannedBraking(world, i) * world.dt);
+}
+
 /// The wheels that follow a reference at that speed, of which the robot lags behind, and steer back
 /// onto the line.
 void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed) {
@@ -109,7 +117,8 @@ void driveSegment(WorldState& world, int i) {
   if (giveUp(world, i, at)) return;
   const double lag = f.reference[i] - at.along;
   const bool is_sure = segment.on_grid && !(f.localises && f.localisation[i].lost);
-  const double top = is_sure ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
+  const double usual = is_sure ? r.drive.speed : std::min(r.drive.speed, kRecoverSpeed);
+  const double top = std::min(usual, allowedSpeed(world, i));
   const bool exact = f.localises ? segment.on_grid && isOnCourse(lag, at.heading, at.across)
                                  : isExact(lag) && isExact(at.heading) && isExact(at.across);
   if (exact && !segment.reverse &&

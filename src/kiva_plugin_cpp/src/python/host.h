@@ -54,6 +54,7 @@ void checkCommand(const Host& host, const Command& command, std::size_t i);
 py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 
+void definePeople(py::class_<Host, HostPtr>& world);
 void defineWorlds(py::module_& m);
 void defineCells(py::module_& m);
 

@@ -606,6 +606,13 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
       "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up, 1 for "
       "an empty battery; 0 nothing. A view.");
   add(
+      "allowed_speed", [](const Fleet& f) -> auto& { return f.allowed_speed; }, 0.0,
+      "(n,) float64: what a robot may drive since people are near [m/s]; 0 it stands for them, inf "
+      "nobody is near. A view.");
+  add(
+      "curtained", [](const Fleet& f) -> auto& { return f.curtained; }, std::uint8_t(),
+      "(n,) uint8: 1 while a robot stands in a light curtain where somebody is. A view.");
+  add(
       "charge", [](const Fleet& f) -> auto& { return f.charge; }, 0.0f,
       "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A "
       "view.");
@@ -800,6 +807,7 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
                                 return py::make_tuple(f.min_x, f.max_x, f.min_y, f.max_y);
                               }),
                               "(min_x, max_x, min_y, max_y) in world [m].");
+  definePeople(world);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "world_file/actors.h"
 #include "world_file/errors.h"
 #include "world_file/model_paths.h"
 #include "world_file/population.h"
@@ -54,20 +55,6 @@ std::optional<Include> readInclude(const XmlElement& element) {
   }
   if (include.uri.empty()) return std::nullopt;
   return include;
-}
-
-/// Where the first waypoint of an actor is, else its pose, on the ground: an actor's origin is
-/// somewhere in its skin.
-Pose placeOf(const XmlElement& actor) {
-  const XmlElement* place = &actor;
-  const XmlElement* const script = actor.FirstChildElement("script");
-  const XmlElement* const trajectory = script ? script->FirstChildElement("trajectory") : nullptr;
-  if (trajectory && trajectory->FirstChildElement("waypoint")) {
-    place = trajectory->FirstChildElement("waypoint");
-  }
-  const auto pose = parsePose(contentOf(place->FirstChildElement("pose")));
-  if (!pose) return Pose::Zero;
-  return Pose(pose->X(), pose->Y(), 0, 0, 0, pose->Yaw());
 }
 
 /// A part of the world that is placed by another one's name, perhaps an include's. Deeper down,
@@ -165,8 +152,9 @@ class Preparation {
     person.uri = kPerson;
     person.name = attributeOf(*actor, "name");
     person.pose = placeOf(*actor);
+    person.walk = scriptOf(*actor, &result_.warnings);
     result_.warnings.push_back(
-        noteAt(*actor, "actors don't walk: a person stands at its first waypoint"));
+        noteAt(*actor, "people look alike here: its skin and animations are left out"));
     add(person, *actor);
     actor->Parent()->DeleteChild(actor);
   }

@@ -27,6 +27,7 @@ struct Include {
   std::optional<Pose> pose;       ///< In world; none: that of the model. A copy's is relative to
                                   ///< what it is a copy of, seen from the world.
   std::optional<bool> is_static;  ///< None: as the model has it.
+  std::optional<Walk> walk;       ///< Of an actor.
   int line = 0;
 };
 

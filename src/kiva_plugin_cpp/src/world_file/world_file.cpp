@@ -243,6 +243,7 @@ class Reading {
     ModelInstance result{model.name, model.pose, model.description};
     if (!include.name.empty()) result.name = include.name;
     if (include.pose) result.pose = *include.pose * model.placement;
+    result.walk = include.walk;
     if (include.is_static && *include.is_static != model.description->is_static) {
       auto changed = std::make_shared<ModelDescription>(*model.description);
       changed->is_static = *include.is_static;

@@ -82,6 +82,9 @@ class Execution {
 
   /// Units stand in these cells of the aisles, where loaded robots can't pass.
   void setUnits(std::vector<Cell> cells) { units_ = std::move(cells); }
+  /// Nobody may enter these cells, where people are or are about to be; who is inside goes on with
+  /// what was released, and out.
+  void setZone(std::vector<Cell> cells);
   /// Nobody may enter it until `until` [s].
   void close(Cell cell, double until);
   /// Whether a cell is closed by that, or because a robot found something in its way there: look
@@ -231,6 +234,8 @@ class Execution {
   std::vector<Cell> units_;
   std::vector<std::uint8_t> broken_;
   std::vector<Cell> closing_;  ///< cells that are, or were
+  std::vector<Cell> zone_;
+  std::vector<std::uint8_t> is_in_zone_;  ///< by cell
   Fleet asked_;
   Releases releases_;  ///< to be sent
   int blocked_ = 0;

@@ -21,8 +21,7 @@ from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
-from warehouse_fleet.transport import ENDS
-from warehouse_fleet.transports import NOWHERE, Answer, Kind, Step, TransportEvent, Transports
+from warehouse_fleet.transports import ENDS, NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs.msg import (
     Cancel,
@@ -33,6 +32,7 @@ from warehouse_msgs.msg import (
     FleetState,
     KivaStatus,
     Lift,
+    People,
     Scenery,
     UnitStates,
     WarehouseObjects,
@@ -91,6 +91,7 @@ class Coordinator:
         self._leaving = {}  # robots taken out of the fleet: since when each is idle [s], or None
         self._next_state = self._next_paths = 0.0
         self._fleet, self._news = None, threading.Event()
+        self._people = People()
         publish = rospy.Publisher
         self._follow = publish("/warehouse/follow", FleetFollow, queue_size=10)
         self._lift = publish("/lift", Lift, queue_size=1000)
@@ -111,6 +112,7 @@ class Coordinator:
         )
         rospy.Subscriber("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
         rospy.Subscriber("/warehouse/events", Event, self._on_event, queue_size=10000)
+        rospy.Subscriber("/warehouse/people", People, self._keep, "_people", queue_size=1)
         rospy.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
 
     def run(self):
@@ -246,6 +248,7 @@ class Coordinator:
                 self._cancel.publish(int(kiva_id))
             self._end_paths(report, time)
         traffic.observe(time, report)
+        traffic.see_people(self._people)
         if traffic.wants_map:
             self._see_map()
         transports.advance(report)

@@ -10,6 +10,7 @@ import numpy as np
 
 from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_fleet.people import PeopleLog, people_in
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
 
@@ -43,6 +44,7 @@ class FleetDriver:
         self.collisions = 0
         self.refusals = []  # texts
         self.failures = FailureLog()
+        self.people = PeopleLog()
         self._steps = max(1, round(UPDATE / world.step_size))
 
     def close(self):
@@ -83,6 +85,7 @@ class FleetDriver:
         report = self.traffic.aligned(heard(self.world))
         self.traffic.observe(self.world.time, report)
         self.failures.observe(self.world.time, report.failures)
+        self._see_people()
         looks = self.traffic.wants_map
         if looks:
             self.traffic.see(self.world.occupancy()[3])
@@ -92,6 +95,11 @@ class FleetDriver:
         releases = self.traffic.releases()
         if len(releases[0]):
             self.world.follow(*releases)
+
+    def _see_people(self):
+        people = people_in(self.world)
+        self.people.observe(self.world.time, people, len(self.traffic.kiva_ids))
+        self.traffic.see_people(people)
 
     def step_until(self, time):
         """Goes on until that simulated time [s]."""

@@ -74,6 +74,15 @@ class FloorPlan:
         row, column = np.divmod(cell, self.width)
         return self.origin[0] + column * self.spacing, self.origin[1] + row * self.spacing
 
+    def beside(self, cells):
+        """These cells and the four around each."""
+        height, width = self.shape
+        rows, columns = np.divmod(np.asarray(cells), width)
+        rows = np.add.outer(rows, (0, 1, -1, 0, 0)).ravel()
+        columns = np.add.outer(columns, (0, 0, 0, 1, -1)).ravel()
+        inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+        return np.unique(rows[inside] * width + columns[inside]).astype(np.int32)
+
     def floor(self, passable=None):
         """What planners drive on; obstructed cells are to be told them as closed. Loaded robots
         keep out of parking as they do of storage."""

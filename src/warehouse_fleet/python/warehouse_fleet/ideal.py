@@ -18,7 +18,7 @@ from collections import Counter, deque
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
-from warehouse_fleet.transport import Task
+from warehouse_fleet.protocols import Task
 from warehouse_fleet.transports import STAY, STORE, Answer, Kind, TransportEvent
 from warehouse_fleet.travel import Travel
 
@@ -73,7 +73,7 @@ class _Lane:
 
 
 class IdealFleet:
-    """Robots, units and stations of a FloorPlan; offers what transport.Requests says.
+    """Robots, units and stations of a FloorPlan; offers what protocols.Requests says.
 
     robots, units: the cell of each, by id. Cells of units must be storage places.
     """
@@ -183,7 +183,7 @@ class IdealFleet:
             self.time = max(self.time, time)
 
     def set_hooks(self, hooks):
-        """Who decides from now on; see transport.Hooks."""
+        """Who decides from now on; see protocols.Hooks."""
         self.hooks = hooks
 
     def close(self):

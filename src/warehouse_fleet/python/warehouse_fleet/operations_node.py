@@ -19,8 +19,8 @@ from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
-from warehouse_fleet.transport import ENDS
-from warehouse_fleet.transports import Answer, Kind, TransportEvent
+from warehouse_fleet.people import PeopleLog
+from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
@@ -32,7 +32,7 @@ UNKEPT = 100  # most transports that a run asks for between two writes to the da
 
 
 class Coordinator:
-    """The coordinator of another node, with the face of transport.Requests."""
+    """The coordinator of another node, with the face of protocols.Requests."""
 
     def __init__(self):
         self._heard = []
@@ -130,18 +130,21 @@ class Warehouse:
 
     def __init__(self):
         self.fleet = self.objects = self.units = self.scenery = None
-        self.distance_m, self.heat, self.failures = 0.0, None, FailureLog()
+        self.distance_m, self.heat = 0.0, None
+        self.failures, self.people, self._there = FailureLog(), PeopleLog(), msg.People()
         for topic, kind, name in (
             ("objects", msg.WarehouseObjects, "objects"),
             ("unit_states", msg.UnitStates, "units"),
             ("scenery", msg.Scenery, "scenery"),
+            ("people", msg.People, "_there"),
         ):
             rospy.Subscriber(f"/warehouse/{topic}", kind, self._keep, name, queue_size=1)
         rospy.Subscriber("/warehouse/fleet", msg.FleetState, self._on_fleet, queue_size=10)
 
     def begin(self, heat):
         """Counts from now on, heat where it is told."""
-        self.distance_m, self.heat, self.failures = 0.0, heat, FailureLog()
+        self.distance_m, self.heat = 0.0, heat
+        self.failures, self.people = FailureLog(), PeopleLog()
 
     def _keep(self, message, name):
         setattr(self, name, message)
@@ -152,10 +155,12 @@ class Warehouse:
             dx, dy = np.subtract(message.x, before.x), np.subtract(message.y, before.y)
             moved = np.hypot(dx, dy)
             self.distance_m += float(moved[moved < 1.0].sum())  # farther: it was put there
-        self.failures.observe(message.stamp.to_sec(), np.frombuffer(message.failures, np.uint8))
+        now = message.stamp.to_sec()
+        self.failures.observe(now, np.frombuffer(message.failures, np.uint8))
+        self.people.observe(now, self._there, len(message.kiva_id))
         if self.heat:
             waits = np.isin(np.frombuffer(bytes(message.state), np.uint8), WAITS)
-            self.heat.see(message.stamp.to_sec(), message.x, message.y, waits)
+            self.heat.see(now, message.x, message.y, waits)
 
     @property
     def is_known(self):
@@ -419,6 +424,7 @@ class OperationsNode:
             plan_ms=[],
             executed_over_planned=state.executed_over_planned,
             failures=self._warehouse.failures,
+            people=self._warehouse.people,
         )
         figures = kpis.of_shift(self._shift, fleet, self._site.kinematics, wall)
         planning = {"p50": state.plan_p50, "p99": state.plan_p99, "max": state.plan_p99}

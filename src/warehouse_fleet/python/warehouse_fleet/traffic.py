@@ -23,6 +23,7 @@ from warehouse_fleet.door import PlanRefusedError, make_planner
 from warehouse_fleet.failures import LIFTS_NOT, STANDS
 from warehouse_fleet.floor_plan import is_taken
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_fleet.people import zone_around
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
@@ -31,6 +32,7 @@ GUIDANCE = {"turn_ticks": 2, "crowd": 10, "at_lanes": 1, "memory": 50}  # by mea
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
+WAITS = 5.0  # without progress, from when on it is looked at whom a robot waits for [s]
 MOVES_UP = 10.0  # who has moved in a lane within this is about to be served, or leaves [s]
 LOOK = 1.0  # between two looks at that map [s]
 STAYS = 2.5  # for which what was seen is taken to stay [s]
@@ -54,11 +56,11 @@ class Traffic:
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
     work: it stays), `mode`, `gone` (it was deleted), `broken` (it stands, or is not heard) and
-    `lifts_not`, by what it reports of itself. `planner` is what a YAML file says of one, see
-    warehouse_fleet.door; None: the one of the house. `latency` [s] passes from a report until what
-    is released for it has reached the robot. A plan is begun every tick on a thread of its
-    own, and taken up `lag` seconds later, whenever it is ready: so a run does not depend on the
-    machine.
+    `lifts_not`, by what it reports of itself, `minds` (it is slow, or waits, for people's sake).
+    `planner` is what a YAML file says of one, see warehouse_fleet.door; None: the one of the house.
+    `latency` [s] passes from a report until what is released for it has reached the robot. A plan
+    is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever it is
+    ready: so a run does not depend on the machine.
     """
 
     def __init__(
@@ -98,6 +100,7 @@ class Traffic:
         self.charge = np.ones(count, np.float32)  # of batteries, 0…1
         self.broken = np.zeros(count, bool)
         self.lifts_not = np.zeros(count, bool)
+        self.minds = np.zeros(count, bool)
         self.cell = np.full(count, NOWHERE, np.int32)  # where each stands, or stood last
         self.stands = np.zeros(count, bool)  # with nothing before it
         self.waits_for = np.full(count, NOWHERE, np.int32)  # a robot
@@ -130,6 +133,7 @@ class Traffic:
         self._plan, self._due, self._next = None, 0.0, 0.0
         self._next_look = self._obstructed_until = 0.0
         self._units = np.zeros(0, np.int32)
+        self._somebody = False  # was there when people were told last
 
     def close(self):
         """Ends the planner's thread."""
@@ -218,8 +222,8 @@ class Traffic:
     def _watch(self):
         """Counts who makes no progress; waiting for who is at work in a station, or broken, is none
         of it."""
-        self._excused[self.broken] = self.time
-        for robot in np.flatnonzero(self.stuck_for > STUCK):
+        self._excused[self.broken | self.minds] = self.time
+        for robot in np.flatnonzero(self.stuck_for > WAITS):
             if self._waits_for_work(robot):
                 self._excused[robot] = self.time
         stuck = self.stuck_for > STUCK
@@ -228,7 +232,7 @@ class Traffic:
 
     @property
     def stuck_for(self):
-        """How long each has made no progress although it waits for nobody at work [s]; STUCK is
+        """How long each has made no progress although it waits for nobody at work [s]; WAITS is
         the first moment at which that is looked at."""
         return self.time - np.maximum(self.still_since, self._excused)
 
@@ -249,7 +253,7 @@ class Traffic:
             robot = self.ahead_of(robot)
             if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
                 return True
-            if robot != NOWHERE and self.broken[robot]:
+            if robot != NOWHERE and (self.broken[robot] or self.minds[robot]):
                 return True
             if robot != NOWHERE and self._moves_up(robot):
                 return True
@@ -316,6 +320,18 @@ class Traffic:
         if cells.shape == self.plan.shape:
             for cell in np.flatnonzero(is_taken(cells) & self.plan.passable):
                 self.shut(int(cell), self.time + STAYS)
+
+    def see_people(self, people):
+        """Who walks on the floor, as warehouse_fleet.people has them: a zone is closed around each,
+        and opened behind. Whoever stands at its edge waits for them."""
+        if not people.name and not self._somebody:
+            return
+        self._somebody = bool(people.name)
+        zone = zone_around(self.plan, people)
+        self._execution.set_zone(zone)
+        edge = self.plan.beside(zone) if len(zone) else zone
+        self.minds = np.isin(self.kiva_ids, [*people.slowed, *people.stopped])
+        self.minds |= np.isin(self.cell, edge)
 
     def set_units(self, cells):
         """Units stand in these cells beyond storage places: nobody passes there with a load."""

@@ -39,6 +39,9 @@ class Kind(IntEnum):
     CANCELLED = 7
 
 
+ENDS = frozenset((Kind.STORED, Kind.FAILED))
+
+
 class TransportEvent(NamedTuple):
     """As the message of this name."""
 

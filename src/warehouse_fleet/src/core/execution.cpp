@@ -67,7 +67,8 @@ Execution::Execution(const Floor& floor, const Motion& motion)
       motion_(motion),
       holder_(floor.size(), kNobody),
       next_claim_(floor.size(), -1),
-      closed_until_(floor.size(), -1) {}
+      closed_until_(floor.size(), -1),
+      is_in_zone_(floor.size(), 0) {}
 
 void Execution::observe(double time, const std::vector<Report>& reports) {
   const double elapsed = std::max(0.0, time - now_);
@@ -415,7 +416,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
 }
 
 std::vector<Cell> Execution::closed() const {
-  std::vector<Cell> closed;
+  std::vector<Cell> closed = zone_;
   for (const Cell cell : closing_) {
     if (closed_until_[cell] > now_) closed.push_back(cell);
   }
@@ -428,6 +429,14 @@ std::vector<Cell> Execution::closed() const {
   std::sort(closed.begin(), closed.end());
   closed.erase(std::unique(closed.begin(), closed.end()), closed.end());
   return closed;
+}
+
+void Execution::setZone(std::vector<Cell> cells) {
+  for (const Cell cell : zone_) is_in_zone_[cell] = 0;
+  cells.erase(std::remove_if(cells.begin(), cells.end(), [this](Cell c) { return !floor_.has(c); }),
+              cells.end());
+  zone_ = std::move(cells);
+  for (const Cell cell : zone_) is_in_zone_[cell] = 1;
 }
 
 void Execution::close(Cell cell, double until) {
@@ -646,6 +655,7 @@ bool Execution::mayRest(int robot, Cell cell) const {
 }
 
 bool Execution::mayHave(int robot, Cell cell) {
+  if (is_in_zone_[cell] != 0 && is_in_zone_[courses_[robot].cells.back()] == 0) return false;
   const int holder = holder_[cell];
   if (holder != kNobody && holder != robot) {
     courses_[robot].waits_for = holder;

@@ -124,6 +124,10 @@ void bindExecution(py::module_& module) {
            [](Run& run, const Array<Cell>& cells) {
              run.execution.setUnits({cells.data(), cells.data() + cells.size()});
            })
+      .def("set_zone",
+           [](Run& run, const Array<Cell>& cells) {
+             run.execution.setZone({cells.data(), cells.data() + cells.size()});
+           })
       .def_property_readonly("closing", [](const Run& run) { return run.execution.isClosing(); })
       .def("closed", [](const Run& run) { return array(run.execution.closed()); })
       .def("cell", ofAll<Cell>(&Execution::cellOf))

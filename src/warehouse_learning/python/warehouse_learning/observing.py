@@ -24,20 +24,9 @@ class Observer:
 
     def observations(self):
         """(n, robots, size) float32."""
-        see, goals = self._of, self._of.goals
+        see = self._of
         out = np.empty((see.n, see.robots, self.size), np.float32)
-        see.grid.native.observe(
-            out,
-            see.cell,
-            see.heading,
-            see.busy,
-            see.load,
-            see.requested,
-            see.unit_cell,
-            goals.cell,
-            goals.row,
-            see.grid.far,
-        )
+        see.task.observe(out)
         if see.options.continuous:
             self._motion(out, self._at)
         if self._rays:

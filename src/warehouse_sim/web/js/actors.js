@@ -70,7 +70,8 @@ export class Actors {
   /** Before each picture: what is drawn in detail, how, and what not. */
   fill(camera, height) {
     const moved = this.view.look(camera, height);
-    for (const crowd of [this.robots.crowd, this.units, this.items, ...this.sceneryCrowds]) {
+    const crowds = [this.robots.crowd, this.units, this.items, ...this.sceneryCrowds, this.belts.slats];
+    for (const crowd of crowds) {
       crowd.fill(this.view, moved);
     }
   }
@@ -107,7 +108,7 @@ export class Actors {
 
   setSeeThrough(through) {
     this.seeThrough = through;
-    for (const { mesh } of [...this.units.layers, ...this.items.layers]) {
+    for (const { copies: { mesh } } of [...this.units.layers, ...this.items.layers]) {
       Object.assign(mesh.material, { transparent: through, opacity: through ? 0.18 : 1, depthWrite: !through });
       mesh.material.needsUpdate = true;
       mesh.renderOrder = through ? 1 : 0;
@@ -127,7 +128,7 @@ export class Actors {
       return crowd;
     });
     const belts = scenery.map((_, i) => i).filter((i) => scenery[i].startsWith('conveyor_belt'));
-    this.belts = new Belts(this.group, belts, look(looks[belts[0]]), this.sceneryBase);
+    this.belts = new Belts(this.group, belts, look(looks[belts[0]]), this.sceneryBase, DETAIL.scenery);
   }
 
   placeScenery(models) {

@@ -5,14 +5,17 @@ import { on } from './dom.js';
 import { decode } from './protocol.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
+const NOTABLE = 0.2; // change of a gap, as a part of it
 
 export class Connection {
-  /** handlers: {update, scan, ways, scene, status, events, paths, fleet} for what comes, state(live). */
-  constructor(handlers) {
-    this.handlers = handlers;
+  /** handlers: {update, scan, ways, scene, status, events, paths, fleet} for what comes, state(live).
+   *  `soon(act)` calls `act` when there is time for what came. */
+  constructor(handlers, soon) {
+    Object.assign(this, { handlers, soon });
     this.failures = 0;
     this.bytes = this.updates = 0; // of updates, since the start
     this.wishes = null;
+    this.gap = 0; // between two updates, at least [s]
     this.open();
   }
 
@@ -21,7 +24,7 @@ export class Connection {
     this.socket = new WebSocket(`${scheme}://${location.host}/live`);
     this.socket.binaryType = 'arraybuffer';
     on(this.socket, 'open', () => this.greet());
-    on(this.socket, 'message', (message) => this.take(message.data));
+    on(this.socket, 'message', ({ data }) => this.soon(() => this.take(data)));
     on(this.socket, 'close', () => this.again());
   }
 
@@ -29,6 +32,7 @@ export class Connection {
     this.failures = 0;
     this.handlers.state(true);
     if (this.wishes) this.send({ watch: this.wishes });
+    if (this.gap) this.send({ gap: this.gap });
   }
 
   again() {
@@ -55,6 +59,13 @@ export class Connection {
   watch(wishes) {
     this.wishes = wishes;
     this.send({ watch: wishes });
+  }
+
+  /** Asks for no update sooner than so many seconds after another. */
+  slowTo(gap) {
+    if (Math.abs(gap - this.gap) < NOTABLE * Math.max(gap, this.gap)) return;
+    this.gap = gap;
+    this.send({ gap });
   }
 
   send(message) {

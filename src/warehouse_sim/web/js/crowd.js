@@ -3,6 +3,8 @@
 // boxes where they are small, and not at all out of sight.
 
 import * as THREE from '/three/build/three.module.js';
+import { Instances, Merged } from './copies.js';
+import { drawsInSoftware } from './software.js';
 
 export const FAR = 1, NEAR = 2;
 const CHEAP = 60000; // vertices: a crowd of so few is always drawn in detail
@@ -20,16 +22,12 @@ export class Crowd {
     this.stale = true;
   }
 
-  /** Draws a geometry for each thing at a level; `place(i, matrix)` turns a thing's matrix
+  /** Draws a geometry for each thing at a level; `place(i, array, at)` turns a thing's matrix there
    *  into that of a part that moves on it. */
   add(geometry, material, level, place = null) {
-    const mesh = new THREE.InstancedMesh(geometry, material, this.count);
-    mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
-    mesh.frustumCulled = false;
-    const tint = new THREE.InstancedBufferAttribute(new Float32Array(3 * this.count), 3);
-    geometry.setAttribute('tint', tint.setUsage(THREE.DynamicDrawUsage));
-    this.group.add(mesh);
-    this.layers.push({ mesh, tint, level, place });
+    const copies = new (drawsInSoftware() ? Merged : Instances)(geometry, material, this.count);
+    this.group.add(copies.mesh);
+    this.layers.push({ copies, level, place });
     if (level === NEAR) this.vertices += this.count * geometry.attributes.position.count;
   }
 
@@ -47,12 +45,14 @@ export class Crowd {
   fill(view, moved) {
     if (!this.count || !(moved || this.stale)) return;
     this.stale = false;
-    for (const layer of this.layers) layer.drawn = 0;
+    for (const { copies } of this.layers) copies.begin();
     for (let i = 0; i < this.count; ++i) {
-      const level = this.levelOf(view, i);
-      for (const layer of this.layers) if (layer.level === level) this.draw(layer, i);
+      const wanted = this.levelOf(view, i);
+      for (const { copies, level, place } of this.layers) {
+        if (level === wanted) copies.add(this.base, this.tint, i, place);
+      }
     }
-    for (const layer of this.layers) send(layer);
+    for (const { copies } of this.layers) copies.end();
   }
 
   levelOf(view, i) {
@@ -63,24 +63,6 @@ export class Crowd {
     const scale = view.scaleAt(x, y, base[at + 14] + cz, this.radius);
     if (scale === 0) return 0;
     return scale >= this.detail || this.vertices <= CHEAP ? NEAR : FAR;
-  }
-
-  draw(layer, i) {
-    const { mesh, tint, place, drawn } = layer;
-    const out = mesh.instanceMatrix.array;
-    for (let k = 0; k < 16; ++k) out[16 * drawn + k] = this.base[16 * i + k];
-    if (place) place(i, out, 16 * drawn);
-    for (let k = 0; k < 3; ++k) tint.array[3 * drawn + k] = this.tint[3 * i + k];
-    layer.drawn += 1;
-  }
-}
-
-function send({ mesh, tint, drawn }) {
-  mesh.count = drawn;
-  mesh.visible = drawn > 0;
-  for (const attribute of [mesh.instanceMatrix, tint]) {
-    attribute.updateRange.count = drawn * attribute.itemSize;
-    attribute.needsUpdate = true;
   }
 }
 

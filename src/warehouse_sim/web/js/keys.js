@@ -9,7 +9,7 @@ const KEYS = {
   l: ['scan', 'its laser'], p: ['path', 'its path'], r: ['trails', 'trails of all'],
   w: ['ways', 'ways of the fleet'], m: ['heat', 'heat map'], x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
   c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
-  n: ['add', 'add a robot'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
+  n: ['add', 'add a robot'], a: ['add-person', 'add a person'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
 };
 const MORE = { '/': 'search', '[ ]': 'the next robot', Esc: 'select nothing' };
 const TYPED = 'input[type="search"], input:not([type]), input[type="number"], select';

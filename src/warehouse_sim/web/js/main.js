@@ -16,6 +16,7 @@ import { EventLog } from './log.js';
 import { marginsOf, Sheets } from './sheets.js';
 import { Navigator } from './navigator.js';
 import { Overlays } from './overlays.js';
+import { isPerson, People } from './people.js';
 import { Picker } from './picker.js';
 import { Pointer } from './pointer.js';
 import { VERSION } from './protocol.js';
@@ -25,6 +26,7 @@ import { skuIn, Where } from './where.js';
 import { World } from './world.js';
 
 const PANELS_EVERY = 250; // [ms]
+const NOTABLE = 60; // between two pictures; a person sees it [ms]
 const TYPING = 300; // after a key, what is typed may be whole [ms]
 
 class Page {
@@ -41,8 +43,10 @@ class Page {
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, wayOf: (id) => this.ways.get(id) });
     this.builder = new Builder(say);
+    this.people = new People(say, (...request) => this.builder.attempt(...request));
     this.sheets = new Sheets(() => this.fitPanels());
     this.selected = null;
+    this.isNews = false; // that the panels don't show yet
     this.floor = '';
     this.paths = {};
     this.scans = new Map();
@@ -50,7 +54,7 @@ class Page {
     this.where = new Where(this.stage, this.world, (...found) => this.list.showPieces(...found));
     this.addButtons();
     this.keys = new Keys((step) => this.next(step), () => this.leave());
-    setInterval(() => this.refreshPanels(), PANELS_EVERY);
+    setInterval(() => this.isNews && this.soon(() => this.refreshPanels()), PANELS_EVERY);
     this.connection = new Connection({
       state: (live) => this.bar.showLink(live),
       scene: (scene) => this.takeScene(scene),
@@ -61,13 +65,14 @@ class Page {
       scan: (scan) => this.takeScan(scan),
       fleet: ({ fleet }) => this.takeFleet(fleet),
       ways: ({ ways }) => this.takeWays(ways),
-    });
+    }, (act) => this.soon(act));
   }
 
   /** Without WebGL list and commands work all the same. */
   openStage() {
     try {
-      this.stage = new Stage($('stage'), (now) => this.beforeDraw(now));
+      this.stage = new Stage($('stage'), (now) => this.beforeDraw(now),
+        (gap) => this.showPace(gap));
     } catch (error) {
       this.tip.say(`no picture: this browser offers no WebGL (${error.message})`, 'refused');
       return;
@@ -81,6 +86,19 @@ class Page {
     this.pointer = new Pointer(this, this.picker, this.overlays);
     on(window, 'resize', () => this.fitPanels());
     this.fitPanels();
+  }
+
+  /** Does something when the next picture is drawn: panels that change with it cost little more. */
+  soon(act) {
+    if (this.stage) this.stage.soon(act);
+    else act();
+  }
+
+  /** More seldom than the processor can draw it nobody needs to tell the page anything. */
+  showPace(gap) {
+    this.connection.slowTo(gap / 1000);
+    $('pace').hidden = gap < NOTABLE;
+    $('pace').textContent = `${Math.round(1000 / gap)} frames/s: this machine draws in software`;
   }
 
   /** Keeps what is looked at in the middle of what the panels leave free. */
@@ -113,6 +131,7 @@ class Page {
   takeUpdate(update) {
     if (update.revision !== this.world.scene.revision) return; // of a scene that is past
     const changed = this.world.apply(update, performance.now());
+    this.isNews = true;
     this.bar.showTime(update.stamp);
     if (!this.stage) return;
     this.actors.robots.paint(changed.robots);
@@ -137,6 +156,7 @@ class Page {
 
   takeFleet(fleet) {
     const came = Boolean(fleet) !== this.fleet.runs;
+    this.isNews = true;
     this.fleet.take(fleet);
     if (!came) return;
     if (!fleet) this.takeWays(new Map());
@@ -158,7 +178,7 @@ class Page {
 
   // --- the picture
   beforeDraw(now) {
-    const moved = this.world.advance(now);
+    const moved = this.world.advance(now + this.stage.pace.gap);
     this.actors.placeRobots(moved);
     this.navigator.advance();
     if (moved.length) {
@@ -169,7 +189,7 @@ class Page {
     this.drawn = now;
     this.actors.fill(this.stage.camera, innerHeight);
     this.labels.draw(this.actors.view, this.named(), this.where.draw());
-    return moved.length > 0;
+    return this.world.moving.size > 0;
   }
 
   /** Indices of the robots that are named in the picture: the selected, and that under the pointer. */
@@ -223,21 +243,25 @@ class Page {
 
   /** Of what a click on the floor does: whether it needs a cell, what it says, and does. */
   get wantsCell() {
-    return this.builder.wantsCell || this.details.selectedRobot >= 0;
+    return this.builder.wantsCell || this.people.wantsCell || isPerson(this.selected)
+      || this.details.selectedRobot >= 0;
   }
 
   told(cell) {
-    return `${this.builder.wantsCell ? 'a robot at' : 'go to'} ${cell.join(', ')}`;
+    const what = this.builder.wantsCell ? 'a robot at' : this.people.wantsCell ? 'a person at' : 'go to';
+    return `${what} ${cell.join(', ')}`;
   }
 
   take(cell, at) {
     if (this.builder.wantsCell) this.builder.add(cell, at);
+    else if (this.people.wantsCell) this.people.come(cell, at);
+    else if (isPerson(this.selected)) this.people.go(this.selected, cell, at);
     else this.details.go(...cell, at);
   }
 
   /** Selects what was clicked; no cell is wanted any more. */
   choose(name) {
-    this.builder.want(false);
+    this.wantNone();
     this.select(name);
   }
 
@@ -250,8 +274,13 @@ class Page {
   }
 
   leave() {
-    if (this.builder.wantsCell) this.builder.want(false);
+    if (this.builder.wantsCell || this.people.wantsCell) this.wantNone();
     else this.select(null);
+  }
+
+  wantNone() {
+    this.builder.want(false);
+    this.people.want(false);
   }
 
   /** Asks the server for what the selected needs. */
@@ -317,6 +346,7 @@ class Page {
 
   refreshPanels() {
     if (document.hidden) return;
+    this.isNews = false;
     this.list.refresh();
     this.details.refresh();
   }

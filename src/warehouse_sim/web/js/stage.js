@@ -4,7 +4,9 @@
 import * as THREE from '/three/build/three.module.js';
 import { OrbitControls } from '/three/examples/jsm/controls/OrbitControls.js';
 import { on } from './dom.js';
+import { Pace } from './pace.js';
 import { Paint, behind } from './paint.js';
+import { drawsInSoftware } from './software.js';
 
 const COLOURS = {
   dark: { page: 0x14171c, floor: 0x2a2f37, grid: 0x414955, sky: 0xffffff, ground: 0x565b66 },
@@ -17,12 +19,16 @@ const point = new THREE.Vector3();
 THREE.Object3D.DefaultUp.set(0, 0, 1);
 
 export class Stage {
-  /** `beforeDraw(now)` moves things and returns whether it will have to again. */
-  constructor(canvas, beforeDraw) {
+  /** `beforeDraw(now)` moves things and returns whether it will have to again. Where the processor
+   *  draws, `tellPace(gap)` hears the time from one picture to the next [ms]. */
+  constructor(canvas, beforeDraw, tellPace) {
     this.canvas = canvas;
     this.beforeDraw = beforeDraw;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !isSoftware() });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.pace = new Pace(tellPace);
+    // Where the processor draws, smooth and finer edges cost more than they are worth.
+    this.fenced = drawsInSoftware() ? canvas.getContext('webgl2', { alpha: false, antialias: false }) : null;
+    this.renderer = new THREE.WebGLRenderer({ canvas, context: this.fenced ?? undefined, antialias: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, this.fenced ? 1 : 2));
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(45, 1, 0.1, 5000);
     this.camera.position.set(0, -10, 10);
@@ -30,13 +36,17 @@ export class Stage {
     this.controls.maxPolarAngle = 0.495 * Math.PI;
     this.controls.screenSpacePanning = false;
     this.controls.enableKeys = false;
-    this.controls.addEventListener('change', () => this.invalidate());
+    this.controls.addEventListener('change', () => {
+      this.pace.hurry();
+      this.invalidate();
+    });
     this.sky = new THREE.HemisphereLight(0xffffff, 0x777777, 0.62);
     this.sun = new THREE.DirectionalLight(0xffffff, 0.36);
     this.sun.position.set(-3, -5, 9);
     this.scene.add(this.sky, this.sun);
     this.paint = new Paint(this.scene);
     this.frames = 0; // drawn since the start
+    this.acts = []; // to be done before the next picture
     this.margins = { left: 0, right: 0, top: 0, bottom: 0 };
     this.setFloor([-5, 5, -5, 5], 1);
     on(window, 'resize', () => this.resize());
@@ -66,16 +76,38 @@ export class Stage {
 
   /** Something looks other than it did: draw, soon and once. */
   invalidate() {
-    if (this.asked) return;
-    this.asked = true;
-    requestAnimationFrame((now) => this.draw(now));
+    this.isStale = true;
+    this.wake();
   }
 
-  draw() {
-    this.asked = false;
-    if (this.beforeDraw(performance.now())) this.invalidate();
+  /** Calls `act` just before the next picture, so that what it changes in the page is shown with it. */
+  soon(act) {
+    this.acts.push(act);
+    this.wake();
+  }
+
+  async wake() {
+    if (this.isAwake) return;
+    this.isAwake = true;
+    await this.pace.rest;
+    requestAnimationFrame(() => this.turn());
+  }
+
+  turn() {
+    try {
+      while (this.acts.length) this.acts.shift()();
+      if (this.isStale) this.draw(performance.now());
+    } finally {
+      this.isAwake = false;
+      if (this.isStale || this.acts.length) this.wake();
+    }
+  }
+
+  draw(now) {
+    this.isStale = this.beforeDraw(now);
     this.renderer.render(this.scene, this.camera);
     this.frames += 1;
+    if (this.fenced) this.pace.drew(now, fence(this.fenced));
   }
 
   setTheme(theme) {
@@ -109,11 +141,11 @@ export class Stage {
   }
 }
 
-/** Whether the processor draws: then smooth edges cost more than they are worth. */
-function isSoftware() {
-  const gl = document.createElement('canvas').getContext('webgl');
-  const told = gl?.getExtension('WEBGL_debug_renderer_info');
-  return /swiftshader|llvmpipe|software/i.test(told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : '');
+/** A function that tells whether all that was drawn until now is done. */
+function fence(gl) {
+  const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.flush();
+  return () => gl.isContextLost() || gl.getSyncParameter(sync, gl.SYNC_STATUS) === gl.SIGNALED;
 }
 
 /** The borders of the cells, which lie midway between grid points; at most MOST_LINES of them. */

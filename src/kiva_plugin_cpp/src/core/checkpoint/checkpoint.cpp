@@ -11,13 +11,14 @@
 #include "core/checkpoint/rebuild.h"
 #include "core/control/energy.h"
 #include "core/control/failures.h"
+#include "core/control/protective_fields.h"
 #include "core/sensing/scans.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -97,6 +98,10 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
   if (world.realism.radio.enabled) {
     FIELDS(world.fleet.heard, world.reports_on_air, world.reports, world.to_report);
+  }
+  if (!std::is_same_v<A, Hasher> || minds(world)) {
+    FIELDS(world.walkers, world.keeps_off, world.curtains,
+           within(world.fleet.allowed_speed, 0, kEndless), within(world.fleet.curtained, 0, 1));
   }
 }
 

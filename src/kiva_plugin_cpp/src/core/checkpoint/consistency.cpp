@@ -318,6 +318,10 @@ void checkFleet(WorldState& world) {
           f.heard.size(), "", "there is one for every robot");
   require(!world.realism.energy.enabled || f.battery.size() == f.robots.size(), "fleet.battery",
           f.battery.size(), "", "there is one for every robot");
+  for (const std::size_t size : {f.allowed_speed.size(), f.curtained.size()}) {
+    require(size == f.robots.size(), "fleet.allowed_speed", size, "",
+            "there is one for every robot");
+  }
   require(f.localisation.size() == (f.localises ? f.robots.size() : 0), "fleet.localisation",
           f.localisation.size(), "", "there is one for every robot that has to find out");
   for (int i = 0; i < f.size(); ++i) checkRobot(world, i);
@@ -380,6 +384,14 @@ void checkLists(const WorldState& world) {
     const Defect& defect = world.failures.defects[i];
     const bool is_known = world.fleet.find(defect.kiva_id) >= 0 && bitOf(defect.failure) > 1;
     require(is_known, "failures.defects", i, "", "there is no such robot, or nothing like that");
+  }
+  for (std::size_t i = 0; i < world.walkers.size(); ++i) {
+    const Walker& walker = world.walkers[i];
+    const Model* model = modelAt(world, walker.model);
+    require(model && model->isStatic() && model->kind == ModelKind::kOther, "walkers", i, "model",
+            "it is no person");
+    require(walker.next <= walker.walk.waypoints.size(), "walkers", i, "next",
+            "there is no such waypoint");
   }
   for (std::size_t i = 0; i < world.sighted.size(); ++i) {
     require(isIn(world.sighted[i], robots), "sighted", i, "", "there is no such robot");

@@ -255,7 +255,9 @@ void describe(A& a, Localisation& l) {
 template <class A>
 void describe(A& a, FleetState& f) {
   DESCRIBED(FleetState, 27);  // what only some realism needs: with the world
-  DESCRIBED(Fleet, 24);       // what is broken, and charges, follow from what else the world holds
+  // What is broken, and charges, follow from what else the world holds; what people allow: with
+  // those.
+  DESCRIBED(Fleet, 26);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,
@@ -509,6 +511,31 @@ template <class A>
 void describe(A& a, FailureState& f) {
   DESCRIBED(FailureState, 3);
   FIELDS(f.defects, within(f.exposure, 0, kEndless), f.count);
+}
+
+template <class A>
+void describe(A& a, Waypoint& w) {
+  DESCRIBED(Waypoint, 4);
+  FIELDS(w.x, w.y, within(w.speed, 1e-9, kMostWalkingSpeed), within(w.pause, 0, 1e9));
+}
+
+template <class A>
+void describe(A& a, Walk& w) {
+  DESCRIBED(Walk, 2);
+  FIELDS(w.waypoints, w.loops);
+}
+
+template <class A>
+void describe(A& a, Walker& w) {
+  DESCRIBED(Walker, 15);
+  FIELDS(w.model, within(w.radius, 0, 1), w.bottom, w.top, w.script, w.walk, w.next, w.pause,
+         w.detour, w.vx, w.vy, w.is_free, w.look_at, w.held_up, w.patience);
+}
+
+template <class A>
+void describe(A& a, LightCurtain& c) {
+  DESCRIBED(LightCurtain, 5);
+  FIELDS(c.name, c.min_x, c.max_x, c.min_y, c.max_y);
 }
 
 template <class A>

@@ -10,12 +10,14 @@
 #include "core/motion/dynamics.h"
 #include "core/motion/traction.h"
 #include "core/state/footprints.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
 
-constexpr double kReach = 0.3;    // [m] around a robot in which to look
-constexpr double kLinger = 0.05;  // [s] in Bullet after the last one was near
+constexpr double kReach = 0.3;      // [m] around a robot in which to look
+constexpr double kLinger = 0.05;    // [s] in Bullet after the last one was near
+constexpr int kLooksTogether = 32;  // on one thread: less is not worth waking another
 
 /// A load enters with the robot that carries it.
 void activateWhole(WorldState& world, int slot) {
@@ -32,17 +34,12 @@ void activateAll(WorldState& world, std::vector<int> slots) {
   for (int slot : slots) activateWhole(world, slot);
 }
 
-/// Looks whether the robot can be left alone for a while; else lets it and what it could touch
-/// enter Bullet.
-void lookAround(WorldState& world, int robot) {
+/// Lets the robot, which can't be left alone for long, and what it could touch enter Bullet.
+void activateClose(WorldState& world, int robot) {
   FleetState& f = world.fleet;
-  if (!f.activated[robot] && findClearance(world, robot)) return;
-  const double speed = pointSpeed(f, robot);
-  double least = kReach;
   std::vector<int> close;
-  for (const Footprint& own : world.obstacles.footprints(robot)) {
-    least = std::min(least, findClose(world, own, speed, kReach, &close));
-  }
+  const auto& own = world.obstacles.footprints(robot);
+  const double least = findClose(world, own, pointSpeed(f, robot), kReach, &close);
   if (!close.empty()) activate(world, world.modelOf(robot));
   activateAll(world, std::move(close));
   // It may be another that comes, and both may speed up.
@@ -55,6 +52,41 @@ bool isMoving(const WorldState& world, int robot) {
   return world.fleet.tasks[robot].phase != Phase::kIdle || !atRest(world.fleet, robot);
 }
 
+bool looksAround(const WorldState& world, int robot) {
+  const bool is_known = world.fleet.clear_until[robot] > static_cast<double>(world.total_steps);
+  return !is_known && isMoving(world, robot);
+}
+
+/// For how long the way of each robot that looks around is free [s], as all stand now; 0 for
+/// others. By place in the list of those that are stepped singly.
+std::vector<double> clearTimes(const WorldState& world) {
+  const std::vector<int>& robots = world.stepped_singly;
+  std::vector<double> times(robots.size(), 0);
+  std::vector<int> asking;
+  for (std::size_t k = 0; k < robots.size(); ++k) {
+    const bool asks = looksAround(world, robots[k]) && !world.fleet.activated[robots[k]];
+    if (asks) asking.push_back(static_cast<int>(k));
+  }
+  world.workers->share(static_cast<int>(asking.size()), kLooksTogether, [&](int begin, int end) {
+    for (int a = begin; a < end; ++a) times[asking[a]] = clearTime(world, robots[asking[a]], true);
+  });
+  return times;
+}
+
+/// One by one, since who enters Bullet changes what the next one finds.
+void lookAround(WorldState& world) {
+  const FleetState& f = world.fleet;
+  const std::vector<double> times = clearTimes(world);
+  const std::size_t before = world.activated.size();
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const int i = world.stepped_singly[k];
+    if (!looksAround(world, i)) continue;
+    const bool is_known = world.activated.size() == before;
+    const auto time = [&] { return is_known ? times[k] : clearTime(world, i, true); };
+    if (f.activated[i] || !noteClearance(world, i, time())) activateClose(world, i);
+  }
+}
+
 /// A body that moves by itself: what it could hit enters Bullet too.
 void lookAroundBody(WorldState& world, Model& model) {
   if (!isAwake(model)) return;
@@ -63,13 +95,14 @@ void lookAroundBody(WorldState& world, Model& model) {
     fastest = std::max(fastest, link.body->getLinearVelocity().length());
   }
   const double near = kNear + 4 * fastest * world.dt;
-  std::vector<int> close;
+  std::vector<Footprint> all;
   for (const CollisionGeometry& geometry : model.geometries) {
-    Footprint own = world.obstacles[geometry.handle];
-    own.z_min -= near;  // it may fall, or be thrown, upon something
-    own.z_max += near;
-    findClose(world, own, 4 * fastest, near, &close);
+    all.push_back(world.obstacles[geometry.handle]);
+    all.back().z_min -= near;  // it may fall, or be thrown, upon something
+    all.back().z_max += near;
   }
+  std::vector<int> close;
+  findClose(world, all, 4 * fastest, near, &close);
   activateAll(world, close);
   if (model.owner->isActivatedWhenNear()) return;
   for (int slot : close) {
@@ -149,10 +182,7 @@ void updateActivation(WorldState& world) {
   }
   findSteppedSingly(world);
   const std::size_t before = world.activated.size();
-  const auto now = static_cast<double>(world.total_steps);
-  for (int i : world.stepped_singly) {
-    if (f.clear_until[i] <= now && isMoving(world, i)) lookAround(world, i);
-  }
+  lookAround(world);
   for (int slot : world.bodies) lookAroundBody(world, *world.models[slot]);
   const std::vector<int> activated = world.activated;  // it grows meanwhile
   for (int slot : activated) {

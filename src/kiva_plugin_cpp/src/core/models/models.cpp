@@ -16,6 +16,7 @@
 #include "core/state/fleet_plugin.h"
 #include "core/state/floors.h"
 #include "core/state/footprints.h"
+#include "core/state/people.h"
 #include "core/state/poses.h"
 
 namespace kiva {
@@ -97,7 +98,8 @@ bool isOurs(const WorldState& world, const Model& model, const PluginDescription
     throw DescriptionError(where + ": " + ours->filename() +
                            " works on a model that has libkiva_motion.so too");
   }
-  if (plugin.filename == kGridPlugin || plugin.filename == kFloorPatchPlugin) {
+  if (plugin.filename == kGridPlugin || plugin.filename == kLightCurtainPlugin ||
+      plugin.filename == kFloorPatchPlugin) {
     throw DescriptionError(where + ": " + plugin.filename +
                            " is a plugin of a world, not of a model");
   }
@@ -120,6 +122,7 @@ void dismantle(WorldState& world, Model& model) {
   forgetContacts(world, model.slot);
   model.plugins.clear();
   forgetExternalInputs(world, model.name);
+  forgetWalker(world, model.slot);
   if (model.in_physics) world.physics.remove(model.bodies);
   model.in_physics = false;
   for (auto* slots : {&world.activated, &world.models_with_plugins}) {

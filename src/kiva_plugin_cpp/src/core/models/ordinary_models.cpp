@@ -7,6 +7,7 @@
 #include "core/motion/joints.h"
 #include "core/state/floors.h"
 #include "core/state/footprints.h"
+#include "core/state/people.h"
 #include "core/state/poses.h"
 
 namespace kiva {
@@ -74,8 +75,9 @@ void OrdinaryModels::reset(WorldState& world, Model& model) const {
   initJoints(model);
 }
 
-EntityState OrdinaryModels::state(const WorldState& /*world*/, const Model& model) const {
-  return followsBodies(model) ? canonicalState(model) : EntityState{model.pose, {}};
+EntityState OrdinaryModels::state(const WorldState& world, const Model& model) const {
+  if (followsBodies(model)) return canonicalState(model);
+  return {model.pose, walkingTwist(world, model.slot)};
 }
 
 Pose OrdinaryModels::linkPose(const WorldState& /*world*/, const Model& model, int link) const {

@@ -5,15 +5,17 @@
 #include <cmath>
 
 #include "core/state/footprints.h"
+#include "core/state/people.h"
 
 namespace kiva {
 namespace {
 
-constexpr double kHorizons[] = {0.3, 0.08, 0.02};  // [s] for which the way may be found free
-constexpr double kWorthwhile = 0.015;              // [s]: less is no clearance to cruise on
-constexpr double kAstray = 0.001;  // [m] that a robot may be beside its way at the horizon
-constexpr double kPushed = 0.5;    // [m/s] by which a robot in Bullet may be faster than it drives
-constexpr double kStill = 1e-9;    // [m/s, rad/s]
+// [s] for which the way may be found free.
+constexpr double kHorizons[] = {0.3, 0.08, 0.02}, kShortest = kHorizons[2];
+constexpr double kWorthwhile = 0.015;  // [s]: less is no clearance to cruise on
+constexpr double kAstray = 0.001;      // [m] that a robot may be beside its way at the horizon
+constexpr double kPushed = 0.5;  // [m/s] by which a robot in Bullet may be faster than it drives
+constexpr double kStill = 1e-9;  // [m/s, rad/s]
 
 bool standsStill(const FleetState& f, int i) {
   if (!f.awake[i]) return true;
@@ -105,6 +107,23 @@ Footprint sweep(const FleetState& f, int i, double time) {
   return own;
 }
 
+/// Whether meets(footprint) is true for any of a robot and its load. Keeps nothing, so that several
+/// threads may ask.
+template <typename Meets>
+bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
+  const FleetState& f = world.fleet;
+  const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
+  const auto& own = world.obstacles.ofMover(robot);
+  return std::any_of(own.begin(), own.end(), [&](const Footprint& local) {
+    Footprint at = local;
+    at.x = f.x[robot] + c * local.x - s * local.y;
+    at.y = f.y[robot] + s * local.x + c * local.y;
+    at.c = c * local.c - s * local.s;
+    at.s = s * local.c + c * local.s;
+    return meets(at);
+  });
+}
+
 /// Whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
 bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
   const FleetState& f = world.fleet;
@@ -112,19 +131,20 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
   lifted.z_min += world.floor.z;
   lifted.z_max += world.floor.z;
   const auto meets = [&](const Footprint& other) {
-    return shareHeight(other, lifted) && mayBeWithin(kNear, swept, other) &&
-           gap(swept, other) < kNear;
+    const double reach = kNear + walkingSpeed(world, other.model) * time;
+    return shareHeight(other, lifted) && mayBeWithin(reach, swept, other) &&
+           gap(swept, other) < reach;
   };
   const auto approaches = [&](int i, double radius) {
     if (i == robot) return false;
     const bool still = standsStill(f, i);
     const double reach = kNear + (still ? 0 : approachSpeed(f, i)) * time;
-    if (gap(swept, circleOf(f, i, radius)) >= reach) return false;
-    if (!still) return true;
-    const auto& footprints = world.obstacles.footprints(i);
-    return std::any_of(footprints.begin(), footprints.end(), meets);
+    const Footprint circle = circleOf(f, i, radius);
+    if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
+    return !still || anyOfRobot(world, i, meets);
   };
-  const double farthest = (world.top_speed + kPushed) * time + kNear;
+  const double fastest = world.walkers.empty() ? 0 : kMostWalkingSpeed;
+  const double farthest = std::max(world.top_speed + kPushed, fastest) * time + kNear;
   return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
 }
 
@@ -135,22 +155,51 @@ double horizonOf(const FleetState& f, int i, double horizon) {
   return std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
 }
 
+/// Whether nothing can come near the robot within `time` [s].
+bool isClearFor(const WorldState& world, int i, double time) {
+  const FleetState& f = world.fleet;
+  return isClear(world, i, f.cruising[i] != 0 ? cruiseSweep(f, i, time) : sweep(f, i, time), time);
+}
+
+/// The circle that holds all of them.
+Footprint holding(const std::vector<Footprint>& all) {
+  Footprint circle;
+  circle.kind = Footprint::Kind::kCircle;
+  circle.x = all.front().x;
+  circle.y = all.front().y;
+  for (const Footprint& one : all) {
+    const double away = std::hypot(one.x - circle.x, one.y - circle.y);
+    circle.hx = std::max(circle.hx, away + radiusOf(one));
+  }
+  return circle;
+}
+
 }  // namespace
 
-bool findClearance(WorldState& world, int i) {
-  FleetState& f = world.fleet;
+double clearTime(const WorldState& world, int i, bool is_crowded) {
+  const FleetState& f = world.fleet;
+  // Who is hemmed in asks at each step, and what is clear for longer is clear for less.
+  if (is_crowded && !isClearFor(world, i, horizonOf(f, i, kShortest))) return 0;
   for (const double horizon : kHorizons) {
     const double time = horizonOf(f, i, horizon);
-    const bool cruises = f.cruising[i] != 0;
-    if (!isClear(world, i, cruises ? cruiseSweep(f, i, time) : sweep(f, i, time), time)) continue;
-    if (cruises) {
-      world.obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
-    }
-    f.clear_until[i] =
-        static_cast<double>(world.total_steps) + std::max(1.0, std::floor(time / world.dt));
-    return true;
+    if ((is_crowded && horizon == kShortest) || isClearFor(world, i, time)) return time;
   }
-  return false;
+  return 0;
+}
+
+bool noteClearance(WorldState& world, int i, double time) {
+  FleetState& f = world.fleet;
+  if (time == 0) return false;
+  if (f.cruising[i] != 0) {
+    world.obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
+  }
+  f.clear_until[i] =
+      static_cast<double>(world.total_steps) + std::max(1.0, std::floor(time / world.dt));
+  return true;
+}
+
+bool findClearance(WorldState& world, int i, bool is_crowded) {
+  return noteClearance(world, i, clearTime(world, i, is_crowded));
 }
 
 bool hasClearance(const WorldState& world, int i) {
@@ -165,18 +214,25 @@ double pointSpeed(const FleetState& f, int i) {
   return at_once ? std::max(speed, r.drive.speed + kCornerSpeed) : speed;
 }
 
-double findClose(const WorldState& world, const Footprint& own, double speed, double reach,
-                 std::vector<int>* close) {
+double findClose(const WorldState& world, const std::vector<Footprint>& all, double speed,
+                 double reach, std::vector<int>* close) {
+  if (all.empty()) return reach;
   const double farthest = kNear + (speed + world.top_speed + kCornerSpeed) * world.dt;
+  const Footprint whole = holding(all);
   double least = reach;
-  world.obstacles.near(own.x, own.y, radiusOf(own) + reach, [&](const Footprint& other) {
+  const auto compare = [&](const Footprint& own, const Footprint& other) {
     if (other.model == own.model || (own.group >= 0 && other.group == own.group)) return;
     if (!shareHeight(own, other) || !mayBeWithin(std::max(least, farthest), own, other)) return;
     const double distance = gap(own, other);
     least = std::min(least, distance);
     const bool is_robot = other.group >= 0 && other.group < world.fleet.size();
-    const double theirs = is_robot ? pointSpeed(world.fleet, other.group) : 0;
+    const double theirs =
+        is_robot ? pointSpeed(world.fleet, other.group) : walkingSpeed(world, other.model);
     if (distance < kNear + (speed + theirs) * world.dt) close->push_back(other.model);
+  };
+  world.obstacles.near(whole.x, whole.y, whole.hx + reach, [&](const Footprint& other) {
+    if (!mayBeWithin(std::max(least, farthest), whole, other)) return;
+    for (const Footprint& own : all) compare(own, other);
   });
   return least;
 }

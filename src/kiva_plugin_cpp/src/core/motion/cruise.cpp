@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/motion/clearance.h"
 #include "core/motion/drives.h"
@@ -54,6 +56,7 @@ bool hasEnded(const FleetState& f, int i, double dt) {
 
 constexpr int kBlock = 16;           // robots that are stepped together
 constexpr int kBlocksTogether = 64;  // on one thread: less is not worth waking another
+constexpr int kLooksTogether = 32;   // the same
 
 /// As advance() says, of robots whose motors lag or don't.
 template <bool kLags>
@@ -158,13 +161,23 @@ void planAttention(WorldState& world, int i, double after) {
   f.attend_at[i] = std::min(f.attend_at[i], next);
 }
 
-void attend(WorldState& world, int i, double now) {
+/// A robot that cruises and needs a look now.
+struct Attention {
+  int robot = -1;
+  bool ended = false;     ///< Its reference has.
+  double clear_time = 0;  ///< [s] for which its way is free from here, if it has to be known.
+};
+
+void attend(WorldState& world, const Attention& due, double now) {
   FleetState& f = world.fleet;
-  bool ended = hasEnded(f, i, world.dt);
-  if (!ended && f.attend_at[i] > now) return;
+  const int i = due.robot;
+  bool ended = due.ended;
   if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
   if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.dt);
-  if (ended || (f.clear_until[i] <= now && !findClearance(world, i))) return moved(f, i);
+  if (ended) return moved(f, i);
+  // Who has just read a code may go elsewhere.
+  const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
+  if (f.clear_until[i] <= now && !noteClearance(world, i, time())) return moved(f, i);
   planAttention(world, i, now);
 }
 
@@ -183,11 +196,29 @@ char advanceBlock(FleetState& f, int b, double dt, double now) {
   return static_cast<char>((needs_a_look ? kNeedsALook : 0) | (loaded ? kCarries : 0));
 }
 
-void attendBlock(WorldState& world, int b, double now) {
-  const int begin = b * kBlock, end = std::min(begin + kBlock, world.fleet.size());
+/// Adds those of block `b` that need a look.
+void findAttention(const WorldState& world, int b, double now, std::vector<Attention>* out) {
+  const FleetState& f = world.fleet;
+  const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
   for (int i = begin; i < end; ++i) {
-    if (world.fleet.cruising[i] != 0) attend(world, i, now);
+    if (f.cruising[i] == 0) continue;
+    const bool ended = hasEnded(f, i, world.dt);
+    if (ended || f.attend_at[i] <= now) out->push_back({i, ended, 0});
   }
+}
+
+/// What each finds on its way is worked out on all threads, where all have gone: what is noted then
+/// changes nothing of it.
+void attendAll(WorldState& world, std::vector<Attention> all, double now) {
+  const FleetState& f = world.fleet;
+  world.workers->share(static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const int i = all[k].robot;
+      const bool asks = !all[k].ended && !f.localises && f.clear_until[i] <= now;
+      if (asks) all[k].clear_time = clearTime(world, i, false);
+    }
+  });
+  for (const Attention& due : all) attend(world, due, now);
 }
 
 /// What a unit of reference moves, exactly or by the robot's own estimate.
@@ -222,7 +253,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (!hasEnded(f, i, world.dt) && findClearance(world, i)) {
+  if (!hasEnded(f, i, world.dt) && findClearance(world, i, true)) {
     planAttention(world, i, static_cast<double>(world.total_steps));
     return true;
   }
@@ -240,7 +271,7 @@ void setGoal(WorldState& world, int i, double goal) {
   if (f.cruising[i] == 0) return;
   // Its way was found free up to the old goal only.
   if (goes_farther && isPatchy(world)) return moved(f, i);
-  if (saw_the_end && goes_farther && !findClearance(world, i)) return moved(f, i);
+  if (saw_the_end && goes_farther && !findClearance(world, i, false)) return moved(f, i);
   planAttention(world, i, static_cast<double>(world.total_steps));
 }
 
@@ -253,10 +284,12 @@ void cruise(WorldState& world) {
     for (int b = begin; b < end; ++b) world.cruised[b] = advanceBlock(f, b, world.dt, next);
   });
   char any = 0;
+  std::vector<Attention> due;
   for (int b = 0; b < blocks; ++b) {
     any |= world.cruised[b];
-    if (world.cruised[b] & kNeedsALook) attendBlock(world, b, next);  // where all have gone
+    if (world.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
   }
+  attendAll(world, std::move(due), next);
   if (any & kCarries) world.unitsMoved();
 }
 

@@ -14,9 +14,12 @@
 #include "core/motion/traction.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
+#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
+
+constexpr int kDrivesTogether = 128;  // on one thread: less is not worth waking another
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
@@ -62,15 +65,27 @@ bool hasNothingToDo(const FleetState& f, int robot) {
 /// A robot that stands without a command, or waits or is stopped at one, is left alone until it is
 /// to go on, or is hit.
 void letRest(FleetState& f, int robot) {
-  if (!hasNothingToDo(f, robot) || f.sway[robot].tilt > 0 || f.activated[robot] ||
-      !atRest(f, robot))
-    return;
+  const bool is_settled = atRest(f, robot) && f.sway[robot].tilt == 0;
+  if (!hasNothingToDo(f, robot) || f.activated[robot] || !is_settled) return;
   if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
   // An empty tower still comes down.
   f.awake[robot] = f.tasks[robot].phase == Phase::kIdle && f.tower[robot] > 0 &&
                    f.unit[robot] < 0 && !isHeld(f, robot);
+}
+
+/// Each by itself, on all threads.
+void driveByTraction(WorldState& world) {
+  FleetState& f = world.fleet;
+  const std::vector<int>& robots = world.stepped_singly;
+  world.workers->share(static_cast<int>(robots.size()), kDrivesTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      const int i = robots[k];
+      if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
+      applyTraction(f, i, groundUnder(world, i), world.dt);
+    }
+  });
 }
 
 void integrateRobots(WorldState& world) {
@@ -104,14 +119,11 @@ void followBodies(WorldState& world) {
 }  // namespace
 
 void actuate(WorldState& world) {
-  FleetState& f = world.fleet;
+  driveByTraction(world);
   for (int i : world.stepped_singly) {
+    const FleetState& f = world.fleet;
     if (f.cruising[i] != 0) continue;
-    if (isJointed(f.robots[i])) {
-      driveJointed(world, i);
-    } else {
-      applyTraction(f, i, groundUnder(world, i), world.dt);
-    }
+    if (isJointed(f.robots[i])) driveJointed(world, i);
     if (f.activated[i]) pushBody(world, i);
   }
   driveJoints(world);

@@ -460,6 +460,15 @@ void Physics::remove(ModelBodies& bodies) {
   }
 }
 
+void Physics::shift(ModelBodies& bodies, const ModelDescription& description, const Pose& pose) {
+  for (auto* list : {&bodies.links, &bodies.surfaces}) {
+    for (LinkBody& link : *list) {
+      link.place(toBullet(pose * description.links[link.link].pose_in_model));
+      world_.updateSingleAabb(link.body.get());
+    }
+  }
+}
+
 bool Physics::anyAwake() const {
   const auto& bodies = world_.getNonStaticRigidBodies();
   for (int i = 0; i < bodies.size(); ++i) {

@@ -107,6 +107,8 @@ class Physics {
                     int mask) const;
   void insert(ModelBodies& bodies);
   void remove(ModelBodies& bodies);
+  /// Bodies of what does not move by itself follow their model, which is there now.
+  void shift(ModelBodies& bodies, const ModelDescription& description, const Pose& pose);
 
   /// One step; costs nothing where no body is awake.
   void step(double dt);

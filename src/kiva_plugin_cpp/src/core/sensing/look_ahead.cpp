@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
@@ -79,32 +80,41 @@ bool isOnGuard(const FleetState& f, int robot) {
          !task.segments.front().reverse;
 }
 
-/// It looks in this step.
-void alert(WorldState& world, int robot) {
-  Task& task = world.fleet.tasks[robot];
-  task.last_sighting = task.sighting;
-  task.sighting.taken = true;
-  world.sighted.push_back(robot);
+/// Lets those of `robots` look that are on guard.
+void lookAhead(WorldState& world, const std::vector<int>& robots) {
+  FleetState& f = world.fleet;
+  std::vector<char> looked(robots.size(), 0);
+  const auto count = static_cast<int>(robots.size());
+  world.workers->share(count, kLooksTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) {
+      if (!isOnGuard(f, robots[k])) continue;
+      looked[k] = 1;
+      Task& task = f.tasks[robots[k]];
+      task.last_sighting = task.sighting;
+      task.sighting = look(world, robots[k]);
+    }
+  });
+  for (int k = 0; k < count; ++k) {
+    if (looked[k]) world.sighted.push_back(robots[k]);
+  }
+}
+
+/// Those that have begun to drive look at once.
+std::vector<int> beginners(const WorldState& world) {
+  const FleetState& f = world.fleet;
+  std::vector<int> out;
+  for (int i : world.stepped_singly) {
+    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) out.push_back(i);
+  }
+  return out;
 }
 
 }  // namespace
 
 void lookAhead(WorldState& world) {
-  FleetState& f = world.fleet;
   world.sighted.clear();
-  for (int i : world.scans_due) {
-    if (isOnGuard(f, i)) alert(world, i);
-  }
-  for (int i : world.stepped_singly) {
-    if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) alert(world, i);
-  }
-  const auto robots = static_cast<int>(world.sighted.size());
-  world.workers->share(robots, kLooksTogether, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const int i = world.sighted[k];
-      f.tasks[i].sighting = look(world, i);
-    }
-  });
+  lookAhead(world, world.scans_due);
+  lookAhead(world, beginners(world));
 }
 
 double reachOfInterest(const WorldState& world, int robot) {

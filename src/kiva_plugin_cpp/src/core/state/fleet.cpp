@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kiva_plugin_cpp/fleet.h"
 
+#include <limits>
 #include <utility>
 
 namespace kiva {
@@ -25,6 +26,8 @@ void forEachArray(Fleet& f, Visit visit) {
   visit(f.stopped);
   visit(f.failures);
   visit(f.charge);
+  visit(f.allowed_speed);
+  visit(f.curtained);
 }
 
 }  // namespace
@@ -37,6 +40,7 @@ int Fleet::add(Robot robot, double at_x, double at_y, double at_yaw) {
   yaw[i] = at_yaw;
   unit[i] = -1;
   charge[i] = 1;
+  allowed_speed[i] = std::numeric_limits<double>::infinity();
   if (robot.id >= static_cast<int>(index_of_id.size())) index_of_id.resize(robot.id + 1, -1);
   index_of_id[robot.id] = i;
   robots.push_back(std::move(robot));

@@ -30,5 +30,6 @@ const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& f
 
 /// The file name by which a world asks for its grid.
 constexpr char kGridPlugin[] = "libkiva_grid.so";
+constexpr char kLightCurtainPlugin[] = "libkiva_light_curtain.so";
 
 }  // namespace kiva

@@ -32,10 +32,16 @@ double topOf(const Model& model, const CollisionGeometry& geometry) {
 /// The footprints of one model, of `group`, in the frame whose inverse is given.
 void appendFootprints(const WorldState& world, const Model& model, const Pose& to_frame, int group,
                       std::vector<Footprint>* out) {
+  constexpr int kNone = -2;  // -1 is a robot's base
+  int link = kNone;
+  Pose link_in_frame;  // of several geometries, mostly
   for (const CollisionGeometry& geometry : model.geometries) {
-    const Pose link =
-        geometry.link < 0 ? basePose(world, model.index) : linkPose(world, model, geometry.link);
-    const Pose pose = to_frame * link * geometry.pose_in_link;
+    if (geometry.link != link) {
+      link = geometry.link;
+      link_in_frame =
+          to_frame * (link < 0 ? basePose(world, model.index) : linkPose(world, model, link));
+    }
+    const Pose pose = link_in_frame * geometry.pose_in_link;
     Footprint footprint;
     if (geometry.triangle >= 0) {
       *geometry.corners = cornersOf(*geometry.shape.mesh, geometry.triangle, pose);

@@ -22,6 +22,7 @@
 #include "core/physics/physics.h"
 #include "core/state/fleet_state.h"
 #include "core/state/model.h"
+#include "core/state/walker.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
@@ -163,6 +164,9 @@ struct WorldState {
   std::uint32_t last_command = 0;  // the number of the command that was answered last
   ExternalInputs external_inputs;
   FailureState failures;
+  std::vector<Walker> walkers;  // people, in the order in which they came
+  std::vector<LightCurtain> curtains;
+  bool keeps_off = false;  // somebody was there to keep from when robots looked last
   std::vector<Charger> chargers;
   std::uint64_t chargers_revision = ~0ull;  // of the models that these were found among
   std::shared_ptr<Workers> workers;

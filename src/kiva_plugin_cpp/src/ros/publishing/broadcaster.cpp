@@ -41,7 +41,8 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
       objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
                                                                 kLatched)),
       units_(root.advertise<warehouse_msgs::UnitStates>("/warehouse/unit_states", kStreamQueue,
-                                                        kLatched)) {
+                                                        kLatched)),
+      people_(root.advertise<warehouse_msgs::People>("/warehouse/people", kStreamQueue, kLatched)) {
   fleet_ = advertiseCounted<warehouse_msgs::FleetState>(
       root, "/warehouse/fleet", kStreamQueue,
       [&subscribers](int change) { subscribers.count(SubscriberCounts::Topic::kFleet, change); });
@@ -99,6 +100,7 @@ void Broadcaster::publish(const Snapshot& s) {
   if (!s.transforms.empty()) transforms_.publish(s.transforms, s.time);
   if (s.objects) objects_.publish(*s.objects);
   if (s.units) units_.publish(*s.units);
+  if (s.people) people_.publish(*s.people);
   if (s.fleet) fleet_.publish(*s.fleet);
   if (s.models) publishModels(*s.models);
   if (s.links) publishLinks(*s.links);

@@ -40,7 +40,7 @@ class Broadcaster {
   RobotTopics robots_;
   RobotTransforms transforms_;
   PollThread poll_thread_;
-  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_, hash_;
+  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_, people_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
   // Kept, since their names seldom change.
   std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.

@@ -209,14 +209,17 @@ void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   const auto now = WallClock::now();
   const bool all = second && now >= heartbeat_sent_[slot] + kLatchedStatusInterval;
   if (all) heartbeat_sent_[slot] = now;
-  for (int i = 0; i < world.fleet().size(); ++i) {
-    const int id = world.fleet().robots[i].id;
-    if (id % kHeartbeatSlots != slot || isSilent(world, i)) continue;
-    if (all) {
-      out->statuses.push_back(statusOf(world, i));
-    } else if (std::binary_search(status_ids_.begin(), status_ids_.end(), id)) {
-      out->heartbeats.push_back(statusOf(world, i));
+  if (all) {
+    for (int i = 0; i < world.fleet().size(); ++i) {
+      const bool is_due = world.fleet().robots[i].id % kHeartbeatSlots == slot;
+      if (is_due && !isSilent(world, i)) out->statuses.push_back(statusOf(world, i));
     }
+    return;
+  }
+  for (int id : status_ids_) {
+    if (id % kHeartbeatSlots != slot) continue;
+    const int i = world.fleet().find(id);
+    if (i >= 0 && !isSilent(world, i)) out->heartbeats.push_back(statusOf(world, i));
   }
 }
 
@@ -225,7 +228,10 @@ void Reporter::addPeriodic(const kiva::World& world, bool reliable, Snapshot* ou
   updateSubscribedRobots();
   addClock(world, reliable, out);
   if (steps % heartbeat_every_ == 0) addHeartbeats(world, out);
-  if (steps % fleet_every_ == 0) addFleet(world, out);
+  if (steps % fleet_every_ == 0) {
+    addPeople(world, out);
+    addFleet(world, out);
+  }
   if (steps % robots_every_ == 0) {
     addOdometry(world, out);
     addTransforms(world, out);
@@ -252,6 +258,12 @@ void Reporter::updateSubscribedRobots() {
 
 void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
   if (subscribers_.hasSubscribers(SubscriberCounts::Topic::kFleet)) out->fleet = fleetState(world);
+}
+
+void Reporter::addPeople(const kiva::World& world, Snapshot* out) {
+  warehouse_msgs::People people = peopleMessage(world);
+  if (!people.name.empty() || somebody_there_) out->people = people;
+  somebody_there_ = !people.name.empty();
 }
 
 void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {

@@ -58,6 +58,7 @@ class Reporter {
   void addPeriodic(const kiva::World& world, bool reliable, Snapshot* out);
   void updateSubscribedRobots();
   void addFleet(const kiva::World& world, Snapshot* out) const;
+  void addPeople(const kiva::World& world, Snapshot* out);
   void addOdometry(const kiva::World& world, Snapshot* out) const;
   void addTransforms(const kiva::World& world, Snapshot* out) const;
   void addForNewcomers(const kiva::World& world, Snapshot* out);
@@ -76,6 +77,7 @@ class Reporter {
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_, heartbeat_every_,
       hash_every_;  // steps
 
+  bool somebody_there_ = false;              ///< When people were told last.
   std::uint64_t clock_sent_steps_ = kNever;  ///< Of the last reliable clock.
   WallClock::time_point clock_sent_;
   std::uint64_t last_steps_ = kNever;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <warehouse_msgs/FleetState.h>
+#include <warehouse_msgs/People.h>
 #include <warehouse_msgs/UnitStates.h>
 #include <warehouse_msgs/WarehouseObjects.h>
 
@@ -63,6 +64,7 @@ struct Snapshot {
 
   // Best effort, since the next one is as good: dropped where the broadcaster lags.
   bool clock = false;
+  std::optional<warehouse_msgs::People> people;
   std::optional<warehouse_msgs::FleetState> fleet;
   std::optional<ModelStates> models;
   std::optional<ModelStates> links;
@@ -78,11 +80,12 @@ struct Snapshot {
            !publications.empty() || !state_hash.empty() || published;
   }
   bool hasBestEffort() const {
-    return clock || fleet || models || links || !heartbeats.empty() || !scans.empty() ||
+    return clock || people || fleet || models || links || !heartbeats.empty() || !scans.empty() ||
            !odometry.empty() || !transforms.empty();
   }
   void dropBestEffort() {
     clock = false;
+    people.reset();
     fleet.reset();
     models.reset();
     links.reset();

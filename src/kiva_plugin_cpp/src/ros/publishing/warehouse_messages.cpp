@@ -148,6 +148,29 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   return out;
 }
 
+warehouse_msgs::People peopleMessage(const kiva::World& world) {
+  warehouse_msgs::People out;
+  out.stamp = ros::Time(world.time());
+  const std::vector<kiva::Person> people = world.people();
+  if (people.empty()) return out;
+  for (const kiva::Person& person : people) {
+    out.name.push_back(person.name);
+    out.x.push_back(person.x);
+    out.y.push_back(person.y);
+    out.vx.push_back(person.vx);
+    out.vy.push_back(person.vy);
+    out.ahead_x.push_back(person.ahead_x);
+    out.ahead_y.push_back(person.ahead_y);
+  }
+  const kiva::Fleet& f = world.fleet();
+  for (int i = 0; i < f.size(); ++i) {
+    const bool stands = f.curtained[i] != 0 || f.allowed_speed[i] == 0;
+    if (stands) out.stopped.push_back(f.robots[i].id);
+    if (!stands && std::isfinite(f.allowed_speed[i])) out.slowed.push_back(f.robots[i].id);
+  }
+  return out;
+}
+
 warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world) {
   warehouse_msgs::WarehouseObjects out;
   out.header = header(world.time(), "world");

@@ -9,6 +9,7 @@
 #include <warehouse_msgs/Event.h>
 #include <warehouse_msgs/FleetState.h>
 #include <warehouse_msgs/KivaStatus.h>
+#include <warehouse_msgs/People.h>
 #include <warehouse_msgs/UnitStates.h>
 #include <warehouse_msgs/WarehouseObjects.h>
 
@@ -27,6 +28,8 @@ nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
 /// What a robot's status is now.
 kiva::StatusChange statusOf(const kiva::World& world, int robot);
 warehouse_msgs::FleetState fleetState(const kiva::World& world);
+/// Who walks on the floor, and which robots mind; empty if nobody does.
+warehouse_msgs::People peopleMessage(const kiva::World& world);
 warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world);
 warehouse_msgs::UnitStates unitStates(const kiva::World& world);
 

@@ -6,7 +6,7 @@ from collections import defaultdict
 
 import numpy as np
 
-from warehouse_fleet.transport import Kind
+from warehouse_fleet.transports import Kind
 
 INTERVAL = 60.0  # of the series [s]
 
@@ -130,14 +130,19 @@ def of_shift(shift, fleet, kinematics, wall_s):
 
 
 def _of_troubles(fleet, items_picked):
-    """What failures and charging cost; nothing where there were none. As many pieces are lost as
-    are picked in so many robot hours at work."""
+    """What failures, charging and people cost; nothing where there were none. As many pieces are
+    lost as are picked in so many robot hours at work."""
     log = getattr(fleet, "failures", None)
     figures = log.figures() if log else {}
     figures |= getattr(fleet, "energy", {})
     if "availability" in figures:
         up = max(figures["availability"], 1e-9)
         figures["items_lost_to_failures"] = items_picked * (1 - up) / up
+    people = getattr(fleet, "people", None)
+    figures |= people.figures() if people else {}
+    if "stopped_fraction" in figures:
+        stood = min(figures["stopped_fraction"], 1 - 1e-9)
+        figures["items_lost_to_people"] = items_picked * stood / (1 - stood)
     return figures
 
 

@@ -23,8 +23,7 @@ from warehouse_fleet.operations.orders import Backlog, Order, OrderEventKind, Or
 from warehouse_fleet.operations.picking import Picking
 from warehouse_fleet.operations.replenishing import PERIOD, Replenishing
 from warehouse_fleet.operations.stations import Mode, Visit, WorkStation
-from warehouse_fleet.transport import ENDS
-from warehouse_fleet.transports import Kind
+from warehouse_fleet.transports import ENDS, Kind
 
 UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
 HOLD = 10.0  # for so long a unit is not asked for whose transport failed or was refused [s]

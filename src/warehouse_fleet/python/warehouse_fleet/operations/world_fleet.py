@@ -6,7 +6,7 @@ from collections import Counter
 import numpy as np
 
 from warehouse_fleet.fleet_driver import UPDATE, FleetDriver
-from warehouse_fleet.transport import Task
+from warehouse_fleet.protocols import Task
 from warehouse_fleet.travel import Travel
 
 STUCK = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
@@ -25,7 +25,7 @@ class WorldFleet:
         self._traffic, self._waiting = np.zeros((2, site.plan.passable.size))
 
     def set_hooks(self, hooks):
-        """Who decides from now on; see transport.Hooks."""
+        """Who decides from now on; see protocols.Hooks."""
         self._hooks = hooks
         self.transports.match_robots = self._match_robots
         self.transports.choose_place = self._choose_place
@@ -118,6 +118,11 @@ class WorldFleet:
     def failures(self):
         """What broke: a FailureLog."""
         return self._driver.failures
+
+    @property
+    def people(self):
+        """What people on the floor cost: a PeopleLog."""
+        return self._driver.people
 
     @property
     def plan_ms(self):

@@ -167,6 +167,7 @@ def router(backend):
     out = APIRouter(prefix="/api/v1")
     _add_warehouse(out, backend)
     _add_robots(out, backend)
+    _add_people(out, backend)
     _add_things(out, backend, "storage_units", "storage_unit")
     _add_things(out, backend, "items", "item")
     _add_simulation(out, backend)
@@ -286,6 +287,13 @@ def _add_robots(out, backend):
         answer = {"outcome": outcome.kind, "events": outcome.events}
         late = outcome.kind in ("pending", "accepted" if to_end else "")
         return JSONResponse(answer, 202) if late else answer
+
+
+def _add_people(out, backend):
+    @out.post("/people", status_code=201, response_model=schemas.Walker, responses=_problems(*SENT))
+    async def send_person(wanted: schemas.NewWalk):
+        """Has somebody walk over the floor: around what is in the way, and never into it."""
+        return {"name": await backend.do("walk", *wanted.dict().values())}
 
 
 def _add_things(out, backend, kind, noun):

@@ -22,6 +22,7 @@ SCENE_GAP = 1.0  # likewise between two scenes, of a megabyte where there are ma
 STATUS_GAP = 1.0  # between two looks at the simulation's own state [s, wall]
 OFFERS_GAP = 5.0  # between two looks at which services there are [s, wall]
 IN_FLIGHT = 3  # updates a page may owe an answer to
+MOST_GAP = 5.0  # between two updates, whatever a page asks for [s, wall]
 MOST_WISHES = 100  # of a page [1/s]
 NONSENSE = (ValueError, TypeError, KeyError, AttributeError)  # what reading it leads to
 MOST_SCANS = 20  # robots whose scans are shown at once, by all pages
@@ -33,6 +34,7 @@ class Page:
     def __init__(self, socket, last_event):
         self.socket, self.tick, self.revision = socket, -1, None
         self.event, self.in_flight, self.status = last_event, 0, None
+        self.gap = 0.0  # that it asks for between two updates [s, wall]
         self.scans, self.seen_scans = set(), {}
         self.paths, self.seen_paths = set(), {}
         self.ways, self.seen_ways = set(), None  # of these robots, None: of all
@@ -152,10 +154,13 @@ class Hub:
                 await self._obey(page, json.loads(await page.socket.receive_text()))
 
     async def _obey(self, page, wish):
-        """{"ack": n} answers updates; {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}}
-        asks for more, "ways": "all" for those of all robots."""
+        """{"ack": n} answers updates; {"gap": s} asks for no two within so many seconds; {"watch":
+        {"scans": [ids], "paths": [ids], "ways": [ids]}} asks for more, "ways": "all" for those of
+        all robots."""
         if "ack" in wish:
             page.in_flight = max(0, page.in_flight - int(wish["ack"]))
+        if "gap" in wish:
+            page.gap = min(MOST_GAP, max(0.0, float(wish["gap"])))
         if "watch" in wish:
             page.scans = set(map(int, wish["watch"].get("scans", [])[:MOST_SCANS]))
             page.paths = set(map(int, wish["watch"].get("paths", [])))
@@ -175,6 +180,7 @@ class Hub:
             while True:
                 if page.in_flight < IN_FLIGHT:
                     await self._send_news(page)
+                    await asyncio.sleep(page.gap)
                 async with self._turn:
                     await self._turn.wait()
 

@@ -10,6 +10,7 @@ from pydantic import (
     Field,
     StrictBool,
     conint,
+    conlist,
     constr,
     root_validator,
 )
@@ -53,6 +54,10 @@ class Factor(Number):
 
 class Seconds(Number):
     ge, le = 0.001, 1e6
+
+
+class WalkingSpeed(Number):
+    ge, le = 0.01, 1.6
 
 
 class _Body(BaseModel):
@@ -126,6 +131,20 @@ class NewRobot(_Body):
     x: Number = Field(description="[m], of a grid point")
     y: Number = Field(description="[m], of a grid point")
     heading: Number = Field(0, description="[rad] about z, by quarter turns; 0: along x")
+
+
+class NewWalk(_Body):
+    """Has somebody walk from place to place, and come to the first one if nobody is called so."""
+
+    name: Name = Field("", description="who; empty: a new person")
+    x: conlist(Number, max_items=1000) = Field(description="[m], of each place")
+    y: conlist(Number, max_items=1000) = Field(description="[m], as many")
+    speed: WalkingSpeed = Field(1.2, description="[m/s]")
+    loop: StrictBool = Field(False, description="after the last place comes the first again")
+
+
+class Walker(BaseModel):
+    name: str
 
 
 class NewTransport(_Body):

@@ -5,6 +5,7 @@ import importlib
 import threading
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import count
 
 from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
 from warehouse_sim import identity, models, placing
@@ -23,6 +24,7 @@ SERVICES = {
     "restore": ("/warehouse/restore", "warehouse_msgs", "Checkpoint"),
     "undo": ("/warehouse/undo", "warehouse_msgs", "Undo"),
     "create": ("/warehouse/create_warehouse_models", "warehouse_msgs", "CreateWarehouse"),
+    "person": ("/warehouse/person", "warehouse_msgs", "Person"),
 }
 
 
@@ -126,6 +128,17 @@ class Simulation:
         """Puts one on that grid point [m], turned by quarters [rad]. Returns its number."""
         with self._placing, self._engine() as engine:
             return placing.add_robot(engine, x, y, heading)
+
+    def walk(self, name, x, y, speed, loop):
+        """Has somebody walk to those places [m]; without a name somebody new. Returns who it is."""
+        with self._placing:
+            name = name or self._new_person()
+            self._do("person", name=name, x=x, y=y, speed=speed, loop=loop)
+        return name
+
+    def _new_person(self):
+        names = self._call("/gazebo/get_world_properties", GetWorldProperties, {}).model_names
+        return next(name for n in count(1) if (name := f"person{n}") not in names)
 
     def remove_robot(self, number):
         with self._engine() as engine:

@@ -56,7 +56,7 @@ class Replenishment(Protocol):
 
 class TaskMatching(Protocol):
     def match(self, tasks, robots, seconds, view):
-        """Pairs (index of the task, index of the robot); see transport.Hooks.match_robots."""
+        """Pairs (index of the task, index of the robot); see protocols.Hooks.match_robots."""
 
 
 class Idle(Protocol):

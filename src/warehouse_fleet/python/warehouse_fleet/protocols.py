@@ -7,9 +7,7 @@ simulated seconds.
 
 from typing import NamedTuple, Protocol
 
-from warehouse_fleet.transports import STORE, Answer, Kind, TransportEvent
-
-ENDS = frozenset((Kind.STORED, Kind.FAILED))
+from warehouse_fleet.transports import STORE, Answer, TransportEvent
 
 
 class Task(NamedTuple):

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// People who walk on the floor, and zones that stop robots while somebody is inside.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace kiva {
+
+/// With which people are reckoned to come nearer (ISO 13855), and nobody walks faster [m/s].
+constexpr double kMostWalkingSpeed = 1.6;
+
+/// A place on a person's way.
+struct Waypoint {
+  double x = 0, y = 0;  ///< In world [m].
+  double speed = 1.2;   ///< With which they come there [m/s]; above 0, up to kMostWalkingSpeed.
+  double pause = 0;     ///< How long they stay there [s].
+};
+
+/// Where a person goes, from one waypoint straight to the next.
+struct Walk {
+  std::vector<Waypoint> waypoints;  ///< None: they stay where they are.
+  bool loops = false;               ///< After the last one comes the first again.
+};
+
+/// A person now, in world.
+struct Person {
+  std::string name;
+  double x = 0, y = 0, yaw = 0;     ///< [m, rad]
+  double vx = 0, vy = 0;            ///< [m/s]
+  double ahead_x = 0, ahead_y = 0;  ///< Where they are to be within kForesight, straight on [m].
+};
+
+/// How far ahead Person::ahead_x looks [s].
+constexpr double kForesight = 3;
+
+/// A rectangle along the axes of `world` [m]: while somebody is inside, all robots inside stand.
+struct LightCurtain {
+  std::string name;
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+};
+
+}  // namespace kiva

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/footing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kFromRobots = 0.1;   // [m] that people keep off,
+constexpr double kFromOthers = 0.05;  // and off what does not drive [m]
+constexpr double kFar = 1;            // [m]: no matter how much farther
+
+Footprint discOf(const WorldState& world, const Walker& walker, double x, double y) {
+  Footprint disc;
+  disc.kind = Footprint::Kind::kCircle;
+  disc.x = x;
+  disc.y = y;
+  disc.hx = walker.radius;
+  const double origin = world.models[walker.model]->pose.Z();
+  disc.z_min = origin + walker.bottom;
+  disc.z_max = origin + walker.top;
+  return disc;
+}
+
+}  // namespace
+
+double roomAt(const WorldState& world, const Walker& walker, double x, double y) {
+  const Footprint disc = discOf(world, walker, x, y);
+  double least = kFar;
+  const auto other = [&](const Footprint& thing) {
+    if (thing.model == walker.model || !shareHeight(thing, disc)) return false;
+    if (mayBeWithin(least + kFromOthers, disc, thing)) {
+      least = std::min(least, gap(disc, thing) - kFromOthers);
+    }
+    return false;
+  };
+  const auto robot = [&](int i, double radius) {
+    const double between = std::hypot(world.fleet.x[i] - x, world.fleet.y[i] - y);
+    least = std::min(least, between - radius - walker.radius - kFromRobots);
+    return false;
+  };
+  world.obstacles.any(x, y, walker.radius + kFar, other, robot);
+  return least;
+}
+
+}  // namespace kiva

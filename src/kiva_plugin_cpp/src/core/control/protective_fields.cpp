@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/protective_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/control/interruptions.h"
+#include "core/motion/drives.h"
+#include "core/sensing/scans.h"
+#include "core/state/footprints.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMargin = 0.15;      // [m] ahead of where it stands
+constexpr double kTurnMargin = 0.05;  // [m] to the circle in which it turns
+constexpr double kBeside = 2;     // [m]: farther off nobody is within reach of a robot's corners
+constexpr double kCreep = 0.05;   // [m/s]: more slowly it does not drive,
+constexpr double kSetOff = 0.15;  // [m/s] and it sets off again for no less
+constexpr int kHalvings = 20;     // of top speed: to a micrometre a second
+
+/// What a robot needs to stand.
+struct Braking {
+  double reaction = 0;      // until it notices [s]
+  double deceleration = 0;  // [m/s²]; +inf = at once
+  double way(double speed) const { return speed * reaction + speed * speed / (2 * deceleration); }
+  double time(double speed) const { return reaction + speed / deceleration; }
+};
+
+/// A person seen from a robot that drives.
+struct Seen {
+  double ahead = 0;   // of its front [m]
+  double beside = 0;  // its sides [m]; 0 = within its lane
+  double radius = 0;  // [m]
+  /// From the person to that much of the floor ahead of the robot; < 0: they overlap.
+  double distance(double way) const {
+    const double along = ahead < 0 ? -ahead : std::max(0.0, ahead - way);
+    return std::hypot(along, beside) - radius;
+  }
+};
+
+/// Whether it stands before anybody who comes nearer could be touched.
+bool isSafe(const Seen& person, const Braking& braking, double speed) {
+  return person.distance(braking.way(speed) + kMargin) >= kMostWalkingSpeed * braking.time(speed);
+}
+
+/// The highest safe speed up to `top` [m/s].
+double safeSpeed(const Seen& person, const Braking& braking, double top) {
+  if (isSafe(person, braking, top)) return kInfinity;
+  double low = 0, high = top;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = (low + high) / 2;
+    (isSafe(person, braking, middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+Braking brakingOf(WorldState& world, int robot) {
+  const Robot& r = world.fleet.robots[robot];
+  const double period = static_cast<double>(scanPeriod(world, r) + 1) * world.dt;
+  const bool at_once = r.drive.acceleration == 0;
+  return {period, at_once ? kInfinity : plannedBraking(world, robot)};
+}
+
+Seen seenFrom(const WorldState& world, int robot, const MotionSegment& segment,
+              const Walker& walker) {
+  const Robot& r = world.fleet.robots[robot];
+  const double sign = segment.reverse ? -1 : 1;
+  const double c = sign * std::cos(segment.yaw), s = sign * std::sin(segment.yaw);
+  const Vector3& at = world.models[walker.model]->pose.Pos();
+  const double dx = at.X() - world.fleet.x[robot], dy = at.Y() - world.fleet.y[robot];
+  return {c * dx + s * dy - halfLength(r), std::max(0.0, std::abs(c * dy - s * dx) - halfWidth(r)),
+          walker.radius};
+}
+
+double whileDriving(WorldState& world, int robot, const Walker& walker) {
+  const MotionSegment& segment = world.fleet.tasks[robot].segments.front();
+  const double top = world.fleet.robots[robot].drive.speed;
+  return safeSpeed(seenFrom(world, robot, segment, walker), brakingOf(world, robot), top);
+}
+
+/// It turns where nobody is within reach of its corners.
+double whileTurning(const WorldState& world, int robot, const Walker& walker) {
+  const Vector3& at = world.models[walker.model]->pose.Pos();
+  const double between = std::hypot(at.X() - world.fleet.x[robot], at.Y() - world.fleet.y[robot]);
+  const double reach = cornerRadius(world.fleet.robots[robot]) + walker.radius + kTurnMargin;
+  return between < reach ? 0 : kInfinity;
+}
+
+/// Farther off nobody matters, however it drives [m].
+double farthestOf(WorldState& world, int robot) {
+  const Robot& r = world.fleet.robots[robot];
+  const Braking braking = brakingOf(world, robot);
+  return cornerRadius(r) + braking.way(r.drive.speed) + kMargin +
+         kMostWalkingSpeed * braking.time(r.drive.speed);
+}
+
+bool isWithin(const WorldState& world, int robot, const Walker& walker, double reach) {
+  const Vector3& at = world.models[walker.model]->pose.Pos();
+  const double dx = at.X() - world.fleet.x[robot], dy = at.Y() - world.fleet.y[robot];
+  return dx * dx + dy * dy < (reach + walker.radius) * (reach + walker.radius);
+}
+
+bool isAt(const FleetState& fleet, int robot, MotionSegment::Kind kind) {
+  const MotionSegment* at = fleet.tasks[robot].segment();
+  return at && at->kind == kind;
+}
+
+double allowedSpeed(WorldState& world, int robot) {
+  const bool turns = isAt(world.fleet, robot, MotionSegment::Kind::kTurn);
+  if (!turns && !isAt(world.fleet, robot, MotionSegment::Kind::kDrive)) return kInfinity;
+  const double reach = farthestOf(world, robot);
+  double least = kInfinity;
+  for (const Walker& walker : world.walkers) {
+    if (!isWithin(world, robot, walker, reach)) continue;
+    least = std::min(
+        least, turns ? whileTurning(world, robot, walker) : whileDriving(world, robot, walker));
+  }
+  const bool stands = world.fleet.allowed_speed[robot] == 0;
+  return least < (stands ? kSetOff : kCreep) ? 0 : least;
+}
+
+/// `change` alters what the robot may do.
+template <typename Change>
+void restrain(WorldState& world, int robot, Change change) {
+  FleetState& f = world.fleet;
+  const bool was_held = isHeld(f, robot);
+  change();
+  if (was_held && !isHeld(f, robot)) return planAnew(world, robot);
+  if (f.awake[robot]) moved(f, robot);
+}
+
+void allow(WorldState& world, int robot, double speed) {
+  double& allowed = world.fleet.allowed_speed[robot];
+  if (speed != allowed) restrain(world, robot, [&] { allowed = speed; });
+}
+
+/// A turn is fast: nobody waits for a scan before it.
+void holdTurns(WorldState& world) {
+  const FleetState& f = world.fleet;
+  for (const Walker& walker : world.walkers) {
+    for (int i = 0; i < f.size(); ++i) {
+      if (!isWithin(world, i, walker, kBeside)) continue;
+      const bool turns = isAt(f, i, MotionSegment::Kind::kTurn);
+      if (turns && whileTurning(world, i, walker) == 0) allow(world, i, 0);
+    }
+  }
+}
+
+// --- light curtains
+
+bool isInterrupted(const WorldState& world, const LightCurtain& curtain) {
+  return std::any_of(world.walkers.begin(), world.walkers.end(), [&](const Walker& walker) {
+    const Vector3& at = world.models[walker.model]->pose.Pos();
+    const double dx = at.X() - std::clamp(at.X(), curtain.min_x, curtain.max_x);
+    const double dy = at.Y() - std::clamp(at.Y(), curtain.min_y, curtain.max_y);
+    return std::hypot(dx, dy) < walker.radius;
+  });
+}
+
+/// Whether any of the robot and its load may be inside.
+bool reachesInto(const WorldState& world, int robot, const LightCurtain& curtain) {
+  const FleetState& f = world.fleet;
+  const Robot& r = f.robots[robot];
+  const double c = std::abs(std::cos(f.yaw[robot])), s = std::abs(std::sin(f.yaw[robot]));
+  const double hx = c * halfLength(r) + s * halfWidth(r), hy = s * halfLength(r) + c * halfWidth(r);
+  return f.x[robot] + hx > curtain.min_x && f.x[robot] - hx < curtain.max_x &&
+         f.y[robot] + hy > curtain.min_y && f.y[robot] - hy < curtain.max_y;
+}
+
+void watchCurtains(WorldState& world) {
+  std::vector<const LightCurtain*> interrupted;
+  for (const LightCurtain& curtain : world.curtains) {
+    if (isInterrupted(world, curtain)) interrupted.push_back(&curtain);
+  }
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    const bool stands =
+        std::any_of(interrupted.begin(), interrupted.end(),
+                    [&](const LightCurtain* curtain) { return reachesInto(world, i, *curtain); });
+    std::uint8_t& curtained = world.fleet.curtained[i];
+    if (stands != (curtained != 0)) restrain(world, i, [&] { curtained = stands; });
+  }
+}
+
+}  // namespace
+
+void keepFromPeople(WorldState& world) {
+  if (!minds(world)) return;
+  if (world.walkers.empty()) {
+    for (int i = 0; i < world.fleet.size(); ++i) allow(world, i, kInfinity);
+  } else {
+    for (int i : world.scans_due) allow(world, i, allowedSpeed(world, i));
+  }
+  holdTurns(world);
+  watchCurtains(world);
+  world.keeps_off = !world.walkers.empty();
+}
+
+bool minds(const WorldState& world) { return !world.walkers.empty() || world.keeps_off; }
+
+void setLightCurtain(WorldState& world, const LightCurtain& curtain) {
+  if (curtain.name.empty()) throw std::invalid_argument("a light curtain needs a name");
+  const auto are_edges = [](double min, double max) {
+    return std::isfinite(min) && std::isfinite(max) && min < max;
+  };
+  if (!are_edges(curtain.min_x, curtain.max_x) || !are_edges(curtain.min_y, curtain.max_y)) {
+    throw std::invalid_argument("light curtain '" + curtain.name +
+                                "': min_x < max_x and min_y < max_y, all finite, were expected");
+  }
+  removeLightCurtain(world, curtain.name);
+  world.curtains.push_back(curtain);
+}
+
+bool removeLightCurtain(WorldState& world, const std::string& name) {
+  auto& curtains = world.curtains;
+  const auto is_it = [&](const LightCurtain& curtain) { return curtain.name == name; };
+  const auto end = std::remove_if(curtains.begin(), curtains.end(), is_it);
+  const bool was_there = end != curtains.end();
+  curtains.erase(end, curtains.end());
+  return was_there;
+}
+
+}  // namespace kiva

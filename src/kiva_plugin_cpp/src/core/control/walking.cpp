@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/walking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "core/control/footing.h"
+#include "core/control/way_around.h"
+#include "core/geometry/solid.h"
+#include "core/state/floors.h"
+#include "core/state/footprints.h"
+#include "core/state/people.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kLargest = 1;        // [m]: who is longer or wider is no person
+constexpr double kLook = 0.02;        // between two looks ahead [s],
+constexpr double kLookAhead = 0.35;   // so far: half a step [m]
+constexpr double kPatience = 2;       // before they look for a way around the first time,
+constexpr double kMostPatience = 30;  // and the last [s]
+constexpr double kThere = 1e-9;       // [m]
+
+[[noreturn]] void refuse(const std::string& person, const std::string& why) {
+  throw std::invalid_argument(person + ": " + why);
+}
+
+bool isPerson(const Model& model) {
+  const Bounds box = bounds(*model.description);
+  if (!model.isStatic() || model.owner->isFloor() || model.kind != ModelKind::kOther) return false;
+  return !box.empty() && std::max(box.max.X() - box.min.X(), box.max.Y() - box.min.Y()) <= kLargest;
+}
+
+void checkWaypoint(const Waypoint& w, const std::string& person, std::size_t number) {
+  const std::string which = "waypoint " + std::to_string(number) + ": ";
+  if (!std::isfinite(w.x) || !std::isfinite(w.y)) refuse(person, which + "it is not finite");
+  if (!(w.speed > 0 && w.speed <= kMostWalkingSpeed)) {
+    refuse(person, which + "a speed above 0 and up to 1.6 m/s was expected");
+  }
+  if (!(w.pause >= 0 && std::isfinite(w.pause))) {
+    refuse(person, which + "a pause of 0 s or more was expected");
+  }
+}
+
+void checkOnFloor(const WorldState& world, const Walk& walk, const std::string& person) {
+  if (walk.waypoints.empty()) return;
+  const FloorCover cover(world);
+  for (std::size_t k = 0; k < walk.waypoints.size(); ++k) {
+    const Waypoint& w = walk.waypoints[k];
+    checkWaypoint(w, person, k);
+    if (cover.covers(w.x, w.y, 0)) continue;
+    char text[96];
+    std::snprintf(text, sizeof text, "waypoint %zu at (%g, %g) is not on the floor", k, w.x, w.y);
+    refuse(person, text);
+  }
+}
+
+Walker newWalker(const Model& model) {
+  const Bounds box = bounds(*model.description);
+  Walker walker;
+  walker.model = model.slot;
+  walker.radius = std::max({box.max.X(), box.max.Y(), -box.min.X(), -box.min.Y()});
+  walker.bottom = box.min.Z();
+  walker.top = box.max.Z();
+  return walker;
+}
+
+Walker& walkerOf(WorldState& world, const Model& model) {
+  if (Walker* known = findWalker(world, model.slot)) return *known;
+  world.walkers.push_back(newWalker(model));
+  return world.walkers.back();
+}
+
+/// Whoever reckoned with somebody who stands looks again.
+void setOut(WorldState& world, Walker* walker, const Walk& walk) {
+  walker->walk = walk;
+  walker->next = 0;
+  walker->pause = walker->held_up = walker->vx = walker->vy = 0;
+  walker->patience = kPatience;
+  walker->detour.clear();
+  walker->look_at = 0;
+  alarm(world);
+}
+
+// --- a step
+
+/// Whether there is room half a step ahead, or at least more of it than here.
+bool isFreeAhead(const WorldState& world, const Walker& walker, const Pose& at,
+                 const PathPoint& to) {
+  const double dx = to.x - at.X(), dy = to.y - at.Y();
+  const double part = std::min(1.0, kLookAhead / std::hypot(dx, dy));
+  const double there = roomAt(world, walker, at.X() + part * dx, at.Y() + part * dy);
+  return there >= 0 || there > roomAt(world, walker, at.X(), at.Y()) + kThere;
+}
+
+void waitOrTurnAside(WorldState& world, Walker* walker) {
+  walker->held_up += world.dt;
+  if (walker->held_up < walker->patience) return;
+  const Waypoint& to = walker->walk.waypoints[walker->next];
+  walker->detour = wayAround(world, *walker, to.x, to.y);
+  walker->look_at = 0;
+  walker->held_up = 0;
+  const bool is_none = walker->detour.empty();
+  walker->patience = is_none ? std::min(kMostPatience, 2 * walker->patience) : kPatience;
+}
+
+void arrive(Walker* walker) {
+  walker->look_at = 0;
+  if (walker->detour.size() > 1) return walker->detour.pop_back();
+  walker->detour.clear();  // its last one is the waypoint itself
+  walker->pause = walker->walk.waypoints[walker->next].pause;
+  ++walker->next;
+  if (walker->walk.loops && !walker->walks()) walker->next = 0;
+}
+
+void put(WorldState& world, Model& model, const Pose& pose) {
+  model.pose = pose;
+  world.physics.shift(model.bodies, *model.description, pose);
+  moved(world, model);
+}
+
+void stepTowards(WorldState& world, Walker* walker, const PathPoint& to) {
+  Model& model = *world.models[walker->model];
+  const double dx = to.x - model.pose.X(), dy = to.y - model.pose.Y();
+  const double way = std::hypot(dx, dy);
+  const double speed = walker->walk.waypoints[walker->next].speed;
+  const double part = std::min(1.0, speed * world.dt / std::max(way, kThere));
+  const Vector3& at = model.pose.Pos();
+  walker->vx = part * dx / world.dt;
+  walker->vy = part * dy / world.dt;
+  walker->held_up = 0;
+  const double yaw = way > kThere ? std::atan2(dy, dx) : model.pose.Yaw();
+  put(world, model, Pose(at.X() + part * dx, at.Y() + part * dy, at.Z(), 0, 0, yaw));
+  if (part == 1) arrive(walker);
+}
+
+void walkOn(WorldState& world, Walker* walker) {
+  walker->vx = walker->vy = 0;
+  if (walker->pause > 0) {
+    walker->pause -= world.dt;
+    return;
+  }
+  if (!walker->walks()) return;
+  const PathPoint to = walker->target();
+  if (world.total_steps >= walker->look_at) {
+    walker->is_free = isFreeAhead(world, *walker, world.models[walker->model]->pose, to);
+    walker->look_at = world.total_steps + world.stepsIn(kLook);
+  }
+  if (walker->is_free) return stepTowards(world, walker, to);
+  waitOrTurnAside(world, walker);
+}
+
+}  // namespace
+
+void walk(WorldState& world, const std::string& person, const Walk& walk) {
+  const Model* model = world.find(person);
+  if (!model) throw std::invalid_argument("there is no model '" + person + "'");
+  if (!isPerson(*model)) refuse(person, "it is no person");
+  checkOnFloor(world, walk, person);
+  setOut(world, &walkerOf(world, *model), walk);
+}
+
+void beginScript(WorldState& world, int model, const Walk& script) {
+  Walker& walker = walkerOf(world, *world.models[model]);
+  walker.script = script;
+  setOut(world, &walker, script);
+}
+
+void restartScripts(WorldState& world) {
+  auto& walkers = world.walkers;
+  const auto has_none = [](const Walker& walker) { return !walker.script; };
+  walkers.erase(std::remove_if(walkers.begin(), walkers.end(), has_none), walkers.end());
+  for (Walker& walker : walkers) setOut(world, &walker, *walker.script);
+}
+
+void walkOn(WorldState& world) {
+  for (Walker& walker : world.walkers) walkOn(world, &walker);
+}
+
+std::vector<Person> peopleIn(const WorldState& world) {
+  std::vector<Person> people;
+  for (const Walker& walker : world.walkers) {
+    const Model& model = *world.models[walker.model];
+    Person person{model.name, model.pose.X(), model.pose.Y(), model.pose.Yaw(),
+                  walker.vx,  walker.vy,      model.pose.X(), model.pose.Y()};
+    const double speed = std::hypot(walker.vx, walker.vy);
+    if (speed > 0 && walker.walks()) {
+      const PathPoint to = walker.target();
+      const double way = std::hypot(to.x - person.x, to.y - person.y);
+      const double part = std::min(1.0, speed * kForesight / std::max(way, kThere));
+      person.ahead_x += part * (to.x - person.x);
+      person.ahead_y += part * (to.y - person.y);
+    }
+    people.push_back(person);
+  }
+  return people;
+}
+
+}  // namespace kiva

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "floor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace learning {
+namespace {
+
+constexpr double kQuarterTurn = 1.5707963267948966;  // [rad]
+
+/// Which cell of a row or column is nearest to `way` [cells] from the first.
+int nearest(double way, int cells) {
+  const double rounded = std::nearbyint(way);
+  return rounded > 0 ? static_cast<int>(std::min(rounded, cells - 1.0)) : 0;
+}
+
+}  // namespace
+
+int Floor::longest() const { return std::max(width, height) - 2 * rim; }
+
+int Floor::step(int heading) const {
+  const int steps[] = {1, width, -1, -width};
+  return steps[heading & 3];
+}
+
+int Floor::inside(int cell) const { return std::clamp(cell, 0, cells() - 1); }
+
+int Floor::cellOf(double to_x, double to_y) const {
+  return nearest((to_y - y) / spacing, height) * width + nearest((to_x - x) / spacing, width);
+}
+
+int headingOf(double yaw) {
+  return static_cast<int>(static_cast<std::int64_t>(std::nearbyint(yaw / kQuarterTurn)) & 3);
+}
+
+}  // namespace learning

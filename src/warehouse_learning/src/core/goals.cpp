@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "goals.h"
+
+namespace learning {
+
+Goals::Goals(const Floor& floor, const State& state)
+    : floor_(floor),
+      state_(state),
+      ways_(floor),
+      cell_(state.warehouses(), state.robots()),
+      way_(state.warehouses(), state.robots(), nullptr),
+      aim_(state.warehouses(), state.robots(), kNone),
+      news_(state.warehouses(), 1) {
+  for (int cell = 0; cell < floor.cells(); ++cell) {
+    if (floor.storage[cell]) places_.push_back(cell);
+  }
+}
+
+void Goals::begin(int w) {
+  way_.fill(w, nullptr);
+  aim_.fill(w, kNone);
+  changed(w);
+}
+
+void Goals::end(int w, int robot) {
+  way_[w][robot] = nullptr;
+  aim_[w][robot] = kNone;
+  changed(w);
+}
+
+void Goals::changed(int w) { news_[w] = 1; }
+
+void Goals::renew() {
+  for (int w = 0; w < state_.warehouses(); ++w) {
+    const int robots = state_.robots();
+    for (int robot = 0; news_[w] && robot < robots; ++robot) {
+      if (isGone(w, robot)) end(w, robot);
+    }
+    for (int robot = 0; robot < robots; ++robot) {
+      if (way_[w][robot]) continue;
+      cell_[w][robot] = state_.cell[w][robot];
+      if (news_[w]) find(w, robot);
+    }
+    news_[w] = 0;
+  }
+}
+
+int Goals::distance(int w, int robot) const {
+  if (!way(w, robot)) return 0;
+  const int far = (*way(w, robot))[state_.cell[w][robot]];
+  return far == kFar ? 0 : far;
+}
+
+bool Goals::isGone(int w, int robot) const {
+  const int aim = aim_[w][robot], load = state_.load[w][robot];
+  if (aim == kNone) return false;
+  if (load == kNone) return state_.unit_cell[w][aim] == kNone || !state_.requested[w][aim];
+  return !state_.requested[w][load] && state_.unit_at[w][aim] != kNone;
+}
+
+void Goals::find(int w, int robot) {
+  const int load = state_.load[w][robot];
+  if (load == kNone) {
+    findUnit(w, robot);
+  } else if (state_.requested[w][load]) {
+    choose(w, robot, floor_.stations, Deck::kLoaded);
+  } else {
+    findPlace(w, robot);
+  }
+}
+
+void Goals::findUnit(int w, int robot) {
+  std::vector<int> units, cells;
+  for (int unit = 0; unit < state_.units(); ++unit) {
+    const int cell = state_.unit_cell[w][unit];
+    if (!state_.requested[w][unit] || cell == kNone || isAnothersAim(w, unit, false)) continue;
+    units.push_back(unit);
+    cells.push_back(cell);
+  }
+  const int chosen = choose(w, robot, cells, Deck::kUnloaded);
+  if (chosen != kNone) aim_[w][robot] = units[chosen];
+}
+
+void Goals::findPlace(int w, int robot) {
+  std::vector<int> free;
+  for (const int place : places_) {
+    if (state_.unit_at[w][place] == kNone && !isAnothersAim(w, place, true)) free.push_back(place);
+  }
+  const int chosen = choose(w, robot, free, Deck::kLoaded);
+  if (chosen != kNone) aim_[w][robot] = free[chosen];
+}
+
+bool Goals::isAnothersAim(int w, int aim, bool loaded) const {
+  for (int robot = 0; robot < state_.robots(); ++robot) {
+    if (aim_[w][robot] == aim && (state_.load[w][robot] != kNone) == loaded) return true;
+  }
+  return false;
+}
+
+int Goals::choose(int w, int robot, const std::vector<int>& cells, Deck deck) {
+  int chosen = kNone;
+  const Way* shortest = nullptr;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    const Way& way = ways_.to(cells[k], deck);
+    const int at = state_.cell[w][robot];
+    if (shortest && way[at] >= (*shortest)[at]) continue;
+    shortest = &way;
+    chosen = static_cast<int>(k);
+  }
+  if (!shortest) return kNone;
+  cell_[w][robot] = cells[chosen];
+  way_[w][robot] = shortest;
+  return chosen;
+}
+
+}  // namespace learning

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What each robot had better go for: hints to learn by, nobody is bound by them.
+//
+// A robot without a load: the nearest requested unit that is no other robot's goal. One with a
+// requested unit: the nearest station. One with another unit: the nearest free storage place that
+// is no other robot's goal.
+#pragma once
+
+#include <vector>
+
+#include "floor.h"
+#include "state.h"
+#include "ways.h"
+
+namespace learning {
+
+/// Of all robots; kept until they are reached or no more to be had.
+class Goals {
+ public:
+  Goals(const Floor& floor, const State& state);
+
+  void begin(int w);           ///< An episode: all are found anew.
+  void end(int w, int robot);  ///< It has lifted, delivered or put down.
+  void changed(int w);         ///< Units stand elsewhere.
+  /// Finds goals for those whose own is gone, which it can be only where there are news.
+  void renew();
+
+  /// The robot's goal; its own cell if it has none.
+  int cell(int w, int robot) const { return cell_[w][robot]; }
+  const Table<std::int32_t>& cells() const { return cell_; }
+  /// nullptr if it has none.
+  const Way* way(int w, int robot) const { return way_[w][robot]; }
+  /// [cells] to go; 0 where there is no goal or no way.
+  int distance(int w, int robot) const;
+
+ private:
+  bool isGone(int w, int robot) const;
+  void find(int w, int robot);
+  void findUnit(int w, int robot);
+  void findPlace(int w, int robot);
+  bool isAnothersAim(int w, int aim, bool loaded) const;
+  /// The nearest of the cells becomes its goal. Returns which, kNone if there are none.
+  int choose(int w, int robot, const std::vector<int>& cells, Deck deck);
+
+  const Floor& floor_;
+  const State& state_;
+  Ways ways_;
+  std::vector<int> places_;  // of storage
+  Table<std::int32_t> cell_;
+  Table<const Way*> way_;
+  Table<std::int32_t> aim_;  // unit, or cell of a storage place
+  std::vector<char> news_;   // by warehouse: there may be other goals than before
+};
+
+}  // namespace learning

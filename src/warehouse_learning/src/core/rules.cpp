@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rules.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace learning {
+namespace {
+
+constexpr std::int32_t kNobody = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t kTurnsAlready = -1;  // before everybody who is about to
+
+bool isTurn(std::int8_t action) { return action == kLeft || action == kRight; }
+
+}  // namespace
+
+Rules::Rules(const Floor& floor, State* state, Goals* goals, bool reserve)
+    : floor_(floor),
+      state_(*state),
+      goals_(*goals),
+      reserve_(reserve),
+      load_before_(state->warehouses(), state->robots(), kNone),
+      held_(floor.cells()),
+      rank_(floor.cells(), kNobody) {}
+
+void Rules::possible(bool* out) {
+  for (int w = 0; w < state_.warehouses(); ++w) {
+    markHeld(w, reserve_);
+    for (int robot = 0; robot < state_.robots(); ++robot, out += kActions) {
+      const bool is_free = !state_.busy[w][robot];
+      out[kWait] = true;
+      out[kForward] = is_free && isOpen(w, robot);
+      out[kLeft] = out[kRight] = is_free;
+      out[kLift] = is_free && mayLift(w, robot);
+    }
+    markHeld(w, false);
+  }
+}
+
+std::vector<Order> Rules::begin(const std::int8_t* actions, bool* done) {
+  const int robots = state_.robots();
+  const auto all = static_cast<std::size_t>(state_.warehouses()) * robots;
+  const auto can = std::make_unique<bool[]>(all * kActions);
+  possible(can.get());
+  std::vector<Order> orders;
+  for (int w = 0; w < state_.warehouses(); ++w, actions += robots, done += robots) {
+    const auto is_possible = [&](int robot) {
+      return can[(static_cast<std::size_t>(w) * robots + robot) * kActions + actions[robot]];
+    };
+    for (int robot = 0; robot < robots; ++robot) done[robot] = is_possible(robot);
+    takeTurns(w, actions, done);
+    if (reserve_) takeCells(w, actions, done);
+    for (int robot = 0; robot < robots; ++robot) {
+      const Action action = done[robot] ? static_cast<Action>(actions[robot]) : kWait;
+      if (begin(w, robot, action)) orders.push_back({w, robot, action, unitFor(w, robot)});
+    }
+  }
+  return orders;
+}
+
+Outcome Rules::settle() {
+  Outcome outcome(state_.warehouses(), state_.robots());
+  for (int w = 0; w < state_.warehouses(); ++w) {
+    for (int robot = 0; robot < state_.robots(); ++robot) {
+      const int load = state_.load[w][robot];
+      if (load != load_before_[w][robot]) changeLoad(w, robot, &outcome);
+      const bool is_there = floor_.station[state_.cell[w][robot]] != 0;
+      if (is_there && load != kNone && !state_.busy[w][robot])
+        outcome.arrived.push_back({w, robot});
+    }
+  }
+  return outcome;
+}
+
+int Rules::ahead(int w, int robot) const {
+  return floor_.inside(state_.cell[w][robot] + floor_.step(state_.heading[w][robot]));
+}
+
+bool Rules::mayLift(int w, int robot) const {
+  const int cell = state_.cell[w][robot];
+  return state_.load[w][robot] == kNone ? state_.unit_at[w][cell] != kNone : floor_.storage[cell];
+}
+
+bool Rules::isOpen(int w, int robot) const {
+  const int cell = ahead(w, robot);
+  const bool fits = state_.load[w][robot] == kNone || state_.unit_at[w][cell] == kNone;
+  return floor_.passable[cell] && !held_[cell] && fits;
+}
+
+int Rules::unitFor(int w, int robot) const {
+  const int load = state_.load[w][robot];
+  return load == kNone ? state_.unit_at[w][state_.cell[w][robot]] : load;
+}
+
+void Rules::markHeld(int w, bool mark) {
+  for (int robot = 0; robot < state_.robots(); ++robot) {
+    held_[state_.cell[w][robot]] = held_[state_.bound_for[w][robot]] = mark;
+  }
+}
+
+/// Of several that want into one cell the first goes.
+void Rules::takeCells(int w, const std::int8_t* actions, bool* done) {
+  const auto wants = [&](int robot) { return done[robot] && actions[robot] == kForward; };
+  std::vector<int> taken;
+  for (int robot = 0; robot < state_.robots(); ++robot) {
+    if (!wants(robot)) continue;
+    const int cell = ahead(w, robot);
+    done[robot] = !held_[cell];
+    held_[cell] = true;
+    taken.push_back(cell);
+  }
+  for (const int cell : taken) held_[cell] = false;
+}
+
+/// One that turns sweeps beyond its cell, and two side by side would touch: the first of them may.
+void Rules::takeTurns(int w, const std::int8_t* actions, bool* done) {
+  const int robots = state_.robots();
+  for (int robot = 0; robot < robots; ++robot) {
+    const bool turns_already = state_.turning[w][robot] && state_.busy[w][robot];
+    const bool turns = done[robot] && isTurn(actions[robot]);
+    rank_[state_.cell[w][robot]] = turns_already ? kTurnsAlready : turns ? robot : kNobody;
+  }
+  for (int robot = 0; robot < robots; ++robot) {
+    if (!done[robot] || !isTurn(actions[robot])) continue;
+    for (int heading = 0; heading < 4; ++heading) {
+      const int beside = floor_.inside(state_.cell[w][robot] + floor_.step(heading));
+      if (rank_[beside] < robot) done[robot] = false;
+    }
+  }
+  for (int robot = 0; robot < robots; ++robot) rank_[state_.cell[w][robot]] = kNobody;
+}
+
+/// Whether there is something to begin.
+bool Rules::begin(int w, int robot, Action action) {
+  const bool busy = state_.busy[w][robot];
+  load_before_[w][robot] = state_.load[w][robot];
+  if (action == kForward) {
+    state_.bound_for[w][robot] = ahead(w, robot);
+  } else if (!busy) {
+    state_.bound_for[w][robot] = state_.cell[w][robot];
+  }
+  state_.turning[w][robot] = isTurn(action) || (state_.turning[w][robot] && busy);
+  return action != kWait;
+}
+
+void Rules::changeLoad(int w, int robot, Outcome* outcome) {
+  const int cell = state_.cell[w][robot], load = state_.load[w][robot];
+  if (load != kNone) {
+    state_.unit_cell[w][load] = state_.unit_at[w][cell] = kNone;
+    outcome->lifted[w][robot] = state_.requested[w][load];
+  } else {
+    const int unit = load_before_[w][robot];
+    state_.unit_cell[w][unit] = cell;
+    state_.unit_at[w][cell] = unit;
+    outcome->dropped[w][robot] = state_.requested[w][unit];
+    outcome->stored[w][robot] = state_.served[w][unit];
+    state_.served[w][unit] = false;
+  }
+  goals_.end(w, robot);
+}
+
+}  // namespace learning

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ways.h"
+
+namespace learning {
+
+Ways::Ways(const Floor& floor) : floor_(floor) {
+  for (auto& goals : to_) goals.resize(floor.cells());
+}
+
+const Way& Ways::to(int goal, Deck deck) {
+  const Way*& way = to_[static_cast<int>(deck)][goal];
+  if (!way) way = &ways_.emplace_back(measure(goal, deck));
+  return *way;
+}
+
+/// Wave by wave from the goal. One may begin in any passable cell.
+Way Ways::measure(int goal, Deck deck) const {
+  Way way(floor_.cells(), kFar);
+  way[goal] = 0;
+  std::vector<int> wave{goal};
+  for (std::size_t k = 0; k < wave.size(); ++k) {
+    for (int heading = 0; heading < 4; ++heading) {
+      const int next = floor_.inside(wave[k] + floor_.step(heading));
+      if (!floor_.passable[next] || way[next] != kFar) continue;
+      way[next] = static_cast<std::int16_t>(way[wave[k]] + 1);
+      if (deck == Deck::kUnloaded || !floor_.storage[next]) wave.push_back(next);
+    }
+  }
+  return way;
+}
+
+}  // namespace learning

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copies of a geometry that are drawn by one call: as instances, or in one mesh.
+
+import * as THREE from '/three/build/three.module.js';
+
+const FIRST = 64; // copies for which a mesh has room at first
+const PLACED = ['position', 'normal'], TINTED = 3;
+
+/** A graphics card draws many instances as fast as it draws one mesh. */
+export class Instances {
+  /** At most `count` of them. */
+  constructor(geometry, material, count) {
+    this.mesh = new THREE.InstancedMesh(geometry, material, count);
+    this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+    this.mesh.frustumCulled = false;
+    this.tint = new THREE.InstancedBufferAttribute(new Float32Array(3 * count), 3);
+    geometry.setAttribute('tint', this.tint.setUsage(THREE.DynamicDrawUsage));
+  }
+
+  begin() {
+    this.drawn = 0;
+  }
+
+  /** Adds one with the matrix in `matrices` at 16 i and the colour in `tints` at 3 i; `place(i, array, at)`
+   *  may change the matrix that was written there. */
+  add(matrices, tints, i, place) {
+    const out = this.mesh.instanceMatrix.array, to = 16 * this.drawn;
+    for (let k = 0; k < 16; ++k) out[to + k] = matrices[16 * i + k];
+    if (place) place(i, out, to);
+    for (let k = 0; k < 3; ++k) this.tint.array[3 * this.drawn + k] = tints[3 * i + k];
+    this.drawn += 1;
+  }
+
+  end() {
+    this.mesh.count = this.drawn;
+    this.mesh.visible = this.drawn > 0;
+    for (const attribute of [this.mesh.instanceMatrix, this.tint]) {
+      attribute.updateRange.count = this.drawn * attribute.itemSize;
+      attribute.needsUpdate = true;
+    }
+  }
+}
+
+/** A processor draws instances one by one, each at the price of a mesh: there the corners of all are put
+ *  where they belong beforehand. The methods are those of Instances. */
+export class Merged {
+  constructor(geometry, material) {
+    this.original = geometry;
+    this.corners = geometry.attributes.position.count;
+    this.matrix = new Float32Array(16);
+    this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
+    this.mesh.frustumCulled = false;
+    this.room = 0;
+    this.grow(FIRST);
+  }
+
+  /** Makes room for so many copies, and keeps those that are there. */
+  grow(room) {
+    const { original, corners } = this;
+    const geometry = new THREE.BufferGeometry();
+    const attribute = (name, { array, itemSize }, isOwn) => {
+      const all = new Float32Array(room * corners * itemSize);
+      if (isOwn) all.set(this.mesh.geometry.attributes[name]?.array ?? []);
+      else for (let copy = 0; copy < room; ++copy) all.set(array, copy * array.length);
+      geometry.setAttribute(name, new THREE.BufferAttribute(all, itemSize).setUsage(THREE.DynamicDrawUsage));
+    };
+    for (const [name, values] of Object.entries(original.attributes)) attribute(name, values, PLACED.includes(name));
+    attribute('tint', { itemSize: TINTED }, true);
+    if (original.index) geometry.setIndex(new THREE.BufferAttribute(this.indices(room), 1));
+    this.mesh.geometry.dispose();
+    Object.assign(this.mesh, { geometry });
+    this.room = room;
+  }
+
+  indices(room) {
+    const { array } = this.original.index, out = new Uint32Array(room * array.length);
+    for (let i = 0; i < out.length; ++i) {
+      out[i] = array[i % array.length] + this.corners * Math.floor(i / array.length);
+    }
+    return out;
+  }
+
+  begin() {
+    this.drawn = 0;
+  }
+
+  add(matrices, tints, i, place) {
+    if (this.drawn === this.room) this.grow(2 * this.room);
+    const { corners, matrix, original: { attributes }, mesh: { geometry } } = this;
+    for (let k = 0; k < 16; ++k) matrix[k] = matrices[16 * i + k];
+    if (place) place(i, matrix, 0);
+    const first = 3 * corners * this.drawn;
+    move(attributes.position.array, matrix, 1, geometry.attributes.position.array, first);
+    if (attributes.normal) move(attributes.normal.array, matrix, 0, geometry.attributes.normal.array, first);
+    const tint = geometry.attributes.tint.array;
+    for (let k = 0; k < 3 * corners; k += 3) {
+      for (let c = 0; c < 3; ++c) tint[first + k + c] = tints[3 * i + c];
+    }
+    this.drawn += 1;
+  }
+
+  end() {
+    const { geometry } = this.mesh, each = this.original.index?.count ?? this.corners;
+    this.mesh.visible = this.drawn > 0;
+    geometry.setDrawRange(0, each * this.drawn);
+    for (const name of [...PLACED, 'tint']) {
+      const attribute = geometry.attributes[name];
+      if (!attribute || !this.drawn) continue;
+      attribute.updateRange.count = this.corners * this.drawn * attribute.itemSize;
+      attribute.needsUpdate = true;
+    }
+  }
+}
+
+/** Writes points x y z in a row as a matrix moves them, from `at` on; `shift` 0: directions. */
+function move(points, m, shift, out, at) {
+  for (let k = 0; k < points.length; k += 3) {
+    const x = points[k], y = points[k + 1], z = points[k + 2];
+    out[at + k] = m[0] * x + m[4] * y + m[8] * z + shift * m[12];
+    out[at + k + 1] = m[1] * x + m[5] * y + m[9] * z + shift * m[13];
+    out[at + k + 2] = m[2] * x + m[6] * y + m[10] * z + shift * m[14];
+  }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often the picture is drawn. A graphics card draws whenever the display shows something; a
+// processor that draws leaves most of its time to the simulation.
+
+export const SHARE = 1 / 6; // of the time, in which pictures are drawn
+export const HURRIED = 1 / 2; // the same while the camera is moved
+const HURRY = 500; // after it was [ms]
+const SLOWEST = 500; // from one picture to the next [ms]
+const NEW = 0.3; // weight of the last picture's cost beside those before
+const LOOK = 4; // between two looks at whether a picture is done [ms]
+
+export class Pace {
+  /** `tell(gap)` hears the time from one picture to the next [ms], after each. */
+  constructor(tell, clock = () => performance.now(), later = (done, ms) => setTimeout(done, ms)) {
+    Object.assign(this, { tell, clock, later });
+    this.cost = 0; // of a picture [ms]
+    this.gap = 0; // from one picture to the next, at least [ms]
+    this.hurriedUntil = 0; // [ms]
+    this.rest = Promise.resolve(); // until the next picture may be drawn
+  }
+
+  /** The camera is moved: who does so waits for the picture. */
+  hurry() {
+    this.hurriedUntil = this.clock() + HURRY;
+  }
+
+  /** A picture was begun then [ms]; `isDone()` tells whether the processor has drawn it. */
+  drew(begun, isDone) {
+    this.rest = this.finish(begun, isDone);
+  }
+
+  async finish(begun, isDone) {
+    while (!isDone()) await this.wait(LOOK);
+    const cost = this.clock() - begun;
+    this.cost += (this.cost ? NEW : 1) * (cost - this.cost);
+    const share = this.clock() < this.hurriedUntil ? HURRIED : SHARE;
+    this.gap = Math.min(SLOWEST, this.cost / share);
+    this.tell(this.gap);
+    await this.wait(begun + this.gap - this.clock());
+  }
+
+  wait(ms) {
+    return new Promise((done) => this.later(done, Math.max(0, ms)));
+  }
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether the processor draws, for want of a graphics card: then it matters how, and how often.
+
+let known;
+
+export function drawsInSoftware() {
+  known ??= ask();
+  return known;
+}
+
+function ask() {
+  if (typeof document === 'undefined') return false; // no browser draws
+  const gl = document.createElement('canvas').getContext('webgl');
+  const told = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = told ? gl.getParameter(told.UNMASKED_RENDERER_WEBGL) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
