@@ -93,6 +93,33 @@ TEST(Epibt, DrivesAroundADeadRobotAndAClosedCell) {
   }
 }
 
+TEST(Epibt, DrivesAroundOneThatRestsWhereItWasToGo) {
+  const std::vector<std::string> rows(3, "............");
+  const Floor floor(drawn(rows));
+  const Cell begin = 12, between = 12 + 5, end = 12 + 11;
+  Fleet fleet;
+  fleet.cell = {begin, between};
+  fleet.heading = {0, 0};
+  fleet.goal = {end, between};
+  EpibtOptions options;
+  options.resting = 8;
+  const auto planner = makeEpibt(options);
+  planner->start(floor, {}, 1);
+  Plan plan;
+  int ticks = 0;
+  for (; fleet.cell[0] != end && ticks < 100; ++ticks) {
+    planner->plan(fleet, {}, plan);
+    for (int robot = 0; robot < 2; ++robot) {
+      const State state =
+          after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
+      fleet.cell[robot] = state.cell;
+      fleet.heading[robot] = state.heading;
+    }
+    ASSERT_EQ(fleet.cell[1], between);
+  }
+  EXPECT_LE(ticks, 11 + 2 + 4);  // a cell aside and back, four quarter turns
+}
+
 TEST(Epibt, KeepsWhatIsCommittedAndGoesOnFromWhereRobotsAre) {
   // Robots that don't do what they were told: each misses one action in ten.
   std::mt19937_64 random(5);

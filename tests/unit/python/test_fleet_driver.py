@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A fleet at work with physics, in one process."""
 
+import collections
 import pathlib
 
 import numpy as np
@@ -84,6 +85,38 @@ def test_a_transport_goes_through_all_its_steps(drive):
     assert unit["shelf_id"] == 7 and unit["kiva_id"] == 0
     cell = driver.plan.cell_of(unit["x"], unit["y"])
     assert driver.plan.storage.flat[cell] and transports.cell_of_unit[7] == cell
+
+
+class HardOfHearing:
+    """A World that is told to lift, or to drop, so many times in vain."""
+
+    def __init__(self, world, in_vain):
+        self._world, self._in_vain = world, in_vain
+        self._told = collections.Counter()
+
+    def __getattr__(self, name):
+        return getattr(self._world, name)
+
+    def _tell(self, *command):
+        self._told[command] += 1
+        if self._told[command] > self._in_vain:
+            getattr(self._world, command[0])(*command[1:])
+
+    def carry(self, kiva_id, shelf_id):
+        self._tell("carry", kiva_id, shelf_id)
+
+    def drop(self, kiva_id, shelf_id):
+        self._tell("drop", kiva_id, shelf_id)
+
+
+def test_a_lift_is_asked_for_until_it_is_heard(drive):
+    driver = drive(HardOfHearing(World.preset("small"), in_vain=4))
+    number = driver.transports.submit(7, driver.stations[0].name).transport_id
+    events = run_until(driver, {Kind.ARRIVED, Kind.FAILED})
+    assert driver.transports.release(number) == (True, "")
+    events += run_until(driver, {Kind.STORED, Kind.FAILED})
+    assert events[-1].kind == Kind.STORED
+    assert_clean(driver)
 
 
 def test_a_unit_stays_where_it_was_brought_and_is_fetched_from_there(drive):

@@ -825,7 +825,6 @@ PYBIND11_MODULE(_core, m) {
   defineFleet(m);
   defineWorld(m);
   defineWorlds(m);
-  defineCells(m);
 }
 
 }  // namespace kiva::python

@@ -23,13 +23,14 @@ struct EpibtOptions {
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept
-  int table_work = 1500;     ///< states a robot that distance tables made in one step may have
-  int renewal_work = 60000;  ///< states that tables made anew in one step may have
-  int renewal_age = 20;      ///< ticks after which a table is made anew, if there is work left
-  double against = 10;       ///< what it costs to meet one robot a tick head on [ticks]
-  double crowd = 0;          ///< what it costs where one robot a tick waits [ticks]
-  double at_lanes = 0;       ///< what it costs beside stations' lanes [ticks]
-  double memory = 50;        ///< for how long that is remembered [ticks]
+  int table_work = 1500;   ///< states a robot that distance tables made in one step may have
+  int renewal_work = 200;  ///< states a robot that tables made anew in one step may have
+  int renewal_age = 20;    ///< ticks after which a table is made anew, if there is work left
+  double against = 10;     ///< what it costs to meet one robot a tick head on [ticks]
+  double crowd = 5;        ///< what it costs where one robot a tick waits [ticks]
+  double resting = 0;      ///< what it costs where one stands that has come to its goal [ticks]
+  double at_lanes = 0;     ///< what it costs beside stations' lanes [ticks]
+  double memory = 50;      ///< for how long that is remembered [ticks]
 };
 
 std::unique_ptr<Planner> makeEpibt(const EpibtOptions& options = {});

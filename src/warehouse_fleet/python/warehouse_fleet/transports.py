@@ -15,8 +15,8 @@ from warehouse_fleet.failures import RADIO_LOST
 from warehouse_fleet.traffic import NOWHERE, STAYS, Mode
 
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
-LIFT_PATIENCE = 5.0  # a lift that has not begun within this is asked for again [s]
-LIFT_ATTEMPTS = 3
+LIFT_PATIENCE = 3.0  # a lift that has not begun within this is asked for again [s]
+LIFT_ATTEMPTS = 8  # of ten messages one may be lost, and thousands of units are lifted
 CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
 UNIT_REACH = 0.48  # of a unit's sides, with room for who turns beside it [m]
 URGENT = 255  # the highest priority

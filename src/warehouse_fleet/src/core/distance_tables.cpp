@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
+#include <utility>
 
 namespace fleet {
 namespace {
@@ -26,13 +28,15 @@ void DistanceTables::begin(int now, int version, int builds) {
   now_ = now;
   version_ = version;
   builds_ = builds;
+  asked_.clear();
 }
 
-const DistanceTable* DistanceTables::find(Deck deck, Cell goal) {
+const DistanceTable* DistanceTables::find(Deck deck, Cell goal, bool is_urgent) {
   const std::int64_t key = std::int64_t{goal} << 1 | static_cast<int>(deck);
   if (const auto known = index_.find(key); known != index_.end()) {
     tables_.splice(tables_.begin(), tables_, known->second);
-    return &known->second->table;
+    ask(tables_.front(), is_urgent);
+    return &tables_.front().table;
   }
   if (builds_ == 0) return nullptr;
   if (tables_.size() < capacity_) {
@@ -44,20 +48,34 @@ const DistanceTable* DistanceTables::find(Deck deck, Cell goal) {
   tables_.front().key = key;
   index_[key] = tables_.begin();
   --builds_;
-  build(deck, goal, tables_.front().table);
+  build(tables_.front());
+  ask(tables_.front(), is_urgent);
   return &tables_.front().table;
 }
 
-void DistanceTables::renew(int max_age, int builds) {
-  for (Entry& entry : tables_) {
-    if (builds == 0) return;
-    if (entry.table.version_ == version_ && now_ - entry.table.made_ < max_age) continue;
-    build(static_cast<Deck>(entry.key & 1), static_cast<Cell>(entry.key >> 1), entry.table);
-    --builds;
-  }
+void DistanceTables::ask(Entry& entry, bool is_urgent) {
+  const bool is_first = std::exchange(entry.asked, now_) != now_;
+  if (is_first) asked_.push_back(&entry);
+  entry.is_urgent = is_urgent || (!is_first && entry.is_urgent);
 }
 
-void DistanceTables::build(Deck deck, Cell goal, DistanceTable& table) {
+void DistanceTables::renew(int max_age, int builds) {
+  const auto is_young = [&](const Entry* entry) {
+    return entry->table.version_ == version_ && now_ - entry->table.made_ < max_age;
+  };
+  asked_.erase(std::remove_if(asked_.begin(), asked_.end(), is_young), asked_.end());
+  const auto turn = [](const Entry* entry) {
+    return std::make_tuple(!entry->is_urgent, entry->table.made_, entry->key);
+  };
+  const auto end = asked_.begin() + std::min<std::size_t>(asked_.size(), builds);
+  std::partial_sort(asked_.begin(), end, asked_.end(),
+                    [&](const Entry* one, const Entry* other) { return turn(one) < turn(other); });
+  std::for_each(asked_.begin(), end, [this](Entry* entry) { build(*entry); });
+}
+
+void DistanceTables::build(Entry& entry) {
+  const Deck deck = static_cast<Deck>(entry.key & 1);
+  const Cell goal = static_cast<Cell>(entry.key >> 1);
   std::fill(cost_.begin(), cost_.end(), kUnreachable);
   for (int heading = 0; heading < kHeadings; ++heading) push(goal * kHeadings + heading, 0);
   // The queues hold all costs from the present one to the dearest edge away.
@@ -69,9 +87,9 @@ void DistanceTables::build(Deck deck, Cell goal, DistanceTable& table) {
     }
     queue.clear();
   }
-  pack(table);
-  table.version_ = version_;
-  table.made_ = now_;
+  pack(entry.table);
+  entry.table.version_ = version_;
+  entry.table.made_ = now_;
 }
 
 void DistanceTables::push(int state, int cost) {

@@ -51,10 +51,12 @@ class DistanceTables {
   /// A step begins: at that time, with edges of that version. So many tables may be made in it.
   void begin(int now, int version, int builds);
 
-  /// The table, perhaps an outdated one; nullptr if it is not there and no more may be made now.
-  const DistanceTable* find(Deck deck, Cell goal);
+  /// The table, perhaps an outdated one; nullptr if it is not there and no more may be made now. It
+  /// is urgent to who does not get on with it.
+  const DistanceTable* find(Deck deck, Cell goal, bool is_urgent);
 
-  /// Makes at most so many tables anew that are older than `max_age` or of earlier edges.
+  /// Of those that were asked for in this step, makes at most so many anew, the urgent and the
+  /// oldest first, that are older than `max_age` or of earlier edges.
   void renew(int max_age, int builds);
 
   std::size_t bytes() const { return tables_.size() * tableBytes(); }
@@ -63,10 +65,13 @@ class DistanceTables {
   struct Entry {
     std::int64_t key;
     DistanceTable table;
+    int asked = -1;  ///< when it was asked for last
+    bool is_urgent = false;
   };
 
   std::size_t tableBytes() const { return floor_.size() * sizeof(std::uint32_t); }
-  void build(Deck deck, Cell goal, DistanceTable& table);
+  void ask(Entry& entry, bool is_urgent);
+  void build(Entry& entry);
   void push(int state, int cost);
   void relax(Deck deck, Cell goal, int state);
   void pack(DistanceTable& table) const;
@@ -77,6 +82,7 @@ class DistanceTables {
   const std::size_t capacity_;
   std::list<Entry> tables_;  ///< what was asked for last comes first
   std::unordered_map<std::int64_t, std::list<Entry>::iterator> index_;
+  std::vector<Entry*> asked_;  ///< in this step
   int now_ = 0, version_ = 0, builds_ = 0;
   // Of the search: costs by cell and heading, and a ring of queues, one a cost.
   std::vector<std::uint16_t> cost_;

@@ -105,7 +105,8 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   floor_ = &floor;
   random_.seed(seed);
   guidance_ = std::make_unique<Guidance>(
-      floor, GuidanceOptions{options_.against, options_.crowd, options_.at_lanes, options_.memory});
+      floor, GuidanceOptions{options_.against, options_.crowd, options_.resting, options_.at_lanes,
+                             options_.memory});
   edges_ = std::make_unique<Edges>();
   edges_->next[0] = floor.edges(Deck::kUnder);
   edges_->next[1] = floor.edges(Deck::kAisles);
@@ -156,6 +157,9 @@ void Epibt::observe(const Fleet& fleet) {
     }
   }
   guidance_->tick();
+  for (int robot = 0; robot < fleet.size(); ++robot) {
+    if (fleet.cell[robot] == fleet.goal[robot]) guidance_->rests(fleet.cell[robot]);
+  }
   constexpr int kRefresh = 10;
   if (now_ % kRefresh == 0) guidance_->refresh();
 }
@@ -196,8 +200,11 @@ void Epibt::closeDeck(Deck deck, std::vector<Cell> cells) {
 void Epibt::wish(const Fleet& fleet) {
   const int states = floor_->size() * kHeadings;
   constexpr int kLeastWork = 60000;
-  const int work = std::max(kLeastWork, options_.table_work * fleet.size());
-  tables_->begin(now_, version_, std::max(1, work / states));
+  constexpr int kImpatient = 5;  // ticks in a cell after which other ways are looked for
+  const auto tables = [&](int work) {
+    return std::max(1, std::max(kLeastWork, work * fleet.size()) / states);
+  };
+  tables_->begin(now_, version_, tables(options_.table_work));
   wishes_.resize(fleet.size());
   for (int robot = 0; robot < fleet.size(); ++robot) {
     Wish& wish = wishes_[robot];
@@ -213,10 +220,13 @@ void Epibt::wish(const Fleet& fleet) {
       wish.commitment[tick] = fleet.commitment(robot, tick);
     }
     if (wish.goal == kNowhere || wish.stopped) continue;
-    wish.table = tables_->find(wish.deck, wish.goal);
-    if (wish.table != nullptr && !wish.table->reaches(wish.state.cell)) wish.goal = kNowhere;
+    const bool waits = way_->still(robot) >= kImpatient && !floor_->isLane(wish.state.cell);
+    wish.table = tables_->find(wish.deck, wish.goal, waits);
+    if (wish.table == nullptr || wish.table->reaches(wish.state.cell)) continue;
+    tables_->find(wish.deck, wish.goal, true);  // perhaps there is a way by now
+    wish.goal = kNowhere;
   }
-  tables_->renew(options_.renewal_age, std::max(1, options_.renewal_work / states));
+  tables_->renew(options_.renewal_age, tables(options_.renewal_work));
   candidates_->begin(fleet.size());
 }
 

@@ -39,6 +39,7 @@ Guidance::Guidance(const Floor& floor, const GuidanceOptions& options)
       costs_(floor.size() * kHeadings, kTickCost) {}
 
 void Guidance::tick() {
+  resting_.clear();
   constexpr double kLargestGain = 1e6;
   gain_ *= std::exp(1 / options_.memory);
   if (gain_ < kLargestGain) return;
@@ -50,14 +51,15 @@ void Guidance::tick() {
 void Guidance::refresh() {
   // Sums of what fades like this are `memory` times the mean.
   const double per_tick = 1 / (gain_ * options_.memory);
+  std::vector<std::uint8_t> rests(floor_.size());
+  for (const Cell cell : resting_) rests[cell] = 1;
   for (Cell cell = 0; cell < floor_.size(); ++cell) {
     for (int heading = 0; heading < kHeadings; ++heading) {
       const Cell to = floor_.next(Deck::kUnder, cell, heading);
       if (to == kNowhere) continue;
       const double met = drove_[to * kHeadings + turned(heading, 2)] * per_tick;
-      const double lanes = is_at_lanes_[to] ? options_.at_lanes : 0;
-      const double ticks =
-          1 + options_.against * met + options_.crowd * waited_[to] * per_tick + lanes;
+      const double ticks = 1 + options_.against * met + options_.crowd * waited_[to] * per_tick +
+                           options_.at_lanes * is_at_lanes_[to] + options_.resting * rests[to];
       costs_[cell * kHeadings + heading] =
           std::min<double>(kMaxEdgeCost, std::lround(ticks * kTickCost));
     }

@@ -20,6 +20,7 @@ constexpr int kMaxEdgeCost = 60;
 struct GuidanceOptions {
   double against = 0;   ///< cost of meeting one robot a tick, in ticks
   double crowd = 0;     ///< cost of one robot a tick that waits in the cell, in ticks
+  double resting = 0;   ///< cost of a cell where a robot is where it was to go, in ticks
   double at_lanes = 0;  ///< cost beside stations' lanes, which is for who goes there, in ticks
   double memory = 200;  ///< ticks after which what was seen counts 1/e
 };
@@ -31,6 +32,8 @@ class Guidance {
   /// A robot drove from `cell` towards `heading` in this tick, or waited there.
   void drove(Cell cell, int heading) { drove_[cell * kHeadings + heading] += gain_; }
   void waited(Cell cell) { waited_[cell] += gain_; }
+  /// A robot has come to its goal and stands there until it gets another.
+  void rests(Cell cell) { resting_.push_back(cell); }
   /// The tick is over.
   void tick();
 
@@ -45,6 +48,7 @@ class Guidance {
   // What is seen counts more and more instead of what was seen less and less.
   double gain_ = 1;
   std::vector<float> drove_, waited_;
+  std::vector<Cell> resting_;  ///< now
   std::vector<std::uint8_t> is_at_lanes_;
   std::vector<std::uint8_t> costs_;
 };

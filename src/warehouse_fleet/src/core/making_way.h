@@ -23,6 +23,10 @@ class MakingWay {
 
   /// Whether a robot was told where to go; those come first of all.
   bool isTold(int robot) const { return progress_[robot].told != kNowhere; }
+  /// For how many ticks a robot had been in its cell on its way to a goal, a step ago.
+  int still(int robot) const {
+    return robot < static_cast<int>(progress_.size()) ? progress_[robot].still : 0;
+  }
 
  private:
   struct Progress {

@@ -200,6 +200,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("renewal_age", options.renewal_age);
   set("against", options.against);
   set("crowd", options.crowd);
+  set("resting", options.resting);
   set("at_lanes", options.at_lanes);
   set("memory", options.memory);
   for (const auto& unknown : given) {

@@ -17,17 +17,33 @@ constexpr double kFacing = 0.002;       // [rad] off: it can drive; how it may b
 constexpr double kNearlyFacing = 0.02;  // [rad] off, of one that has to find out
 constexpr double kRounding = 1e-9;      // [m]
 
-/// A place seen from the origin of the present run [m].
+/// A place seen from the origin of a run [m].
 struct OnRun {
   double along, beside;
 };
 
-OnRun onRun(const Task& task, std::uint32_t point) {
-  const MotionSegment& run = task.segments.front();
-  const double c = std::round(std::cos(run.yaw)), s = std::round(std::sin(run.yaw));
-  const double dx = task.path[point].x - run.x, dy = task.path[point].y - run.y;
-  return {c * dx + s * dy, c * dy - s * dx};
-}
+/// The frame of the present run, which goes along an axis: its heading's cosine and sine are whole,
+/// and known without asking for them, at every point that is counted.
+class Run {
+ public:
+  explicit Run(const Task& task) : path_(task.path), segment_(task.segments.front()) {
+    constexpr double kCosine[] = {1, 0, -1, 0};
+    const int quarters =
+        static_cast<int>(segment_.yaw / kHalfPi + std::copysign(0.5, segment_.yaw));
+    cosine_ = kCosine[quarters & 3];
+    sine_ = kCosine[(quarters + 3) & 3];
+  }
+
+  OnRun operator()(std::uint32_t point) const {
+    const double dx = path_[point].x - segment_.x, dy = path_[point].y - segment_.y;
+    return {cosine_ * dx + sine_ * dy, cosine_ * dy - sine_ * dx};
+  }
+
+ private:
+  const ReleasedPath& path_;
+  const MotionSegment& segment_;
+  double cosine_, sine_;
+};
 
 /// How far the middle of a robot must be from that of a cell to be out of it, ahead and aside [m].
 OnRun outOfCell(const WorldState& world, int robot) {
@@ -78,7 +94,7 @@ double alongSegment(const FleetState& f, int i) {
   return std::cos(segment.yaw) * (at.x - segment.x) + std::sin(segment.yaw) * (at.y - segment.y);
 }
 
-double alongRun(const Task& task, std::uint32_t point) { return onRun(task, point).along; }
+double alongRun(const Task& task, std::uint32_t point) { return Run(task)(point).along; }
 
 void countPoints(WorldState& world, int robot, double along) {
   FleetState& f = world.fleet;
@@ -86,10 +102,11 @@ void countPoints(WorldState& world, int robot, double along) {
   if (!task.isOnRun()) return;
   std::uint32_t& reached = f.reached[robot];
   std::uint32_t& left = f.left[robot];
-  while (reached <= task.path.end && along >= alongRun(task, reached) - kCentred) ++reached;
+  const Run run(task);
+  while (reached <= task.path.end && along >= run(reached).along - kCentred) ++reached;
   const OnRun out = outOfCell(world, robot);
   const auto isLeft = [&](std::uint32_t point) {
-    const OnRun at = onRun(task, point);
+    const OnRun at = run(point);
     return along - at.along >= out.along || std::abs(at.beside) >= out.beside;
   };
   while (left < reached && isLeft(left)) ++left;
@@ -101,8 +118,9 @@ double nextCount(const WorldState& world, int robot) {
   double next = std::numeric_limits<double>::infinity();
   if (!task.isOnRun()) return next;
   const std::uint32_t reached = f.reached[robot], left = f.left[robot];
-  if (reached <= task.path.end) next = alongRun(task, reached) - kCentred;
-  if (left < reached) next = std::min(next, alongRun(task, left) + outOfCell(world, robot).along);
+  const Run run(task);
+  if (reached <= task.path.end) next = run(reached).along - kCentred;
+  if (left < reached) next = std::min(next, run(left).along + outOfCell(world, robot).along);
   return next;
 }
 

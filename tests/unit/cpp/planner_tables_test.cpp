@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Distance tables: made when they are asked for, and anew as the traffic changes what edges cost.
+#include <vector>
+
+#include "distance_tables.h"
+#include "planner_shift.h"
+
+namespace fleet::test {
+namespace {
+
+constexpr int kGoals = 10, kAge = 3, kWidth = 20;
+
+class Tables : public testing::Test {
+ protected:
+  Tables() { edges_.next[0] = edges_.next[1] = floor_.edges(Deck::kUnder); }
+
+  /// A step in which all are asked for: how far each is from the far end, in ticks.
+  std::vector<int> step(int urgent = -1) {
+    tables_.begin(++now_, 0, kGoals);
+    std::vector<int> ticks;
+    for (int goal = 0; goal < kGoals; ++goal) {
+      const DistanceTable* table = tables_.find(Deck::kUnder, goal, goal == urgent);
+      ticks.push_back(table->at(kWidth - 1, 2) / kTickCost);
+    }
+    tables_.renew(kAge, 1);
+    return ticks;
+  }
+
+  const Floor floor_{drawn({std::string(kWidth, '.')})};
+  std::vector<std::uint8_t> costs_ = std::vector<std::uint8_t>(kWidth * kHeadings, kTickCost);
+  Edges edges_{{}, &costs_};
+  DistanceTables tables_{floor_, edges_, 1, std::size_t{1} << 20};
+  int now_ = 0;
+};
+
+TEST_F(Tables, AllAreMadeAnewInTurn) {
+  step();
+  costs_.assign(costs_.size(), 2 * kTickCost);
+  for (int tick = 0; tick < kAge + kGoals; ++tick) step();
+  const std::vector<int> ticks = step();
+  for (int goal = 0; goal < kGoals; ++goal) EXPECT_EQ(ticks[goal], 2 * (kWidth - 1 - goal));
+}
+
+TEST_F(Tables, WhoDoesNotGetOnComesFirst) {
+  for (int tick = 0; tick < kAge; ++tick) step();
+  costs_.assign(costs_.size(), 2 * kTickCost);
+  step(7);
+  const std::vector<int> ticks = step();
+  for (int goal = 0; goal < kGoals; ++goal) {
+    EXPECT_EQ(ticks[goal], (goal == 7 ? 2 : 1) * (kWidth - 1 - goal));
+  }
+}
+
+}  // namespace
+}  // namespace fleet::test
