@@ -55,8 +55,10 @@ test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half a
 test-install: build  ## install into a folder of its own, and use it from there
 	@scripts/test-install
 
+# catkin looks after each message in every build; where no source is newer than the last one that would be all.
 build: build/Makefile  ## compile everything but the tests
-	@$(BUILD)
+	@[ build/.built -nt build/CMakeCache.txt ] && [ -z "$$(find CMakeLists.txt src -newer build/.built -not -path '*/__pycache__*' -print -quit)" ] || \
+	{ touch build/.begun; $(BUILD); mv build/.begun build/.built; }
 
 build/Makefile: packages
 	@[ -e $@ ] || scripts/configure

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Agent steps a second of the vector environment with physics, beside RWARE where it is installed,
-in one run: .venv/bin/pip install rware; .venv/bin/python bench/learning_bench.py
+in turns of a second: .venv/bin/pip install rware; .venv/bin/python bench/learning_bench.py
 
     [--worlds 64] [--robots 10] [--seconds 10]
 
@@ -9,6 +9,9 @@ An agent step is one decision of one robot, its observation and mask included. `
 decision last 2/3 s, the time of a cell at top speed; `action` lasts until every robot has ended
 what it does; without acceleration a tick is a whole cell, as RWARE's step is. Actions are drawn
 among all, as RWARE's are: what is not possible is a wait; `possible`: only among those that are.
+
+RWARE runs on one core, as it comes, this on all: by CPU tells how many times the steps of one core
+are, by wall clock those of this machine, if nothing else runs on it.
 """
 
 import argparse
@@ -30,46 +33,56 @@ CASES = {
 }
 
 
-def measure(worlds, robots, seconds, among_possible, **options):
-    """Agent steps a second, by wall clock and by CPU."""
-    env = gymnasium.make_vec(
-        "KivaRobots-v0",
-        num_envs=worlds,
-        robots=robots,
-        shelves=4 * robots,
-        max_cycles=10**9,
-        **options,
-    )
+class Runner:
+    """Steps something, and counts agent steps, seconds and seconds of CPU."""
+
+    def __init__(self, step, agents):
+        self._step, self._agents = step, agents
+        self._steps = self._wall = self._cpu = 0
+
+    def run(self, seconds):
+        begin, cpu = time.perf_counter(), time.process_time()
+        while time.perf_counter() < begin + seconds:
+            self._step()
+            self._steps += self._agents
+        self._wall += time.perf_counter() - begin
+        self._cpu += time.process_time() - cpu
+
+    @property
+    def rates(self):
+        """Agent steps a second, by wall clock and by CPU."""
+        return self._steps / self._wall, self._steps / self._cpu
+
+
+def kiva(worlds, robots, among_possible, **options):
+    """A Runner of the vector environment."""
+    shelves = 4 * robots
+    sizes = {"num_envs": worlds, "robots": robots, "shelves": shelves, "max_cycles": 10**9}
+    env = gymnasium.make_vec("KivaRobots-v0", **sizes, **options)
     random = np.random.default_rng(1)
-    _, infos = env.reset(seed=1)
-    steps = 0
-    begin, cpu = time.perf_counter(), time.process_time()
-    while time.perf_counter() < begin + seconds:
+    infos = env.reset(seed=1)[1]
+
+    def step():
+        nonlocal infos
         if among_possible:
             mask = infos["action_mask"]
             actions = (mask * random.random(mask.shape, np.float32)).argmax(-1)
         else:
             actions = random.integers(5, size=(worlds, robots))
-        _, _, _, _, infos = env.step(actions)
-        steps += worlds * robots
-    rates = steps / (time.perf_counter() - begin), steps / (time.process_time() - cpu)
-    env.close()
-    return rates
+        infos = env.step(actions)[-1]
+
+    return Runner(step, worlds * robots)
 
 
-def rware(robots, seconds):
-    """The same of RWARE's own environment of its `tiny` floor; None without it."""
+def rware(robots):
+    """A Runner of RWARE's own environment of its `tiny` floor; None without it."""
     try:
         from rware.warehouse import RewardType, Warehouse
     except ImportError:
         return None
     env = Warehouse(3, 8, 1, robots, 0, 1, robots, None, 10**9, RewardType.INDIVIDUAL)
     env.reset(seed=1)
-    steps, begin, cpu = 0, time.perf_counter(), time.process_time()
-    while time.perf_counter() < begin + seconds:
-        env.step(env.action_space.sample())
-        steps += robots
-    return steps / (time.perf_counter() - begin), steps / (time.process_time() - cpu)
+    return Runner(lambda: env.step(env.action_space.sample()), robots)
 
 
 def many_worlds(seconds):
@@ -100,17 +113,22 @@ def main():
     print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     speed_up, overhead = many_worlds(wanted.seconds / 2)
     print(f"64 worlds of small: {speed_up:.2f} x one thread; {overhead:.3f} ms a call at rest")
-    theirs = rware(wanted.robots, wanted.seconds)
+    runners = {
+        name: kiva(wanted.worlds, wanted.robots, "possible" in name, **options)
+        for name, options in CASES.items()
+    }
+    theirs = rware(wanted.robots)
     if theirs:
-        wall, cpu = theirs
-        text = f"{wall:,.0f} agent steps/s; {cpu:,.0f} a second of CPU"
-        print(f"RWARE, {wanted.robots} robots, no physics: {text}")
-    for name, options in CASES.items():
-        among_possible = "possible" in name
-        wall, cpu = measure(wanted.worlds, wanted.robots, wanted.seconds, among_possible, **options)
+        runners = {f"RWARE, {wanted.robots} robots, no physics": theirs} | runners
+    for _ in range(max(1, round(wanted.seconds))):
+        for runner in runners.values():
+            runner.run(1.0)
+    for name, runner in runners.items():
+        wall, cpu = runner.rates
         text = f"{name}: {wall:,.0f} agent steps/s; {cpu:,.0f} a second of CPU"
-        if theirs:
-            text += f"; {wall / theirs[0]:.1f} x RWARE, by CPU {cpu / theirs[1]:.1f} x"
+        if theirs and runner is not theirs:
+            times = wall / theirs.rates[0], cpu / theirs.rates[1]
+            text += f"; {times[0]:.1f} x RWARE, by CPU {times[1]:.1f} x"
         print(text)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Trains with several learning rates and seeds at once on a Ray cluster: pip install "ray[tune]"
+"""Trains with several learning rates and seeds at once, by Ray Tune: pip install "ray[tune]"
 
 examples/sweep_ray.py [decisions] [--address auto]
 
@@ -8,22 +8,29 @@ Workers need the wheel and nothing else.
 """
 
 import argparse
+from pathlib import Path
 
 import ray
+from ray import tune
 
 
-@ray.remote(num_cpus=1)
-def train(rate, seed, decisions):
-    """(rate, seed, units delivered in each of the last episodes)."""
+def train(settings):
+    """One trial: reports units delivered an episode as it learns, and what it delivers at last."""
     from warehouse_learning import Options
     from warehouse_learning.baselines import measure
     from warehouse_learning.ppo import REWARDS, Settings
     from warehouse_learning.ppo import train as train_ppo
 
     options = Options.of({"size": "tiny", "max_cycles": 200, "rewards": REWARDS})
-    policy, _ = train_ppo(options, decisions, seed, Settings(rate=rate))
+    policy, _ = train_ppo(
+        options,
+        settings["decisions"],
+        settings["seed"],
+        Settings(rate=settings["rate"], threads=1),
+        report=lambda row: tune.report({"decisions": row[0], "delivered": row[1]}),
+    )
     delivered, _ = measure(policy, options, episodes=8, seed=1000, threads=1)
-    return rate, seed, float(delivered.mean())
+    tune.report({"decisions": settings["decisions"], "delivered": float(delivered.mean())})
 
 
 def main():
@@ -32,17 +39,29 @@ def main():
     parser.add_argument("--address", help="of a cluster; none: this machine's cores")
     parser.add_argument("--rates", type=float, nargs="+", default=[3e-4, 1e-3, 3e-3])
     parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--storage", default="sweep", help="folder of what was tried (./sweep)")
     wanted = parser.parse_args()
     ray.init(address=wanted.address)
-    jobs = [
-        train.remote(rate, seed, wanted.decisions)
-        for rate in wanted.rates
-        for seed in range(wanted.seeds)
-    ]
-    while jobs:
-        done, jobs = ray.wait(jobs)
-        rate, seed, delivered = ray.get(done[0])
-        print(f"rate {rate:g}, seed {seed}: {delivered:.2f} units an episode", flush=True)
+    tuner = tune.Tuner(
+        tune.with_resources(train, {"cpu": 1}),
+        param_space={
+            "decisions": wanted.decisions,
+            "rate": tune.grid_search(wanted.rates),
+            "seed": tune.grid_search(list(range(wanted.seeds))),
+        },
+        tune_config=tune.TuneConfig(metric="delivered", mode="max"),
+        run_config=tune.RunConfig(name="kiva", storage_path=str(Path(wanted.storage).resolve())),
+    )
+    results = tuner.fit()
+    if results.errors:
+        raise SystemExit(f"{len(results.errors)} trials failed: {results.errors[0]}")
+    for result in results:
+        settings, delivered = result.config, result.metrics["delivered"]
+        print(
+            f"rate {settings['rate']:g}, seed {settings['seed']}: {delivered:.2f} units an episode"
+        )
+    best = results.get_best_result().config
+    print(f"best: rate {best['rate']:g}")
     ray.shutdown()
 
 

@@ -8,10 +8,11 @@ import json
 import math
 import os
 import tempfile
+import time
 
 import rospy
 import rostest
-from node_test import Robot, wait_until
+from node_test import PATIENCE, Robot, wait_until
 from page_test import PageTest
 from PIL import Image
 from selenium.webdriver.common.keys import Keys
@@ -35,6 +36,11 @@ HIDDEN_CELL = """(() => {
   }
   return null;
 })()"""
+
+# Until what was to be drawn is, and the display could have shown more.
+TURNS = """const [done] = arguments, { pace } = window.page.stage;
+  const frame = (then) => requestAnimationFrame(then);
+  pace.rest.then(() => frame(() => frame(() => frame(done))))"""
 
 CENTRE = (
     "(r => [r.x + r.width / 2, r.y + r.height / 2])"
@@ -68,6 +74,22 @@ class ViewerPage(PageTest):
             for seen, real in zip(self.drawn(robot), place(f"kiva{robot}")):
                 self.assertAlmostEqual(seen, real, places=3)
         self.assertEqual(self.page.read("page.list.rows.length"), ROBOTS)
+
+    def test_a_processor_that_draws_gets_time_for_other_things(self):
+        self.page.until("page.stage.pace.gap >= Math.min(500, 5.9 * page.stage.pace.cost) && page.stage.pace.cost > 0")
+        self.page.until("page.connection.gap > 0")  # it wants no more updates than it shows
+
+    def test_nothing_is_drawn_where_nothing_changes(self):
+        self.page.click_on("pause")
+        self.until_link("paused")
+        before, frames, end = -1, 0, time.monotonic() + PATIENCE
+        while frames != before:
+            self.assertLess(time.monotonic(), end, "it is drawn again and again")
+            before = self.page.read("page.stage.frames")
+            self.page.driver.execute_async_script(TURNS)
+            frames = self.page.read("page.stage.frames")
+        self.page.click_on("pause")
+        self.until_link("live")
 
     def test_is_not_blank(self):
         picture = Image.open(io.BytesIO(self.page.driver.get_screenshot_as_png()))

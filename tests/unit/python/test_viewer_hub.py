@@ -11,6 +11,7 @@ from std_msgs.msg import Header
 from test_viewer_model import World, fleet, rows
 
 from warehouse_msgs.msg import Event, FleetPaths
+from warehouse_sim.viewer import hub as hub_module
 from warehouse_sim.viewer.commander import Commander
 from warehouse_sim.viewer.hub import IN_FLIGHT, Hub, Page, paths_of
 from warehouse_sim.viewer.journal import Journal
@@ -62,6 +63,26 @@ def test_a_page_that_does_not_answer_gets_no_more_and_then_only_the_newest():
         assert len(socket.updates) == IN_FLIGHT + 1
         assert rows(socket.updates[-1]) == [2, 0, 0, 0]
         assert page.tick == world.model.tick
+        sending.cancel()
+
+    asyncio.run(scenario())
+
+
+def test_a_page_gets_updates_no_sooner_than_it_asks_for(monkeypatch):
+    forever = 1e6  # [s]
+    monkeypatch.setattr(hub_module, "MOST_GAP", forever)
+
+    async def scenario():
+        world, socket = World(), Socket()
+        world.turn()
+        hub = hub_of(world)
+        page = Page(socket, 0)
+        await hub._obey(page, {"gap": forever})
+        sending = asyncio.create_task(hub._send_forever(page))
+        await settle()
+        world.turn(fleet=fleet(x=(3.0, 4.0)))
+        await tell(hub)
+        assert len(socket.updates) == 1
         sending.cancel()
 
     asyncio.run(scenario())

@@ -31,13 +31,12 @@ def act(warehouses, action):
 def drive_to_goal(warehouses):
     """By the shortest way; returns the rewards earned."""
     earned = 0.0
-    grid, goals = warehouses.grid, warehouses.goals
-    goal = int(goals.cell[0, 0])
+    grid, goal = warehouses.grid, int(warehouses.goal[0, 0])
     for _ in range(200):
         cell = int(warehouses.cell[0, 0])
         if cell == goal:
             return earned
-        far = grid.far[goals.row[0, 0], cell + grid.steps]
+        far = warehouses.task.way(0, 0)[cell + grid.steps]
         turn = (int(far.argmin()) - int(warehouses.heading[0, 0])) % 4
         for action in [*TURNS[turn], Action.FORWARD]:
             reward, happened = act(warehouses, action)
@@ -118,8 +117,8 @@ def test_without_reservations_physics_keeps_robots_apart(reserve):
     x, y = grid.point_of(cells)
     warehouses.worlds.place([0, 0], [1, 2], x, y, [0.0, np.pi])  # face to face
     warehouses.worlds.step(0)
-    warehouses._see(slice(None))
-    warehouses.bound_for = warehouses.cell.copy()
+    warehouses._see(warehouses._all)
+    warehouses.step(np.full((1, 2), Action.WAIT))
     _, happened = warehouses.step(np.full((1, 2), Action.FORWARD))
     assert happened["collided"].all() != reserve
     assert happened["refused"].all() == reserve
@@ -144,7 +143,7 @@ def seen_from(warehouses, w, robot, ahead, left):
     return [
         not grid.passable[cell],
         grid.storage[cell],
-        grid.is_station[cell],
+        cell in grid.stations,
         len(units) > 0,
         warehouses.requested[w, units].any(),
         len(robots) > 0,
@@ -156,7 +155,8 @@ def test_robots_observe_what_is_around_them_as_they_face_it():
     warehouses, seen, _ = random_run(4, decisions=60, n=2, radius=3)
     assert (warehouses.load >= 0).any() and len(np.unique(warehouses.heading)) > 2
     see = fields.split(seen[-3], fields.robot_fields(warehouses.options))
-    grid, goals = warehouses.grid, warehouses.goals
+    grid = warehouses.grid
+    longest = max(grid.width, grid.height) - 2 * grid.rim
     for w, robot in np.ndindex(warehouses.cell.shape):
         for i, j in np.ndindex(7, 7):
             expected = seen_from(warehouses, w, robot, i - 3, j - 3)
@@ -165,41 +165,63 @@ def test_robots_observe_what_is_around_them_as_they_face_it():
         assert see["heading"][w, robot].argmax() == heading
         way = np.array([1, 1j, -1, -1j])[heading] * (see["goal"][w, robot] @ [1, 1j])
         (row, column), (own_row, own_column) = (
-            np.divmod(c, grid.width) for c in (goals.cell[w, robot], cell)
+            np.divmod(c, grid.width) for c in (warehouses.goal[w, robot], cell)
         )
-        expected = complex(column - own_column, row - own_row) / grid.longest
+        expected = complex(column - own_column, row - own_row) / longest
         assert way == pytest.approx(expected, abs=1e-6)
 
 
-def test_cells_refuse_what_they_would_misread():
+def test_the_task_refuses_what_it_would_misread():
     warehouses = one()
     warehouses.reset([0], [0])
+    task, floor = warehouses.task, warehouses.grid.native
     good = Observer(warehouses).observations()
-    cells, goals = warehouses.grid.native, warehouses.goals
-    arguments = {
-        "out": good,
-        "goal_cell": goals.cell,
-        "goal_row": goals.row,
-        "far": warehouses.grid.far,
-    }
-    for name in ("cell", "heading", "busy", "load", "requested", "unit_cell"):
-        arguments[name] = getattr(warehouses, name)
-    for error, bad in (
-        (ValueError, {"out": good[:, :, ::2]}),
-        (ValueError, {"cell": warehouses.cell.astype(float)}),
-        (ValueError, {"busy": np.zeros((1, 2), bool)}),
-        (IndexError, {"load": np.full((1, 1), 6, np.int32)}),
-        (IndexError, {"unit_cell": np.full((1, 6), -2, np.int32)}),
-        (IndexError, {"cell": np.full((1, 1), 10**6, np.int32)}),
-        (IndexError, {"goal_row": np.full((1, 1), 10**6, np.int32)}),
+    units = np.zeros(6, np.int32)
+    done, counts = np.ones((1, 1), bool), warehouses.worlds.counts
+    names = ("x", "y", "yaw", "status", "shelf_id")
+    see = {"which": [0]} | {name: getattr(warehouses.worlds, name) for name in names}
+    for error, said, call in (
+        (ValueError, "out", lambda: task.observe(good[:, :, :17])),
+        (ValueError, "out", lambda: task.observe(good.astype(float))),
+        (ValueError, "out", lambda: task.observe(np.zeros((2, *good.shape[1:]), np.float32))),
+        (ValueError, "actions", lambda: task.begin(np.zeros((1, 1)))),
+        (IndexError, "actions", lambda: task.begin(np.full((1, 1), 5, np.int8))),
+        (ValueError, "counts", lambda: task.hear(done, counts[..., :9])),
+        (ValueError, "x: ", lambda: task.see(**see | {"x": np.zeros((1, 2))})),
+        (IndexError, "which", lambda: task.see(**see | {"which": [1]})),
+        (IndexError, "shelf_id", lambda: task.see(**see | {"shelf_id": np.full((1, 1), 7, "i4")})),
+        (ValueError, "unit_cell", lambda: task.place_units(0, units[1:])),
+        (IndexError, "unit_cell", lambda: task.place_units(0, units - 2)),
+        (ValueError, "requested", lambda: task.begin_episode(0, units, units)),
+        (IndexError, "load", lambda: task.deliver(0, 0, 1)),
+        (ValueError, "one shape", lambda: floor.locate([0.0, 1.0], [0.0], [0.0])),
     ):
-        with pytest.raises(error, match=next(iter(bad))):
-            cells.observe(**arguments | bad)
-    with pytest.raises(ValueError, match="one shape"):
-        cells.locate([0.0, 1.0], [0.0], [0.0])
+        with pytest.raises(error, match=said):
+            call()
+    with pytest.raises(ValueError, match="read-only"):
+        warehouses.cell[0, 0] = 0
     # Whatever lies beyond the floor counts as its edge.
-    cell, heading = cells.locate([-1e9, np.nan], [0.0, 1e9], [-1e-9, -np.pi / 2])
+    cell, heading = floor.locate([-1e9, np.nan], [0.0, 1e9], [-1e-9, -np.pi / 2])
     assert heading.tolist() == [0, 3] and (cell < warehouses.grid.cells).all()
+
+
+def test_of_several_that_want_into_one_cell_the_first_goes():
+    warehouses = Warehouses(1, Options.of({"robots": 3, "shelves": 6}), 1)
+    grid = warehouses.grid
+    step = grid.steps[1]
+    street = grid.street
+    middle = next(
+        c for c in np.flatnonzero(street) if street[c - 1] and street[c + 1] and street[c - step]
+    )
+    warehouses.reset([0], [0])
+    x, y = grid.point_of(np.array([middle - step, middle + 1, middle - 1]))
+    warehouses.worlds.place([0] * 3, [1, 2, 3], x, y, [np.pi / 2, np.pi, 0.0])
+    warehouses.worlds.step(0)
+    warehouses._see(warehouses._all)
+    warehouses.step(np.full((1, 3), Action.WAIT))
+    _, happened = warehouses.step(np.full((1, 3), Action.FORWARD))
+    assert happened["refused"].tolist() == [[False, True, True]]
+    assert warehouses.cell[0].tolist() == [middle, middle + 1, middle - 1]
 
 
 def test_a_robot_at_an_action_goes_on_with_it():

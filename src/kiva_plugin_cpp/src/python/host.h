@@ -56,6 +56,5 @@ UnitRow unitRow(const World& world, int unit);
 
 void definePeople(py::class_<Host, HostPtr>& world);
 void defineWorlds(py::module_& m);
-void defineCells(py::module_& m);
 
 }  // namespace kiva::python

@@ -10,7 +10,6 @@ from enum import IntEnum
 
 import numpy as np
 
-from kiva_plugin_cpp import EventKind
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_learning import building
 from warehouse_learning._core import Task
@@ -48,6 +47,7 @@ class Warehouses:
         self.robots, self.units = options.robots, options.shelves
         self._kiva_id = self.worlds[0].fleet.kiva_id
         units = self.worlds.storage_units[0]
+        self._street = np.flatnonzero(grid.street)
         self._first_cells = grid.cell_of(units["x"], units["y"])
         self.task = Task(
             grid.native,
@@ -62,6 +62,9 @@ class Warehouses:
         self.load, self.goal = self.task.load, self.task.goal
         self.unit_cell, self.requested = self.task.unit_cell, self.task.requested
         self._all = np.arange(n, dtype=np.int32)
+        now = self.worlds
+        self._robots = now.x, now.y, now.yaw, now.status, now.shelf_id  # views, as of Worlds
+        self._counts = now.counts
         self._masks = None  # of now, once somebody has asked
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros((n, self.robots), np.int64)  # in this episode
@@ -83,13 +86,14 @@ class Warehouses:
         """Begins new episodes in worlds `which`, (k,) indices, from k seeds."""
         which = np.asarray(which, np.int32)
         self.worlds.restore(which, self._checkpoint)
-        street = np.flatnonzero(self.grid.street)
         cells = np.empty((len(which), self.robots), np.int32)
         headings = np.empty((len(which), self.robots), np.int32)
         requested = np.zeros((len(which), self.units), bool)
         for i, (w, seed) in enumerate(zip(which.tolist(), seeds)):
             self._random[w] = random = np.random.default_rng(seed)
-            cells[i] = random.choice(street, self.robots, replace=len(street) < self.robots)
+            cells[i] = random.choice(
+                self._street, self.robots, replace=len(self._street) < self.robots
+            )
             headings[i] = random.integers(4, size=self.robots)
             requested[i, random.choice(self.units, self.options.requests, replace=False)] = True
         self._place(which, cells, headings)
@@ -129,9 +133,8 @@ class Warehouses:
             whole = given.dtype.kind == "f" and np.isfinite(given).all()
             if not whole or (given != np.rint(given)).any():
                 raise ActionError(self._complaint(given, ~np.equal(given, np.rint(given))))
-        bad = (given < 0) | (given > 4)
-        if bad.any():
-            raise ActionError(self._complaint(given, bad))
+        if given.min() < 0 or given.max() > 4:
+            raise ActionError(self._complaint(given, (given < 0) | (given > 4)))
         return given.astype(np.int8)
 
     def _check_wheels(self, given):
@@ -175,7 +178,7 @@ class Warehouses:
     def _reward(self, happened):
         rewards = np.full((self.n, self.robots), self._rewards["step"], np.float32)
         for name, events in happened.items():
-            if self._rewards[name]:
+            if self._rewards[name] and events.any():
                 rewards += np.float32(self._rewards[name]) * events
         return rewards
 
@@ -201,15 +204,13 @@ class Warehouses:
 
     def _see(self, which):
         """Takes in where robots of worlds `which` are and what they carry."""
-        see = self.worlds
-        self.task.see(which, see.x, see.y, see.yaw, see.status, see.shelf_id)
+        self.task.see(which, *self._robots)
         self._masks = None
 
     def _happened(self, done):
         """{name: (n, robots) bool} in the last decision, by who did what it was told."""
-        counts = self.worlds.counts
-        collided = counts[..., EventKind.COLLISION] > 0
-        for w in np.flatnonzero(collided.any(1)).tolist():
+        refused, collided, hit = self.task.hear(done, self._counts)
+        for w in hit:
             self._look_at_units(w)
         lifted, dropped, stored, arrived = self.task.settle()
         return {
@@ -217,7 +218,7 @@ class Warehouses:
             "lifted": lifted,
             "dropped": dropped,
             "stored": stored,
-            "refused": ~done & ~self.busy | (counts[..., EventKind.REFUSED] > 0),
+            "refused": refused,
             "collided": collided,
         }
 

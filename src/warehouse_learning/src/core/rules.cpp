@@ -37,17 +37,13 @@ void Rules::possible(bool* out) {
   }
 }
 
-std::vector<Order> Rules::begin(const std::int8_t* actions, bool* done) {
+std::vector<Order> Rules::begin(const bool* possible, const std::int8_t* actions, bool* done) {
   const int robots = state_.robots();
-  const auto all = static_cast<std::size_t>(state_.warehouses()) * robots;
-  const auto can = std::make_unique<bool[]>(all * kActions);
-  possible(can.get());
   std::vector<Order> orders;
   for (int w = 0; w < state_.warehouses(); ++w, actions += robots, done += robots) {
-    const auto is_possible = [&](int robot) {
-      return can[(static_cast<std::size_t>(w) * robots + robot) * kActions + actions[robot]];
-    };
-    for (int robot = 0; robot < robots; ++robot) done[robot] = is_possible(robot);
+    for (int robot = 0; robot < robots; ++robot, possible += kActions) {
+      done[robot] = possible[actions[robot]];
+    }
     takeTurns(w, actions, done);
     if (reserve_) takeCells(w, actions, done);
     for (int robot = 0; robot < robots; ++robot) {

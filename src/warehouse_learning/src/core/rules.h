@@ -43,11 +43,12 @@ class Rules {
   /// reserve: forward is impossible where another robot stands or goes.
   Rules(const Floor& floor, State* state, Goals* goals, bool reserve);
 
+  // Arrays: robots, warehouse after warehouse.
+
   /// Which actions each robot may choose now: kActions a robot.
   void possible(bool* out);
-  /// Robots begin what they may. Tells who does as told; both arrays: robots, warehouse after
-  /// warehouse.
-  std::vector<Order> begin(const std::int8_t* actions, bool* done);
+  /// Robots begin what they may. Tells who does as told.
+  std::vector<Order> begin(const bool* possible, const std::int8_t* actions, bool* done);
   /// What came of it, by what robots carry now and carried then.
   Outcome settle();
 

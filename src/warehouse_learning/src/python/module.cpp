@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -26,6 +27,8 @@ namespace {
 
 template <typename T>
 using Array = py::array_t<T, py::array::c_style>;
+
+constexpr py::ssize_t kEventKinds = 10;  // of Worlds.counts
 
 std::string text(const py::object& value) { return py::str(value); }
 
@@ -114,6 +117,7 @@ class Task {
         goals_(*floor_, state_),
         rules_(*floor_, &state_, &goals_, reserve),
         observer_(*floor_, state_, goals_, within("radius", radius, 0, floor_->rim + 1)),
+        possible_(state_.warehouses(), state_.robots() * kActions),
         kiva_id_(std::move(kiva_id)),
         shelf_id_(std::move(shelf_id)),
         commands_(py::module_::import("kiva_plugin_cpp").attr("COMMAND")) {
@@ -147,6 +151,7 @@ class Task {
       if (cells.at(unit) != kNone) state_.unit_at[w][cells.at(unit)] = unit;
     }
     goals_.changed(w);
+    is_possible_known_ = false;
   }
 
   using Worlds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
@@ -156,6 +161,7 @@ class Task {
     const auto yaws = byRobot<double>("yaw", yaw);
     const auto statuses = byRobot<std::uint8_t>("status", status);
     const auto shelves = byRobot<std::int32_t>("shelf_id", shelf_id);
+    is_possible_known_ = false;
     for (py::ssize_t k = 0; k < which.size(); ++k) {
       const int w = within("which", which.data()[k], 0, state_.warehouses());
       for (int robot = 0; robot < state_.robots(); ++robot) {
@@ -169,9 +175,7 @@ class Task {
   }
 
   py::array possible() {
-    py::array_t<bool> out({state_.warehouses(), state_.robots(), kActions});
-    rules_.possible(out.mutable_data());
-    return std::move(out);
+    return py::array_t<bool>({state_.warehouses(), state_.robots(), kActions}, knowPossible()[0]);
   }
 
   /// (done, world, commands)
@@ -181,7 +185,8 @@ class Task {
       within("actions", chosen.data()[i], 0, kActions);
     }
     py::array_t<bool> done({state_.warehouses(), state_.robots()});
-    const auto orders = rules_.begin(chosen.data(), done.mutable_data());
+    const auto orders = rules_.begin(knowPossible()[0], chosen.data(), done.mutable_data());
+    is_possible_known_ = false;
     py::array_t<std::int32_t> worlds(static_cast<py::ssize_t>(orders.size()));
     py::array rows(commands_, static_cast<py::ssize_t>(orders.size()));
     if (rows.itemsize() != sizeof(kiva::Command)) throw py::type_error("COMMAND has changed");
@@ -193,9 +198,30 @@ class Task {
     return py::make_tuple(done, worlds, rows);
   }
 
+  /// (refused, collided, [warehouse with collisions])
+  py::tuple hear(const py::object& done, const py::object& counts) const {
+    const auto told = byRobot<bool>("done", done);
+    const auto events = checked<std::uint32_t>("counts", counts,
+                                               {state_.warehouses(), state_.robots(), kEventKinds});
+    Table<bool> refused(state_.warehouses(), state_.robots());
+    Table<bool> collided(state_.warehouses(), state_.robots());
+    py::list hit;
+    for (int w = 0; w < state_.warehouses(); ++w) {
+      for (int robot = 0; robot < state_.robots(); ++robot) {
+        const bool idles = !told.at(w, robot) && !state_.busy[w][robot];
+        refused[w][robot] = idles || events.at(w, robot, int(kiva::Event::Kind::kRefused)) > 0;
+        collided[w][robot] = events.at(w, robot, int(kiva::Event::Kind::kCollision)) > 0;
+      }
+      const bool* const any = collided[w];
+      if (std::find(any, any + state_.robots(), true) != any + state_.robots()) hit.append(w);
+    }
+    return py::make_tuple(copy(refused), copy(collided), hit);
+  }
+
   /// (lifted, dropped, stored, [(warehouse, robot)])
   py::tuple settle() {
     const Outcome outcome = rules_.settle();
+    is_possible_known_ = false;
     py::list arrived;
     for (const Who& who : outcome.arrived) {
       arrived.append(py::make_tuple(who.warehouse, who.robot));
@@ -253,6 +279,12 @@ class Task {
     return checked<T>(name, given, {state_.warehouses(), state_.robots()});
   }
 
+  const Table<bool>& knowPossible() {
+    if (!is_possible_known_) rules_.possible(possible_[0]);
+    is_possible_known_ = true;
+    return possible_;
+  }
+
   kiva::Command command(const Order& order) const {
     kiva::Command out;
     out.kiva_id = kiva_id_[order.robot];
@@ -278,6 +310,8 @@ class Task {
   Goals goals_;
   Rules rules_;
   Observer observer_;
+  Table<bool> possible_;  // as of Rules
+  bool is_possible_known_ = false;
   std::vector<std::int32_t> kiva_id_, shelf_id_;
   std::vector<int> unit_of_;  // by shelf_id
   py::dtype commands_;
@@ -320,6 +354,9 @@ void defineTask(py::module_& m) {
   task.def("begin", &Task::begin, py::arg("actions"),
            "Robots begin what they may of actions, int8. (done, world, commands): who does as "
            "told, bool, and what is to be posted, (k,) int32 and COMMAND.");
+  task.def("hear", &Task::hear, py::arg("done"), py::arg("counts"),
+           "After see(): who was refused, and who has collided, by begin()'s `done` and by "
+           "Worlds.counts. (refused, collided, hit): bool, and a list of warehouses.");
   task.def("settle", &Task::settle,
            "After see(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
            "(warehouse, robot) that stand at a station with a load.");

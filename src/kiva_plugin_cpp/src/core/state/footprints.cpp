@@ -35,6 +35,7 @@ void appendFootprints(const WorldState& world, const Model& model, const Pose& t
   constexpr int kNone = -2;  // -1 is a robot's base
   int link = kNone;
   Pose link_in_frame;  // of several geometries, mostly
+  out->reserve(out->size() + model.geometries.size());
   for (const CollisionGeometry& geometry : model.geometries) {
     if (geometry.link != link) {
       link = geometry.link;
@@ -95,6 +96,9 @@ void refitGeometry(WorldState& world, Model& model) {
 void addCollisionGeometry(const WorldState& world, Model& model) {
   const auto& links = model.description->links;
   if (model.isStatic()) model.level_surfaces = levelSurfaces(*model.description, model.pose);
+  std::size_t collisions = 0;
+  for (const Link& link : links) collisions += link.collisions.size();
+  model.geometries.reserve(collisions);
   for (std::size_t i = 0; i < links.size(); ++i) {
     for (const Collision& collision : links[i].collisions) {
       if (collision.shape.kind == Shape::Kind::kPlane) continue;
