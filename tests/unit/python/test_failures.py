@@ -123,9 +123,23 @@ def test_a_broken_robot_is_towed_away_with_its_unit():
         assert plan.storage.flat[fleet.traffic.cell[robot]]
         assert fleet.world.fleet.shelf_id[robot] != 0
         assert not held & set(fleet.traffic.closed.tolist())  # others pass where it stood
+        fleet.told.clear()
         fleet.run(60)
         fleet.until(lambda: fleet.world.fleet.shelf_id[robot] == 0)
         assert fleet.driver.collisions == 0
+        assert [e.text for e in fleet.told if e.kind == Kind.FAILED] == ["its robot is broken"]
+
+
+def test_nobody_is_towed_to_where_others_are_about_to_pass():
+    with Fleet("medium") as fleet:
+        traffic, count = fleet.traffic, len(fleet.traffic.kiva_ids)
+        for _ in range(60):
+            fleet.run(1)
+            for robot in fleet.loaded_in_streets():
+                traffic.broken[robot] = True
+                refuge = fleet.transports.refuge(fleet.kiva(robot))
+                traffic.broken[robot] = False
+                assert all(refuge not in traffic.paths(other)[0] for other in range(count))
 
 
 def test_what_is_not_yet_lifted_others_take_over():
@@ -173,3 +187,6 @@ def test_availability():
     assert figures["availability"] == pytest.approx(1 - 30 / 400)
     assert figures["mttr_s"] == pytest.approx(20)
     assert figures["mtbf_h"] == pytest.approx(370 / 3 / 3600)
+    hours = {one["kind"]: (one["robot_h"], one["down_h"]) for one in log.by_kind()}
+    assert hours["drive without torque"] == pytest.approx((20 / 3600, 20 / 3600))
+    assert hours["wheels slip"] == pytest.approx((50 / 3600, 0))

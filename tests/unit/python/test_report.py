@@ -98,6 +98,27 @@ def test_simulate_check_and_report(tmp_path, instance):
     assert node("report", tmp_path / "nothing").stderr.startswith("report: ")
 
 
+def test_the_days_troubles_are_told_with_what_each_cost(tmp_path, instance):
+    day = tmp_path / "day.yaml"
+    day.write_text("failures: {per_robot_hour: 60, repair_time: 30}\nenergy: {capacity: 40}\n")
+    out = tmp_path / "out"
+    common = ("--instance", instance, "--realism", day, "--minutes", 3)
+    assert node("simulate", *common, "--out", out).returncode == 0
+    kpis, data = (json.loads((out / name).read_text()) for name in ("kpis.json", "run.json"))
+    assert data["robot_h"] == pytest.approx(3 * 3 / 60, rel=0.01)
+    down = sum(one["down_h"] for one in data["failures"])
+    # Robots with two failures at once are down once.
+    assert down >= (1 - kpis["availability"]) * data["robot_h"] > 0
+    page = (out / "report.html").read_text()
+    section = page[page.index("Troubles of the day") :]
+    at_work = data["robot_h"] * (1 - kpis["charging_fraction"]) - down
+    for one in data["failures"]:
+        pieces = kpis["items_picked"] * one["down_h"] / at_work
+        row = f"<td>{one['kind']}</td><td>{one['count']}</td>.*?"
+        row += f"<td>{one['robot_h']:.2f}</td><td>{pieces:.0f}</td></tr>"
+        assert re.search(row, section), row
+
+
 def test_a_shift_that_goes_wrong_is_told(tmp_path, instance):
     for arguments, message in (
         (("--instance", tmp_path / "no.xinst"), "No such file"),

@@ -67,7 +67,8 @@ struct Event {
     kDeleted = 8,
     kLost = 9,     ///< A robot no longer knows where it is, and stops.
     kFailed = 10,  ///< Something in a robot is broken.
-    kRepaired = 11
+    kRepaired = 11,
+    kTipped = 12  ///< A storage unit tips off the robot that carries it.
   };
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;

@@ -86,8 +86,11 @@ struct Robot {
   double load_mass = 0;            ///< [kg]
   double load_inertia = 0;         ///< About z through the robot's origin [kg m²].
   double load_centre[2] = {0, 0};  ///< Its centre of mass, in the chassis frame [m].
-  double load_half_length = 0;     ///< Of what it carries, along the chassis' x axis [m].
-  double load_half_width = 0;      ///< [m]
+  double load_height = 0;          ///< Of its centre of mass above what it stands on [m].
+  double load_foothold = 0;  ///< From there, seen from above, to the nearest edge of that [m].
+  double load_tipping_inertia = 0;  ///< Of the load about that edge [kg m²].
+  double load_half_length = 0;      ///< Of what it carries, along the chassis' x axis [m].
+  double load_half_width = 0;       ///< [m]
   DriveParameters drive;
   LiftParameters lift;
   LaserParameters laser;

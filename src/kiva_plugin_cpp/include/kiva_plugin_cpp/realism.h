@@ -50,28 +50,59 @@ struct LaserRealism {
   }
 };
 
-/// How motors and tyres differ from robot to robot.
+/// How motors and tyres differ from robot to robot, and how late motors do what they are told.
 struct ActuationRealism {
   bool enabled = false;
+  double motor_lag = 0.02;        ///< [s] time constant with which speeds follow their commands.
   double torque_spread = 0.05;    ///< Standard deviation, as a share of the motor's torque.
   double friction_spread = 0.05;  ///< Standard deviation, as a share of the tyres' friction.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
+    field("motor_lag", s.motor_lag, 0, 0.5);
     field("torque_spread", s.torque_spread, 0, 0.3);
     field("friction_spread", s.friction_spread, 0, 0.3);
   }
 };
 
+/// Floors that don't grip everywhere: cells that are wet, oily or dusty, anew for each seed.
+struct FloorRealism {
+  bool enabled = false;
+  double slippery_cells = 0.01;  ///< Share of the grid's cells.
+  double friction = 0.3;         ///< Coulomb coefficient of their surface.
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("slippery_cells", s.slippery_cells, 0, 1);
+    field("friction", s.friction, 0, 10);
+  }
+};
+
+/// Loads stand on the robot's plate, and tip over its edge where it brakes too hard.
+struct LoadRealism {
+  bool enabled = false;
+  /// Share of the acceleration at which its load would tip that a robot plans with; from 1 on it
+  /// takes no care.
+  double tipping_share = 0.7;
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("tipping_share", s.tipping_share, 0.05, 100);
+  }
+};
+
 /// What happens to commands on their way to the robots, which get theirs in the order in which they
-/// were given. Their latency is `latency_least` and a rest, exponentially distributed, that makes
-/// it `latency_mean` in the mean.
+/// were given, and to what robots report. A latency is its `least` and a rest, exponentially
+/// distributed, that makes it its `mean` in the mean.
 struct RadioRealism {
   bool enabled = false;
-  double latency_least = 0.005;  ///< [s]
-  double latency_mean = 0.03;    ///< [s]
-  double lost = 0.001;           ///< Share of commands that are lost.
-  double repeated = 0.001;       ///< Share of commands that come twice.
+  double latency_least = 0.005;         ///< [s]
+  double latency_mean = 0.03;           ///< [s]
+  double lost = 0.001;                  ///< Share of commands that are lost.
+  double repeated = 0.001;              ///< Share of commands that come twice.
+  double status_latency_least = 0.005;  ///< [s]
+  double status_latency_mean = 0.03;    ///< [s]
+  double status_lost = 0.001;           ///< Share of reports that are lost.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -79,6 +110,9 @@ struct RadioRealism {
     field("latency_mean", s.latency_mean, 0, 10);
     field("lost", s.lost, 0, 0.5);
     field("repeated", s.repeated, 0, 0.5);
+    field("status_latency_least", s.status_latency_least, 0, 10);
+    field("status_latency_mean", s.status_latency_mean, 0, 10);
+    field("status_lost", s.status_lost, 0, 0.5);
   }
 };
 
@@ -150,6 +184,8 @@ struct Realism {
   LocalisationRealism localisation;
   LaserRealism lasers;
   ActuationRealism actuation;
+  FloorRealism floor;
+  LoadRealism loads;
   RadioRealism radio;
   EnergyRealism energy;
   FailureRealism failures;
@@ -162,6 +198,8 @@ void forEachSection(R& realism, Call call) {
   call("localisation", realism.localisation);
   call("lasers", realism.lasers);
   call("actuation", realism.actuation);
+  call("floor", realism.floor);
+  call("loads", realism.loads);
   call("radio", realism.radio);
   call("energy", realism.energy);
   call("failures", realism.failures);

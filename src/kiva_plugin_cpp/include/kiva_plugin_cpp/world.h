@@ -191,7 +191,8 @@ class World {
   /// Repairs all that is broken in a robot: REPAIRED for each, before its time. An empty battery is
   /// exchanged for a full one. Throws as fail().
   void repair(int kiva_id);
-  /// What was heard last of a robot whose radio is lost; nothing of one that is heard.
+  /// What was heard last of a robot whose radio is lost, and of every robot where reports go by
+  /// radio; nothing of one that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
 
   // --- people

@@ -103,6 +103,7 @@ class EventKind(IntEnum):
     LOST = 9
     FAILED = 10
     REPAIRED = 11
+    TIPPED = 12
 
 
 class FailureKind(IntEnum):

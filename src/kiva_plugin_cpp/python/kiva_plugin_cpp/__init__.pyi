@@ -52,6 +52,7 @@ class EventKind(IntEnum):
     LOST = 9
     FAILED = 10
     REPAIRED = 11
+    TIPPED = 12
 
 class FailureKind(IntEnum):
     REPAIRED = 0

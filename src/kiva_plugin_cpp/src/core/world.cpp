@@ -17,10 +17,13 @@
 #include "core/control/failures.h"
 #include "core/control/protective_fields.h"
 #include "core/control/radio.h"
+#include "core/control/reports.h"
+#include "core/control/tipping.h"
 #include "core/control/walking.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
+#include "core/motion/ground.h"
 #include "core/motion/joints.h"
 #include "core/sensing/look_ahead.h"
 #include "core/sensing/scans.h"
@@ -76,6 +79,8 @@ void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
     const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
     plugin.parameters.rejectUnread();
     world.grid_spacing = spacing;
+  } else if (plugin.filename == kFloorPatchPlugin) {
+    world.floor_patches.push_back(readFloorPatch(plugin.parameters));
   } else if (plugin.filename == kLightCurtainPlugin) {
     addLightCurtain(world, plugin);
   } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
@@ -101,6 +106,7 @@ void decide(WorldState& world) {
   haltCrashed(world);
   wearOut(world);
   useEnergy(world);
+  exchangeReports(world);
   keepFromPeople(world);
   for (const auto& plugin : world.fleet_plugins) plugin->react(world);
   acceptCommands(world);
@@ -167,6 +173,7 @@ void World::step() {
   advanceTime(world);
   sense(world);
   observeCollisions(world);
+  swayLoads(world);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.dt); });
 }
 
@@ -186,6 +193,7 @@ void World::setStepSize(double seconds) {
   state_->dt_since_time = time();
   state_->dt_since = state_->steps;
   state_->dt = seconds;
+  state_->applyRealism();
   state_->scan_rounds_revision = ~0ull;  // those were counted in the old steps, as was
   beginAnew(*state_);                    // when to look around again
 }

@@ -38,7 +38,7 @@ double farthestStop(const WorldState& world, int robot, double obstacle) {
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
 void planStop(WorldState& world, int i, double stop) {
   FleetState& f = world.fleet;
-  const double speed = std::abs(f.reference_speed[i]), here = f.reference[i];
+  const double speed = std::abs(f.command(i).speed), here = f.command(i).position;
   const double way = stop - here;
   const double usual = plannedAcceleration(world, i), hardest = plannedBraking(world, i);
   if (usual == 0) {
@@ -53,7 +53,7 @@ void planStop(WorldState& world, int i, double stop) {
 
 /// What one look tells: places along the segment [m], speeds [m/s].
 struct View {
-  double reference;  // where this robot is to be now
+  double reference;  // where this robot is commanded to be now
   double goal;       // where it is to stop so far
   double obstacle;   // where it is now
   double approach;   // how fast it comes by itself
@@ -65,12 +65,12 @@ View viewOf(const WorldState& world, int i) {
   const FleetState& f = world.fleet;
   const Sighting& now = f.tasks[i].sighting;
   View view;
-  view.reference = f.reference[i];
+  view.reference = f.command(i).position;
   view.goal = f.goal[i];
   view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.dt;
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
-  view.speed = std::abs(f.reference_speed[i]);
+  view.speed = std::abs(f.command(i).speed);
   return view;
 }
 

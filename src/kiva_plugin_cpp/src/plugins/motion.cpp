@@ -68,14 +68,14 @@ bool giveUp(WorldState& world, int i, const OnLine& at) {
 /// What it may drive for the sake of people now, on its way down to what is allowed.
 double allowedSpeed(WorldState& world, int i) {
   const FleetState& f = world.fleet;
-  const double allowed = f.allowed_speed[i], speed = std::abs(f.reference_speed[i]);
+  const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
   if (speed <= allowed || f.robots[i].drive.acceleration == 0) return allowed;
   return std::max(allowed, speed - plannedBraking(world, i) * world.dt);
 }
 
-/// The wheels that follow a reference at that speed and steer back onto the line.
-void followLine(FleetState& f, int i, const OnLine& at, double speed) {
-  const double lag = f.reference[i] - at.along;
+/// The wheels that follow a reference at that speed, of which the robot lags behind, and steer back
+/// onto the line.
+void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed) {
   setWheels(f, i, speed + kAlongGain * lag,
             -kHeadingGain * at.heading - kLineGain * at.speed * at.across);
 }
@@ -84,15 +84,16 @@ void followLine(FleetState& f, int i, const OnLine& at, double speed) {
 void holdDrive(WorldState& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
-  Profile profile = f.profile(i);
-  if (profile.speed != 0) {
+  const double lag = f.reference[i] - at.along;
+  Profile command = f.command(i);
+  if (command.speed != 0) {
     const bool at_once = f.robots[i].drive.acceleration == 0;
-    profile.brake(at_once ? 0 : plannedBraking(world, i), world.dt);
+    command.brake(at_once ? 0 : plannedBraking(world, i), world.dt);
   }
-  followLine(f, i, at, profile.speed);
-  f.setProfile(i, profile);
+  f.follow(i, command);
+  followLine(f, i, at, lag, f.reference_speed[i]);
   const bool is_there = std::abs(f.reference[i] - at.along) < kThereDistance && stands(f, i);
-  if (profile.speed == 0 && is_there) setWheels(f, i, 0, 0);
+  if (f.reference_speed[i] == 0 && is_there) setWheels(f, i, 0, 0);
 }
 
 void driveSegment(WorldState& world, int i) {
@@ -124,10 +125,10 @@ void driveSegment(WorldState& world, int i) {
       tryCruise(world, i, alongLine(segment, top, f.acceleration[i]))) {
     return;
   }
-  Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
-  followLine(f, i, at, profile.speed);  // it lags behind the reference as it was
-  f.setProfile(i, profile);
+  Profile command = f.command(i);
+  command.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
+  f.follow(i, command);
+  followLine(f, i, at, lag, f.reference_speed[i]);  // behind the reference as it was
 }
 
 }  // namespace
@@ -179,10 +180,10 @@ bool halting(WorldState& world, int i) {
   const MotionSegment* at = f.tasks[i].segment();
   const bool drives = at && at->kind == MotionSegment::Kind::kDrive && !at->reverse;
   if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
-    Profile profile = f.profile(i);  // its wheels are all it has to go by: they must not slide
-    profile.brake(plannedBraking(world, i), world.dt);
-    f.setProfile(i, profile);
-    setWheels(f, i, profile.speed, 0);
+    Profile command = f.command(i);  // its wheels are all it has to go by: they must not slide
+    command.brake(plannedBraking(world, i), world.dt);
+    f.follow(i, command);
+    setWheels(f, i, f.reference_speed[i], 0);
     return true;
   }
   setWheels(f, i, 0, 0);

@@ -40,13 +40,13 @@ void holdTurn(WorldState& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - f.believed(i).yaw;
-  Profile profile = f.profile(i);
-  if (profile.speed != 0) profile.brake(f.deceleration[i], world.dt);
-  f.setProfile(i, profile);
-  if (profile.speed == 0 && std::abs(lag) < kThereAngle && stands(f, i)) {
+  Profile command = f.command(i);
+  if (command.speed != 0) command.brake(f.deceleration[i], world.dt);
+  f.follow(i, command);
+  if (f.reference_speed[i] == 0 && std::abs(lag) < kThereAngle && stands(f, i)) {
     return setWheels(f, i, 0, 0);
   }
-  setWheels(f, i, 0, profile.speed + kGain * lag);
+  setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }
 
 void turnSegment(WorldState& world, int i) {
@@ -76,10 +76,10 @@ void turnSegment(WorldState& world, int i) {
   const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
   const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
   if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
-  Profile profile = f.profile(i);
-  profile.advance(f.goal[i], top, acceleration, acceleration, world.dt);
-  f.setProfile(i, profile);
-  setWheels(f, i, 0, profile.speed + kGain * lag);
+  Profile command = f.command(i);
+  command.advance(f.goal[i], top, acceleration, acceleration, world.dt);
+  f.follow(i, command);
+  setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }
 
 }  // namespace

@@ -719,7 +719,8 @@ errors as of mov().)");
 It is repaired after so many seconds; 0: when it is asked for. ValueError for an unknown robot or
 kind, or a time that is negative or not finite.)");
   world.def("last_heard", &lastHeard,
-            R"((n,) of robots whose radio is lost: what was heard of them last.
+            R"((n,) of robots whose radio is lost, and of all where reports go by radio: what was
+heard of them last.
 
 Fields: index (in the fleet's arrays), and those of Fleet. A copy.)");
   world.def(

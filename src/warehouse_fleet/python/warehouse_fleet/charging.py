@@ -7,9 +7,10 @@ FULL = 0.98  # from there on nothing is to be gained
 
 
 class Threshold:
-    """Works until the battery is down to `low`, then charges up to `high`, 0…1."""
+    """Works until the battery is down to `low`, then charges up to `high`, 0…1: as far as the power
+    of the charger lasts."""
 
-    def __init__(self, low=0.3, high=0.9):
+    def __init__(self, low=0.3, high=0.8):
         if not 0 < low < high <= 1:
             raise ValueError(f"low is {low} and high {high}; 0 < low < high <= 1 was expected")
         self.low, self.high = low, high
@@ -29,9 +30,10 @@ class Threshold:
 
 
 class Opportunity(Threshold):
-    """The same, but whoever has nothing to do charges as well, and works from `enough` on."""
+    """The same, but whoever has nothing to do charges as well, and works from `enough` on: the more
+    that is, the fewer are the ways to a charger and back."""
 
-    def __init__(self, low=0.3, high=0.9, enough=0.4):
+    def __init__(self, low=0.3, high=0.9, enough=0.6):
         super().__init__(low, high)
         if not low < enough <= high:
             raise ValueError(f"enough is {enough}; low < enough <= high was expected")

@@ -200,6 +200,7 @@ class Coordinator:
             except ValueError as error:
                 return TowResponse(False, str(error))
             robot = self._traffic.index(request.kiva_id)
+            self._traffic.shut(cell, self._traffic.time + STAYS)  # until it is seen there
             state = ModelState(model_name=f"kiva{request.kiva_id}", reference_frame="world")
             state.pose.position.x, state.pose.position.y = map(
                 float, self._traffic.plan.point_of(cell)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What robots report of what is broken in them, and what that cost."""
 
+import collections
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,6 +16,7 @@ NAMES = {
     RADIO_LOST: "radio lost",
     WHEEL_SLIPS: "wheels slip",
 }
+MISHAPS = {9: "lost their way", 12: "lost their load, which tipped"}  # by Event.kind
 STANDS = (
     1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST
 )  # it stands, or can't be sent on
@@ -28,29 +30,34 @@ def names_of(failures):
 
 
 def heard(world):
-    """What is heard of a World's robots: its Fleet; of those whose radio is lost, what was heard
-    last. They are known to be silent by their bit in `failures`."""
+    """What is heard of a World's robots: its Fleet; of those whose radio is lost, and where reports
+    come late, what was heard last. Who is silent is known by its bit in `failures`."""
     fleet = world.fleet
-    failures = np.asarray(fleet.failures)
-    if not (failures & (1 << RADIO_LOST)).any():
-        return fleet
     last = world.last_heard()
+    if not len(last):
+        return fleet
     names = [name for name in last.dtype.names if name != "index"]
     columns = {name: np.array(getattr(fleet, name)) for name in names}
     for name, column in columns.items():
         column[last["index"]] = last[name]
     return SimpleNamespace(
-        kiva_id=fleet.kiva_id, failures=failures, charge=np.array(fleet.charge), **columns
+        kiva_id=fleet.kiva_id,
+        failures=np.array(fleet.failures),
+        charge=np.array(fleet.charge),
+        **columns,
     )
 
 
 class FailureLog:
-    """Which failures there were, and how long robots were down, from the first report on."""
+    """Which failures there were, and how long robots were down, from the first report on; and what
+    else befell them, by note()."""
 
     def __init__(self):
         self.count = dict.fromkeys(NAMES, 0)
         self.repairs = dict.fromkeys(NAMES, 0)
         self.repaired_s = dict.fromkeys(NAMES, 0.0)  # from failure to repair, of those repaired
+        self.lasted_s = dict.fromkeys(NAMES, 0.0)  # robot seconds with it
+        self.mishaps = collections.Counter()  # by their names
         self.down_s = 0.0  # robot seconds without work, whatever for
         self.robot_s = 0.0  # robot seconds in all
         self._time, self._before = None, None
@@ -67,6 +74,8 @@ class FailureLog:
         self.robot_s += elapsed * len(failures)
         if before.any():
             self.down_s += elapsed * np.count_nonzero(before & DOWN)
+            for kind in NAMES:
+                self.lasted_s[kind] += elapsed * np.count_nonzero(before >> kind & 1)
         if not np.array_equal(before, failures):
             self._take_changes(time, before, failures)
 
@@ -80,6 +89,12 @@ class FailureLog:
                 elif was and not now:
                     self.repairs[kind] += 1
                     self.repaired_s[kind] += time - self._since.pop((robot, kind), time)
+
+    def note(self, kinds):
+        """Takes in what kinds of events the world tells, (n,) of Event.kind."""
+        for kind, name in MISHAPS.items():
+            if count := int(np.count_nonzero(kinds == kind)):
+                self.mishaps[name] += count
 
     @property
     def total(self):
@@ -100,13 +115,16 @@ class FailureLog:
         }
 
     def by_kind(self):
-        """[{kind, count, repairs, mean_repair_s}] of those that there were."""
+        """[{kind, count, repairs, mean_repair_s, robot_h, down_h}] of those that there were: robot
+        hours with it, and those of them without work for it."""
         return [
             {
                 "kind": NAMES[kind],
                 "count": count,
                 "repairs": self.repairs[kind],
                 "mean_repair_s": self.repaired_s[kind] / max(self.repairs[kind], 1),
+                "robot_h": self.lasted_s[kind] / 3600,
+                "down_h": self.lasted_s[kind] / 3600 if DOWN >> kind & 1 else 0.0,
             }
             for kind, count in self.count.items()
             if count

@@ -123,6 +123,7 @@ class FleetDriver:
         if self.events is not None:
             self.events.append(events)
         kinds = events["kind"]
+        self.failures.note(kinds)
         self.collisions += int(np.count_nonzero(kinds == COLLISION))
         for event in events[kinds == REFUSED]:
             self.refusals.append(f"{event['model']}: {event['text']}")

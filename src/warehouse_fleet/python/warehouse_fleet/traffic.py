@@ -270,7 +270,11 @@ class Traffic:
         if ahead != NOWHERE or self.busy[robot]:
             return ahead
         after = self._after.get(int(self.cell[robot]), NOWHERE)
-        return self._execution.holder(after) if after != NOWHERE else NOWHERE
+        return self.holder(after) if after != NOWHERE else NOWHERE
+
+    def holder(self, cell):
+        """The robot that a cell has been released to, or that stands there; or NOWHERE."""
+        return self._execution.holder(int(cell))
 
     @property
     def arrived(self):

@@ -249,7 +249,9 @@ class Transports:
             cells = self._places
         else:
             cells = np.flatnonzero(self._aside)
-        cell = self._nearest(int(traffic.cell[robot]), [c for c in cells.tolist() if c not in out])
+        # Nor may anybody be about to pass there.
+        free = [c for c in cells.tolist() if c not in out and traffic.holder(c) == NOWHERE]
+        cell = self._nearest(int(traffic.cell[robot]), free)
         if cell == NOWHERE:
             raise ValueError("there is no place for it")
         return cell
@@ -373,7 +375,7 @@ class Transports:
         """Robots that somebody else commands now, or that are broken, have lost their
         transports."""
         traffic = self.traffic
-        lost = (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
+        lost = self._are_lost()
         broken = traffic.broken | traffic.lifts_not
         for robot in np.flatnonzero(lost | broken):
             transport = self._of_robot.get(int(robot))
@@ -386,6 +388,11 @@ class Transports:
                 continue
             self._lost.add(transport.shelf)
             self._fail(transport, self._why_lost(robot))
+
+    def _are_lost(self):
+        """Which robots nobody waits for any longer, (n,) bool."""
+        traffic = self.traffic
+        return (traffic.mode != Mode.AUTOMATIC) | (traffic.time - traffic.stalled_since > DEAD)
 
     def _avoid(self, closed):
         """Units that can't get to the place that was chosen for them go to another."""
@@ -412,7 +419,7 @@ class Transports:
         without = np.ones(len(loaded), bool)
         without[known] = False
         traffic.loaded[without] = loaded[without]
-        ready = without & loaded & traffic.stands & (traffic.mode == Mode.AUTOMATIC)
+        ready = without & loaded & traffic.stands & ~traffic.broken & ~self._are_lost()
         for robot in np.flatnonzero(ready):
             self.adopt(int(robot), int(shelf[robot]))
 

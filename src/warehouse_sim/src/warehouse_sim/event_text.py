@@ -18,6 +18,7 @@ COLOURS = {
     Event.DROPPED: _BLUE,
     Event.FAILED: _RED,
     Event.REPAIRED: _GREEN,
+    Event.TIPPED: _RED,
 }
 # What a terminal would obey rather than show; models have the names that their files give them.
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")

@@ -18,7 +18,7 @@ namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -69,8 +69,8 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (A::kReads) makeModels(world, std::move(table));
   FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models,
          within(world.dt, 1e-6, 1), within(world.grid_spacing, 0.1, 100), world.floor,
-         within(world.floor_friction, 0, 1e6));
-  if constexpr (A::kReads) world.fleet.localises = world.realism.localisation.enabled;
+         within(world.floor_friction, 0, 1e6), world.floor_patches);
+  if constexpr (A::kReads) world.applyRealism();
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
 }
 
@@ -88,12 +88,17 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   }
   FIELDS(world.fleet, world.units, world.items);
   if (world.fleet.localises) FIELDS(world.fleet.localisation);
+  if (world.realism.loads.enabled) FIELDS(world.fleet.sway);
+  if (!world.fleet.lag.isNone()) FIELDS(world.fleet.command_speed);
   FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
          world.sighted, world.crashes);
   FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
   FIELDS(physics);
   if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
   if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
+  if (world.realism.radio.enabled) {
+    FIELDS(world.fleet.heard, world.reports_on_air, world.reports, world.to_report);
+  }
   if (!std::is_same_v<A, Hasher> || minds(world)) {
     FIELDS(world.walkers, world.keeps_off, world.curtains,
            within(world.fleet.allowed_speed, 0, kEndless), within(world.fleet.curtained, 0, 1));
@@ -118,6 +123,9 @@ void indexModels(WorldState& world) {
   for (Robot& robot : world.fleet.robots) setRays(world, &robot);
   markDefects(world);
   markCharge(world);
+  world.fleet.sway.resize(world.fleet.size());
+  world.fleet.heard.resize(world.fleet.size());
+  world.fleet.command_speed.resize(world.fleet.size());
 }
 
 struct Header {

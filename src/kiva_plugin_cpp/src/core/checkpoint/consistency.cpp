@@ -310,6 +310,12 @@ void checkFleet(WorldState& world) {
   describe(columns, f);
   require(f.tasks.size() == f.robots.size(), "fleet.tasks", f.tasks.size(), "",
           "there is one for every robot");
+  require(!world.realism.loads.enabled || f.sway.size() == f.robots.size(), "fleet.sway",
+          f.sway.size(), "", "there is one for every robot");
+  require(f.lag.isNone() || f.command_speed.size() == f.robots.size(), "fleet.command_speed",
+          f.command_speed.size(), "", "there is one for every robot");
+  require(!world.realism.radio.enabled || f.heard.size() == f.robots.size(), "fleet.heard",
+          f.heard.size(), "", "there is one for every robot");
   require(!world.realism.energy.enabled || f.battery.size() == f.robots.size(), "fleet.battery",
           f.battery.size(), "", "there is one for every robot");
   for (const std::size_t size : {f.allowed_speed.size(), f.curtained.size()}) {

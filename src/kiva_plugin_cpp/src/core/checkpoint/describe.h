@@ -23,7 +23,7 @@ constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
 constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
 constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
-constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kRepaired; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kTipped; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
 constexpr State lastOf(State) { return State::kWaiting; }
@@ -184,7 +184,7 @@ void describe(A& a, Task& t) {
 
 template <class A>
 void describe(A& a, Robot& r) {
-  DESCRIBED(Robot, 25);
+  DESCRIBED(Robot, 28);
   FIELDS(r.name, within(r.id, 1, kMaxKivaId), r.model, within(r.mass, 1e-9, 1e12),
          within(r.inertia, 0, 1e15), within(r.half_length, 0, 100), within(r.half_width, 0, 100),
          within(r.height, -100, 100));
@@ -193,6 +193,8 @@ void describe(A& a, Robot& r) {
   FIELDS(within(r.load_mass, 0, 1e12), within(r.load_inertia, 0, 1e15),
          within(r.load_centre[0], -100, 100), within(r.load_centre[1], -100, 100),
          within(r.load_half_length, 0, 100), within(r.load_half_width, 0, 100));
+  FIELDS(within(r.load_height, -1000, 1000), within(r.load_foothold, 0, 100),
+         within(r.load_tipping_inertia, 0, 1e15));
   FIELDS(r.drive, r.lift, r.laser, r.has_motion,
          r.has_rotation);  // its ray_fan comes with its laser, its grip with what is broken
 }
@@ -207,6 +209,25 @@ template <class A>
 void describe(A& a, Battery& b) {
   DESCRIBED(Battery, 5);
   FIELDS(b.energy, b.wheel_angle, b.kinetic, b.tower);
+}
+
+template <class A>
+void describe(A& a, RobotReport& r) {
+  DESCRIBED(RobotReport, 13);
+  FIELDS(r.x, r.y, r.yaw, r.vx, r.vy, r.yaw_rate, r.status, r.state, r.shelf_id, r.path_id,
+         r.reached, r.left, r.last_end);
+}
+
+template <class A>
+void describe(A& a, Sway& s) {
+  DESCRIBED(Sway, 7);
+  FIELDS(s.tilt, s.rate, s.to_x, s.to_y, s.vx, s.vy, s.step);
+}
+
+template <class A>
+void describe(A& a, Heard& h) {
+  DESCRIBED(Heard, 2);
+  FIELDS(h.number, h.report);
 }
 
 template <class A>
@@ -233,7 +254,7 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 23);  // its localisation: with the world
+  DESCRIBED(FleetState, 27);  // what only some realism needs: with the world
   // What is broken, and charges, follow from what else the world holds; what people allow: with
   // those.
   DESCRIBED(Fleet, 26);
@@ -400,6 +421,12 @@ void describe(A& a, RadioMessage& m) {
 }
 
 template <class A>
+void describe(A& a, ReportMessage& m) {
+  DESCRIBED(ReportMessage, 4);
+  FIELDS(m.due, m.number, m.kiva_id, m.report);
+}
+
+template <class A>
 void describe(A& a, Impact& i) {
   DESCRIBED(Impact, 4);
   FIELDS(i.point, i.normal, i.speed, i.impulse);
@@ -475,13 +502,6 @@ void describe(A& a, Crash& c) {
 }
 
 template <class A>
-void describe(A& a, RobotReport& r) {
-  DESCRIBED(RobotReport, 13);
-  FIELDS(r.x, r.y, r.yaw, r.vx, r.vy, r.yaw_rate, r.status, r.state, r.shelf_id, r.path_id,
-         r.reached, r.left, r.last_end);
-}
-
-template <class A>
 void describe(A& a, Defect& d) {
   DESCRIBED(Defect, 4);
   FIELDS(d.kiva_id, d.failure, within(d.left, 0, kEndless), d.last);
@@ -531,8 +551,14 @@ void describe(A& a, Floor& f) {
 }
 
 template <class A>
+void describe(A& a, FloorPatch& p) {
+  DESCRIBED(FloorPatch, 5);
+  FIELDS(p.min_x, p.max_x, p.min_y, p.max_y, within(p.friction, 0, 10));
+}
+
+template <class A>
 void describe(A& a, Realism& r) {
-  DESCRIBED(Realism, 7);
+  DESCRIBED(Realism, 9);
   forEachSection(r, [&a](const char*, auto& section) {
     a(section.enabled);
     section.fields(section, [&a](const char* name, double& value, double least, double most) {

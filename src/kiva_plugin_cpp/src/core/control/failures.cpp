@@ -10,6 +10,7 @@
 
 #include "core/control/energy.h"
 #include "core/control/interruptions.h"
+#include "core/control/reports.h"
 #include "core/state/random_stream.h"
 #include "core/state/tasks.h"
 
@@ -38,16 +39,6 @@ int findRobot(const WorldState& world, int kiva_id) {
   const int robot = world.fleet.find(kiva_id);
   if (robot >= 0) return robot;
   throw std::invalid_argument("there is no robot kiva" + std::to_string(kiva_id));
-}
-
-RobotReport reportOf(const WorldState& world, int robot) {
-  const Fleet& f = world.fleet;
-  const int unit = f.unit[robot];
-  return {f.x[robot],       f.y[robot],       f.yaw[robot],
-          f.vx[robot],      f.vy[robot],      f.yaw_rate[robot],
-          f.status[robot],  f.state[robot],   unit < 0 ? 0 : world.units[unit].id,
-          f.path_id[robot], f.reached[robot], f.left[robot],
-          f.last_end[robot]};
 }
 
 void apply(WorldState& world, int robot, Failure failure) {
@@ -155,6 +146,9 @@ void repair(WorldState& world, int kiva_id) {
 }
 
 std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
+  if (world.realism.radio.enabled && world.fleet.heard[robot].number > 0) {
+    return world.fleet.heard[robot].report;
+  }
   if ((world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0) return std::nullopt;
   const int id = world.fleet.robots[robot].id;
   for (const Defect& defect : world.failures.defects) {

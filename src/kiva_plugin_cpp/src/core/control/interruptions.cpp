@@ -29,7 +29,7 @@ void shortenDrive(WorldState& world, int robot) {
   const FleetState& f = world.fleet;
   const double cell = world.grid_spacing;
   double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
-  while (!f.profile(robot).canStopAt(stop, f.deceleration[robot], world.dt)) stop += cell;
+  while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.dt)) stop += cell;
   if (stop >= f.goal[robot]) return;
   world.fleet.tasks[robot].segments.front().goal = stop;
   setGoal(world, robot, stop);

@@ -165,7 +165,7 @@ RunEnd checkedRunEnd(const WorldState& world, int robot, std::uint32_t released)
   const double along = alongRun(task, end);
   if (end == task.path.end) return {end, along};
   if (task.drives()) {
-    if (!f.profile(robot).canStopAt(along, f.deceleration[robot], world.dt)) throw tooLate();
+    if (!f.command(robot).canStopAt(along, f.deceleration[robot], world.dt)) throw tooLate();
   } else if (alongSegment(f, robot) > along + kCentred) {
     throw tooLate();
   }

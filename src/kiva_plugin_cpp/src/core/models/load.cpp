@@ -13,7 +13,35 @@
 namespace kiva {
 namespace {
 
+constexpr char kTowerLink[] = "tower";
 constexpr double kGuided = 0.02;  // [m] off its middle, [rad] off square: the tower's guide centres
+
+/// How far the plate on which loads stand reaches from the middle, at least [m]; the chassis where
+/// there is none.
+double plateReach(const WorldState& world, int robot) {
+  const Robot& r = world.fleet.robots[robot];
+  Bounds box;
+  bool has_plate = false;
+  for (const Link& link : world.modelOf(robot).description->links) {
+    if (link.name != kTowerLink) continue;
+    for (const Collision& c : link.collisions) box.add(bounds(c.shape, c.pose_in_link));
+    has_plate = has_plate || !link.collisions.empty();
+  }
+  if (!has_plate) return std::min(r.half_length, r.half_width);
+  return std::min({box.max.X(), -box.min.X(), box.max.Y(), -box.min.Y()});
+}
+
+/// How the load, given in the robot's frame as is its underside, stands on the plate.
+void setFoothold(WorldState& world, int robot, const SpatialInertia& load, double underside) {
+  Robot& r = world.fleet.robots[robot];
+  const Vector3 centre = load.centre();
+  const double off = std::hypot(centre.X(), centre.Y());
+  r.load_height = centre.Z() - underside;
+  r.load_foothold = std::max(0.0, plateReach(world, robot) - off);
+  const double arm2 = r.load_height * r.load_height + r.load_foothold * r.load_foothold;
+  const auto own = load.inertia();
+  r.load_tipping_inertia = r.load_mass * arm2 + std::max(own(0, 0), own(1, 1));
+}
 
 void loadRobot(WorldState& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
@@ -25,6 +53,7 @@ void loadRobot(WorldState& world, int robot, int unit) {
   r.load_centre[0] = centre.X();
   r.load_centre[1] = centre.Y();
   r.load_inertia = load.aboutZ();
+  setFoothold(world, robot, load, in_robot.Pos().Z() + underside(world, unit));
   Bounds box;
   const Model& model = *world.models[world.units[unit].model];
   for (const Link& link : model.description->links) {
@@ -76,11 +105,13 @@ void putDown(WorldState& world, int robot) {
 }
 
 void unload(WorldState& world, int robot) {
-  Fleet& f = world.fleet;
+  FleetState& f = world.fleet;
   Robot& r = f.robots[robot];
   f.unit[robot] = -1;
   r.load_mass = r.load_inertia = r.load_half_length = r.load_half_width = 0;
   r.load_centre[0] = r.load_centre[1] = 0;
+  r.load_height = r.load_foothold = r.load_tipping_inertia = 0;
+  f.sway[robot] = {};
   moved(world.fleet, robot);  // its tower may have to come down
   moved(world, world.modelOf(robot));
   rebuildBody(world, world.modelOf(robot));

@@ -11,6 +11,7 @@
 #include "core/models/storage_units.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/dynamics.h"
+#include "core/motion/ground.h"
 #include "core/motion/joints.h"
 #include "core/state/fleet_plugin.h"
 #include "core/state/floors.h"
@@ -97,7 +98,8 @@ bool isOurs(const WorldState& world, const Model& model, const PluginDescription
     throw DescriptionError(where + ": " + ours->filename() +
                            " works on a model that has libkiva_motion.so too");
   }
-  if (plugin.filename == kGridPlugin || plugin.filename == kLightCurtainPlugin) {
+  if (plugin.filename == kGridPlugin || plugin.filename == kLightCurtainPlugin ||
+      plugin.filename == kFloorPatchPlugin) {
     throw DescriptionError(where + ": " + plugin.filename +
                            " is a plugin of a world, not of a model");
   }

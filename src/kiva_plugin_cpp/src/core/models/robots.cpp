@@ -9,6 +9,7 @@
 #include "core/geometry/angle.h"
 #include "core/models/load.h"
 #include "core/motion/drives.h"
+#include "core/motion/ground.h"
 #include "core/motion/jointed_body.h"
 #include "core/motion/self_location.h"
 #include "core/physics/spatial_inertia.h"
@@ -90,7 +91,7 @@ void adoptRealism(WorldState& world, const ModelDescription& description) {
     if (!asked) continue;
     world.realism = *asked;
     world.realism_of_models = true;
-    world.fleet.localises = asked->localisation.enabled;
+    world.applyRealism();
   }
 }
 

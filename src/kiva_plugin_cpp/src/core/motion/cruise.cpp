@@ -8,6 +8,7 @@
 
 #include "core/motion/clearance.h"
 #include "core/motion/drives.h"
+#include "core/motion/ground.h"
 #include "core/motion/stretches.h"
 #include "core/state/path_progress.h"
 #include "core/state/workers.h"
@@ -57,10 +58,12 @@ constexpr int kBlock = 16;           // robots that are stepped together
 constexpr int kBlocksTogether = 64;  // on one thread: less is not worth waking another
 constexpr int kLooksTogether = 32;   // the same
 
-/// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
-/// reference has ended, or step `now` is the one that it waits for.
-__attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
-                                                               double dt, double now) {
+/// As advance() says, of robots whose motors lag or don't.
+template <bool kLags>
+__attribute__((always_inline)) inline bool advanceAll(FleetState& f, int begin, int end, double dt,
+                                                      double now) {
+  const MotorLag lag = f.lag;
+  double* __restrict command_speed = f.command_speed.data();
   const std::int64_t* __restrict mask = f.cruising.data();
   const double* __restrict goal = f.goal.data();
   const double* __restrict top = f.top_speed.data();
@@ -92,7 +95,16 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
     const double was_vx = vx[i], was_vy = vy[i], was_yaw_rate = yaw_rate[i];
     const double was_left = left_speed[i], was_right = right_speed[i];
     Profile profile{was_reference, was_speed};
-    profile.advance(goal[i], top[i], acceleration[i], deceleration[i], dt);
+    if constexpr (kLags) {
+      const double was_command = command_speed[i];
+      profile = {was_reference + lag.behind * was_speed, was_command};
+      profile.advance(goal[i], top[i], acceleration[i], deceleration[i], dt);
+      command_speed[i] = cruises ? profile.speed : was_command;
+      profile.speed = was_speed + lag.share * (profile.speed - was_speed);
+      profile.position -= lag.behind * profile.speed;
+    } else {
+      profile.advance(goal[i], top[i], acceleration[i], deceleration[i], dt);
+    }
     const double v = profile.speed;
     const double way = cruises ? v * dt : 0.0;
     reference[i] = cruises ? profile.position : was_reference;
@@ -113,6 +125,14 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
     attention |= cruises & (ended | due);
   }
   return attention != 0;
+}
+
+/// One step of robots [begin, end) that cruise. Returns whether one of them needs a look: its
+/// reference has ended, or step `now` is the one that it waits for.
+__attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, int begin, int end,
+                                                               double dt, double now) {
+  return f.lag.isNone() ? advanceAll<false>(f, begin, end, dt, now)
+                        : advanceAll<true>(f, begin, end, dt, now);
 }
 
 /// How many steps the robot's reference needs at least to come to `place`: speeding up all the way,
@@ -223,10 +243,10 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   const double way = std::abs(f.goal[i] - f.reference[i]);
   const double end = endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.dt);
   if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
-      way <= end || (f.tower[i] > 0 && f.unit[i] < 0) ||
+      f.sway[i].tilt > 0 || way <= end || (f.tower[i] > 0 && f.unit[i] < 0) ||
       std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
       !(f.localises ? keepsUpByEstimate(f, i, per.yaw != 0) : keepsUp(f, i, per)) ||
-      !hasForce(f, i, per, groundOf(world))) {
+      !hasForce(f, i, per, groundAhead(world, i))) {
     return false;
   }
   setMotion(world, i, per);
@@ -250,6 +270,7 @@ void setGoal(WorldState& world, int i, double goal) {
   f.goal[i] = goal;
   if (f.cruising[i] == 0) return;
   // Its way was found free up to the old goal only.
+  if (goes_farther && isPatchy(world)) return moved(f, i);
   if (saw_the_end && goes_farther && !findClearance(world, i, false)) return moved(f, i);
   planAttention(world, i, static_cast<double>(world.total_steps));
 }

@@ -10,16 +10,23 @@ namespace kiva {
 namespace {
 
 constexpr double kGripReserve = 0.9;  // share of the grip that plans count on
+constexpr double kLeast = 0.05;       // [m/s²]: plans need some
 constexpr double kGripsAll = 1e16;    // Coulomb coefficient: the wheels' decides
+
+/// What a robot that knows its load asks of itself so that it does not tip [m/s²].
+double tippingLimit(const WorldState& world, int robot) {
+  const double tips = tippingAcceleration(world.fleet.robots[robot], world.gravityDown());
+  return std::max(kLeast, world.realism.loads.tipping_share * tips);
+}
 
 double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&), double wanted) {
   if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
-  return std::min(wanted, limit(plannedVehicle(world, robot)));
+  const double held = std::min(wanted, limit(plannedVehicle(world, robot)));
+  if (!world.realism.loads.enabled) return held;
+  return std::min(held, tippingLimit(world, robot));
 }
 
 }  // namespace
-
-Ground groundOf(const WorldState& world) { return {world.gravityDown(), world.floor_friction}; }
 
 Vector3 centreFromOrigin(const Fleet& f, int robot) {
   const Vehicle vehicle = vehicleOf(f.robots[robot], {});
@@ -29,7 +36,7 @@ Vector3 centreFromOrigin(const Fleet& f, int robot) {
 }
 
 Vehicle plannedVehicle(WorldState& world, int robot) {
-  const Ground ground{world.gravityDown(), kGripsAll};
+  const Ground ground{world.gravityDown(), {kGripsAll, kGripsAll}};
   const Robot& r = world.fleet.robots[robot];
   const bool is_jointed = r.drive.drive == Drive::kJointed;
   Vehicle vehicle = is_jointed ? jointedVehicle(world, robot, ground) : vehicleOf(r, ground);

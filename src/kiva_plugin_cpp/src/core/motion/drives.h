@@ -8,8 +8,6 @@
 
 namespace kiva {
 
-Ground groundOf(const WorldState& world);
-
 /// From the robot's origin to the centre of mass of all that is it, along the world's axes [m].
 Vector3 centreFromOrigin(const Fleet& fleet, int robot);
 

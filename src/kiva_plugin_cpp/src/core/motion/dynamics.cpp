@@ -7,6 +7,7 @@
 #include "core/geometry/angle.h"
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/motion/ground.h"
 #include "core/motion/jointed.h"
 #include "core/motion/joints.h"
 #include "core/motion/self_location.h"
@@ -64,7 +65,8 @@ bool hasNothingToDo(const FleetState& f, int robot) {
 /// A robot that stands without a command, or waits or is stopped at one, is left alone until it is
 /// to go on, or is hit.
 void letRest(FleetState& f, int robot) {
-  if (!hasNothingToDo(f, robot) || f.activated[robot] || !atRest(f, robot)) return;
+  const bool is_settled = atRest(f, robot) && f.sway[robot].tilt == 0;
+  if (!hasNothingToDo(f, robot) || f.activated[robot] || !is_settled) return;
   if (isJointed(f.robots[robot]) && !restJointed(f, robot)) return;
   f.vx[robot] = f.vy[robot] = f.yaw_rate[robot] = 0;
   f.wheel_speed[0][robot] = f.wheel_speed[1][robot] = 0;
@@ -76,13 +78,12 @@ void letRest(FleetState& f, int robot) {
 /// Each by itself, on all threads.
 void driveByTraction(WorldState& world) {
   FleetState& f = world.fleet;
-  const Ground ground = groundOf(world);
   const std::vector<int>& robots = world.stepped_singly;
   world.workers->share(static_cast<int>(robots.size()), kDrivesTogether, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       const int i = robots[k];
       if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
-      applyTraction(f, i, ground, world.dt);
+      applyTraction(f, i, groundUnder(world, i), world.dt);
     }
   });
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/ground.h"
 #include "core/motion/jointed_body.h"
 #include "core/physics/contact_problem.h"
 
@@ -85,7 +86,8 @@ class Step {
         up_(to_heading_.getRow(2)),
         dt_(world.dt),
         gravity_(world.gravityDown()),
-        floor_friction_(world.floor_friction) {}
+        floor_friction_(world.floor_friction),
+        ground_(groundUnder(world, robot)) {}
 
   void run() {
     read();
@@ -149,7 +151,7 @@ class Step {
     for (int wheel = 0; wheel < 2; ++wheel) {
       const JointedBody::Wheel& w = body_.wheels[wheel];
       const btVector3 at = w.centre + down * w.radius;
-      add({at, heightOf(at), f_.robots[robot_].grip * std::min(w.friction, floor_friction_),
+      add({at, heightOf(at), f_.robots[robot_].grip * std::min(w.friction, ground_.friction[wheel]),
            wheel});
     }
     const double tilted = up_.x() * up_.x() + up_.y() * up_.y();
@@ -298,6 +300,7 @@ class Step {
   const btMatrix3x3 to_heading_;
   const btVector3 up_;  // in the chassis frame
   const double dt_, gravity_, floor_friction_;
+  const Ground ground_;  // under its wheels
   double cos_yaw_ = 1, sin_yaw_ = 0;
   double target_[2];  // of the spins
   Velocities before_, after_;
@@ -322,7 +325,7 @@ Vehicle jointedVehicle(WorldState& world, int robot, const Ground& ground) {
   const double leaning = std::abs(v.centre[0]) / reach;  // share of the weight on a caster's stop
   const double on_wheels = r.drive.drive_wheel_load - leaning;
   for (int wheel = 0; wheel < 2; ++wheel) {
-    v.friction[wheel] = r.grip * std::min(body.wheels[wheel].friction, ground.friction);
+    v.friction[wheel] = r.grip * std::min(body.wheels[wheel].friction, ground.friction[wheel]);
     v.grip[wheel] = v.friction[wheel] * v.mass * ground.gravity * v.weight(wheel, on_wheels);
   }
   return v;

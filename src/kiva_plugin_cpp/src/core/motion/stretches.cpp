@@ -99,7 +99,8 @@ double roomAhead(const WorldState& world, int i, double along) {
 void brakeFor(WorldState& world, int i) {
   FleetState& f = world.fleet;
   if (f.acceleration[i] == 0) return;
-  const double way = f.goal[i] - f.reference[i], v = f.reference_speed[i];
+  const Profile command = f.command(i);
+  const double way = f.goal[i] - command.position, v = command.speed;
   const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.dt, kTiny)) : 0;
   const double usual = f.tasks[i].phase == Phase::kDriving ? f.acceleration[i] : f.deceleration[i];
   if (needed > usual) {

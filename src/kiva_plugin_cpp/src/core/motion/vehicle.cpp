@@ -26,7 +26,8 @@ double alongLimit(const Vehicle& v, double lift) {
 }  // namespace
 
 double wheelFriction(const Robot& robot, int wheel, const Ground& ground) {
-  return robot.grip * std::min({robot.drive.friction, robot.tyre_friction[wheel], ground.friction});
+  return robot.grip *
+         std::min({robot.drive.friction, robot.tyre_friction[wheel], ground.friction[wheel]});
 }
 
 Vehicle vehicleOf(const Robot& robot, const Ground& ground) {
@@ -51,6 +52,11 @@ Vehicle vehicleOf(const Robot& robot, const Ground& ground) {
     v.grip[wheel] = ideal ? kUnlimited : v.friction[wheel] * weight;
   }
   return v;
+}
+
+double tippingAcceleration(const Robot& robot, double gravity) {
+  if (robot.load_mass == 0 || robot.load_height <= 0) return kUnlimited;
+  return gravity * robot.load_foothold / robot.load_height;
 }
 
 double drivingLimit(const Vehicle& vehicle) { return alongLimit(vehicle, vehicle.lift_ahead); }

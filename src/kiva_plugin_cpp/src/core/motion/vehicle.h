@@ -12,8 +12,8 @@ namespace kiva {
 
 /// What robots drive on.
 struct Ground {
-  double gravity = 9.81;  ///< [m/s²]
-  double friction = 1;    ///< Coulomb coefficient of its surface.
+  double gravity = 9.81;        ///< [m/s²]
+  double friction[2] = {1, 1};  ///< Coulomb coefficient of its surface under each wheel.
 };
 
 /// In the chassis frame, wheels upright on the floor; index 0 is the left wheel.
@@ -49,6 +49,9 @@ double wheelFriction(const Robot& robot, int wheel, const Ground& ground);
 
 /// As the traction drive has it: weight stays where it is.
 Vehicle vehicleOf(const Robot& robot, const Ground& ground);
+
+/// Acceleration, whichever way, from which on a robot's load tips off it [m/s²]; +inf without one.
+double tippingAcceleration(const Robot& robot, double gravity);
 
 /// Acceleration along the heading [m/s²].
 double drivingLimit(const Vehicle& vehicle);

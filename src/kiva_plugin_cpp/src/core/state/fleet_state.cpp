@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/state/fleet_state.h"
 
+#include <cmath>
 #include <utility>
 
 namespace kiva {
 namespace {
+
+constexpr double kCaughtUp = 1e-6;       // [m, rad] that a lag leaves at the end
+constexpr double kCommandStands = 1e-9;  // [m/s, rad/s]
 
 /// Calls visit(array) for every array that the world keeps beside the public ones.
 template <typename Visit>
@@ -14,8 +18,8 @@ void forEachArray(FleetState& f, Visit visit) {
     visit(f.per_wheel[wheel]);
   }
   for (auto* array :
-       {&f.reference, &f.reference_speed, &f.goal, &f.deceleration, &f.per_x, &f.per_y, &f.per_yaw,
-        &f.top_speed, &f.acceleration, &f.clear_until, &f.attend_at}) {
+       {&f.reference, &f.reference_speed, &f.command_speed, &f.goal, &f.deceleration, &f.per_x,
+        &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until, &f.attend_at}) {
     visit(*array);
   }
   visit(f.cruising);
@@ -23,6 +27,8 @@ void forEachArray(FleetState& f, Visit visit) {
   visit(f.activated);
   visit(f.tasks);
   visit(f.battery);
+  visit(f.heard);
+  visit(f.sway);
 }
 
 }  // namespace
@@ -43,6 +49,16 @@ void FleetState::remove(int i) {
     localisation.pop_back();
   }
   Fleet::remove(i);
+}
+
+void FleetState::follow(int i, const Profile& command) {
+  if (lag.isNone()) return setProfile(i, command);
+  const double speed = reference_speed[i] + lag.share * (command.speed - reference_speed[i]);
+  const bool has_ended =
+      std::abs(command.speed) < kCommandStands && std::abs(lag.behind * speed) < kCaughtUp;
+  reference_speed[i] = has_ended ? 0 : speed;
+  command_speed[i] = has_ended ? 0 : command.speed;
+  reference[i] = command.position - lag.behind * reference_speed[i];
 }
 
 bool isHeld(const FleetState& f, int i) {

@@ -87,15 +87,42 @@ struct Battery {
   double tower = 0;                ///< [m]
 };
 
+/// How motors follow the speeds that they are commanded: v' = v + share · (command - v) a step, a
+/// first-order lag. Their way then stays behind the command's by `behind` · v.
+struct MotorLag {
+  double share = 1;   ///< 1 = at once.
+  double behind = 0;  ///< [s]
+
+  bool isNone() const { return share == 1; }
+};
+
+/// How a robot's load leans over the edge of what it stands on.
+struct Sway {
+  double tilt = 0, rate = 0;  ///< [rad, rad/s]
+  double to_x = 0, to_y = 0;  ///< Where to: a unit vector in world.
+  double vx = 0, vy = 0;      ///< Of the robot, [m/s], after step number
+  std::uint64_t step = 0;
+};
+
+/// The newest of what a robot has reported that came through.
+struct Heard {
+  std::uint64_t number = 0;  ///< Of that report, counted from 1; 0 = none yet.
+  RobotReport report;
+};
+
 struct FleetState : Fleet {
   std::vector<Task> tasks;
   Column<double> wheel_target[2];  ///< Left, right: what the motors are asked for [rad/s].
   Column<std::uint8_t> awake;      ///< 0 = at rest without a command: costs nothing.
   Column<Battery> battery;
+  Column<Sway> sway;               ///< Where loads may tip.
+  Column<Heard> heard;             ///< Where reports go by radio.
   Column<std::uint8_t> activated;  ///< 1 = stepped by Bullet, since something is near.
 
   // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
   Column<double> reference, reference_speed;
+  Column<double> command_speed;  ///< Of wheels that lag: what the reference comes of.
+  MotorLag lag;
   Column<double> goal;          ///< Where it is to end.
   Column<double> deceleration;  ///< With which it is to end.
 
@@ -125,8 +152,15 @@ struct FleetState : Fleet {
   Profile profile(int i) const { return {reference[i], reference_speed[i]}; }
   void setProfile(int i, const Profile& profile) {
     reference[i] = profile.position;
-    reference_speed[i] = profile.speed;
+    reference_speed[i] = command_speed[i] = profile.speed;
   }
+  /// What the wheel motors are commanded, which the reference follows.
+  Profile command(int i) const {
+    if (lag.isNone()) return profile(i);
+    return {reference[i] + lag.behind * reference_speed[i], command_speed[i]};
+  }
+  /// The reference is one step later what motors make of that command.
+  void follow(int i, const Profile& command);
 
   /// Appends a robot at rest and returns its index.
   int add(Robot robot, double x, double y, double yaw);

@@ -20,7 +20,8 @@ enum class Matter : std::uint64_t {
   kStatus = 7,
   kEnergy = 8,
   kFailure = 9,
-  kPeople = 10
+  kPeople = 10,
+  kFloor = 11
 };
 
 /// SplitMix64 (Steele, Lea, Flood 2014), begun from a hash of what it is for.

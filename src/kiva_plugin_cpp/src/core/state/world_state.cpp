@@ -21,13 +21,22 @@ WorldState::WorldState(const WorldDescription& description, const WorldOptions& 
       dt(description.step_size),
       physics(description.gravity),
       workers(std::make_shared<Workers>(options.threads)) {
-  fleet.localises = realism.localisation.enabled;
+  applyRealism();
 }
 
 WorldState::~WorldState() {
   for (auto& model : models) {
     if (model && model->in_physics) physics.remove(model->bodies);
   }
+}
+
+void WorldState::applyRealism() {
+  fleet.localises = realism.localisation.enabled;
+  const double time = realism.actuation.enabled ? realism.actuation.motor_lag : 0;
+  fleet.lag = {};
+  if (time == 0) return;
+  fleet.lag.share = 1 - std::exp(-dt / time);
+  fleet.lag.behind = (1 / fleet.lag.share - 1) * dt;
 }
 
 void WorldState::report(Event::Kind kind, const std::string& model, const std::string& other,
@@ -57,6 +66,10 @@ void WorldState::setStatus(int robot, Status status, State state) {
   fleet.state[robot] = state;
   task.reported_shelf = shelf;
   if (is_silent) return;
+  if (realism.radio.enabled) {
+    to_report.push_back(fleet.robots[robot].id);
+    return;
+  }
   status_changes.push_back({time(), fleet.robots[robot].id, status, state, shelf, fleet.x[robot],
                             fleet.y[robot], fleet.yaw[robot]});
 }

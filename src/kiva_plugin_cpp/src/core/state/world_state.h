@@ -64,11 +64,32 @@ struct Charger {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
 };
 
+/// A rectangle of the floor that grips otherwise than the rest, in world [m].
+struct FloorPatch {
+  double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
+  double friction = 0;  ///< Coulomb coefficient of its surface.
+
+  bool has(double x, double y) const {
+    return x >= min_x && x <= max_x && y >= min_y && y <= max_y;
+  }
+  bool meets(const FloorPatch& o) const {
+    return o.min_x <= max_x && o.max_x >= min_x && o.min_y <= max_y && o.max_y >= min_y;
+  }
+};
+
 /// A command on its way to its robot.
 struct RadioMessage {
   std::uint64_t due = 0;  ///< The step, of all, at which it is there.
   Command command;
   FollowPath path;  ///< If it stands for one.
+};
+
+/// What a robot reports, on its way to who listens.
+struct ReportMessage {
+  std::uint64_t due = 0;     ///< The step, of all, at which it is there.
+  std::uint64_t number = 0;  ///< In the order in which they were sent.
+  int kiva_id = 0;
+  RobotReport report;
 };
 
 /// Robots whose scans have the same period, by the step within it.
@@ -119,16 +140,20 @@ struct WorldState {
   // Of robots without a load, by description; owned by those robots.
   std::unordered_map<const ModelDescription*, std::weak_ptr<const JointedBody>> bare_jointed;
   Floor floor;
-  double floor_friction = 1;  // Coulomb coefficient of the floor's surface
+  double floor_friction = 1;              // Coulomb coefficient of the floor's surface
+  std::vector<FloorPatch> floor_patches;  // where it is another one; later ones lie on top
 
   std::vector<std::shared_ptr<const FleetPlugin>> fleet_plugins;
   std::vector<std::shared_ptr<Plugin>> world_plugins;
   std::vector<PluginDescription> world_plugin_descriptions;  // of those
 
   std::deque<Command> commands;
-  std::deque<FollowPath> paths;      // of those that are kFollow, in the same order
-  std::deque<RadioMessage> on_air;   // in the order in which they come
-  std::uint64_t radio_messages = 0;  // ever sent
+  std::deque<FollowPath> paths;               // of those that are kFollow, in the same order
+  std::deque<RadioMessage> on_air;            // in the order in which they come
+  std::uint64_t radio_messages = 0;           // ever sent
+  std::vector<ReportMessage> reports_on_air;  // a heap, the next to come first
+  std::uint64_t reports = 0;                  // ever sent
+  std::vector<int> to_report;  // ids of robots whose status has changed since the last step
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;
@@ -170,6 +195,8 @@ struct WorldState {
                      const std::string& text);
   /// Tells what was left out, once for each `subject`.
   void warn(const std::string& subject, const std::string& text);
+  /// The fleet takes in what of realism it drives by; anew for another step size.
+  void applyRealism();
   /// Sets what the robot reports, and records it if it is new.
   void setStatus(int robot, Status status, State state);
 };

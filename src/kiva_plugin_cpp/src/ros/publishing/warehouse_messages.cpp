@@ -20,6 +20,7 @@ static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REF
 static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
 static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
 static_assert(int(kiva::Event::Kind::kRepaired) == int(warehouse_msgs::Event::REPAIRED));
+static_assert(int(kiva::Event::Kind::kTipped) == int(warehouse_msgs::Event::TIPPED));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 

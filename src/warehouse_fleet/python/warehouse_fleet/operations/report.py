@@ -79,7 +79,10 @@ def page(runs):
         parts += [_section(f"Stations{escape(name)}", plots.stations(group))]
         troubles = _troubles(group)
         if troubles:
-            note = "What was lost is estimated from the pieces picked in the robot hours at work."
+            note = (
+                "Pieces not picked are estimated from those picked in the robot hours at work: what"
+                " is lost if stations wait for robots."
+            )
             parts += [_section(f"Troubles of the day{escape(name)}", troubles, note)]
         maps = _maps(group.runs[0])
         if maps:
@@ -168,23 +171,39 @@ def _table(groups):
 
 
 def _troubles(group):
-    """What broke in the first run, how often and for how long, and what that cost in all runs."""
-    kinds = group.runs[0].data.get("failures") or []
+    """What befell the first run's robots and what each of it cost; what it came to in all runs."""
     cost = [
         f"<tr><td>{words}</td><td>{_number(group.estimate(kpi), factor, digits, unit)}</td></tr>"
         for kpi, words, unit, factor, digits in TROUBLES
         if all(kpi in run.kpis for run in group.runs)
     ]
-    if not cost:
-        return ""
     rows = [
-        f"<tr><td>{escape(one['kind'])}</td><td>{one['count']}</td><td>{one['repairs']}</td>"
-        f"<td>{one['mean_repair_s'] / 60:.1f} min</td></tr>"
-        for one in kinds
+        f"<tr><td>{escape(words)}</td>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+        for words, *cells in _each_trouble(group.runs[0])
     ]
-    head = "<tr><th>Robots</th><th>failures</th><th>repaired</th><th>after, mean</th></tr>"
-    table = f"<table>{head}{''.join(rows)}</table><p></p>" if rows else ""
+    if not cost and not rows:
+        return ""
+    columns = ("Robots", "times", "repaired after, mean", "robot hours", "pieces not picked")
+    head = "".join(f"<th>{words}</th>" for words in columns)
+    table = f"<table><tr>{head}</tr>{''.join(rows)}</table><p></p>" if rows else ""
     return f"{table}<table>{''.join(cost)}</table>"
+
+
+def _each_trouble(run):
+    """(words, times, mean time to repair, robot hours, pieces not picked) of each, as text."""
+    all_h = run.data.get("robot_h", 0.0)
+    failures = run.data.get("failures") or []
+    charging_h = run.kpis.get("charging_fraction", 0.0) * all_h
+    at_work_h = all_h - charging_h - sum(one["down_h"] for one in failures)
+    an_hour = run.kpis["items_picked"] / at_work_h if at_work_h > 0 else 0.0
+    for one in failures:
+        repair = f"{one['mean_repair_s'] / 60:.1f} min" if one["repairs"] else ""
+        pieces = f"{one['down_h'] * an_hour:.0f}"
+        yield one["kind"], one["count"], repair, f"{one['robot_h']:.2f}", pieces
+    if charging_h:
+        yield "charge", "", "", f"{charging_h:.2f}", f"{charging_h * an_hour:.0f}"
+    for words, count in (run.data.get("mishaps") or {}).items():
+        yield words, count, "", "", ""
 
 
 def _number(estimate, factor, digits, unit):

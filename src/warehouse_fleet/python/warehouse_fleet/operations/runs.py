@@ -75,6 +75,7 @@ def describe(ops, config, seed):
     """What run.json holds."""
     shift, tally = ops.shift, ops.shift.tally
     count = int(shift.now // INTERVAL)
+    log = getattr(ops.fleet, "failures", None)
     series = {
         "picked": tally.picked_in,
         "stored": tally.stored_in,
@@ -91,7 +92,9 @@ def describe(ops, config, seed):
         "robots": _robots(ops),
         "traffic": _map(ops.fleet, "traffic"),
         "waiting": _map(ops.fleet, "waiting_map"),
-        "failures": log.by_kind() if (log := getattr(ops.fleet, "failures", None)) else [],
+        "failures": log.by_kind() if log else [],
+        "mishaps": dict(log.mishaps) if log else {},
+        "robot_h": log.robot_s / 3600 if log else 0.0,
     }
 
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/reports.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/state/random_stream.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kPeriod = 0.1;  // [s]
+
+bool comesLater(const ReportMessage& a, const ReportMessage& b) {
+  return std::tie(a.due, a.number) > std::tie(b.due, b.number);
+}
+
+void sendReport(WorldState& world, int robot) {
+  const FleetState& f = world.fleet;
+  if (f.failures[robot] & bitOf(Failure::kRadio)) return;
+  const RadioRealism& real = world.realism.radio;
+  const int id = f.robots[robot].id;
+  const std::uint64_t number = ++world.reports;
+  RandomStream random(world.options.seed, Matter::kStatus, id, number);
+  if (random.chance(real.status_lost)) return;
+  const double rest = std::max(0.0, real.status_latency_mean - real.status_latency_least);
+  const double latency = real.status_latency_least + random.exponential(rest);
+  world.reports_on_air.push_back(
+      {world.total_steps + world.stepsIn(latency), number, id, reportOf(world, robot)});
+  std::push_heap(world.reports_on_air.begin(), world.reports_on_air.end(), comesLater);
+}
+
+bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
+  return a.status == b.status && a.state == b.state && a.shelf_id == b.shelf_id;
+}
+
+/// A report that was overtaken by a newer one tells nothing.
+void hear(WorldState& world, int robot, std::uint64_t number, const RobotReport& report) {
+  Heard& heard = world.fleet.heard[robot];
+  if (number < heard.number) return;
+  const bool is_new = heard.number == 0 || !tellsTheSame(report, heard.report);
+  heard = {number, report};
+  if (!is_new) return;
+  world.status_changes.push_back({world.time(), world.fleet.robots[robot].id, report.status,
+                                  report.state, report.shelf_id, report.x, report.y, report.yaw});
+}
+
+void receiveReports(WorldState& world) {
+  auto& on_air = world.reports_on_air;
+  while (!on_air.empty() && on_air.front().due <= world.total_steps) {
+    std::pop_heap(on_air.begin(), on_air.end(), comesLater);
+    const ReportMessage& message = on_air.back();
+    const int robot = world.fleet.find(message.kiva_id);
+    if (robot >= 0) hear(world, robot, message.number, message.report);
+    on_air.pop_back();
+  }
+}
+
+}  // namespace
+
+RobotReport reportOf(const WorldState& world, int robot) {
+  const Fleet& f = world.fleet;
+  const int unit = f.unit[robot];
+  return {f.x[robot],       f.y[robot],       f.yaw[robot],
+          f.vx[robot],      f.vy[robot],      f.yaw_rate[robot],
+          f.status[robot],  f.state[robot],   unit < 0 ? 0 : world.units[unit].id,
+          f.path_id[robot], f.reached[robot], f.left[robot],
+          f.last_end[robot]};
+}
+
+void exchangeReports(WorldState& world) {
+  if (!world.realism.radio.enabled) return;
+  std::vector<int> changed;
+  changed.swap(world.to_report);
+  for (const int id : changed) {
+    const int robot = world.fleet.find(id);
+    if (robot < 0) continue;
+    // Whoever puts a robot there knows where.
+    if (world.fleet.heard[robot].number == 0) {
+      hear(world, robot, ++world.reports, reportOf(world, robot));
+    } else {
+      sendReport(world, robot);
+    }
+  }
+  const auto period = static_cast<int>(world.stepsIn(kPeriod));
+  const auto first = static_cast<int>(world.total_steps % static_cast<std::uint64_t>(period));
+  for (int i = first; i < world.fleet.size(); i += period) sendReport(world, i);
+  receiveReports(world);
+}
+
+}  // namespace kiva

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/motion/ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/state/random_stream.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kFarthest = 1e6;  // [m] from the origin
+constexpr double kMostFriction = 10;
+constexpr double kAside = 0.1;  // [m] off its line that a robot may drive
+
+/// A cell of the grid, by its point.
+struct Cell {
+  std::int64_t column, row;
+};
+
+Cell cellAt(const WorldState& world, double x, double y) {
+  return {std::llround(x / world.grid_spacing), std::llround(y / world.grid_spacing)};
+}
+
+bool isSlippery(const WorldState& world, const Cell& cell) {
+  RandomStream random(world.options.seed, Matter::kFloor, static_cast<std::uint64_t>(cell.column),
+                      static_cast<std::uint64_t>(cell.row));
+  return random.chance(world.realism.floor.slippery_cells);
+}
+
+/// The last of the patches there counts; a slippery cell where there is none.
+double frictionAt(const WorldState& world, double x, double y) {
+  for (auto patch = world.floor_patches.rbegin(); patch != world.floor_patches.rend(); ++patch) {
+    if (patch->has(x, y)) return patch->friction;
+  }
+  const FloorRealism& real = world.realism.floor;
+  if (!real.enabled || !isSlippery(world, cellAt(world, x, y))) return world.floor_friction;
+  return std::min(real.friction, world.floor_friction);
+}
+
+/// The least friction in a rectangle [m].
+double leastFriction(const WorldState& world, const FloorPatch& area) {
+  double least = world.floor_friction;
+  for (const FloorPatch& patch : world.floor_patches) {
+    if (patch.meets(area)) least = std::min(least, patch.friction);
+  }
+  const FloorRealism& real = world.realism.floor;
+  if (!real.enabled || real.friction >= least) return least;
+  const Cell first = cellAt(world, area.min_x, area.min_y);
+  const Cell last = cellAt(world, area.max_x, area.max_y);
+  for (std::int64_t row = first.row; row <= last.row; ++row) {
+    for (std::int64_t column = first.column; column <= last.column; ++column) {
+      if (isSlippery(world, {column, row})) return real.friction;
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+FloorPatch readFloorPatch(const Parameters& p) {
+  const auto centre = p.numbers("centre", {0, 0}), size = p.numbers("size", {1, 1});
+  for (const double place : {centre[0], centre[1], size[0], size[1]}) {
+    if (std::abs(place) <= kFarthest) continue;
+    throw DescriptionError(p.where() + ": the patch is more than 1e6 m large or away");
+  }
+  if (!(size[0] > 0 && size[1] > 0)) {
+    throw DescriptionError(p.where() + ": <size> is " + p.text("size", "") +
+                           "; two lengths above 0 were expected");
+  }
+  const double friction = p.number("friction", 0.3, 0, kMostFriction);
+  p.rejectUnread();
+  return {centre[0] - size[0] / 2, centre[0] + size[0] / 2, centre[1] - size[1] / 2,
+          centre[1] + size[1] / 2, friction};
+}
+
+Ground groundOf(const WorldState& world) {
+  return {world.gravityDown(), {world.floor_friction, world.floor_friction}};
+}
+
+bool isPatchy(const WorldState& world) {
+  return !world.floor_patches.empty() || world.realism.floor.enabled;
+}
+
+Ground groundUnder(const WorldState& world, int robot) {
+  Ground ground = groundOf(world);
+  if (!isPatchy(world)) return ground;
+  const Fleet& f = world.fleet;
+  const double half = f.robots[robot].drive.wheel_separation / 2;
+  const double left_x = -std::sin(f.yaw[robot]) * half, left_y = std::cos(f.yaw[robot]) * half;
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    const double side = wheel == 0 ? 1 : -1;
+    ground.friction[wheel] =
+        frictionAt(world, f.x[robot] + side * left_x, f.y[robot] + side * left_y);
+  }
+  return ground;
+}
+
+Ground groundAhead(const WorldState& world, int robot) {
+  Ground ground = groundOf(world);
+  if (!isPatchy(world)) return ground;
+  const FleetState& f = world.fleet;
+  const MotionSegment* segment = f.tasks[robot].segment();
+  const bool drives = segment && segment->kind == MotionSegment::Kind::kDrive;
+  const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
+  const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
+  const double to_y = f.y[robot] + way * std::sin(f.yaw[robot]);
+  const double reach = f.robots[robot].drive.wheel_separation / 2 + kAside;
+  const double least = leastFriction(
+      world, {std::min(f.x[robot], to_x) - reach, std::max(f.x[robot], to_x) + reach,
+              std::min(f.y[robot], to_y) - reach, std::max(f.y[robot], to_y) + reach, 0});
+  ground.friction[0] = ground.friction[1] = least;
+  return ground;
+}
+
+}  // namespace kiva

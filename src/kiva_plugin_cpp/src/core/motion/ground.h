@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What robots drive on: the floor, and what on it is more slippery, or grips better.
+#pragma once
+
+#include "core/motion/vehicle.h"
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// The file name by which a world asks for a patch of floor with a friction of its own.
+constexpr char kFloorPatchPlugin[] = "libkiva_floor_patch.so";
+
+/// Throws DescriptionError.
+FloorPatch readFloorPatch(const Parameters& parameters);
+
+/// The floor as it is where nothing is said of it.
+Ground groundOf(const WorldState& world);
+/// Whether it is not the same everywhere.
+bool isPatchy(const WorldState& world);
+/// What the robot's wheels stand on.
+Ground groundUnder(const WorldState& world, int robot);
+/// The most slippery of what they will have stood on when its reference has come to its goal.
+Ground groundAhead(const WorldState& world, int robot);
+
+}  // namespace kiva
