@@ -4,7 +4,7 @@
 import * as THREE from '/three/build/three.module.js';
 
 const FIRST = 64; // copies for which a mesh has room at first
-const PLACED = ['position', 'normal'], TINTED = 3;
+const OWN = ['position', 'normal', 'tint']; // attributes in which copies differ
 
 /** A graphics card draws many instances as fast as it draws one mesh. */
 export class Instances {
@@ -47,6 +47,7 @@ export class Merged {
   constructor(geometry, material) {
     this.original = geometry;
     this.corners = geometry.attributes.position.count;
+    geometry.setAttribute('tint', new THREE.BufferAttribute(new Float32Array(3 * this.corners), 3));
     this.matrix = new Float32Array(16);
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
     this.mesh.frustumCulled = false;
@@ -58,14 +59,12 @@ export class Merged {
   grow(room) {
     const { original, corners } = this;
     const geometry = new THREE.BufferGeometry();
-    const attribute = (name, { array, itemSize }, isOwn) => {
+    for (const [name, { array, itemSize }] of Object.entries(original.attributes)) {
       const all = new Float32Array(room * corners * itemSize);
-      if (isOwn) all.set(this.mesh.geometry.attributes[name]?.array ?? []);
+      if (OWN.includes(name)) all.set(this.mesh.geometry.attributes[name]?.array ?? []);
       else for (let copy = 0; copy < room; ++copy) all.set(array, copy * array.length);
       geometry.setAttribute(name, new THREE.BufferAttribute(all, itemSize).setUsage(THREE.DynamicDrawUsage));
-    };
-    for (const [name, values] of Object.entries(original.attributes)) attribute(name, values, PLACED.includes(name));
-    attribute('tint', { itemSize: TINTED }, true);
+    }
     if (original.index) geometry.setIndex(new THREE.BufferAttribute(this.indices(room), 1));
     this.mesh.geometry.dispose();
     Object.assign(this.mesh, { geometry });
@@ -103,7 +102,7 @@ export class Merged {
     const { geometry } = this.mesh, each = this.original.index?.count ?? this.corners;
     this.mesh.visible = this.drawn > 0;
     geometry.setDrawRange(0, each * this.drawn);
-    for (const name of [...PLACED, 'tint']) {
+    for (const name of OWN) {
       const attribute = geometry.attributes[name];
       if (!attribute || !this.drawn) continue;
       attribute.updateRange.count = this.corners * this.drawn * attribute.itemSize;
