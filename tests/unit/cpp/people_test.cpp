@@ -108,7 +108,7 @@ TEST_F(People, WhoWalkTowardsARobotMakeItStandInGoodTime) {
     if (w.world.time() > 2) slowest = std::min(slowest, w.speed(1));
     expectThatItCanStop();
   });
-  EXPECT_LT(slowest, 0.06);
+  EXPECT_LT(slowest, 0.15);
   EXPECT_GT(least, 0.25);
   EXPECT_EQ(w.count(Kind::kCollision), 0);
   // They walk around it, and it drives on.
@@ -125,11 +125,12 @@ TEST_F(People, WhoStandBesideALaneAreNearForNoFastRobot) {
   follow(10);
   double fastest = 0;
   w.runUntilIdle(1, 60, [&] {
-    if (std::abs(ahead()) < 0.5) fastest = std::max(fastest, w.speed(1));
+    if (std::abs(ahead() - w.robot(1).half_length - 0.2) < 0.2)
+      fastest = std::max(fastest, w.speed(1));
   });
   w.expectAt(1, 10, 0);
   EXPECT_GT(fastest, 0.1);
-  EXPECT_LT(fastest, 0.9);
+  EXPECT_LT(fastest, 0.6);
 }
 
 TEST_F(People, WalkAsFastAsTheyAreAskedAndStayWhereTheyArrive) {
@@ -293,18 +294,18 @@ TEST(Actors, WalkByTheirTrajectory) {
   w.run(1.4);
   EXPECT_EQ(placeOf(w), Vector3(2, 2, 0));
   w.run(2.1);
-  EXPECT_NEAR(placeOf(w).Y(), 0, 3e-3);  // 1 m/s
+  EXPECT_NEAR(placeOf(w).Y(), 0, 0.02);  // 1 m/s
   w.run(2.5);
   EXPECT_NEAR(placeOf(w).Y(), -2, 1e-9);  // a pause of two seconds
   w.run(4);
-  EXPECT_NEAR(placeOf(w).Y(), 0, 3e-3);  // 0.8 m/s
+  EXPECT_NEAR(placeOf(w).Y(), 0, 0.02);  // 0.8 m/s
   w.run(6);
-  EXPECT_NEAR(placeOf(w).Y(), 0, 3e-3);  // after 1.5 s, once more
+  EXPECT_NEAR(placeOf(w).Y(), 0, 0.02);  // after 1.5 s, once more
   EXPECT_LT(w.world.state("walker")->twist.linear.Y(), 0);
   w.world.reset(true);
   EXPECT_EQ(placeOf(w), Vector3(2, 2, 0));
   w.run(3.5);
-  EXPECT_NEAR(placeOf(w).Y(), 0, 3e-3);
+  EXPECT_NEAR(placeOf(w).Y(), 0, 0.02);
 }
 
 TEST(Actors, WithoutAScriptStand) {

@@ -6,12 +6,16 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 
+#include <algorithm>
 #include <new>
 
 namespace kiva {
 namespace {
 
 using Input = btDiscreteCollisionDetectorInterface::ClosestPointInput;
+
+// GJK tells distances no worse than that.
+constexpr btScalar kExact = 1e-4;  // [m]
 
 /// The closest points of two shapes that are apart.
 struct Closest : btDiscreteCollisionDetectorInterface::Result {
@@ -55,6 +59,20 @@ const btConvexPolyhedron& polyhedronOf(const btBoxShape* box) {
   return *box->getConvexPolyhedron();
 }
 
+/// Whether the boxes are farther apart than that along one of their axes: most that are near are.
+bool areFarther(btScalar distance, const btBoxShape* a, const btBoxShape* b, const Input& input) {
+  const btMatrix3x3 turn =
+      input.m_transformA.getBasis().transposeTimes(input.m_transformB.getBasis());
+  const btVector3 way = input.m_transformB.getOrigin() - input.m_transformA.getOrigin();
+  const btVector3 from_a = way * input.m_transformA.getBasis();  // in its frame
+  const btVector3 from_b = way * input.m_transformB.getBasis();
+  const btMatrix3x3 extent = turn.absolute();
+  const btVector3 half_a = a->getHalfExtentsWithMargin(), half_b = b->getHalfExtentsWithMargin();
+  const btVector3 along_a = from_a.absolute() - half_a - extent * half_b;
+  const btVector3 along_b = from_b.absolute() - half_b - half_a * extent;
+  return std::max(along_a[along_a.maxAxis()], along_b[along_b.maxAxis()]) > distance;
+}
+
 Closest closest(const btBoxShape* a, const btBoxShape* b, const Input& input) {
   btVoronoiSimplexSolver simplex;
   btGjkPairDetector gjk(a, b, &simplex, nullptr);
@@ -90,6 +108,7 @@ void BoxBoxContacts::processCollision(const btCollisionObjectWrapper* a,
 void BoxBoxContacts::foresee(const btBoxShape* a, const btBoxShape* b, const Input& input,
                              btManifoldResult* result) {
   const btScalar foresight = manifold_->getContactBreakingThreshold();
+  if (areFarther(foresight + kExact, a, b, input)) return;
   const Closest apart = closest(a, b, input);
   if (!apart.found) return;
   result->addContactPoint(apart.normal, apart.point, apart.distance);

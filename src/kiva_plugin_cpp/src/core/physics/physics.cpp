@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/physics/physics.h"
 
+#include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <new>
 #include <utility>
 
 #include "core/geometry/ray.h"
@@ -49,8 +53,34 @@ class Foreseeing : public Base {
   }
 };
 
+/// A box whose faces are worked out once for all of its size: a body is built anew whenever it
+/// comes near another, and has them as soon as they may touch.
+class Box : public Foreseeing<btBoxShape> {
+ public:
+  using Foreseeing<btBoxShape>::Foreseeing;
+  bool initializePolyhedralFeatures(int shift) override {
+    if (shift != 0) return btBoxShape::initializePolyhedralFeatures(shift);
+    if (!m_polyhedron) {
+      void* memory = btAlignedAlloc(sizeof(btConvexPolyhedron), 16);
+      m_polyhedron = new (memory) btConvexPolyhedron(faces());
+    }
+    return true;
+  }
+
+ private:
+  const btConvexPolyhedron& faces() const {
+    constexpr std::size_t kMostSizes = 1000;
+    static thread_local std::map<std::array<btScalar, 3>, btBoxShape> known;
+    if (known.size() >= kMostSizes) known.clear();
+    const btVector3 half = getHalfExtentsWithMargin();
+    const auto [at, is_new] = known.try_emplace({half.x(), half.y(), half.z()}, *this);
+    if (is_new) at->second.initializePolyhedralFeatures();
+    return *at->second.getConvexPolyhedron();
+  }
+};
+
 std::unique_ptr<btCollisionShape> makeBox(const Shape& shape) {
-  auto box = std::make_unique<Foreseeing<btBoxShape>>(toBullet(shape.size * 0.5));
+  auto box = std::make_unique<Box>(toBullet(shape.size * 0.5));
   box->setMargin(kMargin);
   return box;
 }
