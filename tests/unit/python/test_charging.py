@@ -17,7 +17,9 @@ from warehouse_fleet.random_transports import RandomTransports
 LONG = float(os.environ.get("CHARGING_MINUTES", "0"))
 MINUTES = LONG or 8
 SMALL = {"capacity": 80, "initial_least": 0.3, "initial_most": 0.8}  # [Wh], 0…1
-KEPT = 0.95 if LONG else 0.9  # of what is delivered without: in a short time that varies by chance
+# Of what is delivered without: all robots are at work, and stand at places to charge at for a tenth
+# of their time, at first on what the batteries began with; doc/realism.md. The ways are the rest.
+KEPT = 0.85 if LONG else 0.9
 
 
 @pytest.mark.parametrize(("size", "robots"), [("small", 4), ("medium", 20), ("large", 100)])
@@ -58,7 +60,7 @@ def ideal():
 
 
 @pytest.mark.parametrize("policy", [Threshold, Opportunity])
-def test_no_throughput_is_lost_to_charging(ideal, policy):
+def test_little_throughput_is_lost_to_charging(ideal, policy):
     delivered, least, driver = shift(policy(), energy=SMALL)
     charging = driver.transports.charging.robot_s / driver.failures.robot_s
     print(ideal, delivered, least, charging)
