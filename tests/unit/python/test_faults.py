@@ -222,7 +222,7 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
     during = []
     for seed in SEEDS:
         with Site(seed) as site:
-            robot = site.until(partial(pushable, site, True, 0.3, 0.0))[0]
+            robot = site.until(partial(pushable_off_its_point, site))[0]
             x, y = site.world.pose(site.name(robot))[:2]
             site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
             for number, (dx, dy) in enumerate(AROUND):
@@ -251,6 +251,13 @@ def refusals_of(site, robot):
 
 def failed(site):
     return [event.text for event in site.events if event.kind == Kind.FAILED]
+
+
+def pushable_off_its_point(site):
+    """Those with a load that stand on a grid point and can be pushed 0.3 m along x."""
+    fleet, found = site.world.fleet, pushable(site, True, 0.3, 0.0)
+    x, y = site.plan.point_of(site.traffic.cell)
+    return [robot for robot in found if np.hypot(fleet.x - x, fleet.y - y)[robot] < 0.01]
 
 
 def pushable(site, is_loaded, dx, dy):
