@@ -53,7 +53,7 @@ struct LaserRealism {
 /// How motors and tyres differ from robot to robot, and how late motors do what they are told.
 struct ActuationRealism {
   bool enabled = false;
-  double motor_lag = 0.02;        ///< [s] time constant with which speeds follow their commands.
+  double motor_lag = 0;           ///< [s] time constant with which speeds follow their commands.
   double torque_spread = 0.05;    ///< Standard deviation, as a share of the motor's torque.
   double friction_spread = 0.05;  ///< Standard deviation, as a share of the tyres' friction.
 
@@ -96,13 +96,18 @@ struct LoadRealism {
 /// distributed, that makes it its `mean` in the mean.
 struct RadioRealism {
   bool enabled = false;
-  double latency_least = 0.005;         ///< [s]
-  double latency_mean = 0.03;           ///< [s]
-  double lost = 0.001;                  ///< Share of commands that are lost.
-  double repeated = 0.001;              ///< Share of commands that come twice.
-  double status_latency_least = 0.005;  ///< [s]
-  double status_latency_mean = 0.03;    ///< [s]
-  double status_lost = 0.001;           ///< Share of reports that are lost.
+  double latency_least = 0.005;     ///< [s]
+  double latency_mean = 0.03;       ///< [s]
+  double lost = 0.001;              ///< Share of commands that are lost.
+  double repeated = 0.001;          ///< Share of commands that come twice.
+  double status_latency_least = 0;  ///< [s]
+  double status_latency_mean = 0;   ///< [s]
+  double status_lost = 0;           ///< Share of reports that are lost.
+
+  /// Whether reports are not there at once.
+  bool delaysReports() const {
+    return enabled && (status_latency_least > 0 || status_latency_mean > 0 || status_lost > 0);
+  }
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {

@@ -96,7 +96,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   FIELDS(physics);
   if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
   if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
-  if (world.realism.radio.enabled) {
+  if (world.realism.radio.delaysReports()) {
     FIELDS(world.fleet.heard, world.reports_on_air, world.reports, world.to_report);
   }
   if (!std::is_same_v<A, Hasher> || minds(world)) {

@@ -314,7 +314,7 @@ void checkFleet(WorldState& world) {
           f.sway.size(), "", "there is one for every robot");
   require(f.lag.isNone() || f.command_speed.size() == f.robots.size(), "fleet.command_speed",
           f.command_speed.size(), "", "there is one for every robot");
-  require(!world.realism.radio.enabled || f.heard.size() == f.robots.size(), "fleet.heard",
+  require(!world.realism.radio.delaysReports() || f.heard.size() == f.robots.size(), "fleet.heard",
           f.heard.size(), "", "there is one for every robot");
   require(!world.realism.energy.enabled || f.battery.size() == f.robots.size(), "fleet.battery",
           f.battery.size(), "", "there is one for every robot");

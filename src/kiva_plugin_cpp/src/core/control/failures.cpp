@@ -146,7 +146,7 @@ void repair(WorldState& world, int kiva_id) {
 }
 
 std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
-  if (world.realism.radio.enabled && world.fleet.heard[robot].number > 0) {
+  if (world.realism.radio.delaysReports() && world.fleet.heard[robot].number > 0) {
     return world.fleet.heard[robot].report;
   }
   if ((world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0) return std::nullopt;

@@ -70,7 +70,7 @@ RobotReport reportOf(const WorldState& world, int robot) {
 }
 
 void exchangeReports(WorldState& world) {
-  if (!world.realism.radio.enabled) return;
+  if (!world.realism.radio.delaysReports()) return;
   std::vector<int> changed;
   changed.swap(world.to_report);
   for (const int id : changed) {

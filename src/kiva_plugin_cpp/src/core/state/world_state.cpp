@@ -66,7 +66,7 @@ void WorldState::setStatus(int robot, Status status, State state) {
   fleet.state[robot] = state;
   task.reported_shelf = shelf;
   if (is_silent) return;
-  if (realism.radio.enabled) {
+  if (realism.radio.delaysReports()) {
     to_report.push_back(fleet.robots[robot].id);
     return;
   }
