@@ -68,7 +68,7 @@ struct Bare {
     fleet.wheel_target[0][0] = left;
     fleet.wheel_target[1][0] = right;
     for (int i = 0; i < std::lround(seconds / dt); ++i) {
-      applyTraction(fleet, 0, {g, 1}, dt);
+      applyTraction(fleet, 0, {g, {1, 1}}, dt);
       integrate(fleet, 0, dt);
     }
   }

@@ -16,7 +16,7 @@ from warehouse_fleet.people import PeopleLog, people_in, zone_around
 CROSSINGS = int(os.environ.get("CROSSINGS", "0"))
 WARM_UP = 30  # [s]
 RADIUS = 0.25  # of a person [m]
-PATIENCE = 900  # for one crossing [s]
+PATIENCE = 120  # for one crossing: who is kept from it longer goes elsewhere [s]
 
 
 class Crowd:
@@ -28,7 +28,7 @@ class Crowd:
         plan = fleet.driver.plan
         self._open = np.flatnonzero(plan.passable & ~plan.storage & ~plan.lane & ~plan.parking)
         self._goal, self._since = {}, {}
-        self.crossings, self.least = 0, np.inf
+        self.crossings, self.given_up, self.least = 0, 0, np.inf
         for number in range(1, people + 1):
             self._come(f"person{number}")
 
@@ -68,9 +68,9 @@ class Crowd:
             if np.hypot(goal[0] - here[0], goal[1] - here[1]) < 1e-6:
                 self.crossings += 1
                 self._send(name, here)
-            else:
-                waits = self._world.time - self._since[name]
-                assert waits < PATIENCE, f"{name} at {here} does not get to {goal}"
+            elif self._world.time - self._since[name] > PATIENCE:
+                self.given_up += 1
+                self._send(name, here)
 
 
 def cross(fleet, crowd, crossings=np.inf, seconds=np.inf):
@@ -185,10 +185,11 @@ def test_many_crossings_at_a_hundred_robots():
         cross(fleet, crowd, CROSSINGS)
         delivered = fleet.transports.totals.delivered - before
         print(
-            f"{crowd.crossings} crossings in {fleet.world.time - begin:.0f} s, nearest "
+            f"{crowd.crossings} crossings, {crowd.given_up} given up, in {fleet.world.time - begin:.0f} s, nearest "
             f"{crowd.least:.3f} m, {delivered} units delivered",
             fleet.driver.people.figures(),
         )
         assert fleet.driver.collisions == 0
         assert crowd.least > 0
-        assert delivered > 0
+        assert crowd.given_up < crowd.crossings / 10
+        assert delivered > crowd.crossings / 10
