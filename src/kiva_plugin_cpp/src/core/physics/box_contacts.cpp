@@ -17,6 +17,9 @@ using Input = btDiscreteCollisionDetectorInterface::ClosestPointInput;
 // GJK tells distances no worse than that.
 constexpr btScalar kExact = 1e-4;  // [m]
 
+// Boxes no farther apart than that may lie on each other, and keep what pressed them together.
+constexpr btScalar kTouches = 1e-3;  // [m]
+
 /// The closest points of two shapes that are apart.
 struct Closest : btDiscreteCollisionDetectorInterface::Result {
   void setShapeIdentifiersA(int, int) override {}
@@ -57,6 +60,14 @@ const btConvexPolyhedron& polyhedronOf(const btBoxShape* box) {
     const_cast<btBoxShape*>(box)->initializePolyhedralFeatures();
   }
   return *box->getConvexPolyhedron();
+}
+
+/// Forgets contacts foreseen in the last step: where boxes turn fast, a normal of then says of
+/// corners that pass each other that they touch.
+void forgetForeseen(btPersistentManifold& manifold) {
+  for (int i = manifold.getNumContacts(); i-- > 0;) {
+    if (manifold.getContactPoint(i).getDistance() > kTouches) manifold.removeContactPoint(i);
+  }
 }
 
 /// Whether the boxes are farther apart than that along one of their axes: most that are near are.
@@ -107,6 +118,7 @@ void BoxBoxContacts::processCollision(const btCollisionObjectWrapper* a,
 
 void BoxBoxContacts::foresee(const btBoxShape* a, const btBoxShape* b, const Input& input,
                              btManifoldResult* result) {
+  forgetForeseen(*manifold_);
   const btScalar foresight = manifold_->getContactBreakingThreshold();
   if (areFarther(foresight + kExact, a, b, input)) return;
   const Closest apart = closest(a, b, input);
