@@ -93,6 +93,30 @@ TEST(Epibt, DrivesAroundADeadRobotAndAClosedCell) {
   }
 }
 
+TEST(Epibt, TurnsNoLoadWhereThereIsNoRoom) {
+  const Floor floor(drawn({".....", ".###.", "....."}));
+  const Cell corner = 4, goal = 9;
+  for (const bool is_loaded : {false, true}) {
+    const auto planner = makeEpibt();
+    planner->start(floor, {}, 1);
+    Fleet fleet;
+    fleet.cell = {0};
+    fleet.heading = {0};
+    fleet.goal = {goal};
+    fleet.loaded = {is_loaded};
+    fleet.tight = {corner};
+    Plan plan;
+    int ticks = 0;
+    for (; fleet.cell[0] != goal && ticks < 100; ++ticks) {
+      planner->plan(fleet, {}, plan);
+      const State state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
+      fleet.cell[0] = state.cell;
+      fleet.heading[0] = state.heading;
+    }
+    EXPECT_EQ(ticks, is_loaded ? 1 + 2 + 1 + 4 + 1 + 1 : 4 + 1 + 1);
+  }
+}
+
 TEST(Epibt, DrivesAroundOneThatRestsWhereItWasToGo) {
   const std::vector<std::string> rows(3, "............");
   const Floor floor(drawn(rows));

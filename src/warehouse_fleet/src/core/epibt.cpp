@@ -56,6 +56,7 @@ class Epibt : public Planner {
   void observe(const Fleet& fleet);
   void close(const Fleet& fleet);
   void closeDeck(Deck deck, std::vector<Cell> cells);
+  void tighten(const std::vector<Cell>& cells);
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
@@ -92,6 +93,7 @@ class Epibt : public Planner {
   int now_ = 0;
   int version_ = 0;
   std::vector<Cell> closed_[2];  ///< now, by deck, sorted
+  std::vector<Cell> tight_;      ///< now
   std::vector<Memory> memory_;
   std::vector<Wish> wishes_;
   std::vector<int> order_, rank_;  ///< who comes first, and who comes when
@@ -111,6 +113,7 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   edges_->next[0] = floor.edges(Deck::kUnder);
   edges_->next[1] = floor.edges(Deck::kAisles);
   edges_->costs = &guidance_->costs();
+  tight_.clear();
   tables_ =
       std::make_unique<DistanceTables>(floor, *edges_, options_.turn_ticks, options_.table_bytes);
   candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth, options_.horizon);
@@ -174,6 +177,7 @@ void Epibt::close(const Fleet& fleet) {
   aisles.insert(aisles.end(), fleet.units.begin(), fleet.units.end());
   closeDeck(Deck::kUnder, std::move(under));
   closeDeck(Deck::kAisles, std::move(aisles));
+  tighten(fleet.tight);
 }
 
 void Epibt::closeDeck(Deck deck, std::vector<Cell> cells) {
@@ -194,6 +198,14 @@ void Epibt::closeDeck(Deck deck, std::vector<Cell> cells) {
   set(closed, true);
   set(cells, false);
   closed = std::move(cells);
+  ++version_;
+}
+
+void Epibt::tighten(const std::vector<Cell>& cells) {
+  if (cells == tight_) return;
+  edges_->is_tight.assign(cells.empty() ? 0 : floor_->size(), 0);
+  for (const Cell cell : cells) edges_->is_tight[cell] = 1;
+  tight_ = cells;
   ++version_;
 }
 
