@@ -290,9 +290,12 @@ void Epibt::resume(const std::vector<Path>& rests) {
 }
 
 /// Who is nearest to its goal goes first, which serves throughput; what a robot has waited counts
-/// against what it has still to go, so that nobody waits for ever.
+/// against what it has still to go, so that nobody waits for ever. Who stands for long counts it
+/// manifold: beside a stream of robots that have waited elsewhere it would never be let in.
 void Epibt::prioritise(const Fleet& fleet) {
-  constexpr int kWaitingWorth = 2;  // of kTickCost, a tick
+  constexpr int kWaitingWorth = 2;    // of kTickCost, a tick
+  constexpr int kStandingWorth = 24;  // the same, of those after the first
+  constexpr int kStands = 8;          // ticks in a cell
   constexpr int kFirst = std::numeric_limits<int>::min();
   constexpr int kLast = std::numeric_limits<int>::max();
   std::vector<int> distance(fleet.size()), key(fleet.size());
@@ -300,7 +303,9 @@ void Epibt::prioritise(const Fleet& fleet) {
     const Wish& wish = wishes_[robot];
     const bool has_goal = wish.goal != kNowhere;
     distance[robot] = has_goal ? candidates_->distance(wish, wish.state) : kLast;
-    key[robot] = distance[robot] - (has_goal ? kWaitingWorth * memory_[robot].waiting : 0);
+    const int waited = kWaitingWorth * memory_[robot].waiting;
+    const int stood = kStandingWorth * std::max(0, way_->still(robot) - kStands);
+    key[robot] = distance[robot] - (has_goal ? waited + stood : 0);
     if (way_->isTold(robot)) key[robot] = kFirst;
   }
   nearestFirst(distance, key);
