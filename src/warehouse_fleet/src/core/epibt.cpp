@@ -119,7 +119,7 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth, options_.horizon);
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
   spacing_ = std::make_unique<Spacing>(options_.horizon);
-  way_ = std::make_unique<MakingWay>(floor);
+  way_ = std::make_unique<MakingWay>(floor, options_.patience);
   for (auto& closed : closed_) closed.clear();
   rules_ = rules;
 }

@@ -196,6 +196,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("revisits", options.revisits);
   set("pushes", options.pushes);
   set("exchanges", options.exchanges);
+  set("patience", options.patience);
   set("goals_are_stops", options.goals_are_stops);
   set("table_bytes", options.table_bytes);
   set("table_work", options.table_work);
