@@ -13,6 +13,7 @@
 #include "core/control/failures.h"
 #include "core/control/protective_fields.h"
 #include "core/sensing/scans.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
@@ -126,6 +127,10 @@ void indexModels(WorldState& world) {
   world.fleet.sway.resize(world.fleet.size());
   world.fleet.heard.resize(world.fleet.size());
   world.fleet.command_speed.resize(world.fleet.size());
+  world.fleet.count_at.clear();
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    world.fleet.count_at.push_back(nextCount(world, i));
+  }
 }
 
 struct Header {
