@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/geometry/ray.h"
+#include "core/physics/planar_contacts.h"
 
 namespace kiva {
 namespace {
@@ -432,6 +433,9 @@ Physics::Physics(const Vector3& gravity)
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
+  static PlanarContacts::Creator planar_contacts;  // keeps nothing
+  dispatcher_.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE,
+                                          &planar_contacts);
   for (int round : {CYLINDER_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
     for (int flat : {STATIC_PLANE_PROXYTYPE, BOX_SHAPE_PROXYTYPE}) {
       dispatcher_.registerCollisionCreateFunc(round, flat, &round_contacts_);
