@@ -133,14 +133,6 @@ btScalar radiusOf(const btCollisionObject& object) {
   return centre.length() + radius;
 }
 
-/// A part among its body's, as Bullet hands it around.
-struct Part {
-  Part(const btCollisionObjectWrapper* body, int child)
-      : wrapper(body, shapeOf(body).getChildShape(child), body->getCollisionObject(),
-                body->getWorldTransform(), -1, child) {}
-  btCollisionObjectWrapper wrapper;
-};
-
 /// What pressed there in the last step, if something did.
 btScalar impulseNear(const btPersistentManifold& manifold, const btVector3& local_a) {
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
@@ -152,26 +144,38 @@ btScalar impulseNear(const btPersistentManifold& manifold, const btVector3& loca
   return 0;
 }
 
-btManifoldPoint pointAt(const OutlineContact& contact, btScalar height, const Part& a,
-                        const Part& b) {
+/// What Bullet calls a part among its body's.
+btCollisionObjectWrapper partOf(const btCollisionObjectWrapper* body, int child) {
+  return {body,
+          shapeOf(body).getChildShape(child),
+          body->getCollisionObject(),
+          body->getWorldTransform(),
+          -1,
+          child};
+}
+
+btManifoldPoint pointAt(const OutlineContact& contact, btScalar height,
+                        const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
   const btVector3 on_b(contact.x, contact.y, height), normal(contact.nx, contact.ny, 0);
   const btVector3 on_a = on_b + normal * contact.distance;
-  btManifoldPoint point(a.wrapper.getWorldTransform().invXform(on_a),
-                        b.wrapper.getWorldTransform().invXform(on_b), normal, contact.distance);
+  btManifoldPoint point(a.getWorldTransform().invXform(on_a), b.getWorldTransform().invXform(on_b),
+                        normal, contact.distance);
   point.m_positionWorldOnA = on_a;
   point.m_positionWorldOnB = on_b;
   point.m_lateralFrictionDir1 = {-normal.y(), normal.x(), 0};
   point.m_lateralFrictionDir2 = {0, 0, 1};
   point.m_partId0 = point.m_partId1 = -1;
-  point.m_index0 = a.wrapper.m_index;
-  point.m_index1 = b.wrapper.m_index;
-  gContactAddedCallback(point, &a.wrapper, -1, point.m_index0, &b.wrapper, -1, point.m_index1);
+  point.m_index0 = a.m_index;
+  point.m_index1 = b.m_index;
+  gContactAddedCallback(point, &a, -1, point.m_index0, &b, -1, point.m_index1);
   return point;
 }
 
 /// Instead of those of the last step.
-void setPoints(const OutlineContacts& contacts, const PlanarContacts::Pair& pair, const Part& a,
-               const Part& b) {
+void setPoints(const OutlineContacts& contacts, const PlanarContacts::Pair& pair,
+               const btCollisionObjectWrapper* body_a, const btCollisionObjectWrapper* body_b) {
+  if (contacts.count == 0) return pair.manifold->clearManifold();
+  const btCollisionObjectWrapper a = partOf(body_a, pair.a), b = partOf(body_b, pair.b);
   btManifoldPoint points[2];
   for (int i = 0; i < contacts.count; ++i) {
     points[i] = pointAt(contacts.at[i], pair.height, a, b);
@@ -181,10 +185,27 @@ void setPoints(const OutlineContacts& contacts, const PlanarContacts::Pair& pair
   for (int i = 0; i < contacts.count; ++i) pair.manifold->addManifoldPoint(points[i]);
 }
 
+/// In world, of a part of a body that stands upright.
 Rectangle partOutline(const btCollisionObjectWrapper* body, int child) {
   const btCompoundShape& shape = shapeOf(body);
-  return outlineOf(static_cast<const btBoxShape&>(*shape.getChildShape(child)),
-                   body->getWorldTransform() * shape.getChildTransform(child));
+  const Rectangle in_body = outlineOf(static_cast<const btBoxShape&>(*shape.getChildShape(child)),
+                                      shape.getChildTransform(child));
+  const btTransform& pose = body->getWorldTransform();
+  const btScalar c = pose.getBasis()[0][0], s = pose.getBasis()[1][0];
+  return {pose.getOrigin().x() + c * in_body.x - s * in_body.y,
+          pose.getOrigin().y() + s * in_body.x + c * in_body.y,
+          c * in_body.c - s * in_body.s,
+          s * in_body.c + c * in_body.s,
+          in_body.hx,
+          in_body.hy};
+}
+
+/// Whether two outlines may be within that distance [m].
+bool mayBeWithin(btScalar distance, const Rectangle& a, const Rectangle& b) {
+  const btScalar dx = b.x - a.x, dy = b.y - a.y;
+  const btScalar near =
+      std::sqrt(a.hx * a.hx + a.hy * a.hy) + std::sqrt(b.hx * b.hx + b.hy * b.hy) + distance;
+  return dx * dx + dy * dy < near * near;
 }
 
 }  // namespace
@@ -211,11 +232,12 @@ void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
   const btCollisionObject &body_a = *a->getCollisionObject(), &body_b = *b->getCollisionObject();
   const btScalar speed = speedOf(body_a, radiusOf(body_a)) + speedOf(body_b, radiusOf(body_b));
   const btScalar reach = std::min(kForesight, kClose + 2 * speed * info.m_timeStep);
+  Rectangle on_a;
+  int part = -1;  // of a, whose outline that is
   for (Pair& pair : pairs_) {
-    const Rectangle on_a = partOutline(a, pair.a), on_b = partOutline(b, pair.b);
-    const btScalar dx = on_b.x - on_a.x, dy = on_b.y - on_a.y;
-    const btScalar near = std::hypot(on_a.hx, on_a.hy) + std::hypot(on_b.hx, on_b.hy) + kNear;
-    const bool is_near = dx * dx + dy * dy < near * near;
+    if (pair.a != part) on_a = partOutline(a, part = pair.a);
+    const Rectangle on_b = partOutline(b, pair.b);
+    const bool is_near = mayBeWithin(kNear, on_a, on_b);
     if (is_near && !pair.manifold) {
       pair.manifold = m_dispatcher->getNewManifold(&body_a, &body_b);
       pair.manifold->m_companionIdA = pair.a;
@@ -223,7 +245,7 @@ void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
     }
     if (!pair.manifold) continue;
     const OutlineContacts contacts = is_near ? findContacts(on_a, on_b, reach) : OutlineContacts();
-    setPoints(contacts, pair, Part(a, pair.a), Part(b, pair.b));
+    setPoints(contacts, pair, a, b);
   }
 }
 

@@ -12,23 +12,29 @@ namespace kiva {
 namespace {
 
 constexpr btScalar kLevel = 1e-9;  // of a normal's height
-constexpr int kFixed = -1;         // instead of a body: what stands still
+constexpr int kFixed = 0;          // among the bodies: all that stands still
 constexpr btScalar kUnlimited = 1e30;
 
 struct Body {
-  btScalar inverse_mass, inverse_inertia;  // [1/kg, 1/(kg m²)]
-  btScalar vx, vy, turn;                   // [m/s, rad/s]
+  btScalar inverse_mass = 0, inverse_inertia = 0;  // [1/kg, 1/(kg m²)]
+  btScalar vx = 0, vy = 0, turn = 0;               // [m/s, rad/s]
+};
+
+/// What an impulse does to a body, and where.
+struct Lever {
+  int body = kFixed;
+  btScalar arm = 0;                   // [m]
+  btScalar vx = 0, vy = 0, turn = 0;  // a unit of it [1/kg, 1/(kg m)]
 };
 
 /// One direction in which an impulse acts between two bodies, and what it may be.
 struct Row {
-  int a = kFixed, b = kFixed;
-  btScalar x = 0, y = 0;              // unit vector, of the impulse on a
-  btScalar lever_a = 0, lever_b = 0;  // [m]
-  btScalar mass = 0;                  // that it moves [kg]
-  btScalar speed = 0;                 // of a seen from b, after it [m/s]
-  btScalar least = 0, most = 0;       // [Ns]
-  btScalar impulse = 0;               // [Ns]
+  btScalar x = 0, y = 0;  // unit vector, of the impulse on a
+  Lever a, b;
+  btScalar mass = 0;             // that it moves [kg]
+  btScalar speed = 0;            // of a seen from b, after it [m/s]
+  btScalar least = 0, most = 0;  // [Ns]
+  btScalar impulse = 0;          // [Ns]
 };
 
 /// A point of contact: what presses, and what rubs.
@@ -37,49 +43,42 @@ struct Touch {
   Row pressing, rubbing;
 };
 
-/// Along the way that a foot goes, and across.
-struct FootRows {
-  Row rows[2];
-};
-
-class Island {
+class Solver {
  public:
-  Island(const ContactIsland& island, const btContactSolverInfo& info)
-      : island_(island), info_(info), dt_(info.m_timeStep) {
+  void read(const ContactIsland& island, const btContactSolverInfo& info) {
+    island_ = island;
+    info_ = &info;
+    dt_ = info.m_timeStep;
+    bodies_.assign(1, Body());
+    feet_.clear();
+    touches_.clear();
     for (int i = 0; i < island.body_count; ++i) addBody(i);
     for (int i = 0; i < island.joint_count; ++i) addFeet(frictionOf(i));
     for (int i = 0; i < island.manifold_count; ++i) addTouches(*island.manifolds[i]);
   }
 
   void solve() {
-    for (Touch& touch : touches_) apply(touch.pressing, touch.pressing.impulse);
+    for (const Touch& touch : touches_) apply(touch.pressing, touch.pressing.impulse);
     btScalar change = kUnlimited;
-    for (int i = 0; i < info_.m_numIterations && change > info_.m_leastSquaresResidualThreshold;
+    for (int i = 0; i < info_->m_numIterations && change > info_->m_leastSquaresResidualThreshold;
          ++i) {
       change = 0;
-      for (FootRows& foot : feet_) {
-        for (Row& row : foot.rows) change = std::max(change, settle(row));
-      }
+      for (Row& row : feet_) change = std::max(change, settle(row));
       for (Touch& touch : touches_) change = std::max(change, settle(touch.pressing));
-      for (Touch& touch : touches_) {
-        const btScalar limit = touch.point->m_combinedFriction * touch.pressing.impulse;
-        touch.rubbing.least = -limit;
-        touch.rubbing.most = limit;
-        change = std::max(change, settle(touch.rubbing));
-      }
+      for (Touch& touch : touches_) change = std::max(change, rub(touch));
     }
   }
 
-  void write() {
+  void write() const {
     for (int i = 0; i < island_.body_count; ++i) {
       btRigidBody& body = bodyOf(i);
-      const Body& b = bodies_[i];
+      const Body& b = bodies_[body.getCompanionId()];
       body.setLinearVelocity({b.vx, b.vy, body.getLinearVelocity().z()});
       body.setAngularVelocity({0, 0, b.turn});
       body.setCompanionId(-1);
     }
-    std::size_t foot = 0;
-    for (int i = 0; i < island_.joint_count; ++i) writeFeet(frictionOf(i), &foot);
+    const Row* row = feet_.data();
+    for (int i = 0; i < island_.joint_count; ++i) row = writeFeet(frictionOf(i), row);
     for (const Touch& touch : touches_) writeTouch(touch);
   }
 
@@ -92,63 +91,51 @@ class Island {
   /// With what forces from outside add in the step.
   void addBody(int i) {
     btRigidBody& body = bodyOf(i);
-    body.setCompanionId(i);
+    body.setCompanionId(static_cast<int>(bodies_.size()));
     const btVector3 v = body.getLinearVelocity(), force = body.getTotalForce();
-    const btScalar inverse_mass = body.getInvMass();
-    const btScalar inverse_inertia = body.getInvInertiaTensorWorld()[2][2];
-    bodies_.push_back(
-        {inverse_mass, inverse_inertia, v.x() + force.x() * inverse_mass * dt_,
-         v.y() + force.y() * inverse_mass * dt_,
-         body.getAngularVelocity().z() + body.getTotalTorque().z() * inverse_inertia * dt_});
+    Body b;
+    b.inverse_mass = body.getInvMass();
+    b.inverse_inertia = body.getInvInertiaTensorWorld()[2][2];
+    b.vx = v.x() + force.x() * b.inverse_mass * dt_;
+    b.vy = v.y() + force.y() * b.inverse_mass * dt_;
+    b.turn = body.getAngularVelocity().z() + body.getTotalTorque().z() * b.inverse_inertia * dt_;
+    bodies_.push_back(b);
+  }
+
+  Lever leverOf(int index, const btVector3& arm, btScalar x, btScalar y) const {
+    const Body& body = bodies_[index];
+    const btScalar turning = arm.x() * y - arm.y() * x;
+    return {index, turning, x * body.inverse_mass, y * body.inverse_mass,
+            turning * body.inverse_inertia};
   }
 
   Row makeRow(int a, int b, const btVector3& arm_a, const btVector3& arm_b, btScalar x,
               btScalar y) const {
     Row row;
-    row.a = a;
-    row.b = b;
     row.x = x;
     row.y = y;
-    row.lever_a = arm_a.x() * y - arm_a.y() * x;
-    row.lever_b = arm_b.x() * y - arm_b.y() * x;
-    btScalar yielding = 0;
-    const auto add = [&](int body, btScalar lever) {
-      if (body == kFixed) return;
-      yielding += bodies_[body].inverse_mass + lever * lever * bodies_[body].inverse_inertia;
-    };
-    add(a, row.lever_a);
-    add(b, row.lever_b);
-    row.mass = 1 / yielding;
+    row.a = leverOf(a, arm_a, x, y);
+    row.b = leverOf(b, arm_b, x, y);
+    row.mass = 1 / (bodies_[a].inverse_mass + row.a.arm * row.a.turn + bodies_[b].inverse_mass +
+                    row.b.arm * row.b.turn);
     return row;
   }
 
-  /// Before the next impulse [m/s].
+  /// Of a seen from b [m/s].
   btScalar speedAlong(const Row& row) const {
-    btScalar speed = 0;
-    if (row.a != kFixed) {
-      const Body& a = bodies_[row.a];
-      speed += a.vx * row.x + a.vy * row.y + a.turn * row.lever_a;
-    }
-    if (row.b != kFixed) {
-      const Body& b = bodies_[row.b];
-      speed -= b.vx * row.x + b.vy * row.y + b.turn * row.lever_b;
-    }
-    return speed;
+    const Body &a = bodies_[row.a.body], &b = bodies_[row.b.body];
+    return (a.vx - b.vx) * row.x + (a.vy - b.vy) * row.y + a.turn * row.a.arm - b.turn * row.b.arm;
   }
 
   void apply(const Row& row, btScalar impulse) {
-    if (row.a != kFixed) {
-      Body& a = bodies_[row.a];
-      a.vx += row.x * impulse * a.inverse_mass;
-      a.vy += row.y * impulse * a.inverse_mass;
-      a.turn += row.lever_a * impulse * a.inverse_inertia;
-    }
-    if (row.b != kFixed) {
-      Body& b = bodies_[row.b];
-      b.vx -= row.x * impulse * b.inverse_mass;
-      b.vy -= row.y * impulse * b.inverse_mass;
-      b.turn -= row.lever_b * impulse * b.inverse_inertia;
-    }
+    const auto push = [&](const Lever& lever, btScalar size) {
+      Body& body = bodies_[lever.body];
+      body.vx += lever.vx * size;
+      body.vy += lever.vy * size;
+      body.turn += lever.turn * size;
+    };
+    push(row.a, impulse);
+    push(row.b, -impulse);
   }
 
   /// Returns the square of the speed that it changed.
@@ -162,24 +149,28 @@ class Island {
     return more * more / (row.mass * row.mass);
   }
 
+  btScalar rub(Touch& touch) {
+    touch.rubbing.most = touch.point->m_combinedFriction * touch.pressing.impulse;
+    touch.rubbing.least = -touch.rubbing.most;
+    return settle(touch.rubbing);
+  }
+
+  /// Along the way that each foot goes, and across.
   void addFeet(const SlidingFriction& friction) {
     const btRigidBody& body = friction.getRigidBodyA();
     for (const Foot& foot : friction.feet()) {
-      const btVector3 arm = body.getWorldTransform().getBasis() * foot.at;
+      const btVector3 arm = body.getWorldTransform().getBasis() * foot.at, none(0, 0, 0);
       const btVector3 along = friction.wayOf(arm);
-      FootRows feet;
-      const btVector3 none(0, 0, 0);
-      feet.rows[0] = makeRow(body.getCompanionId(), kFixed, arm, none, along.x(), along.y());
-      feet.rows[1] = makeRow(body.getCompanionId(), kFixed, arm, none, -along.y(), along.x());
-      for (Row& row : feet.rows) {
+      for (const btVector3& way : {along, btVector3(-along.y(), along.x(), 0)}) {
+        Row row = makeRow(body.getCompanionId(), kFixed, arm, none, way.x(), way.y());
         row.most = foot.grip_limit * dt_;
         row.least = -row.most;
+        feet_.push_back(row);
       }
-      feet_.push_back(feet);
     }
   }
 
-  int indexOf(const btCollisionObject& object) const {
+  static int indexOf(const btCollisionObject& object) {
     return object.isStaticObject() ? kFixed : object.getCompanionId();
   }
 
@@ -194,7 +185,7 @@ class Island {
                   makeRow(indexOf(a), indexOf(b), arm_a, arm_b, -n.y(), n.x())};
       touch.pressing.most = kUnlimited;
       touch.pressing.speed = speedAfter(point, speedAlong(touch.pressing));
-      touch.pressing.impulse = point.m_appliedImpulse * info_.m_warmstartingFactor;
+      touch.pressing.impulse = point.m_appliedImpulse * info_->m_warmstartingFactor;
       touches_.push_back(touch);
     }
   }
@@ -202,22 +193,21 @@ class Island {
   /// At which points of contact may part at least, of those that had `before` [m/s]. What overlaps
   /// is brought apart bit by bit.
   btScalar speedAfter(const btManifoldPoint& point, btScalar before) const {
-    const bool bounces = -before > info_.m_restitutionVelocityThreshold;
+    const bool bounces = -before > info_->m_restitutionVelocityThreshold;
     const btScalar back = bounces ? -before * point.m_combinedRestitution : 0;
     const bool has_own = (point.m_contactPointFlags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0;
-    const btScalar share = has_own ? point.m_contactERP : info_.m_erp2;
+    const btScalar share = has_own ? point.m_contactERP : info_->m_erp2;
     const btScalar distance = point.getDistance();
     return back - (distance > 0 ? distance : distance * share) / dt_;
   }
 
-  void writeFeet(SlidingFriction& friction, std::size_t* next) const {
+  /// Returns the first of those that are not its own.
+  const Row* writeFeet(SlidingFriction& friction, const Row* row) const {
+    const Row* const end = row + 2 * friction.feet().size();
     btVector3 force(0, 0, 0);
-    for (std::size_t i = 0; i < friction.feet().size(); ++i) {
-      for (const Row& row : feet_[(*next)++].rows) {
-        force += btVector3(row.x, row.y, 0) * (row.impulse / dt_);
-      }
-    }
+    for (; row != end; ++row) force += btVector3(row->x, row->y, 0) * (row->impulse / dt_);
     friction.getJointFeedback()->m_appliedForceBodyA = force;
+    return end;
   }
 
   static void writeTouch(const Touch& touch) {
@@ -229,11 +219,11 @@ class Island {
     point.m_lateralFrictionDir2 = {0, 0, 1};
   }
 
-  const ContactIsland& island_;
-  const btContactSolverInfo& info_;
-  const btScalar dt_;
+  ContactIsland island_;
+  const btContactSolverInfo* info_ = nullptr;
+  btScalar dt_ = 0;  // [s]
   std::vector<Body> bodies_;
-  std::vector<FootRows> feet_;
+  std::vector<Row> feet_;
   std::vector<Touch> touches_;
 };
 
@@ -261,7 +251,8 @@ bool isPlanar(const ContactIsland& island) {
 }
 
 void solvePlanar(const ContactIsland& island, const btContactSolverInfo& info) {
-  Island solver(island, info);
+  static thread_local Solver solver;  // for its memory
+  solver.read(island, info);
   solver.solve();
   solver.write();
 }
