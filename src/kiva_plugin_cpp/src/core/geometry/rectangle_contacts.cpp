@@ -119,6 +119,11 @@ OutlineContacts atCorners(const Rectangle& a, const Rectangle& b, double reach) 
 
 }  // namespace
 
+bool areFarther(double distance, const Rectangle& a, const Rectangle& b) {
+  return nearestFace(a, b, view(a, b)).apart > distance ||
+         nearestFace(b, a, view(b, a)).apart > distance;
+}
+
 OutlineContacts findContacts(const Rectangle& a, const Rectangle& b, double reach) {
   const View from_a = view(a, b);
   const Face of_a = nearestFace(a, b, from_a);
@@ -130,8 +135,9 @@ OutlineContacts findContacts(const Rectangle& a, const Rectangle& b, double reac
   const Rectangle& own = on_a ? a : b;
   const Face& face = on_a ? of_a : of_b;
   auto side = on_a ? opposingSide(a, b, from_a, face) : opposingSide(b, a, from_b, face);
-  if (!clip(&side, face.axis == 0 ? own.hy : own.hx)) return atCorners(a, b, reach);
-  return atFace(own, face, side, reach, on_a);
+  const bool is_faced = clip(&side, face.axis == 0 ? own.hy : own.hx);
+  const OutlineContacts found = is_faced ? atFace(own, face, side, reach, on_a) : OutlineContacts();
+  return found.count > 0 ? found : atCorners(a, b, reach);
 }
 
 }  // namespace kiva

@@ -28,4 +28,7 @@ struct OutlineContacts {
 /// a side of the one faces a side of the other, or the two corners that are nearest.
 OutlineContacts findContacts(const Rectangle& a, const Rectangle& b, double reach);
 
+/// Whether they are seen to be farther apart than that [m], at a glance.
+bool areFarther(double distance, const Rectangle& a, const Rectangle& b);
+
 }  // namespace kiva

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <unordered_map>
 #include <utility>
 
 #include "core/geometry/ray.h"
@@ -587,18 +588,19 @@ void Physics::forEachTouch(Visit visit) const {
 
 void Physics::contacts(std::vector<Contact>* out) const {
   out->clear();
+  std::unordered_map<std::uint64_t, std::size_t> place;  // of a pair; for looking up only
   forEachTouch([&](const btPersistentManifold& manifold, const btManifoldPoint& point, int a,
                    int b) {
     const double sign = a > b ? -1 : 1;
     if (a > b) std::swap(a, b);
-    auto pair = std::find_if(out->begin(), out->end(),
-                             [a, b](const Contact& c) { return c.model_a == a && c.model_b == b; });
-    if (pair == out->end()) {
+    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    const auto [at, is_new] = place.try_emplace(key, out->size());
+    if (is_new) {
       out->push_back({});
-      pair = out->end() - 1;
-      pair->model_a = a;
-      pair->model_b = b;
+      out->back().model_a = a;
+      out->back().model_b = b;
     }
+    Contact* const pair = &(*out)[at->second];
     const double impulse = point.getAppliedImpulse();
     pair->impulse += impulse * impactShare(manifold, point);
     const double speed = approach(manifold, point, &Motion::driven);

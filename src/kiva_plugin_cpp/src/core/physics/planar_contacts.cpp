@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/geometry/rectangle_contacts.h"
+#include "core/geometry/footprint.h"
 
 namespace kiva {
 namespace {
@@ -19,7 +19,7 @@ constexpr btScalar kUpright = 1 - 1e-9;  // cosine of a tilt that is none
 constexpr btScalar kNear = 0.04;  // [m]
 
 // Contacts are foreseen that far, and as far as both go in two steps.
-constexpr btScalar kClose = 0.002, kForesight = 0.02;  // [m]
+constexpr btScalar kClose = 0.002, kForeseen = 0.02;  // [m]
 
 // A point that is no farther from one of the last step is the same [m].
 constexpr btScalar kSamePoint = 0.01;
@@ -57,8 +57,8 @@ Column columnOf(const btCompoundShape& shape, int child, btScalar body_z) {
   } else {
     column.outline.x = (min.x() + max.x()) / 2;
     column.outline.y = (min.y() + max.y()) / 2;
-    column.outline.hx = (max.x() - min.x()) / 2 - kForesight;  // Bullet is told of more
-    column.outline.hy = (max.y() - min.y()) / 2 - kForesight;
+    column.outline.hx = (max.x() - min.x()) / 2 - kForeseen;  // Bullet is told of more
+    column.outline.hy = (max.y() - min.y()) / 2 - kForeseen;
   }
   column.z_min = min.z() + body_z;
   column.z_max = max.z() + body_z;
@@ -112,6 +112,19 @@ std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Col
     }
   }
   return pairs;
+}
+
+/// Along the body's axes.
+Rectangle hullOf(const std::vector<Column>& columns) {
+  Bounds box;
+  for (const Column& column : columns) {
+    const Rectangle& r = column.outline;
+    const btScalar c = std::abs(r.c), s = std::abs(r.s);
+    const Vector3 half(c * r.hx + s * r.hy, s * r.hx + c * r.hy, 0), middle(r.x, r.y, 0);
+    box.add({middle - half, middle + half});
+  }
+  const Vector3 middle = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
+  return {middle.X(), middle.Y(), 1, 0, half.X(), half.Y()};
 }
 
 bool staysUpright(const btCollisionObject& object) {
@@ -185,11 +198,8 @@ void setPoints(const OutlineContacts& contacts, const PlanarContacts::Pair& pair
   for (int i = 0; i < contacts.count; ++i) pair.manifold->addManifoldPoint(points[i]);
 }
 
-/// In world, of a part of a body that stands upright.
-Rectangle partOutline(const btCollisionObjectWrapper* body, int child) {
-  const btCompoundShape& shape = shapeOf(body);
-  const Rectangle in_body = outlineOf(static_cast<const btBoxShape&>(*shape.getChildShape(child)),
-                                      shape.getChildTransform(child));
+/// In world, of an outline in the frame of a body that stands upright.
+Rectangle inWorld(const btCollisionObjectWrapper* body, const Rectangle& in_body) {
   const btTransform& pose = body->getWorldTransform();
   const btScalar c = pose.getBasis()[0][0], s = pose.getBasis()[1][0];
   return {pose.getOrigin().x() + c * in_body.x - s * in_body.y,
@@ -198,6 +208,12 @@ Rectangle partOutline(const btCollisionObjectWrapper* body, int child) {
           s * in_body.c + c * in_body.s,
           in_body.hx,
           in_body.hy};
+}
+
+Rectangle partOutline(const btCollisionObjectWrapper* body, int child) {
+  const btCompoundShape& shape = shapeOf(body);
+  return inWorld(body, outlineOf(static_cast<const btBoxShape&>(*shape.getChildShape(child)),
+                                 shape.getChildTransform(child)));
 }
 
 /// Whether two outlines may be within that distance [m].
@@ -217,8 +233,12 @@ bool isPlanar(const btRigidBody& body) {
 
 PlanarContacts::PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
                                const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                               std::vector<Pair> pairs)
-    : btActivatingCollisionAlgorithm(info, a, b), pairs_(std::move(pairs)) {}
+                               std::vector<Pair> pairs, const Rectangle& hull_a,
+                               const Rectangle& hull_b)
+    : btActivatingCollisionAlgorithm(info, a, b),
+      pairs_(std::move(pairs)),
+      hull_a_(hull_a),
+      hull_b_(hull_b) {}
 
 PlanarContacts::~PlanarContacts() {
   for (Pair& pair : pairs_) {
@@ -231,10 +251,15 @@ void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
                                       const btDispatcherInfo& info, btManifoldResult*) {
   const btCollisionObject &body_a = *a->getCollisionObject(), &body_b = *b->getCollisionObject();
   const btScalar speed = speedOf(body_a, radiusOf(body_a)) + speedOf(body_b, radiusOf(body_b));
-  const btScalar reach = std::min(kForesight, kClose + 2 * speed * info.m_timeStep);
+  const btScalar reach = std::min(kForeseen, kClose + 2 * speed * info.m_timeStep);
+  const bool are_near = !areFarther(kNear, inWorld(a, hull_a_), inWorld(b, hull_b_));
   Rectangle on_a;
   int part = -1;  // of a, whose outline that is
   for (Pair& pair : pairs_) {
+    if (!are_near) {
+      if (pair.manifold) pair.manifold->clearManifold();
+      continue;
+    }
     if (pair.a != part) on_a = partOutline(a, part = pair.a);
     const Rectangle on_b = partOutline(b, pair.b);
     const bool is_near = mayBeWithin(kNear, on_a, on_b);
@@ -258,10 +283,13 @@ void PlanarContacts::getAllContactManifolds(btManifoldArray& manifolds) {
 btCollisionAlgorithm* PlanarContacts::Creator::CreateCollisionAlgorithm(
     btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
     const btCollisionObjectWrapper* b) {
+  static_assert(sizeof(PlanarContacts) <= sizeof(btCompoundCompoundCollisionAlgorithm),
+                "what a dispatcher allocates is no larger than Bullet's own");
   if (staysUpright(*a->getCollisionObject()) && staysUpright(*b->getCollisionObject())) {
-    if (auto pairs = findPairs(columnsOf(a), columnsOf(b))) {
+    const std::vector<Column> of_a = columnsOf(a), of_b = columnsOf(b);
+    if (auto pairs = findPairs(of_a, of_b)) {
       void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(PlanarContacts));
-      return new (memory) PlanarContacts(info, a, b, std::move(*pairs));
+      return new (memory) PlanarContacts(info, a, b, std::move(*pairs), hullOf(of_a), hullOf(of_b));
     }
   }
   return CreateFunc::CreateCollisionAlgorithm(info, a, b);

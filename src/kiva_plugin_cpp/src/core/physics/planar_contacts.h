@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "core/geometry/rectangle_contacts.h"
+
 namespace kiva {
 
 /// Whether the body can do nothing but slide on the floor and turn on it.
@@ -24,7 +26,7 @@ class PlanarContacts : public btActivatingCollisionAlgorithm {
 
   PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
                  const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                 std::vector<Pair> pairs);
+                 std::vector<Pair> pairs, const Rectangle& hull_a, const Rectangle& hull_b);
   ~PlanarContacts() override;
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
@@ -45,6 +47,7 @@ class PlanarContacts : public btActivatingCollisionAlgorithm {
 
  private:
   std::vector<Pair> pairs_;
+  Rectangle hull_a_, hull_b_;  ///< Of all their parts, in the bodies' frames.
 };
 
 }  // namespace kiva
