@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The ecosystem's own checks of the environments, with warnings as errors."""
 
-import urllib.request
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,6 @@ from pettingzoo.test import (  # noqa: E402
 
 import warehouse_learning  # noqa: E402
 from warehouse_learning import ActionError, fields  # noqa: E402
-from warehouse_learning.page import Page  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("error")
 TINY = {"size": "tiny"}
@@ -176,14 +173,3 @@ def test_a_dispatcher_that_gives_tasks_gets_units_delivered():
         runs.append(run)
     assert all((a == b).all() for a, b in zip(*runs))
     env.close()
-
-
-def test_the_page_shows_the_newest_picture():
-    page = Page()
-    page.show(np.zeros((4, 6, 3), np.uint8))
-    with urllib.request.urlopen(page.url, timeout=30) as answer:
-        assert b"/stream" in answer.read()
-    with urllib.request.urlopen(page.url + "stream", timeout=30) as answer:
-        start = answer.read(120)
-    assert b"\x89PNG" in start
-    page.close()

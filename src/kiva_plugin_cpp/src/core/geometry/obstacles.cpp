@@ -193,7 +193,10 @@ void Obstacles::link(int handle, Place& place, const Box& box) {
   }
   const Range& r = place.range;
   for (int cy = r.y0; cy <= r.y1; ++cy) {
-    for (int cx = r.x0; cx <= r.x1; ++cx) cells_[cell(cx, cy)].push_back(handle);
+    for (int cx = r.x0; cx <= r.x1; ++cx) {
+      auto& list = cells_[cell(cx, cy)];
+      list.insert(handle < 0 ? list.begin() : list.end(), handle);
+    }
   }
 }
 
@@ -201,9 +204,7 @@ void Obstacles::unlink(int handle, Place& place) {
   if (!place.linked) return;
   place.linked = false;
   const auto drop = [handle](auto& list) {
-    const auto at = std::find(list.begin(), list.end(), handle);
-    *at = list.back();
-    list.pop_back();
+    list.erase(std::find(list.begin(), list.end(), handle));
   };
   if (place.everywhere) {
     drop(everywhere_);

@@ -72,7 +72,7 @@ class Obstacles {
       visit(footprint);
       return false;
     };
-    any(x, y, reach, see, [&](int robot, double radius) {
+    any(x, y, reach, reach, see, [&](int robot, double radius) {
       const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
       const double farthest = radius + std::sqrt(2.0) * reach;  // in a corner of that square
       if (dx * dx + dy * dy > farthest * farthest) return false;
@@ -81,12 +81,15 @@ class Obstacles {
     });
   }
 
-  /// Whether meets(footprint), of what is no mover, or approaches(robot, radius) is true for any
-  /// within `reach` of (x, y). `radius` is that of the circle around the robot that holds its
-  /// mover.
+  /// Whether meets(footprint) is true for any within `reach` of (x, y) that is no mover, or
+  /// approaches(robot, radius) for any mover within `mover_reach`, which is no less. `radius` is
+  /// that of the circle around the robot that holds its mover.
   template <typename Meets, typename Approaches>
-  bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
-    return anyHandle({x - reach, x + reach, y - reach, y + reach}, [&](int handle) {
+  bool any(double x, double y, double reach, double mover_reach, Meets meets,
+           Approaches approaches) const {
+    const Range near = range({x - reach, x + reach, y - reach, y + reach});
+    const Range far = range({x - mover_reach, x + mover_reach, y - mover_reach, y + mover_reach});
+    return anyHandle(near, far, [&](int handle) {
       return handle >= 0 ? meets(entries_[handle].footprint)
                          : approaches(~handle, radius_[~handle]);
     });
@@ -105,6 +108,7 @@ class Obstacles {
     bool operator==(const Range& o) const {
       return x0 == o.x0 && x1 == o.x1 && y0 == o.y0 && y1 == o.y1;
     }
+    bool holds(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
   };
   struct Box {  // along the world's axes [m]
     double min_x, max_x, min_y, max_y;
@@ -127,15 +131,18 @@ class Obstacles {
     mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
   };
 
-  /// Whether ask(handle) is true for any that is indexed in a cell of that box, asked once each.
+  /// Whether ask(handle) is true for any mover that is indexed in a cell of `far`, or any other in
+  /// one of `near`, asked once each.
   template <typename Ask>
-  bool anyHandle(const Box& box, Ask ask) const {
-    const Range r = range(box);
-    for (int cy = r.y0; cy <= r.y1; ++cy) {
-      for (int cx = r.x0; cx <= r.x1; ++cx) {
+  bool anyHandle(const Range& near, const Range& far, Ask ask) const {
+    for (int cy = far.y0; cy <= far.y1; ++cy) {
+      for (int cx = far.x0; cx <= far.x1; ++cx) {
+        const bool is_near = near.holds(cx, cy);
         for (int handle : cells_[cell(cx, cy)]) {
+          if (handle >= 0 && !is_near) break;  // so are all that follow
           // In the first of its cells that is one of these.
           const Range& own = placeOf(handle).range;
+          const Range& r = handle >= 0 ? near : far;
           const bool is_first = cx == std::max(own.x0, r.x0) && cy == std::max(own.y0, r.y0);
           if (is_first && ask(handle)) return true;
         }
@@ -164,7 +171,8 @@ class Obstacles {
   std::vector<Mover> movers_;
   std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
   std::vector<int> free_;
-  // Handles; ~robot for a mover. Few a cell: beside each other in memory, which is most of a ray.
+  // Handles; ~robot for a mover, which come first: who asks for movers far away passes the rest.
+  // Few a cell: beside each other in memory, which is most of a ray.
   std::vector<boost::container::small_vector<int, 4>> cells_;
   std::vector<int> everywhere_;  // too large for cells
   double origin_x_ = 0, origin_y_ = 0;

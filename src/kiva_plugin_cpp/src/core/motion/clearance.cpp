@@ -139,9 +139,10 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double fastest = world.walkers.empty() ? 0 : kMostWalkingSpeed;
-  const double farthest = std::max(world.top_speed + kPushed, fastest) * time + kNear;
-  return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
+  const double walk = world.walkers.empty() ? 0 : kMostWalkingSpeed * time;
+  const double drive = std::max((world.top_speed + kPushed) * time, walk);
+  const double reach = radiusOf(swept) + kNear;
+  return !world.obstacles.any(swept.x, swept.y, reach + walk, reach + drive, meets, approaches);
 }
 
 /// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its

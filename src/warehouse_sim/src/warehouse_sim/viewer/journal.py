@@ -4,8 +4,6 @@
 import threading
 from collections import deque
 
-from warehouse_sim.words import EVENT
-
 KEPT = 2000
 
 
@@ -16,10 +14,10 @@ class Journal:
         self._lock, self._events, self.last_id = threading.Lock(), deque(maxlen=kept), 0
 
     def add(self, event):
-        """Takes a warehouse_msgs/Event in; returns its entry."""
+        """Takes in an event, as catalogue.event() tells it; returns its entry."""
         with self._lock:
             self.last_id += 1
-            entry = entry_of(event) | {"id": self.last_id}
+            entry = event | {"id": self.last_id}
             self._events.append(entry)
             return entry
 
@@ -34,15 +32,3 @@ class Journal:
                 if e["id"] > number and (model is None or model in (e["model"], e["other"]))
             ]
         return found[-limit:]
-
-
-def entry_of(event):
-    """An Event as the API tells it, but for its id."""
-    return {
-        "time": round(event.header.stamp.to_sec(), 3),
-        "kind": EVENT.get(event.kind, str(event.kind)),
-        "command": event.command,
-        "model": event.model,
-        "other": event.other,
-        "text": event.text,
-    }
