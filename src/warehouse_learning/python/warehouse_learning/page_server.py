@@ -7,7 +7,7 @@ import threading
 
 import uvicorn
 from starlette.applications import Starlette
-from starlette.responses import FileResponse, JSONResponse
+from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from warehouse_sim import files
@@ -63,6 +63,7 @@ class PageServer:
             WebSocketRoute("/live", self._live),
             Route("/api/v1/simulation/{action}", self._steer, methods=["POST"]),
             Route("/api/v1/events", self._events),
+            Route("/api/v1/events.csv", self._events_csv),
             Mount("/web", FreshFiles(directory=web)),
             Mount("/three", Files(directory=THREE)),
             Route("/{path:path}", _refuse, methods=["GET", "POST", "PUT", "DELETE"]),
@@ -75,6 +76,9 @@ class PageServer:
 
     async def _events(self, _):
         return JSONResponse({"events": self._journal.since(0)})
+
+    async def _events_csv(self, _):
+        return Response(self._journal.csv(), media_type="text/csv")
 
     async def _steer(self, request):
         """Pause, resume, step or speed, with the body that the HTTP API wants."""

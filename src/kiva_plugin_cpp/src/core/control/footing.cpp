@@ -42,8 +42,7 @@ double roomAt(const WorldState& world, const Walker& walker, double x, double y)
     least = std::min(least, between - radius - walker.radius - kFromRobots);
     return false;
   };
-  const double reach = walker.radius + kFar;
-  world.obstacles.any(x, y, reach, reach, other, robot);
+  world.obstacles.any(x, y, walker.radius + kFar, other, robot);
   return least;
 }
 

@@ -72,7 +72,7 @@ class Obstacles {
       visit(footprint);
       return false;
     };
-    any(x, y, reach, reach, see, [&](int robot, double radius) {
+    any(x, y, reach, see, [&](int robot, double radius) {
       const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
       const double farthest = radius + std::sqrt(2.0) * reach;  // in a corner of that square
       if (dx * dx + dy * dy > farthest * farthest) return false;
@@ -81,17 +81,29 @@ class Obstacles {
     });
   }
 
-  /// Whether meets(footprint) is true for any within `reach` of (x, y) that is no mover, or
-  /// approaches(robot, radius) for any mover within `mover_reach`, which is no less. `radius` is
-  /// that of the circle around the robot that holds its mover.
+  /// Whether meets(footprint), of what is no mover, or approaches(robot, radius) is true for any
+  /// within `reach` of (x, y). `radius` is that of the circle around the robot that holds its
+  /// mover.
   template <typename Meets, typename Approaches>
-  bool any(double x, double y, double reach, double mover_reach, Meets meets,
-           Approaches approaches) const {
-    const Range near = range({x - reach, x + reach, y - reach, y + reach});
-    const Range far = range({x - mover_reach, x + mover_reach, y - mover_reach, y + mover_reach});
-    return anyHandle(near, far, [&](int handle) {
+  bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
+    const Range cells = range({x - reach, x + reach, y - reach, y + reach});
+    return anyHandle(cells, cells, [&](int handle) {
       return handle >= 0 ? meets(entries_[handle].footprint)
                          : approaches(~handle, radius_[~handle]);
+    });
+  }
+
+  /// The same of what has a point within the circle `reach` around (x, y), and of movers, maybe
+  /// farther away, within `mover_reach`, which is no less.
+  template <typename Meets, typename Approaches>
+  bool anyAround(double x, double y, double reach, double mover_reach, Meets meets,
+                 Approaches approaches) const {
+    const double far = mover_reach;
+    const Range near_cells = range({x - reach, x + reach, y - reach, y + reach});
+    const Range far_cells = range({x - far, x + far, y - far, y + far});
+    return anyHandle(near_cells, far_cells, [&](int handle) {
+      if (handle < 0) return approaches(~handle, radius_[~handle]);
+      return spots_[handle].isWithin(reach, x, y) && meets(entries_[handle].footprint);
     });
   }
 
@@ -123,6 +135,19 @@ class Obstacles {
     Place place;
     bool used = false;
   };
+  struct Corner {  // of a Range: where it begins
+    std::int16_t x0 = 0, y0 = 0;
+  };
+  /// Most of what is near a robot is not near enough: to see that costs no look at all of it.
+  struct Spot {
+    Corner corner;
+    float x = 0, y = 0, radius = 0;  // of a circle that holds it [m]
+
+    bool isWithin(double reach, double from_x, double from_y) const {
+      const double dx = x - from_x, dy = y - from_y, most = reach + radius;
+      return dx * dx + dy * dy < most * most;
+    }
+  };
   struct Mover {
     std::vector<Footprint> local;  // in the robot's frame
     Place place;
@@ -141,9 +166,10 @@ class Obstacles {
         for (int handle : cells_[cell(cx, cy)]) {
           if (handle >= 0 && !is_near) break;  // so are all that follow
           // In the first of its cells that is one of these.
-          const Range& own = placeOf(handle).range;
+          const Corner own = handle >= 0 ? spots_[handle].corner : mover_corner_[~handle];
           const Range& r = handle >= 0 ? near : far;
-          const bool is_first = cx == std::max(own.x0, r.x0) && cy == std::max(own.y0, r.y0);
+          const bool is_first =
+              cx == std::max<int>(own.x0, r.x0) && cy == std::max<int>(own.y0, r.y0);
           if (is_first && ask(handle)) return true;
         }
       }
@@ -151,9 +177,6 @@ class Obstacles {
     return std::any_of(everywhere_.begin(), everywhere_.end(), ask);
   }
 
-  const Place& placeOf(int handle) const {
-    return handle >= 0 ? entries_[handle].place : movers_[~handle].place;
-  }
   static Box boxOf(const Footprint& footprint);
   Box boxOfMover(int robot) const;
   Range range(double min_x, double max_x, double min_y, double max_y) const;
@@ -161,6 +184,7 @@ class Obstacles {
   bool isInside(const Box& box) const;
   int cell(int cx, int cy) const { return cy * columns_ + cx; }
   void link(int handle, Place& place, const Box& box);
+  void setFootprint(int handle, const Footprint& footprint);
   void unlink(int handle, Place& place);
   void linkMover(int robot);
   void cover(const Box& box);
@@ -168,7 +192,9 @@ class Obstacles {
 
   const Fleet& fleet_;
   std::vector<Entry> entries_;
+  std::vector<Spot> spots_;  // of each entry
   std::vector<Mover> movers_;
+  std::vector<Corner> mover_corner_;
   std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
   std::vector<int> free_;
   // Handles; ~robot for a mover, which come first: who asks for movers far away passes the rest.

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The last events, numbered, for readers that come late or read slowly."""
 
+import csv
+import io
 import threading
 from collections import deque
 
 KEPT = 2000
+COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
 
 
 class Journal:
-    """Events as dicts with a running `id`. Any thread may add, any may read."""
+    """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read."""
 
     def __init__(self, kept=KEPT):
         self._lock, self._events, self.last_id = threading.Lock(), deque(maxlen=kept), 0
@@ -32,3 +35,11 @@ class Journal:
                 if e["id"] > number and (model is None or model in (e["model"], e["other"]))
             ]
         return found[-limit:]
+
+    def csv(self):
+        """All entries, oldest first, for a spreadsheet."""
+        text = io.StringIO()
+        table = csv.DictWriter(text, COLUMNS)
+        table.writeheader()
+        table.writerows(self.since(0))
+        return text.getvalue()
