@@ -36,25 +36,20 @@ class Browser:
         self._socket = socket.create_connection((name, int(port)), timeout=PATIENCE)
         self._connection = WSConnection(ConnectionType.CLIENT)
         self._socket.sendall(self._connection.send(Request(host=host, target="/live")))
-        self._part, self._messages, self._robots = None, [], {}
+        self._part, self._told = None, {}
+        self.time, self.robots, self.events = 0.0, {}, set()  # (x, y) by index; kinds
 
-    def find(self, wanted):
-        """The next message, of which wanted(message) is true."""
-        while True:
-            while self._messages:
-                if wanted(message := self._messages.pop(0)):
-                    return message
+    def until(self, holds):
+        """Reads until holds() does."""
+        while not holds():
             self._connection.receive_data(self._socket.recv(1 << 16))
             for event in self._connection.events():
                 self._take(event)
 
     def told(self, kind):
-        return self.find(lambda message: isinstance(message, dict) and message["type"] == kind)
-
-    def shown(self, time):
-        """{index: (x, y)} of the robots once that simulated time [s] is shown."""
-        self.find(lambda message: isinstance(message, float) and message >= time - 1e-9)
-        return self._robots
+        """The newest message of that type."""
+        self.until(lambda: kind in self._told)
+        return self._told[kind]
 
     def close(self):
         self._socket.close()
@@ -64,17 +59,21 @@ class Browser:
             return
         self._part = event.data if self._part is None else self._part + event.data
         if event.message_finished:
-            is_text = isinstance(event, TextMessage)
-            self._messages.append(json.loads(self._part) if is_text else self._update(self._part))
+            (self._hear if isinstance(event, TextMessage) else self._see)(self._part)
             self._part = None
 
-    def _update(self, data):
-        """Takes its robots in, and answers as a page does. Returns its simulated time [s]."""
+    def _hear(self, text):
+        message = json.loads(text)
+        self._told[message["type"]] = message
+        self.events |= {event["kind"] for event in message.get("events", [])}
+
+    def _see(self, update):
+        """Takes an update in, and answers as a page does."""
         self._socket.sendall(self._connection.send(TextMessage('{"ack": 1}')))
-        count = int(np.frombuffer(data, "<u4", 1, COUNT)[0])
-        for row in np.frombuffer(data, protocol.ROBOT, count, HEAD):
-            self._robots[int(row["index"])] = float(row["x"]), float(row["y"])
-        return float(np.frombuffer(data, "<f8", 1, STAMP)[0])
+        self.time = float(np.frombuffer(update, "<f8", 1, STAMP)[0])
+        count = int(np.frombuffer(update, "<u4", 1, COUNT)[0])
+        for row in np.frombuffer(update, protocol.ROBOT, count, HEAD):
+            self.robots[int(row["index"])] = float(row["x"]), float(row["y"])
 
 
 def get(url):
@@ -124,12 +123,10 @@ def test_who_looks_sees_what_robots_do_and_nothing_changes_by_it(watched):
         actions = dict.fromkeys(env.agents, action)
         seen, expected = env.step(actions)[0], alone.step(actions)[0]
         assert all((seen[a] == expected[a]).all() for a in expected)
-    assert "DONE" in {event["kind"] for event in browser.told("events")["events"]}
-    world = env.world
-    robots = browser.shown(world.time)
-    np.testing.assert_allclose(
-        [robots[i] for i in range(3)], np.stack([world.fleet.x, world.fleet.y], 1), atol=1e-4
-    )
+    fleet = env.world.fleet
+    browser.until(lambda: "DONE" in browser.events and browser.time >= env.world.time - 1e-9)
+    seen = [browser.robots[i] for i in range(3)]
+    np.testing.assert_allclose(seen, np.stack([fleet.x, fleet.y], 1), atol=1e-4)
     browser.close()
 
 
@@ -160,6 +157,6 @@ def test_a_saved_episode_is_played_as_it_was(tmp_path):
     browser.told("scene")
     watch.play(page, warehouses, actions)
     assert warehouses.worlds[0].state_hash() == env.world.state_hash()
-    assert len(browser.shown(env.world.time)) == 3
+    browser.until(lambda: browser.time >= env.world.time - 1e-9)
     browser.close()
     page.close()
