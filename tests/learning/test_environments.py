@@ -151,6 +151,20 @@ def test_bad_actions_name_the_agent():
             env.step(good | bad)
     with pytest.raises(ActionError, match="robot_3 has no action"):
         env.step({"robot_1": 0, "robot_2": 0})
+    in_turns = turns()
+    in_turns.reset(seed=0)
+    in_turns.step(0)
+    with pytest.raises(ActionError, match="robot_2: action nan"):
+        in_turns.step(np.nan)
+    jointly = gymnasium.make("KivaRobots-tiny-v0").unwrapped
+    jointly.reset(seed=0)
+    for bad, said in (
+        ([0, np.nan, 0], "robot_2 of world 0: action nan"),
+        (["left", "left", "left"], "robot_1 of world 0: action .*left"),
+        ([[0, 0, 0]], r"shape \(3,\) was expected, not \(1, 3\)"),
+    ):
+        with pytest.raises(ActionError, match=said):
+            jointly.step(bad)
     dispatcher = gymnasium.make("KivaWarehouse-tiny-v0").unwrapped
     dispatcher.reset(seed=0)
     with pytest.raises(ActionError, match="dispatcher: action 99"):

@@ -133,10 +133,11 @@ class Warehouses:
                 f"actions: shape {(self.n, self.robots)} was expected, one for each robot of each"
                 f" world, not {given.shape}"
             )
-        if given.dtype.kind not in "iu":
-            whole = given.dtype.kind == "f" and np.isfinite(given).all()
-            if not whole or (given != np.rint(given)).any():
-                raise ActionError(self._complaint(given, ~np.equal(given, np.rint(given))))
+        if given.dtype.kind not in "iuf":
+            raise ActionError(self._complaint(given, np.ones(given.shape, bool)))
+        # NaN is unequal to itself.
+        if given.dtype.kind == "f" and (given != np.rint(given)).any():
+            raise ActionError(self._complaint(given, given != np.rint(given)))
         if given.min() < 0 or given.max() > 4:
             raise ActionError(self._complaint(given, (given < 0) | (given > 4)))
         return given.astype(np.int8)
