@@ -70,6 +70,7 @@ struct Event {
     kRepaired = 11,
     kTipped = 12  ///< A storage unit tips off the robot that carries it.
   };
+  static constexpr int kKinds = static_cast<int>(Kind::kTipped) + 1;
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;
   std::string model;

@@ -49,6 +49,7 @@ void makeModels(WorldState& world, DescriptionTable table) {
   for (ModelDescription& d : table.descriptions) {
     shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
   }
+  world.models.reserve(table.of_slot.size());
   for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
     const std::int32_t description = table.of_slot[slot];
     if (description >= static_cast<std::int32_t>(shared.size())) {
