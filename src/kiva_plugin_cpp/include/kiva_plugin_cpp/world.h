@@ -66,6 +66,13 @@ struct Item {
   double mass = 0;          ///< [kg]
 };
 
+/// An item that fell off its storage unit, and belongs back there.
+struct FallenItem {
+  std::string name;
+  std::string unit;  ///< Its storage unit's name.
+  Pose pose;         ///< In world.
+};
+
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
@@ -209,6 +216,14 @@ class World {
   void setLightCurtain(const LightCurtain& curtain);
   bool removeLightCurtain(const std::string& name);
   const std::vector<LightCurtain>& lightCurtains() const;
+
+  // --- fallen items
+  /// In the order in which they fell.
+  std::vector<FallenItem> fallenItems() const;
+  /// Somebody picks that item up, and puts it back in its place on its storage unit: PICKED_UP.
+  /// Throws std::invalid_argument, with nothing changed, if it did not fall, or its unit does not
+  /// stand upright.
+  void pickUp(const std::string& item);
 
   // --- models
   /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already

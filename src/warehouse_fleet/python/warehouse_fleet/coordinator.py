@@ -249,6 +249,7 @@ class Coordinator:
             self._end_paths(report, time)
         traffic.observe(time, report)
         traffic.see_people(self._people)
+        traffic.see_fallen(len(self._objects.fallen_item))
         if traffic.wants_map:
             self._see_map()
         transports.advance(report)

@@ -14,6 +14,7 @@ export class World {
     this.interval = 100; // between two updates [ms, wall], measured
     this.arrived = 0;
     this.setScene({ revision: 0, robots: [], units: [], items: [], item_unit: [], item_pose: [],
+      fallen_item: [], fallen_from: [],
       floor: [0, 0, 0, 0], grid: 1, looks: [], robot_look: -1, unit_look: -1, item_look: -1,
       scenery: [], scenery_look: [], paint: {}, stations: [] });
   }

@@ -144,6 +144,8 @@ class Model:
             "items": list(objects.items),
             "item_unit": list(map(int, objects.item_unit)),
             "item_pose": _short(objects.item_pose),
+            "fallen_item": list(map(int, objects.fallen_item)),
+            "fallen_from": list(map(int, objects.fallen_from)),
             "floor": list(map(float, scenery.floor)),
             "grid": scenery.grid_spacing,
             **_paint(scenery),
