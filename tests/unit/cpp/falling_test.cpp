@@ -39,11 +39,8 @@ std::string barText() {
 
 /// Three rows of four items on one board of a unit that stands at (0, 0); the first four are those
 /// at the front.
-void fill(Warehouse* w) {
-  // So heavy at its underside that it does not tip.
-  w->spawnText(replaced(modelText("storage_unit"), "<pose>0 0 1.0 0 0 0</pose>",
-                        "<pose>0 0 0.45 0 0 0</pose>"),
-               "storage_unit1", 0, 0);
+void fill(Warehouse* w, const std::string& unit) {
+  w->spawnText(unit, "storage_unit1", 0, 0);
   int number = 0;
   for (const double x : {kFront, 0.0, -kFront}) {
     for (const double y : {-0.27, -0.09, 0.09, 0.27}) {
@@ -52,13 +49,19 @@ void fill(Warehouse* w) {
   }
 }
 
+/// A storage unit so heavy at its underside that it does not tip off its robot.
+std::string lowUnit() {
+  return replaced(modelText("storage_unit"), "<pose>0 0 1.0 0 0 0</pose>",
+                  "<pose>0 0 0.45 0 0 0</pose>");
+}
+
 /// A robot that can't see, with a full unit on it, on its way at that speed to a low bar.
 class Blind : public Warehouse {
  public:
   Blind(double speed, const Floorplan& plan) : Warehouse(plan) {
     const std::string kiva = kivaText({{"speed", number(speed)}});
     spawnText(withoutPlugin(kiva, "laser"), "kiva1", 0, 0);
-    fill(this);
+    fill(this, lowUnit());
     carry(1, 1);
     runUntilIdle(1);
     spawnText(barText(), "bar", kBar, 0);
@@ -176,17 +179,19 @@ TEST(Items, StayWhereSomethingStandsAgainstTheirShelf) {
   EXPECT_TRUE(fallen(w.world).empty());
 }
 
-TEST(Items, AllFallOffAUnitThatTips) {
+TEST(Items, SlideOffAUnitThatTips) {
   Warehouse w(planWith(0.2, 0.6));
-  fill(&w);
+  fill(&w, modelText("storage_unit"));
   w.world.setState("storage_unit1", {Pose(0, 0, 0.3, 0, 0.7, 0), {}});
-  w.run(8);
-  EXPECT_EQ(w.world.fallenItems().size(), 12u);
-  const WorldState& inside = insideOf(w.world);
-  for (const FallenItem& item : w.world.fallenItems()) {
-    EXPECT_TRUE(item.pose.Z() > -0.01 && item.pose.Z() < 1) << item.name;
-    EXPECT_FALSE(isAwake(*inside.find(item.name))) << item.name;
-  }
+  w.run(8, [&] {
+    for (const FallenItem& item : w.world.fallenItems()) {
+      const Vector3 speed = w.world.state(item.name)->twist.linear;
+      ASSERT_LT(speed.Length(), 6) << item.name;  // what falls from the top has 5.9 m/s
+      ASSERT_GT(item.pose.Z(), -0.01) << item.name;
+    }
+  });
+  const std::set<std::string> names = fallen(w.world);
+  EXPECT_TRUE(std::includes(names.begin(), names.end(), kFirstRow.begin(), kFirstRow.end()));
   EXPECT_THROW(w.world.pickUp("item1"), std::invalid_argument);  // its unit lies
   w.world.setState("storage_unit1", {Pose(9, 9, 0, 0, 0, 0), {}});
   w.world.pickUp("item1");

@@ -14,27 +14,29 @@ from warehouse_fleet.operations.database import open_engine
 from warehouse_fleet.operations.report import page
 from warehouse_fleet.operations.runs import read, write
 
-FAST = 1.3  # [m/s]: the items at the front of a unit that is stopped at once fall off
+FAST = 0.85, 1.0  # [m/s]: a unit that is stopped at once does not tip yet
+LOOSE = {"item_friction_least": 0.03, "item_friction_most": 0.03, "pick_up_after": 0}
 BAR = """<sdf version="1.9"><model name="bar"><static>true</static><link name="l"><collision name="c">
-<pose>0 0 0.2 0 0 0</pose><geometry><box><size>0.05 0.05 0.4</size></box></geometry></collision></link>
+<pose>0 0 0.2 0 0 0</pose><geometry><box><size>0.05 0.9 0.4</size></box></geometry></collision></link>
 </model></sdf>"""
 
 
 def stop_one_at_once(fleet):
     """Something low stands right before a robot that brings a unit, until it has hit that."""
-    robots = fleet.world.fleet
+    robots, before = fleet.world.fleet, 0
 
-    def fast():
+    def faster():
+        nonlocal before
         speed = np.hypot(robots.vx, robots.vy)
         full = np.isin(robots.shelf_id, fleet.world.items["shelf_id"])
-        return np.flatnonzero((speed > FAST) & full)
+        fits = full & (speed > FAST[0]) & (speed < FAST[1]) & (speed > before)
+        before = speed
+        return np.flatnonzero(fits).tolist()
 
-    robot = fleet.until(lambda: fast().tolist())[0]
-    ahead = np.array((robots.vx[robot], robots.vy[robot])) / np.hypot(
-        robots.vx[robot], robots.vy[robot]
-    )
-    x, y = np.array((robots.x[robot], robots.y[robot])) + 0.47 * ahead
-    fleet.world.spawn(BAR, place=(float(x), float(y), 0, 0))
+    robot = fleet.until(faster)[0]
+    ahead = np.array((robots.vx[robot], robots.vy[robot])) / before[robot]
+    x, y = np.array((robots.x[robot], robots.y[robot])) + 0.428 * ahead
+    fleet.world.spawn(BAR, place=(float(x), float(y), 0, float(robots.yaw[robot])))
     fleet.run(1.5)
     fleet.world.delete("bar")
 
@@ -45,7 +47,7 @@ def cells_of(fleet):
 
 
 def test_cells_are_closed_while_items_lie_there():
-    with Fleet("medium", loads={"item_friction_most": 0.3, "pick_up_after": 0}) as fleet:
+    with Fleet("medium", loads=LOOSE) as fleet:
         fleet.run(20)
         stop_one_at_once(fleet)
         fallen = fleet.world.fallen_items.copy()

@@ -103,12 +103,13 @@ void tiltAll(WorldState& world) {
   }
 }
 
-/// Whether nothing but its unit is there.
+/// Whether nothing but its unit is there, above the floor.
 bool isFree(const WorldState& world, const Model& item, const Pose& pose, int unit) {
   bool is_free = true;
   for (const Link& link : item.description->links) {
     for (const Collision& c : link.collisions) {
       const Footprint own = makeFootprint(c.shape, pose * link.pose_in_model * c.pose_in_link);
+      is_free = is_free && own.z_min >= world.floor.z;
       world.obstacles.near(own.x, own.y, radiusOf(own), [&](const Footprint& other) {
         if (other.model == unit || other.model == item.slot) return;
         is_free = is_free && (!shareHeight(own, other) || gap(own, other) >= 0);
