@@ -193,12 +193,10 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
 void LiftPlugin::control(WorldState& world) const {
   const FleetState& f = world.fleet;
   for (int i : world.stepped_singly) {
-    const MotionSegment* at = f.tasks[i].segment();
-    if (!at && f.tower[i] > 0 && f.unit[i] < 0 && !isHeld(f, i)) lowerEmptyTower(world, i);
-    if (!at) continue;
-    if (at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower) {
-      liftSegment(world, i);
-    }
+    const Task& task = f.tasks[i];
+    const bool is_up_empty = f.tower[i] > 0 && f.unit[i] < 0;
+    if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, i);
+    if (task.lifts()) liftSegment(world, i);
   }
 }
 

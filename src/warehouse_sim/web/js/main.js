@@ -42,9 +42,10 @@ class Page {
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
     this.builder = new Builder(say);
-    const attempt = (...request) => this.builder.attempt(...request);
-    this.people = new People(say, attempt);
-    this.fallen = new FallenItems(this.world, () => this.selected, attempt);
+    this.people = new People(say);
+    this.placers = [this.builder, this.people];
+    this.fallen = new FallenItems(this.world, () => this.selected,
+      (request) => this.builder.attempt(request));
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
     this.sheets = new Sheets(() => this.fitPanels());
@@ -244,20 +245,22 @@ class Page {
     this.stage?.invalidate();
   }
 
+  /** What waits for a cell to put something there. */
+  get placer() {
+    return this.placers.find((placer) => placer.wantsCell);
+  }
+
   /** Of what a click on the floor does: whether it needs a cell, what it says, and does. */
   get wantsCell() {
-    return this.builder.wantsCell || this.people.wantsCell || isPerson(this.selected)
-      || this.details.selectedRobot >= 0;
+    return Boolean(this.placer) || isPerson(this.selected) || this.details.selectedRobot >= 0;
   }
 
   told(cell) {
-    const what = this.builder.wantsCell ? 'a robot at' : this.people.wantsCell ? 'a person at' : 'go to';
-    return `${what} ${cell.join(', ')}`;
+    return `${this.placer ? `${this.placer.what} at` : 'go to'} ${cell.join(', ')}`;
   }
 
   take(cell, at) {
-    if (this.builder.wantsCell) this.builder.add(cell, at);
-    else if (this.people.wantsCell) this.people.come(cell, at);
+    if (this.placer) this.placer.place(cell, at);
     else if (isPerson(this.selected)) this.people.go(this.selected, cell, at);
     else this.details.go(...cell, at);
   }
@@ -277,13 +280,12 @@ class Page {
   }
 
   leave() {
-    if (this.builder.wantsCell || this.people.wantsCell) this.wantNone();
+    if (this.placer) this.wantNone();
     else this.select(null);
   }
 
   wantNone() {
-    this.builder.want(false);
-    this.people.want(false);
+    for (const placer of this.placers) placer.want(false);
   }
 
   /** Asks the server for what the selected needs. */

@@ -138,12 +138,7 @@ const std::vector<Footprint>& Obstacles::footprints(int robot) const {
   if (mover.world_x == x && mover.world_y == y && mover.world_yaw == yaw) return mover.world;
   const double c = std::cos(yaw), s = std::sin(yaw);
   for (std::size_t k = 0; k < mover.world.size(); ++k) {
-    const Footprint& local = mover.local[k];
-    Footprint& world = mover.world[k];
-    world.x = x + c * local.x - s * local.y;
-    world.y = y + s * local.x + c * local.y;
-    world.c = c * local.c - s * local.s;
-    world.s = s * local.c + c * local.s;
+    place(mover.local[k], x, y, c, s, &mover.world[k]);
   }
   mover.world_x = x;
   mover.world_y = y;
