@@ -13,13 +13,13 @@ namespace {
 
 using Kind = Event::Kind;
 
-constexpr double kGravity = 9.81;   // [m/s²]
-constexpr double kFriction = 0.4;   // of items on their boards
-constexpr double kItem = 1.5;       // [kg]
-constexpr double kHalfUnit = 0.4;   // [m]
-constexpr double kBoard = 0.81;     // [m], the second one
-constexpr double kFront = 0.24;     // [m] from the middle of the unit to the items of its first row
-constexpr double kBar = 6;          // [m], where something low stands in the way
+constexpr double kGravity = 9.81;  // [m/s²]
+constexpr double kFriction = 0.4;  // of items on their boards
+constexpr double kItem = 1.5;      // [kg]
+constexpr double kHalfUnit = 0.4;  // [m]
+constexpr double kBoard = 0.81;    // [m], the second one
+constexpr double kFront = 0.24;    // [m] from the middle of the unit to the items of its first row
+constexpr double kBar = 6;         // [m], where something low stands in the way
 
 /// Of the first row: how much faster its unit has to be at once for its items to slide off [m/s].
 const double kLimit = std::sqrt(2 * kFriction * kGravity * (kHalfUnit - kFront));

@@ -294,6 +294,9 @@ class World {
   /// Where the robot believes to be, which it drives by: (x, y, yaw) in world [m, rad], yaw
   /// unwrapped. Where it is, unless localisation is real.
   Vector3 believedPose(int robot) const;
+  /// What the robot keeps its acceleration below so that its load does not tip [m/s²]; +inf without
+  /// a load, or where loads are ideal.
+  double loadLimit(int robot) const;
   Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;

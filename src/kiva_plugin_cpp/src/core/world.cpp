@@ -24,6 +24,7 @@
 #include "core/models/items.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
+#include "core/motion/drives.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/ground.h"
 #include "core/motion/joints.h"
@@ -461,6 +462,7 @@ Vector3 World::believedPose(int robot) const {
   const PlanarPose at = state_->fleet.believed(robot);
   return {at.x, at.y, at.yaw};
 }
+double World::loadLimit(int robot) const { return kiva::loadLimit(*state_, robot); }
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
 std::uint64_t World::unitsRevision() const { return state_->units_revision; }
 const Floor& World::floor() const { return state_->floor; }

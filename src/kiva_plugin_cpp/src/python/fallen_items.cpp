@@ -43,8 +43,9 @@ void defineFallenItems(py::class_<Host, HostPtr>& world) {
       "fallen_items", &fallenItems,
       R"((n,) of the items that fell off a storage unit, in the order in which they fell: item_id, shelf_id
 of that unit, x y z in world [m]. A copy.)");
-  world.def("pick_up", &pickUp, py::arg("item"),
-            R"(Somebody picks up an item that fell, by its name, and puts it back on its storage unit.
+  world.def(
+      "pick_up", &pickUp, py::arg("item"),
+      R"(Somebody picks up an item that fell, by its name, and puts it back on its storage unit.
 
 ValueError if it did not fall, or its storage unit does not stand upright.)");
 }

@@ -449,6 +449,11 @@ class Coordinator:
             f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
             for kiva in traffic.kiva_ids[traffic.lost].tolist()
         ]
+        objects = self._objects
+        state.alarms += [
+            f"{objects.items[item]} lies on the floor, off {objects.storage_units[unit]}"
+            for item, unit in zip(objects.fallen_item, objects.fallen_from)
+        ]
         if traffic.alarm:
             state.alarms.append(traffic.alarm)
         return state

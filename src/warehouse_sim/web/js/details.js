@@ -87,6 +87,8 @@ export class Details {
       if (this.world.charge.some((c) => c < 100)) out.push(['battery', `${this.world.charge[index]} %`]);
       const load = this.world.loadOf(index);
       out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
+      const limit = this.world.loadLimit[index];
+      if (limit > 0) out.push(['brakes for it', `at ${limit.toFixed(1)} m/s² at most`]);
       if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);
     }
     if (thing.kind === 'unit') {

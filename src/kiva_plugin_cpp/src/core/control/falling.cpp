@@ -15,11 +15,12 @@
 namespace kiva {
 namespace {
 
-constexpr double kClear = 0.002;   // [m] between an item that falls and the edge
-constexpr double kCreep = 0.001;   // [m/s]
-constexpr double kWaits = 0.5;     // [s] for which something may stand where it is to fall
-constexpr double kUpright = 0.99;  // cosine of a unit's tilt up to which items stay where one puts them
-constexpr double kNextTry = 10;    // [s] after which somebody comes again to a unit that lies
+constexpr double kClear = 0.002;  // [m] between an item that falls and the edge
+constexpr double kCreep = 0.001;  // [m/s]
+constexpr double kWaits = 0.5;    // [s] for which something may stand where it is to fall
+constexpr double kUpright =
+    0.99;  // cosine of a unit's tilt up to which items stay where one puts them
+constexpr double kNextTry = 10;  // [s] after which somebody comes again to a unit that lies
 
 /// Of an item on its board: its own, whenever it slides.
 double frictionOf(const WorldState& world, const Item& item) {
@@ -60,8 +61,8 @@ void forEachOn(WorldState& world, const Model& unit, Visit visit) {
   }
 }
 
-/// A unit that is suddenly faster by v leaves behind what stands on it: against friction that slides
-/// v² / 2 μ g far.
+/// A unit that is suddenly faster by v leaves behind what stands on it: against friction that
+/// slides v² / 2 μ g far.
 void slide(WorldState& world, const Jolt& jolt) {
   const Model& unit = *world.models[jolt.unit];
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
@@ -72,8 +73,7 @@ void slide(WorldState& world, const Jolt& jolt) {
   const Bounds box = bounds(*unit.description);
   forEachOn(world, unit, [&](const Item& item) {
     const double brake = frictionOf(world, item) * g;
-    const double left2 =
-        change * change - 2 * brake * wayOut(box, item.pose_in_unit.Pos(), way);
+    const double left2 = change * change - 2 * brake * wayOut(box, item.pose_in_unit.Pos(), way);
     if (left2 <= 0) return;
     const double left = std::sqrt(left2);
     const double time = brake > 0 ? (change - left) / brake : 0;
@@ -91,7 +91,8 @@ void tilt(WorldState& world, const Model& unit) {
   if (slope <= world.realism.loads.item_friction_least * down) return;
   forEachOn(world, unit, [&](const Item& item) {
     if (slope <= frictionOf(world, item) * down) return;
-    world.off_shelf.push_back({item.model, unit.slot, way / slope * kCreep, false, world.total_steps});
+    world.off_shelf.push_back(
+        {item.model, unit.slot, way / slope * kCreep, false, world.total_steps});
   });
 }
 
