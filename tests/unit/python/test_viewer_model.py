@@ -23,9 +23,7 @@ from warehouse_sim.viewer.table import Table
 HEAD = 40  # bytes before the rows of an update
 
 
-def fleet(
-    x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, ended=(), limit=()
-):
+def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, ended=(), limit=()):
     n = len(x)
     return FleetState(
         rospy.Time(stamp),

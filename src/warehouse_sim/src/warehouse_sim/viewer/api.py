@@ -298,9 +298,7 @@ def _add_people(out, backend):
 
 
 def _add_fallen_items(out, backend):
-    @out.post(
-        "/items/{number}/pick_up", response_model=schemas.Done, responses=_problems(*SENT)
-    )
+    @out.post("/items/{number}/pick_up", response_model=schemas.Done, responses=_problems(*SENT))
     async def pick_up_item(number: int = Number):
         """Has somebody put an item that fell back on its storage unit."""
         return {"message": await backend.do("pick_up", number)}
