@@ -17,8 +17,8 @@ from warehouse_fleet.operations.runs import read, write
 FAST = 0.85, 1.0  # [m/s]: a unit that is stopped at once does not tip yet
 LOOSE = {"item_friction_least": 0.03, "item_friction_most": 0.03, "pick_up_after": 0}
 BAR = """<sdf version="1.9"><model name="bar"><static>true</static><link name="l">
-<collision name="c"><pose>0 0 0.2 0 0 0</pose><geometry><box><size>0.05 0.9 0.4</size></box></geometry>
-</collision></link></model></sdf>"""
+<collision name="c"><pose>0 0 0.2 0 0 0</pose>
+<geometry><box><size>0.05 0.9 0.4</size></box></geometry></collision></link></model></sdf>"""
 
 
 def stop_one_at_once(fleet):
