@@ -19,7 +19,7 @@ namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -90,7 +90,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   }
   FIELDS(world.fleet, world.units, world.items);
   if (world.fleet.localises) FIELDS(world.fleet.localisation);
-  if (world.realism.loads.enabled) FIELDS(world.fleet.sway);
+  if (world.realism.loads.enabled) FIELDS(world.fleet.sway, world.off_shelf);
   if (!world.fleet.lag.isNone()) FIELDS(world.fleet.command_speed);
   FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
          world.sighted, world.crashes);
