@@ -87,6 +87,9 @@ class Execution {
   void setZone(std::vector<Cell> cells);
   /// Nobody may enter it until `until` [s].
   void close(Cell cell, double until);
+  /// Something lies in a cell that robots don't see: who was released it stops before it, if it
+  /// can.
+  void recall(Cell cell);
   /// Whether a cell is closed by that, or because a robot found something in its way there: look
   /// whether it stands there still.
   bool isClosing() const;

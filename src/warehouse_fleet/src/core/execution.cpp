@@ -486,6 +486,15 @@ void Execution::close(Cell cell, double until) {
   closed_until_[cell] = std::max(closed_until_[cell], until);
 }
 
+void Execution::recall(Cell cell) {
+  const int robot = floor_.has(cell) ? holder_[cell] : kNobody;
+  if (robot == kNobody) return;
+  const Course& course = courses_[robot];
+  const auto ahead = course.cells.begin() + course.reached;
+  const bool is_ahead = std::find(ahead, course.cells.end(), cell) != course.cells.end();
+  if (is_ahead && course.is_accepted && !course.is_withdrawn) withdraw(robot);
+}
+
 /// What it has been released, as actions: turns, drives, and waiting where it takes longer.
 void Execution::commit(int robot, std::uint8_t* row, int horizon) const {
   const Course& course = courses_[robot];

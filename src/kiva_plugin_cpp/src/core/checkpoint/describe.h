@@ -23,7 +23,7 @@ constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
 constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
 constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
-constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kTipped; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kPickedUp; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
 constexpr State lastOf(State) { return State::kWaiting; }
@@ -499,6 +499,12 @@ template <class A>
 void describe(A& a, Crash& c) {
   DESCRIBED(Crash, 2);
   FIELDS(c.kiva_id, c.with);
+}
+
+template <class A>
+void describe(A& a, OffShelf& o) {
+  DESCRIBED(OffShelf, 5);
+  FIELDS(o.item, o.unit, o.velocity, o.lies, o.due);
 }
 
 template <class A>
