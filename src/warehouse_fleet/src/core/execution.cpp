@@ -203,8 +203,8 @@ void Execution::cover(int robot) {
   }
 }
 
-/// Robots drive past one that stands askew with room to spare, but a corner of its load may be where
-/// theirs turn.
+/// Robots drive past one that stands askew with room to spare, but a corner of its load may be
+/// where theirs turn.
 void Execution::findTight() {
   tight_.clear();
   for (int robot = 0; robot < robots(); ++robot) {
