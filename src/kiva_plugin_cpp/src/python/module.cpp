@@ -833,6 +833,7 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
                               }),
                               "(min_x, max_x, min_y, max_y) in world [m].");
   definePeople(world);
+  defineFallenItems(world);
 }
 
 }  // namespace

@@ -119,6 +119,16 @@ void Obstacles::setMover(int robot, std::vector<Footprint> local) {
   linkMover(robot);
 }
 
+void Obstacles::raise(int robot, int model, double by) {
+  for (auto* footprints : {&movers_[robot].local, &movers_[robot].world}) {
+    for (Footprint& footprint : *footprints) {
+      if (footprint.model != model) continue;
+      footprint.z_min += by;
+      footprint.z_max += by;
+    }
+  }
+}
+
 void Obstacles::removeMover(int robot) {
   unlink(~robot, movers_[robot].place);
   const int last = static_cast<int>(movers_.size()) - 1;

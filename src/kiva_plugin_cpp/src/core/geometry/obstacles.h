@@ -56,6 +56,8 @@ class Obstacles {
 
   /// The footprints of robot `robot`, in its frame; instead of those it had.
   void setMover(int robot, std::vector<Footprint> local);
+  /// What belongs to `model` of those is higher by so much [m].
+  void raise(int robot, int model, double by);
   /// The same, as they were set.
   const std::vector<Footprint>& ofMover(int robot) const { return movers_[robot].local; }
   /// The last mover takes its index, as in the fleet.

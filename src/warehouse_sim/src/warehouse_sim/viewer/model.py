@@ -87,6 +87,7 @@ class Model:
             state=np.frombuffer(bytes(fleet.state), np.uint8),
             charge=np.rint(100 * np.asarray(fleet.charge)),
             failures=np.frombuffer(bytes(fleet.failures), np.uint8),
+            load_limit=_limits(fleet),
         )
 
     def _take_units(self, states):
@@ -144,6 +145,8 @@ class Model:
             "items": list(objects.items),
             "item_unit": list(map(int, objects.item_unit)),
             "item_pose": _short(objects.item_pose),
+            "fallen_item": list(map(int, objects.fallen_item)),
+            "fallen_from": list(map(int, objects.fallen_from)),
             "floor": list(map(float, scenery.floor)),
             "grid": scenery.grid_spacing,
             **_paint(scenery),
@@ -161,6 +164,12 @@ class Model:
         solid = {scenery.model_look[i] for i in self._solid}
         paint = {*scenery.model_look} - solid
         return [[] if i in paint else _look(look) for i, look in enumerate(scenery.looks)]
+
+
+def _limits(fleet):
+    """What robots keep below for their loads' sake [m/s²]; 0 where there is none."""
+    limits = np.asarray(fleet.load_limit, np.float32)
+    return np.where(np.isfinite(limits), limits, 0) if len(limits) else np.zeros(len(fleet.kiva_id))
 
 
 def _paint(scenery):
