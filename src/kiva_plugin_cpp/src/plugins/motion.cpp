@@ -164,8 +164,7 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void MotionPlugin::control(WorldState& world) const {
   for (int i : world.stepped_singly) {
-    const MotionSegment* at = world.fleet.tasks[i].segment();
-    if (at && at->kind == MotionSegment::Kind::kDrive) driveSegment(world, i);
+    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive)) driveSegment(world, i);
   }
 }
 
@@ -185,8 +184,8 @@ bool stands(const Fleet& f, int i) {
 bool halting(WorldState& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase != Phase::kHalting) return false;
-  const MotionSegment* at = f.tasks[i].segment();
-  const bool drives = at && at->kind == MotionSegment::Kind::kDrive && !at->reverse;
+  const Task& task = f.tasks[i];
+  const bool drives = task.isAt(MotionSegment::Kind::kDrive) && !task.segment()->reverse;
   if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
     Profile command = f.command(i);  // its wheels are all it has to go by: they must not slide
     command.brake(plannedBraking(world, i), world.dt);

@@ -91,8 +91,7 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void RotationPlugin::control(WorldState& world) const {
   for (int i : world.stepped_singly) {
-    const MotionSegment* at = world.fleet.tasks[i].segment();
-    if (at && at->kind == MotionSegment::Kind::kTurn) turnSegment(world, i);
+    if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn)) turnSegment(world, i);
   }
 }
 

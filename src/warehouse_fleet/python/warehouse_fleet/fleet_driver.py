@@ -16,7 +16,7 @@ from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
 
 UPDATE = 0.1  # between two releases [s]
-REFUSED, COLLISION = 1, 6  # EventKind
+REFUSED, COLLISION, FELL, PICKED_UP = 1, 6, 13, 14  # EventKind
 
 
 def square(yaw):
@@ -48,6 +48,7 @@ class FleetDriver:
         self.refusals = []  # texts
         self.failures = FailureLog()
         self.people = PeopleLog()
+        self.fallen = world.fallen_items["item_id"]  # items that lie on the floor
         self._steps = max(1, round(UPDATE / world.step_size))
 
     def close(self):
@@ -91,6 +92,7 @@ class FleetDriver:
         self._see_people()
         if self._towing:
             self._towing.advance()
+        self.traffic.see_fallen(len(self.fallen))
         looks = self.traffic.wants_map
         if looks:
             self.traffic.see(self.world.occupancy()[3])
@@ -129,6 +131,8 @@ class FleetDriver:
             self.events.append(events)
         kinds = events["kind"]
         self.failures.note(kinds)
+        if np.isin(kinds, (FELL, PICKED_UP)).any():
+            self.fallen = self.world.fallen_items["item_id"]
         self.collisions += int(np.count_nonzero(kinds == COLLISION))
         for event in events[kinds == REFUSED]:
             self.refusals.append(f"{event['model']}: {event['text']}")

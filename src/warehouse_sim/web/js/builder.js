@@ -2,16 +2,16 @@
 // Builds a warehouse, adds robots and takes them away.
 
 import { remove, post } from './api.js';
-import { $, isPressed, on, press } from './dom.js';
+import { $, on } from './dom.js';
+import { Placer } from './placer.js';
 import { ask, confirmed } from './question.js';
 
-export class Builder {
+export class Builder extends Placer {
   /** `say(text, kind, at)` tells the person at the page. */
   constructor(say) {
-    this.say = say;
+    super('add', { what: 'a robot', hint: 'click the cell where the new robot shall stand' }, say);
     on($('build'), 'click', () => this.build());
     on($('size'), 'change', () => this.showCounts());
-    on($('add'), 'click', () => this.want(!isPressed($('add'))));
     this.showCounts();
   }
 
@@ -30,37 +30,14 @@ export class Builder {
     })));
   }
 
-  /** Whether the next cell that is clicked gets a robot. */
-  get wantsCell() {
-    return isPressed($('add'));
-  }
-
-  want(wants) {
-    press($('add'), wants);
-    if (wants) this.say('click the cell where the new robot shall stand', 'sent');
-  }
-
-  /** A robot at the grid point [x, y]; `at` is where in the window the answer belongs. */
-  async add([x, y], at) {
-    this.want(false);
-    await this.attempt(async () => {
-      const { name } = await post('/robots', { x, y });
-      return { message: `${name} stands at ${x}, ${y}` };
-    }, at);
+  /** A robot at the grid point [x, y]. */
+  async place([x, y], at) {
+    await this.put(() => post('/robots', { x, y }), [x, y], at);
   }
 
   async remove(name) {
     if (!await confirmed(`Take ${name} away?`, 'It ends what it does and is gone.', 'Remove')) return;
     await this.attempt(() => remove(`/robots/${name.match(/\d+$/)[0]}`));
-  }
-
-  async attempt(request, at) {
-    try {
-      const { message } = await request();
-      this.say(message || 'done', 'done', at);
-    } catch (error) {
-      this.say(error.message, 'refused', at);
-    }
   }
 }
 

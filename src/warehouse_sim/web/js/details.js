@@ -13,10 +13,10 @@ const WAITS = 'sent; time stands still: it is taken when time goes on, after a r
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
-   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, and `wayOf(id)` what
-   *  the coordinator plans for a robot. */
-  constructor(world, select, say, { isPaused, fleet, wayOf }) {
-    Object.assign(this, { world, select, say, isPaused, fleet, wayOf, name: null, robot: null });
+   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, `fallen` the
+   *  FallenItems, and `wayOf(id)` what the coordinator plans for a robot. */
+  constructor(world, select, say, { isPaused, fleet, fallen, wayOf }) {
+    Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, name: null, robot: null });
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
@@ -58,6 +58,7 @@ export class Details {
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
     $('fetch').textContent = `Send ${this.robot} beneath it`;
+    $('pick-up').hidden = thing?.kind !== 'item' || this.fallen.unitOf(thing.index) < 0;
     this.facts(thing ? this.factsOf(thing) : [['', 'is no longer there']]);
   }
 
@@ -86,6 +87,8 @@ export class Details {
       if (this.world.charge.some((c) => c < 100)) out.push(['battery', `${this.world.charge[index]} %`]);
       const load = this.world.loadOf(index);
       out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
+      const limit = this.world.loadLimit[index];
+      if (limit > 0) out.push(['brakes for it', `at ${limit.toFixed(1)} m/s² at most`]);
       if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);
     }
     if (thing.kind === 'unit') {
@@ -96,7 +99,9 @@ export class Details {
     }
     if (thing.kind === 'item') {
       const unit = scene.item_unit[index];
-      out.push(['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]);
+      const home = this.fallen.unitOf(index);
+      if (home >= 0) out.push(['fell off', link(scene.units[home])]);
+      else out.push(['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]);
     }
     return out;
   }

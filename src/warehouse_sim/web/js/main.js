@@ -7,6 +7,7 @@ import { Builder } from './builder.js';
 import { Connection } from './connection.js';
 import { Details } from './details.js';
 import { $, isPressed, on, press } from './dom.js';
+import { FallenItems } from './fallen.js';
 import { FleetPanel } from './fleet.js';
 import { HeatMap } from './heat.js';
 import { Keys } from './keys.js';
@@ -40,10 +41,13 @@ class Page {
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
-    this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
-      fleet: this.fleet, wayOf: (id) => this.ways.get(id) });
     this.builder = new Builder(say);
-    this.people = new People(say, (...request) => this.builder.attempt(...request));
+    this.people = new People(say);
+    this.placers = [this.builder, this.people];
+    this.fallen = new FallenItems(this.world, () => this.selected,
+      (request) => this.builder.attempt(request));
+    this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
+      fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
     this.sheets = new Sheets(() => this.fitPanels());
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
@@ -188,7 +192,7 @@ class Page {
     }
     this.drawn = now;
     this.actors.fill(this.stage.camera, innerHeight);
-    this.labels.draw(this.actors.view, this.named(), this.where.draw());
+    this.labels.draw(this.actors.view, this.named(), [...this.where.draw(), ...this.fallen.labels()]);
     return this.world.moving.size > 0;
   }
 
@@ -241,20 +245,22 @@ class Page {
     this.stage?.invalidate();
   }
 
+  /** What waits for a cell to put something there. */
+  get placer() {
+    return this.placers.find((placer) => placer.wantsCell);
+  }
+
   /** Of what a click on the floor does: whether it needs a cell, what it says, and does. */
   get wantsCell() {
-    return this.builder.wantsCell || this.people.wantsCell || isPerson(this.selected)
-      || this.details.selectedRobot >= 0;
+    return Boolean(this.placer) || isPerson(this.selected) || this.details.selectedRobot >= 0;
   }
 
   told(cell) {
-    const what = this.builder.wantsCell ? 'a robot at' : this.people.wantsCell ? 'a person at' : 'go to';
-    return `${what} ${cell.join(', ')}`;
+    return `${this.placer ? `${this.placer.what} at` : 'go to'} ${cell.join(', ')}`;
   }
 
   take(cell, at) {
-    if (this.builder.wantsCell) this.builder.add(cell, at);
-    else if (this.people.wantsCell) this.people.come(cell, at);
+    if (this.placer) this.placer.place(cell, at);
     else if (isPerson(this.selected)) this.people.go(this.selected, cell, at);
     else this.details.go(...cell, at);
   }
@@ -274,13 +280,12 @@ class Page {
   }
 
   leave() {
-    if (this.builder.wantsCell || this.people.wantsCell) this.wantNone();
+    if (this.placer) this.wantNone();
     else this.select(null);
   }
 
   wantNone() {
-    this.builder.want(false);
-    this.people.want(false);
+    for (const placer of this.placers) placer.want(false);
   }
 
   /** Asks the server for what the selected needs. */

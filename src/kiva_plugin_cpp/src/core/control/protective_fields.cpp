@@ -82,14 +82,6 @@ double whileDriving(WorldState& world, int robot, const Walker& walker) {
   return safeSpeed(seenFrom(world, robot, segment, walker), brakingOf(world, robot), top);
 }
 
-/// It turns where nobody is within reach of its corners.
-double whileTurning(const WorldState& world, int robot, const Walker& walker) {
-  const Vector3& at = world.models[walker.model]->pose.Pos();
-  const double between = std::hypot(at.X() - world.fleet.x[robot], at.Y() - world.fleet.y[robot]);
-  const double reach = cornerRadius(world.fleet.robots[robot]) + walker.radius + kTurnMargin;
-  return between < reach ? 0 : kInfinity;
-}
-
 /// Farther off nobody matters, however it drives [m].
 double farthestOf(WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
@@ -104,14 +96,16 @@ bool isWithin(const WorldState& world, int robot, const Walker& walker, double r
   return dx * dx + dy * dy < (reach + walker.radius) * (reach + walker.radius);
 }
 
-bool isAt(const FleetState& fleet, int robot, MotionSegment::Kind kind) {
-  const MotionSegment* at = fleet.tasks[robot].segment();
-  return at && at->kind == kind;
+/// It turns where nobody is within reach of its corners.
+double whileTurning(const WorldState& world, int robot, const Walker& walker) {
+  const double reach = cornerRadius(world.fleet.robots[robot]) + kTurnMargin;
+  return isWithin(world, robot, walker, reach) ? 0 : kInfinity;
 }
 
 double allowedSpeed(WorldState& world, int robot) {
-  const bool turns = isAt(world.fleet, robot, MotionSegment::Kind::kTurn);
-  if (!turns && !isAt(world.fleet, robot, MotionSegment::Kind::kDrive)) return kInfinity;
+  const Task& task = world.fleet.tasks[robot];
+  if (!task.movesOnFloor()) return kInfinity;
+  const bool turns = task.isAt(MotionSegment::Kind::kTurn);
   const double reach = farthestOf(world, robot);
   double least = kInfinity;
   for (const Walker& walker : world.walkers) {
@@ -144,7 +138,7 @@ void holdTurns(WorldState& world) {
   for (const Walker& walker : world.walkers) {
     for (int i = 0; i < f.size(); ++i) {
       if (!isWithin(world, i, walker, kBeside)) continue;
-      const bool turns = isAt(f, i, MotionSegment::Kind::kTurn);
+      const bool turns = f.tasks[i].isAt(MotionSegment::Kind::kTurn);
       if (turns && whileTurning(world, i, walker) == 0) allow(world, i, 0);
     }
   }

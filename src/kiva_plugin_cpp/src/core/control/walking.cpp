@@ -86,11 +86,16 @@ void setOut(WorldState& world, Walker* walker, const Walk& walk) {
 
 // --- a step
 
+/// What part of the way (dx, dy) [m] so many metres are, up to all of it.
+double partOf(double metres, double dx, double dy) {
+  return std::min(1.0, metres / std::max(std::hypot(dx, dy), kThere));
+}
+
 /// Whether there is room half a step ahead, or at least more of it than here.
 bool isFreeAhead(const WorldState& world, const Walker& walker, const Pose& at,
                  const PathPoint& to) {
   const double dx = to.x - at.X(), dy = to.y - at.Y();
-  const double part = std::min(1.0, kLookAhead / std::hypot(dx, dy));
+  const double part = partOf(kLookAhead, dx, dy);
   const double there = roomAt(world, walker, at.X() + part * dx, at.Y() + part * dy);
   return there >= 0 || there > roomAt(world, walker, at.X(), at.Y()) + kThere;
 }
@@ -124,14 +129,12 @@ void put(WorldState& world, Model& model, const Pose& pose) {
 void stepTowards(WorldState& world, Walker* walker, const PathPoint& to) {
   Model& model = *world.models[walker->model];
   const double dx = to.x - model.pose.X(), dy = to.y - model.pose.Y();
-  const double way = std::hypot(dx, dy);
-  const double speed = walker->walk.waypoints[walker->next].speed;
-  const double part = std::min(1.0, speed * world.dt / std::max(way, kThere));
+  const double part = partOf(walker->walk.waypoints[walker->next].speed * world.dt, dx, dy);
   const Vector3& at = model.pose.Pos();
   walker->vx = part * dx / world.dt;
   walker->vy = part * dy / world.dt;
   walker->held_up = 0;
-  const double yaw = way > kThere ? std::atan2(dy, dx) : model.pose.Yaw();
+  const double yaw = std::hypot(dx, dy) > kThere ? std::atan2(dy, dx) : model.pose.Yaw();
   put(world, model, Pose(at.X() + part * dx, at.Y() + part * dy, at.Z(), 0, 0, yaw));
   if (part == 1) arrive(walker);
 }
@@ -185,11 +188,10 @@ std::vector<Person> peopleIn(const WorldState& world) {
     const Model& model = *world.models[walker.model];
     Person person{model.name, model.pose.X(), model.pose.Y(), model.pose.Yaw(),
                   walker.vx,  walker.vy,      model.pose.X(), model.pose.Y()};
-    const double speed = std::hypot(walker.vx, walker.vy);
-    if (speed > 0 && walker.walks()) {
+    if (walker.pause <= 0 && walker.walks()) {
       const PathPoint to = walker.target();
-      const double way = std::hypot(to.x - person.x, to.y - person.y);
-      const double part = std::min(1.0, speed * kForesight / std::max(way, kThere));
+      const double way = walker.walk.waypoints[walker.next].speed * kForesight;
+      const double part = partOf(way, to.x - person.x, to.y - person.y);
       person.ahead_x += part * (to.x - person.x);
       person.ahead_y += part * (to.y - person.y);
     }

@@ -34,6 +34,15 @@ struct Footprint {
   const std::array<Vector3, 3>* triangle = nullptr;  ///< Corners, for kTriangle.
 };
 
+/// Moves `world` to where `local`, in a frame at (x, y) turned by (c, s), is.
+inline void place(const Footprint& local, double x, double y, double c, double s,
+                  Footprint* world) {
+  world->x = x + c * local.x - s * local.y;
+  world->y = y + s * local.x + c * local.y;
+  world->c = c * local.c - s * local.s;
+  world->s = s * local.c + c * local.s;
+}
+
 /// Of the circle around (x, y) that holds it [m].
 inline double radiusOf(const Footprint& f) {
   const bool round = f.kind != Footprint::Kind::kBox && f.kind != Footprint::Kind::kTriangle;

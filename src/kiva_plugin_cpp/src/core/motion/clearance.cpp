@@ -24,16 +24,15 @@ bool standsStill(const FleetState& f, int i) {
       std::abs(f.yaw_rate[i]) > kStill) {
     return false;
   }
-  const MotionSegment* at = f.tasks[i].segment();
-  return !at || at->kind == MotionSegment::Kind::kRaise || at->kind == MotionSegment::Kind::kLower;
+  const Task& task = f.tasks[i];
+  return !task.segment() || task.lifts();
 }
 
 /// Its circle stays where it is, or nearly, until it begins another segment, and then it looks
 /// around itself.
 bool turnsInPlace(const FleetState& f, int i) {
-  const MotionSegment* at = f.tasks[i].segment();
   const double most = f.localises ? kWanders : kStill;
-  return !f.activated[i] && at && at->kind == MotionSegment::Kind::kTurn &&
+  return !f.activated[i] && f.tasks[i].isAt(MotionSegment::Kind::kTurn) &&
          std::abs(f.vx[i]) < most && std::abs(f.vy[i]) < most;
 }
 
@@ -100,12 +99,12 @@ Footprint cruiseSweep(const FleetState& f, int i, double time) {
 
 /// The floor that any other may cover, by what it is at: a driving one goes either way.
 Footprint sweep(const FleetState& f, int i, double time) {
-  const MotionSegment* at = f.tasks[i].segment();
+  const Task& task = f.tasks[i];
   Footprint own = boxOf(f, i);
   own.hx += kAstray;
   own.hy += kAstray;
-  if (!at || at->kind == MotionSegment::Kind::kTurn) own = turned(own);
-  if (at && at->kind != MotionSegment::Kind::kDrive) return own;
+  if (!task.segment() || task.isAt(MotionSegment::Kind::kTurn)) own = turned(own);
+  if (task.segment() && !task.isAt(MotionSegment::Kind::kDrive)) return own;
   own.hx += std::max(f.robots[i].drive.speed, std::hypot(f.vx[i], f.vy[i])) * time;
   return own;
 }
@@ -119,10 +118,7 @@ bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
   const auto& own = world.obstacles.ofMover(robot);
   return std::any_of(own.begin(), own.end(), [&](const Footprint& local) {
     Footprint at = local;
-    at.x = f.x[robot] + c * local.x - s * local.y;
-    at.y = f.y[robot] + s * local.x + c * local.y;
-    at.c = c * local.c - s * local.s;
-    at.s = s * local.c + c * local.s;
+    place(local, f.x[robot], f.y[robot], c, s, &at);
     return meets(at);
   });
 }
@@ -146,9 +142,11 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double fastest = world.walkers.empty() ? 0 : kMostWalkingSpeed;
-  const double farthest = std::max(world.top_speed + kPushed, fastest) * time + kNear;
-  return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
+  const double walk = world.walkers.empty() ? 0 : kMostWalkingSpeed * time;
+  const double drive = std::max((world.top_speed + kPushed) * time, walk);
+  const double reach = radiusOf(swept) + kNear;
+  return !world.obstacles.anyAround(swept.x, swept.y, reach + walk, reach + drive, meets,
+                                    approaches);
 }
 
 /// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its
@@ -181,6 +179,13 @@ Footprint holding(const std::vector<Footprint>& all) {
 
 double clearTime(const WorldState& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
+  // In long steps the shorter horizons are one step, and nothing is indexed for longer.
+  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.dt) {
+    for (const double horizon : {kHorizons[0], kShortest}) {
+      if (isClearFor(world, i, horizon)) return horizon;
+    }
+    return 0;
+  }
   // Who is hemmed in asks at each step, and what is clear for longer is clear for less.
   if (is_crowded && !isClearFor(world, i, horizonOf(f, i, kShortest))) return 0;
   for (const double horizon : kHorizons) {

@@ -101,8 +101,7 @@ Ground groundAhead(const WorldState& world, int robot) {
   Ground ground = groundOf(world);
   if (!isPatchy(world)) return ground;
   const FleetState& f = world.fleet;
-  const MotionSegment* segment = f.tasks[robot].segment();
-  const bool drives = segment && segment->kind == MotionSegment::Kind::kDrive;
+  const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
   const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
   const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
   const double to_y = f.y[robot] + way * std::sin(f.yaw[robot]);

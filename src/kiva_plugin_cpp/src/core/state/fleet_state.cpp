@@ -19,7 +19,8 @@ void forEachArray(FleetState& f, Visit visit) {
   }
   for (auto* array :
        {&f.reference, &f.reference_speed, &f.command_speed, &f.goal, &f.deceleration, &f.per_x,
-        &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until, &f.attend_at}) {
+        &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until, &f.attend_at,
+        &f.count_at}) {
     visit(*array);
   }
   visit(f.cruising);
@@ -64,12 +65,9 @@ void FleetState::follow(int i, const Profile& command) {
 bool isHeld(const FleetState& f, int i) {
   if (f.stopped[i] || f.curtained[i]) return true;
   if (f.failures[i] == 0 && f.allowed_speed[i] > 0) return false;
-  const MotionSegment* at = f.tasks[i].segment();
-  const bool drives =
-      at && (at->kind == MotionSegment::Kind::kDrive || at->kind == MotionSegment::Kind::kTurn);
-  if (drives && f.allowed_speed[i] == 0) return true;
-  const int holds =
-      drives ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
+  const bool moves = f.tasks[i].movesOnFloor();
+  if (moves && f.allowed_speed[i] == 0) return true;
+  const int holds = moves ? bitOf(Failure::kMotor) | bitOf(Failure::kLaser) : bitOf(Failure::kLift);
   return (f.failures[i] & (holds | kEmptyBattery)) != 0;
 }
 

@@ -71,12 +71,20 @@ struct Task {
   bool follows() const { return path.isUnderWay(); }
   /// Its segment is a run of its path.
   bool isOnRun() const {
-    return follows() && !segments.empty() && segments.front().on_grid &&
-           segments.front().kind == MotionSegment::Kind::kDrive;
+    return follows() && isAt(MotionSegment::Kind::kDrive) && segments.front().on_grid;
   }
   /// Its command is to end in BLOCKED.
   bool isStopping() const { return phase >= Phase::kBraking; }
   const MotionSegment* segment() const { return segments.empty() ? nullptr : &segments.front(); }
+  bool isAt(MotionSegment::Kind kind) const {
+    return !segments.empty() && segments.front().kind == kind;
+  }
+  bool lifts() const {
+    return isAt(MotionSegment::Kind::kRaise) || isAt(MotionSegment::Kind::kLower);
+  }
+  bool movesOnFloor() const {
+    return isAt(MotionSegment::Kind::kDrive) || isAt(MotionSegment::Kind::kTurn);
+  }
 };
 
 /// A battery, and what its robot was like when its energy was reckoned last.
@@ -132,6 +140,9 @@ struct FleetState : Fleet {
   /// Step at which a robot that cruises needs a look again: that one, or when it may have come to
   /// or left the next point of a path.
   Column<double> attend_at;
+  /// Where its reference comes to that next point, or leaves it [m]; infinity: nowhere. Kept while
+  /// it cruises.
+  Column<double> count_at;
 
   // Of robots that follow their references exactly, see core/motion/cruise.h.
   Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.

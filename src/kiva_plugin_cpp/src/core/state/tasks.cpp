@@ -153,11 +153,7 @@ void endBlocked(WorldState& world, int robot, const std::string& by, const std::
 void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason) {
   const Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kWaiting) return endBlocked(world, robot, by, reason);
-  const MotionSegment* at = task.segment();
-  if (!at) return;
-  const bool moves =
-      at->kind == MotionSegment::Kind::kTurn || at->kind == MotionSegment::Kind::kDrive;
-  if (moves) stopTask(world, robot, Phase::kHalting, by, reason);
+  if (task.movesOnFloor()) stopTask(world, robot, Phase::kHalting, by, reason);
 }
 
 }  // namespace kiva

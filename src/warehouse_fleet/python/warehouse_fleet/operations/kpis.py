@@ -126,24 +126,28 @@ def of_shift(shift, fleet, kinematics, wall_s):
         "plan_ms": _planning(fleet.plan_ms),
         "executed_over_planned": fleet.executed_over_planned,
         "state_hash": shift.state_hash(),
-    } | _of_troubles(fleet, tally.items_picked)
+    } | (shift.fallen.figures() | _of_troubles(fleet, tally.items_picked))
 
 
 def _of_troubles(fleet, items_picked):
-    """What failures, charging and people cost; nothing where there were none. As many pieces are
-    lost as are picked in so many robot hours at work."""
+    """What failures, charging and people cost; nothing where there were none."""
     log = getattr(fleet, "failures", None)
     figures = log.figures() if log else {}
     figures |= getattr(fleet, "energy", {})
     if "availability" in figures:
-        up = max(figures["availability"], 1e-9)
-        figures["items_lost_to_failures"] = items_picked * (1 - up) / up
+        down = 1 - figures["availability"]
+        figures["items_lost_to_failures"] = _lost(items_picked, down)
     people = getattr(fleet, "people", None)
     figures |= people.figures() if people else {}
     if "stopped_fraction" in figures:
-        stood = min(figures["stopped_fraction"], 1 - 1e-9)
-        figures["items_lost_to_people"] = items_picked * stood / (1 - stood)
+        figures["items_lost_to_people"] = _lost(items_picked, figures["stopped_fraction"])
     return figures
+
+
+def _lost(items_picked, away):
+    """As many pieces as robots that were `away` for that part of their time would have picked at
+    the pace of those at work."""
+    return items_picked * away / max(1 - away, 1e-9)
 
 
 def quantiles(values):

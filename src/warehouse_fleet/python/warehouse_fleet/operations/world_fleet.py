@@ -123,6 +123,11 @@ class WorldFleet:
         return self._driver.failures
 
     @property
+    def fallen_items(self):
+        """Those that lie on the floor, by name."""
+        return [f"item{item}" for item in self._driver.fallen]
+
+    @property
     def people(self):
         """What people on the floor cost: a PeopleLog."""
         return self._driver.people
