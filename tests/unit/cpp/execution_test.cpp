@@ -280,6 +280,25 @@ TEST_F(ExecutionTest, NobodyTurnsBesideALoadThatIsShortOfTheMiddleOfItsCell) {
   EXPECT_EQ(execution_.released(second).back(), cell(1, 2));
 }
 
+TEST_F(ExecutionTest, ALoadIsNotTurnedBesideOneThatStandsAskew) {
+  const int askew = add(2, 3), driving = add(1, 2);
+  robots_[askew].x = 2.3;
+  robots_[askew].yaw = 0.3;
+  reports_[askew].is_controlled = false;
+  reports_[driving].is_loaded = true;
+  observe();
+  std::vector<Action> around{Action::kForward, Action::kTurnNegative, Action::kForward};
+  around.resize(8, Action::kWait);
+  plan({around});
+  for (int i = 0; i < 30; ++i) tick();
+  EXPECT_EQ(execution_.released(driving), std::vector<Cell>{cell(2, 2)});
+  EXPECT_EQ(execution_.fleet({0, 0}, {-1, -1}, 8).tight, std::vector<Cell>{cell(2, 2)});
+  robots_[askew].x = 2;
+  robots_[askew].yaw = 0;
+  tick();
+  EXPECT_EQ(execution_.released(driving).back(), cell(2, 1));
+}
+
 TEST_F(ExecutionTest, OneThatHasBecomeBusySinceItsReportIsNotSentOn) {
   add(1, 1);
   observe();

@@ -16,6 +16,7 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
+from warehouse_sim import statuses
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.table import Table
@@ -103,6 +104,11 @@ def test_a_newcomer_gets_all_and_then_what_changed():
     assert world.turn(fleet=fleet(x=(0.0, 1.5)))
     assert rows(world.model.update(seen)) == [1, 0, 0, 0]
     assert rows(world.model.update(world.model.tick)) == [0, 0, 0, 0]
+
+
+def test_statuses_are_numbered_as_in_messages():
+    assert statuses.BLOCKED == KivaStatus.STATUS_BLOCKED
+    assert statuses.ENDED_BLOCKED == Event.BLOCKED
 
 
 def test_nothing_new_is_no_update():

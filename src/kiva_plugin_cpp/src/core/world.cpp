@@ -535,6 +535,7 @@ void World::restore(const std::string& checkpoint) {
 std::vector<Event> World::takeEvents() {
   std::vector<Event> out;
   out.swap(state_->events);
+  state_->events.reserve(out.size());  // as many may follow
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/contact/activation.h"
 #include "core/models/load.h"
+#include "core/state/footprints.h"
 #include "core/state/poses.h"
 #include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
@@ -27,13 +28,22 @@ struct Above {
 
 Above findAbove(const WorldState& world, int i) {
   Above above;
-  for (const Footprint& own : world.obstacles.footprints(i)) {
-    world.obstacles.near(own.x, own.y, radiusOf(own), [&](const Footprint& other) {
-      const double clearance = other.z_min - own.z_max;
-      if (other.group == i || clearance < -kOnTop || clearance >= above.clearance) return;
-      if (gap(own, other) < 0) above = {std::max(0.0, clearance), other.model};
-    });
+  const Fleet& f = world.fleet;
+  const std::vector<Footprint>& all = world.obstacles.footprints(i);
+  double reach = 0;
+  for (const Footprint& own : all) {
+    reach = std::max(reach, std::hypot(own.x - f.x[i], own.y - f.y[i]) + radiusOf(own));
   }
+  world.obstacles.near(f.x[i], f.y[i], reach, [&](const Footprint& other) {
+    if (other.group == i) return;
+    for (const Footprint& own : all) {
+      const double clearance = other.z_min - own.z_max;
+      if (clearance < -kOnTop || clearance >= above.clearance) continue;
+      if (mayBeWithin(0, own, other) && gap(own, other) < 0) {
+        above = {std::max(0.0, clearance), other.model};
+      }
+    }
+  });
   return above;
 }
 
@@ -46,6 +56,11 @@ double resistance(const WorldState& world, const Model& model) {
   return mass * world.gravityDown();
 }
 
+void setTower(WorldState& world, int i, double height) {
+  raiseLoad(world, i, height - world.fleet.tower[i]);
+  world.fleet.tower[i] = height;
+}
+
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: half of it at 4·height/time², half at minus that.
 void moveTower(WorldState& world, int i, double height) {
@@ -56,7 +71,7 @@ void moveTower(WorldState& world, int i, double height) {
   Profile profile = world.fleet.profile(i);
   profile.advance(height, top, acceleration, acceleration, world.dt);
   world.fleet.setProfile(i, profile);
-  world.fleet.tower[i] = profile.position;
+  setTower(world, i, profile.position);
 }
 
 void begin(WorldState& world, int i) {
@@ -102,14 +117,12 @@ void abandon(WorldState& world, int i, int unit) {
 }
 
 /// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
-/// a load that is too heavy. It gives up after a while.
-void stall(WorldState& world, int i, double before) {
+/// a load that is too heavy. It gives up after a while. `above` is what it saw from `before` [m].
+void stall(WorldState& world, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
-  if (f.unit[i] < 0) return;
   double force = r.load_mass * world.gravityDown();
-  const Above above = findAbove(world, i);
   const bool meets = f.tower[i] - before > above.clearance;
   if (meets) force += resistance(world, *world.models[above.model]);
   if (force <= r.lift.max_force) {
@@ -118,7 +131,7 @@ void stall(WorldState& world, int i, double before) {
   }
   const double height = meets ? before + above.clearance : before;
   f.setProfile(i, {height, 0});
-  f.tower[i] = height;
+  setTower(world, i, height);
   overdue += world.dt;
   if (overdue < kStalled) return;
   const std::string other = meets ? world.models[above.model]->name : "";
@@ -131,8 +144,10 @@ void stall(WorldState& world, int i, double before) {
 void raiseSegment(WorldState& world, int i, int unit) {
   Robot& r = world.fleet.robots[i];
   const double before = world.fleet.tower[i];
+  const bool is_loaded = world.fleet.unit[i] >= 0;
+  const Above above = is_loaded ? findAbove(world, i) : Above();
   moveTower(world, i, r.lift.height);
-  stall(world, i, before);
+  if (is_loaded) stall(world, i, before, above);
   if (world.fleet.unit[i] < 0 && world.fleet.tower[i] >= towerGap(world, i, unit)) {
     takeUp(world, i, unit);
   }
@@ -157,7 +172,7 @@ void holdTower(WorldState& world, int i) {
   profile.brake(f.robots[i].drive.emergency_deceleration, world.dt);
   profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
   f.setProfile(i, profile);
-  f.tower[i] = profile.position;
+  setTower(world, i, profile.position);
 }
 
 void liftSegment(WorldState& world, int i) {

@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <mutex>
 
@@ -21,7 +20,7 @@ namespace kiva::python {
 namespace {
 
 constexpr std::int64_t kStepsBetweenSignals = 256;
-constexpr std::size_t kKinds = 10;  // of events
+constexpr std::size_t kKinds = Event::kKinds;
 
 /// The robots of all worlds; rows are worlds.
 struct FleetRows {
@@ -340,7 +339,7 @@ class Worlds {
       for (const std::string* model : {&event.model, &event.other}) {
         const int robot = world.fleet().find(kivaId(*model));
         const bool counts = model == &event.model || event.kind == Event::Kind::kCollision;
-        if (robot >= 0 && counts && kind < kKinds) {
+        if (robot >= 0 && counts) {
           ++rows_.counts[(i * static_cast<std::size_t>(robots_) + robot) * kKinds + kind];
         }
       }
@@ -349,7 +348,8 @@ class Worlds {
   }
 
   /// In any order, on all threads.
-  void forEach(std::size_t count, const std::function<void(std::size_t)>& job) {
+  template <typename Job>
+  void forEach(std::size_t count, const Job& job) {
     workers_.share(static_cast<int>(count), 1, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) job(static_cast<std::size_t>(i));
     });
@@ -443,8 +443,8 @@ A read-only view, current until the next call.)");
       "(n, robots) int32: the storage unit that each carries, 0 = none. A view.");
   worlds.def_property_readonly(
       "counts", &Worlds::counts,
-      "(n, robots, 10) uint32: events of each EventKind about each robot in the last step(). A "
-      "view.");
+      "(n, robots, kinds) uint32: events of each EventKind, by its value, about each robot in the "
+      "last step(). A view.");
 }
 
 }  // namespace kiva::python

@@ -203,6 +203,9 @@ class Execution {
   bool needs(int robot) const;
   bool mayTurn(int robot) const;
   bool keepsFromTurning(int robot, Cell in, Cell from) const;
+  void findTight();
+  bool isAskew(int robot) const;
+  bool isInReach(int robot, Cell cell) const;
   void extend(int robot);
   void recentre(int robot);
   Cell refuge(int robot) const;
@@ -235,6 +238,7 @@ class Execution {
   std::vector<int> next_claim_;
   std::vector<double> closed_until_;  ///< by cell [s]
   std::vector<Cell> units_;
+  std::vector<Cell> tight_;  ///< where a load that is turned would touch one askew; sorted
   std::vector<std::uint8_t> broken_;
   std::vector<Cell> closing_;  ///< cells that are, or were
   std::vector<Cell> zone_;

@@ -28,7 +28,10 @@ from warehouse_fleet.people import zone_around
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
-GUIDANCE = {"turn_ticks": 2, "crowd": 10, "resting": 8, "at_lanes": 1, "memory": 50}  # measured
+GUIDANCE = {  # measured
+    **{"turn_ticks": 2, "crowd": 10, "resting": 8, "at_lanes": 1, "memory": 50},
+    "patience": 15,
+}
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]

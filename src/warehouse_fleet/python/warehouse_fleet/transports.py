@@ -643,10 +643,14 @@ class Transports:
         idle = self._without_work()
         idle[list(self.charging.cell_of)] = False
         traffic.goal[idle & (traffic.goal == traffic.cell)] = NOWHERE
+        # Whoever has work there comes first, and stays.
+        traffic.goal[idle & np.isin(traffic.goal, traffic.goal[~idle])] = NOWHERE
         freed, self._freed = self._freed, []
         for robot in freed:
             cell = self.park(robot) if idle[robot] else None
-            if cell is not None and cell != traffic.cell[robot] and self._aside[cell]:
+            if cell is None or cell in traffic.goal:
+                continue
+            if cell != traffic.cell[robot] and self._aside[cell]:
                 traffic.send(robot, cell)
         in_the_way = idle & (traffic.goal == NOWHERE) & ~self._aside[traffic.cell]
         if not in_the_way.any():

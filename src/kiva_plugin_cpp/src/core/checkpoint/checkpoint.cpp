@@ -13,6 +13,7 @@
 #include "core/control/failures.h"
 #include "core/control/protective_fields.h"
 #include "core/sensing/scans.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
@@ -48,6 +49,7 @@ void makeModels(WorldState& world, DescriptionTable table) {
   for (ModelDescription& d : table.descriptions) {
     shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
   }
+  world.models.reserve(table.of_slot.size());
   for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
     const std::int32_t description = table.of_slot[slot];
     if (description >= static_cast<std::int32_t>(shared.size())) {
@@ -126,6 +128,10 @@ void indexModels(WorldState& world) {
   world.fleet.sway.resize(world.fleet.size());
   world.fleet.heard.resize(world.fleet.size());
   world.fleet.command_speed.resize(world.fleet.size());
+  world.fleet.count_at.clear();
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    world.fleet.count_at.push_back(nextCount(world, i));
+  }
 }
 
 struct Header {

@@ -254,9 +254,9 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 27);  // what only some realism needs: with the world
-  // What is broken, and charges, follow from what else the world holds; what people allow: with
-  // those.
+  DESCRIBED(FleetState, 28);  // what only some realism needs: with the world
+  // What is broken, charges, and where points are counted next, follow from what else the world
+  // holds; what people allow: with those.
   DESCRIBED(Fleet, 26);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,

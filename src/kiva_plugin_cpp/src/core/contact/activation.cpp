@@ -15,9 +15,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kReach = 0.3;      // [m] around a robot in which to look
-constexpr double kLinger = 0.05;    // [s] in Bullet after the last one was near
-constexpr int kLooksTogether = 32;  // on one thread: less is not worth waking another
+constexpr double kReach = 0.3;    // [m] around a robot in which to look
+constexpr double kLinger = 0.05;  // [s] in Bullet after the last one was near
+// What is in Bullet and slow looks around seldom: less than kNear is gone meanwhile.
+constexpr double kSlow = 0.2, kSeldom = 0.008;  // [m/s, s]
+constexpr int kLooksTogether = 32;              // on one thread: less is not worth waking another
 
 /// A load enters with the robot that carries it.
 void activateWhole(WorldState& world, int slot) {
@@ -45,7 +47,8 @@ void activateClose(WorldState& world, int robot) {
   // It may be another that comes, and both may speed up.
   const double way = 2 * (world.top_speed + kCornerSpeed) * world.dt;
   const double free_steps = std::floor((least - kNear) / way - 1);
-  f.clear_until[robot] = static_cast<double>(world.total_steps) + std::max(0.0, free_steps);
+  const double seldom = f.activated[robot] ? static_cast<double>(world.stepsIn(kSeldom)) : 0.0;
+  f.clear_until[robot] = static_cast<double>(world.total_steps) + std::max(seldom, free_steps);
 }
 
 bool isMoving(const WorldState& world, int robot) {
@@ -53,8 +56,10 @@ bool isMoving(const WorldState& world, int robot) {
 }
 
 bool looksAround(const WorldState& world, int robot) {
-  const bool is_known = world.fleet.clear_until[robot] > static_cast<double>(world.total_steps);
-  return !is_known && isMoving(world, robot);
+  const FleetState& f = world.fleet;
+  const bool is_hasty = f.activated[robot] && pointSpeed(f, robot) > kSlow;
+  const bool is_known = f.clear_until[robot] > static_cast<double>(world.total_steps);
+  return (is_hasty || !is_known) && isMoving(world, robot);
 }
 
 /// For how long the way of each robot that looks around is free [s], as all stand now; 0 for
@@ -76,20 +81,32 @@ std::vector<double> clearTimes(const WorldState& world) {
 /// One by one, since who enters Bullet changes what the next one finds.
 void lookAround(WorldState& world) {
   const FleetState& f = world.fleet;
+  const auto asks = [&](int robot) { return looksAround(world, robot); };
+  const std::vector<int>& all = world.stepped_singly;
+  if (std::none_of(all.begin(), all.end(), asks)) return;
   const std::vector<double> times = clearTimes(world);
   const std::size_t before = world.activated.size();
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const int i = world.stepped_singly[k];
-    if (!looksAround(world, i)) continue;
+    const int i = all[k];
+    if (!asks(i)) continue;
     const bool is_known = world.activated.size() == before;
     const auto time = [&] { return is_known ? times[k] : clearTime(world, i, true); };
     if (f.activated[i] || !noteClearance(world, i, time())) activateClose(world, i);
   }
 }
 
+/// Whether no point of a storage unit that slides is fast.
+bool isSlow(const Model& model) {
+  constexpr double kFarthest = 1;  // [m] from its centre of mass
+  const btRigidBody& body = *model.bodies.links.front().body;
+  return body.getLinearVelocity().length() + kFarthest * body.getAngularVelocity().length() < kSlow;
+}
+
 /// A body that moves by itself: what it could hit enters Bullet too.
 void lookAroundBody(WorldState& world, Model& model) {
   if (!isAwake(model)) return;
+  const bool is_due = (world.total_steps + model.slot) % world.stepsIn(kSeldom) == 0;
+  if (model.upright && !is_due && isSlow(model)) return;
   double fastest = 0;
   for (const LinkBody& link : model.bodies.links) {
     fastest = std::max(fastest, link.body->getLinearVelocity().length());

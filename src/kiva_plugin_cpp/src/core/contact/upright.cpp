@@ -68,12 +68,19 @@ double supportAlong(const std::vector<Foot>& feet, const btVector3& way_in_body)
   return most;
 }
 
-double leastSupport(const std::vector<Foot>& feet) {
-  double least = std::numeric_limits<double>::infinity();
+std::vector<btVector3> allAround() {
+  std::vector<btVector3> ways;
   for (int i = 0; i < 16; ++i) {
     const double angle = i * M_PI / 8;
-    least = std::min(least, supportAlong(feet, {std::cos(angle), std::sin(angle), 0}));
+    ways.emplace_back(std::cos(angle), std::sin(angle), 0);
   }
+  return ways;
+}
+
+double leastSupport(const std::vector<Foot>& feet) {
+  static const std::vector<btVector3> ways = allAround();
+  double least = std::numeric_limits<double>::infinity();
+  for (const btVector3& way : ways) least = std::min(least, supportAlong(feet, way));
   return least;
 }
 

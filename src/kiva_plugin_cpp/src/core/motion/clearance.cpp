@@ -139,9 +139,11 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double fastest = world.walkers.empty() ? 0 : kMostWalkingSpeed;
-  const double farthest = std::max(world.top_speed + kPushed, fastest) * time + kNear;
-  return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
+  const double walk = world.walkers.empty() ? 0 : kMostWalkingSpeed * time;
+  const double drive = std::max((world.top_speed + kPushed) * time, walk);
+  const double reach = radiusOf(swept) + kNear;
+  return !world.obstacles.anyAround(swept.x, swept.y, reach + walk, reach + drive, meets,
+                                    approaches);
 }
 
 /// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its
@@ -174,6 +176,13 @@ Footprint holding(const std::vector<Footprint>& all) {
 
 double clearTime(const WorldState& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
+  // In long steps the shorter horizons are one step, and nothing is indexed for longer.
+  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.dt) {
+    for (const double horizon : {kHorizons[0], kShortest}) {
+      if (isClearFor(world, i, horizon)) return horizon;
+    }
+    return 0;
+  }
   // Who is hemmed in asks at each step, and what is clear for longer is clear for less.
   if (is_crowded && !isClearFor(world, i, horizonOf(f, i, kShortest))) return 0;
   for (const double horizon : kHorizons) {

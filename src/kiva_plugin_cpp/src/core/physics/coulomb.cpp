@@ -30,7 +30,7 @@ void solveCoulomb(double a00, double a01, double a11, const double b[2], double 
   // 1 / |x(shift)|, which is nearly straight (Moré and Sorensen 1983), finds the shift.
   double shift = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
-    const double size = std::hypot(x[0], x[1]);
+    const double size = std::sqrt(x[0] * x[0] + x[1] * x[1]);
     if (size <= limit * (1 + kExact)) return;
     const double minus_x[2] = {-x[0], -x[1]};
     double solved[2];

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/physics/planar_solver.h"
+
 namespace kiva {
 namespace {
 
@@ -98,9 +100,14 @@ btScalar OrderedSolver::solveGroup(btCollisionObject** bodies, int body_count,
   btPersistentManifold** const end = std::partition(manifolds, manifolds + manifold_count, touches);
   std::sort(manifolds, end, comesBefore);
   std::sort(joints, joints + joint_count, jointComesBefore);
-  return btSequentialImpulseConstraintSolver::solveGroup(bodies, body_count, manifolds,
-                                                         static_cast<int>(end - manifolds), joints,
-                                                         joint_count, info, draw, dispatcher);
+  const auto touching = static_cast<int>(end - manifolds);
+  const ContactIsland island{bodies, body_count, manifolds, touching, joints, joint_count};
+  if (isPlanar(island)) {
+    solvePlanar(island, info);
+    return 0;
+  }
+  return btSequentialImpulseConstraintSolver::solveGroup(
+      bodies, body_count, manifolds, touching, joints, joint_count, info, draw, dispatcher);
 }
 
 void ContactIslandWorld::calculateSimulationIslands() {

@@ -9,9 +9,11 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <unordered_map>
 #include <utility>
 
 #include "core/geometry/ray.h"
+#include "core/physics/planar_contacts.h"
 
 namespace kiva {
 namespace {
@@ -432,6 +434,9 @@ Physics::Physics(const Vector3& gravity)
       dispatcher_.getDispatcherFlags() &
       ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   dispatcher_.registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &box_contacts_);
+  static PlanarContacts::Creator planar_contacts;  // keeps nothing
+  dispatcher_.registerCollisionCreateFunc(COMPOUND_SHAPE_PROXYTYPE, COMPOUND_SHAPE_PROXYTYPE,
+                                          &planar_contacts);
   for (int round : {CYLINDER_SHAPE_PROXYTYPE, CAPSULE_SHAPE_PROXYTYPE}) {
     for (int flat : {STATIC_PLANE_PROXYTYPE, BOX_SHAPE_PROXYTYPE}) {
       dispatcher_.registerCollisionCreateFunc(round, flat, &round_contacts_);
@@ -583,18 +588,19 @@ void Physics::forEachTouch(Visit visit) const {
 
 void Physics::contacts(std::vector<Contact>* out) const {
   out->clear();
+  std::unordered_map<std::uint64_t, std::size_t> place;  // of a pair; for looking up only
   forEachTouch([&](const btPersistentManifold& manifold, const btManifoldPoint& point, int a,
                    int b) {
     const double sign = a > b ? -1 : 1;
     if (a > b) std::swap(a, b);
-    auto pair = std::find_if(out->begin(), out->end(),
-                             [a, b](const Contact& c) { return c.model_a == a && c.model_b == b; });
-    if (pair == out->end()) {
+    const std::uint64_t key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+    const auto [at, is_new] = place.try_emplace(key, out->size());
+    if (is_new) {
       out->push_back({});
-      pair = out->end() - 1;
-      pair->model_a = a;
-      pair->model_b = b;
+      out->back().model_a = a;
+      out->back().model_b = b;
     }
+    Contact* const pair = &(*out)[at->second];
     const double impulse = point.getAppliedImpulse();
     pair->impulse += impulse * impactShare(manifold, point);
     const double speed = approach(manifold, point, &Motion::driven);

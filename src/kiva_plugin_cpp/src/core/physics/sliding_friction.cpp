@@ -23,15 +23,19 @@ void SlidingFriction::getInfo1(btConstraintInfo1* info) {
   info->nub = 0;
 }
 
+btVector3 SlidingFriction::wayOf(const btVector3& arm) const {
+  btVector3 along = getRigidBodyA().getVelocityInLocalPoint(arm);
+  along.setZ(0);
+  const double speed = along.length();
+  return speed > kStands ? along / speed : btVector3(1, 0, 0);
+}
+
 void SlidingFriction::getInfo2(btConstraintInfo2* info) {
   const btRigidBody& body = getRigidBodyA();
   int row = 0;
   for (const Foot& foot : feet_) {
     const btVector3 arm = body.getWorldTransform().getBasis() * foot.at;
-    btVector3 along = body.getVelocityInLocalPoint(arm);
-    along.setZ(0);
-    const double speed = along.length();
-    along = speed > kStands ? along / speed : btVector3(1, 0, 0);
+    const btVector3 along = wayOf(arm);
     for (const btVector3& way : {along, btVector3(-along.y(), along.x(), 0)}) {
       const int at = row++ * info->rowskip;
       const btVector3 turn = arm.cross(way);

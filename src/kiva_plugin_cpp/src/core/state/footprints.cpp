@@ -124,13 +124,16 @@ void moved(WorldState& world, Model& model) {
 void followRobot(WorldState& world, int robot) {
   const FleetState& f = world.fleet;
   const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
-  const bool loaded = f.unit[robot] >= 0;
-  if (!still) world.obstacles.follow(robot);
-  if (loaded && f.state[robot] == State::kLifting) {
-    moved(world, world.modelOf(robot));
-  } else if (loaded && !still) {
-    world.unitsMoved();
-  }
+  if (still) return;
+  world.obstacles.follow(robot);
+  if (f.unit[robot] >= 0) world.unitsMoved();
+}
+
+void raiseLoad(WorldState& world, int robot, double by) {
+  const int unit = world.fleet.unit[robot];
+  if (unit < 0) return;
+  world.obstacles.raise(robot, world.units[unit].model, by);
+  world.unitsMoved();
 }
 
 void hideFootprints(WorldState& world, Model& model) {

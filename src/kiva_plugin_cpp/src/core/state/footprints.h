@@ -19,6 +19,8 @@ void refitGeometry(WorldState& world, Model& model);
 void moved(WorldState& world, Model& model);
 /// The same for a robot that drove by itself in this step.
 void followRobot(WorldState& world, int robot);
+/// The load of a robot, if it has one, is higher by so much [m].
+void raiseLoad(WorldState& world, int robot, double by);
 /// Takes the footprints away; the model keeps its geometry.
 void hideFootprints(WorldState& world, Model& model);
 /// Something came or was moved from outside: robots look around before they go on.

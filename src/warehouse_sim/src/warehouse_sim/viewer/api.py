@@ -2,8 +2,6 @@
 """The HTTP API: what ROS offers, for those who speak no ROS. Described at /api/v1/openapi.json."""
 
 import asyncio
-import csv
-import io
 from contextlib import suppress
 from typing import Literal
 
@@ -216,12 +214,8 @@ def _add_warehouse(out, backend):
     @out.get("/events.csv", response_class=Response, responses=_problems() | CSV)
     async def export_events():
         """All events that are kept, oldest first, for a spreadsheet."""
-        text = io.StringIO()
-        table = csv.DictWriter(text, schemas.Event.__fields__)
-        table.writeheader()
-        table.writerows(backend.journal.since(0))
         headers = {"content-disposition": 'attachment; filename="events.csv"'}
-        return Response(text.getvalue(), media_type="text/csv", headers=headers)
+        return Response(backend.journal.csv(), media_type="text/csv", headers=headers)
 
 
 def _add_robots(out, backend):

@@ -7,10 +7,10 @@ import time
 import numpy as np
 
 from warehouse_fleet import floor_markings
-from warehouse_sim import looks, markers, poses
+from warehouse_sim import painted, poses
+from warehouse_sim.statuses import shown_status
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.table import Table
-from warehouse_sim.words import shown_status
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
 STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
@@ -174,13 +174,13 @@ def _limits(fleet):
 
 def _paint(scenery):
     """Rectangles on the floor by kind, x y and full extents of each in a row [m]; stations."""
-    marks = looks.marks(scenery)
+    marks = painted.marks(scenery)
     rectangles = {}
     for m in marks:
         rectangles.setdefault(m.kind, []).extend(_short([m.x, m.y, m.size_x, m.size_y]))
     return {
         "paint": rectangles,
-        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in markers.served(marks)],
+        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in painted.served(marks)],
     }
 
 

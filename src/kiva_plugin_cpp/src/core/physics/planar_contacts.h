@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <vector>
+
+#include "core/geometry/rectangle_contacts.h"
+
+namespace kiva {
+
+/// Whether the body can do nothing but slide on the floor and turn on it.
+bool isPlanar(const btRigidBody& body);
+
+/// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points,
+/// halfway up what of their heights they share, wherever outlines come near.
+class PlanarContacts : public btActivatingCollisionAlgorithm {
+ public:
+  /// Two parts that share heights, and where they touch.
+  struct Pair {
+    int a = 0, b = 0;                          ///< Children of the compounds.
+    double height = 0;                         ///< Halfway up what they share, in world [m].
+    btPersistentManifold* manifold = nullptr;  ///< Once they have come near.
+  };
+
+  PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
+                 const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                 std::vector<Pair> pairs, const Rectangle& hull_a, const Rectangle& hull_b);
+  ~PlanarContacts() override;
+
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        const btDispatcherInfo& info, btManifoldResult* result) override;
+  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                 btManifoldResult*) override {
+    return 1;
+  }
+  void getAllContactManifolds(btManifoldArray& manifolds) override;
+
+  /// What a dispatcher is told to use for two compounds: this, or Bullet's own where one of them
+  /// may tip, or has parts that are no upright boxes.
+  struct Creator : btCompoundCompoundCollisionAlgorithm::CreateFunc {
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override;
+  };
+
+ private:
+  std::vector<Pair> pairs_;
+  Rectangle hull_a_, hull_b_;  ///< Of all their parts, in the bodies' frames.
+};
+
+}  // namespace kiva
