@@ -146,17 +146,14 @@ btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrap
   return height;
 }
 
-/// How fast a point of the body within `radius` [m] of its centre may go [m/s].
-btScalar speedOf(const btCollisionObject& object, btScalar radius) {
-  const btRigidBody& body = *btRigidBody::upcast(&object);
-  return body.getLinearVelocity().length() + std::abs(body.getAngularVelocity().z()) * radius;
-}
-
-btScalar radiusOf(const btCollisionObject& object) {
+/// How fast a point of the body may go [m/s].
+btScalar speedOf(const btCollisionObject& object) {
   btVector3 centre;
   btScalar radius;
   object.getCollisionShape()->getBoundingSphere(centre, radius);
-  return centre.length() + radius;
+  const btRigidBody& body = *btRigidBody::upcast(&object);
+  return body.getLinearVelocity().length() +
+         std::abs(body.getAngularVelocity().z()) * (centre.length() + radius);
 }
 
 /// What pressed there in the last step, if something did.
@@ -262,17 +259,13 @@ PlanarContacts::~PlanarContacts() {
 void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
                                       const btCollisionObjectWrapper* b,
                                       const btDispatcherInfo& info, btManifoldResult*) {
+  if (areFarther(kNear, inWorld(a, hull_a_), inWorld(b, hull_b_))) return forget();
   const btCollisionObject &body_a = *a->getCollisionObject(), &body_b = *b->getCollisionObject();
-  const btScalar speed = speedOf(body_a, radiusOf(body_a)) + speedOf(body_b, radiusOf(body_b));
-  const btScalar reach = std::min(kForeseen, kClose + 2 * speed * info.m_timeStep);
-  const bool are_near = !areFarther(kNear, inWorld(a, hull_a_), inWorld(b, hull_b_));
+  const btScalar reach =
+      std::min(kForeseen, kClose + 2 * (speedOf(body_a) + speedOf(body_b)) * info.m_timeStep);
   Rectangle on_a;
   int part = -1;  // of a, whose outline that is
   for (Pair& pair : pairs_) {
-    if (!are_near) {
-      if (pair.manifold) pair.manifold->clearManifold();
-      continue;
-    }
     if (pair.a != part) on_a = partOutline(a, part = pair.a);
     const Rectangle on_b = partOutline(b, pair.b);
     const bool is_near = mayBeWithin(kNear, on_a, on_b);
@@ -284,6 +277,12 @@ void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
     if (!pair.manifold) continue;
     const OutlineContacts contacts = is_near ? findContacts(on_a, on_b, reach) : OutlineContacts();
     setPoints(contacts, pair, a, b);
+  }
+}
+
+void PlanarContacts::forget() {
+  for (Pair& pair : pairs_) {
+    if (pair.manifold) pair.manifold->clearManifold();
   }
 }
 

@@ -46,6 +46,8 @@ class PlanarContacts : public btActivatingCollisionAlgorithm {
   };
 
  private:
+  void forget();
+
   std::vector<Pair> pairs_;
   Rectangle hull_a_, hull_b_;  ///< Of all their parts, in the bodies' frames.
 };
