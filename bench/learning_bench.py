@@ -11,7 +11,8 @@ what it does; without acceleration a tick is a whole cell, as RWARE's step is. A
 among all, as RWARE's are: what is not possible is a wait; `possible`: only among those that are.
 
 RWARE runs on one core, as it comes, this on all: by CPU tells how many times the steps of one core
-are, by wall clock those of this machine, if nothing else runs on it.
+are, by wall clock those of this machine, if nothing else runs on it. Before that: how long resets
+take, and what many worlds gain on all cores.
 """
 
 import argparse
@@ -21,7 +22,7 @@ import time
 import gymnasium
 import numpy as np
 
-import warehouse_learning  # noqa: F401  registers the environments
+import warehouse_learning
 from kiva_plugin_cpp import Worlds
 
 TICK = 2 / 3  # [s]
@@ -85,6 +86,21 @@ def rware(robots):
     return Runner(lambda: env.step(env.action_space.sample()), robots)
 
 
+def reset_time(size, times=100):
+    """CPU time of a reset after five decisions [ms], median."""
+    env = gymnasium.make(f"KivaRobots-{size}-v0").unwrapped
+    env.reset(seed=0)
+    env.action_space.seed(0)
+    taken = []
+    for seed in range(times):
+        for _ in range(5):
+            env.step(env.action_space.sample())
+        begin = time.process_time()
+        env.reset(seed=seed)
+        taken.append(time.process_time() - begin)
+    return 1e3 * np.median(taken)
+
+
 def many_worlds(seconds):
     """(speed-up of 64 worlds of `small` on all cores over one thread, overhead of a call [ms])."""
     rate = {}
@@ -113,6 +129,8 @@ def main():
     print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
     speed_up, overhead = many_worlds(wanted.seconds / 2)
     print(f"64 worlds of small: {speed_up:.2f} x one thread; {overhead:.3f} ms a call at rest")
+    for size in warehouse_learning.SIZES:
+        print(f"a reset of {size}: {reset_time(size):.2f} ms of CPU")
     runners = {
         name: kiva(wanted.worlds, wanted.robots, "possible" in name, **options)
         for name, options in CASES.items()

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The ecosystem's own checks of the environments, with warnings as errors."""
 
-import urllib.request
-
 import numpy as np
 import pytest
 
@@ -23,7 +21,6 @@ from pettingzoo.test import (  # noqa: E402
 
 import warehouse_learning  # noqa: E402
 from warehouse_learning import ActionError, fields  # noqa: E402
-from warehouse_learning.page import Page  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("error")
 TINY = {"size": "tiny"}
@@ -154,6 +151,20 @@ def test_bad_actions_name_the_agent():
             env.step(good | bad)
     with pytest.raises(ActionError, match="robot_3 has no action"):
         env.step({"robot_1": 0, "robot_2": 0})
+    in_turns = turns()
+    in_turns.reset(seed=0)
+    in_turns.step(0)
+    with pytest.raises(ActionError, match="robot_2: action nan"):
+        in_turns.step(np.nan)
+    jointly = gymnasium.make("KivaRobots-tiny-v0").unwrapped
+    jointly.reset(seed=0)
+    for bad, said in (
+        ([0, np.nan, 0], "robot_2 of world 0: action nan"),
+        (["left", "left", "left"], "robot_1 of world 0: action .*left"),
+        ([[0, 0, 0]], r"shape \(3,\) was expected, not \(1, 3\)"),
+    ):
+        with pytest.raises(ActionError, match=said):
+            jointly.step(bad)
     dispatcher = gymnasium.make("KivaWarehouse-tiny-v0").unwrapped
     dispatcher.reset(seed=0)
     with pytest.raises(ActionError, match="dispatcher: action 99"):
@@ -176,14 +187,3 @@ def test_a_dispatcher_that_gives_tasks_gets_units_delivered():
         runs.append(run)
     assert all((a == b).all() for a, b in zip(*runs))
     env.close()
-
-
-def test_the_page_shows_the_newest_picture():
-    page = Page()
-    page.show(np.zeros((4, 6, 3), np.uint8))
-    with urllib.request.urlopen(page.url, timeout=30) as answer:
-        assert b"/stream" in answer.read()
-    with urllib.request.urlopen(page.url + "stream", timeout=30) as answer:
-        start = answer.read(120)
-    assert b"\x89PNG" in start
-    page.close()

@@ -4,14 +4,49 @@
 
 import json
 
+import numpy as np
 import rospy
 import rostest
-from node_test import Listener, wait_until
+from nav_msgs.srv import GetMap
+from node_test import Listener, call, latched, wait_until
 from page_test import PageTest, ask
 
-from warehouse_msgs.msg import CoordinatorState, Scenery
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import SetModelState
+from warehouse_msgs.msg import CoordinatorState, Scenery, WarehouseObjects
+from warehouse_msgs.srv import PickUp
 
 MODE = "document.querySelector('#modes [aria-pressed=\"true\"]')?.dataset.mode"
+
+
+def open_place():
+    """The middle of five by five free cells without a robot [m]."""
+    grid = call("/warehouse/map", GetMap).map
+    info = grid.info
+    free = np.reshape(grid.data, (info.height, info.width)) == 0
+    for row in range(2, info.height - 2):
+        for column in range(2, info.width - 2):
+            if free[row - 2 : row + 3, column - 2 : column + 3].all():
+                origin = info.origin.position
+                return (
+                    origin.x + (column + 0.5) * info.resolution,
+                    origin.y + (row + 0.5) * info.resolution,
+                )
+    raise AssertionError("there is no open place")
+
+
+def put(unit, x, y, tilt=0.0):
+    """Puts a storage unit there, or throws it over."""
+    state = ModelState(model_name=unit, reference_frame="world")
+    state.pose.position.x, state.pose.position.y, state.pose.position.z = x, y, 0.5 * tilt
+    state.pose.orientation.y, state.pose.orientation.w = np.sin(tilt / 2), np.cos(tilt / 2)
+    answer = call("/gazebo/set_model_state", SetModelState, state)
+    assert answer.success, answer.status_message
+
+
+def name_of(index):
+    """JavaScript for an item's name."""
+    return f"page.world.scene.items[{index}]"
 
 
 class FleetPage(PageTest):
@@ -83,6 +118,35 @@ class FleetPage(PageTest):
         )
         self.page.driver.find_element("css selector", "[data-mode=AUTOMATIC]").click()
         self.page.until(f"{MODE} === 'AUTOMATIC'")
+
+    def test_items_that_fell_are_seen_and_picked_up(self):
+        """Off a unit that is thrown over where nothing else stands."""
+        unit, (x, y) = "storage_unit7", open_place()
+        put(unit, x, y, tilt=0.7)
+        fell = latched("/warehouse/objects", WarehouseObjects, lambda told: told.fallen_item)
+        item = fell.items[fell.fallen_item[0]]
+        self.assertEqual(fell.storage_units[fell.fallen_from[0]], unit)
+        self.state.until(lambda s: f"{item} lies on the floor, off {unit}" in s.alarms)
+        self.page.until(f"document.getElementById('alarms').textContent.includes('{item}')")
+        self.page.until(f"document.getElementById('labels').textContent.includes('{item}')")
+        self.page.until(
+            f"[...document.querySelectorAll('#events [data-trouble]')]"
+            f".some((line) => line.textContent.includes('{item}'))"
+        )
+        self.page.read(f"page.select('{item}')")
+        self.page.until("document.getElementById('facts').textContent.includes('fell off')")
+        self.page.click_on("pick-up")
+        self.page.until("document.getElementById('tip').textContent.includes('upright')")
+        self.assertIn("does not stand upright", call("/warehouse/pick_up", PickUp, item).message)
+        put(unit, x, y)
+        self.page.click_on("pick-up")
+        self.page.until(f"!page.world.scene.fallen_item.some((i) => {name_of('i')} === '{item}')")
+        self.page.until("document.getElementById('facts').textContent.includes('lies on')")
+        self.assertEqual(call("/warehouse/pick_up", PickUp, "").message, "")
+        latched("/warehouse/objects", WarehouseObjects, lambda told: not told.fallen_item)
+        self.state.until(lambda s: not s.alarms)
+        refused = ask("/items/1/pick_up", {})
+        self.assertEqual((refused[0], "no 'item1' has fallen" in refused[1]["detail"]), (409, True))
 
     def test_what_is_refused_says_why(self):
         for path, body, status, text in (

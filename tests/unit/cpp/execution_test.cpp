@@ -280,6 +280,25 @@ TEST_F(ExecutionTest, NobodyTurnsBesideALoadThatIsShortOfTheMiddleOfItsCell) {
   EXPECT_EQ(execution_.released(second).back(), cell(1, 2));
 }
 
+TEST_F(ExecutionTest, ALoadIsNotTurnedBesideOneThatStandsAskew) {
+  const int askew = add(2, 3), driving = add(1, 2);
+  robots_[askew].x = 2.3;
+  robots_[askew].yaw = 0.3;
+  reports_[askew].is_controlled = false;
+  reports_[driving].is_loaded = true;
+  observe();
+  std::vector<Action> around{Action::kForward, Action::kTurnNegative, Action::kForward};
+  around.resize(8, Action::kWait);
+  plan({around});
+  for (int i = 0; i < 30; ++i) tick();
+  EXPECT_EQ(execution_.released(driving), std::vector<Cell>{cell(2, 2)});
+  EXPECT_EQ(execution_.fleet({0, 0}, {-1, -1}, 8).tight, std::vector<Cell>{cell(2, 2)});
+  robots_[askew].x = 2;
+  robots_[askew].yaw = 0;
+  tick();
+  EXPECT_EQ(execution_.released(driving).back(), cell(2, 1));
+}
+
 TEST_F(ExecutionTest, OneThatHasBecomeBusySinceItsReportIsNotSentOn) {
   add(1, 1);
   observe();
@@ -414,6 +433,26 @@ TEST_F(ExecutionTest, OneThatWasPushedHoldsBothCellsAndDrivesBackFirst) {
   observe();
   EXPECT_TRUE(execution_.stands(robot));
   EXPECT_EQ(execution_.holder(cell(4, 3)), -1);
+}
+
+TEST_F(ExecutionTest, OneThatWasPushedKeepsItsRoomBetweenTwoAttempts) {
+  const int robot = add(4, 3);
+  observe();
+  robots_[robot].x = 4.3;
+  robots_[robot].yaw = 0.3;
+  observe();
+  ASSERT_EQ(release().size(), 1u);
+  execution_.refused(robot);
+  for (int i = 0; i < 30; ++i) {
+    now_ += kTick;
+    observe();
+    EXPECT_EQ(execution_.holder(cell(5, 4)), robot) << now_;
+    if (!release().empty()) execution_.refused(robot);
+  }
+  now_ += 30;
+  observe();
+  ASSERT_TRUE(execution_.isLost(robot));
+  EXPECT_EQ(execution_.holder(cell(5, 4)), -1);
 }
 
 TEST_F(ExecutionTest, OneThatIsTakenAwayKeepsItsPathUntilThatIsOver) {

@@ -93,6 +93,75 @@ TEST(Epibt, DrivesAroundADeadRobotAndAClosedCell) {
   }
 }
 
+TEST(Epibt, TurnsNoLoadWhereThereIsNoRoom) {
+  const Floor floor(drawn({".....", ".###.", "....."}));
+  const Cell corner = 4, goal = 9;
+  for (const bool is_loaded : {false, true}) {
+    const auto planner = makeEpibt();
+    planner->start(floor, {}, 1);
+    Fleet fleet;
+    fleet.cell = {0};
+    fleet.heading = {0};
+    fleet.goal = {goal};
+    fleet.loaded = {is_loaded};
+    fleet.tight = {corner};
+    Plan plan;
+    int ticks = 0;
+    for (; fleet.cell[0] != goal && ticks < 100; ++ticks) {
+      planner->plan(fleet, {}, plan);
+      const State state = after(floor, {fleet.cell[0], fleet.heading[0]}, plan.at(0, 0));
+      fleet.cell[0] = state.cell;
+      fleet.heading[0] = state.heading;
+    }
+    EXPECT_EQ(ticks, is_loaded ? 1 + 2 + 1 + 4 + 1 + 1 : 4 + 1 + 1);
+  }
+}
+
+TEST(Epibt, LetsInWhoWaitsBesideAStream) {
+  // One street downwards, on which robots follow each other and begin anew; one comes from aside.
+  constexpr int kLength = 61, kMiddle = 30;
+  FloorDescription street;
+  street.width = 2;
+  street.height = kLength;
+  const auto at = [](int x, int y) { return y * 2 + x; };
+  street.passable.assign(2 * kLength, 0);
+  street.exits.assign(2 * kLength, 1 << 1);
+  Fleet fleet;
+  for (int y = 0; y < kLength; ++y) {
+    street.passable[at(1, y)] = 1;
+    if (y % 2 == 0 && y < kLength - 2) fleet.cell.push_back(at(1, y));
+  }
+  street.passable[at(0, kMiddle)] = street.exits[at(0, kMiddle)] = 1;
+  const Floor floor(street);
+  fleet.goal.assign(fleet.cell.size(), at(1, kLength - 1));
+  fleet.cell.push_back(at(0, kMiddle));
+  fleet.goal.push_back(at(1, kLength - 2));
+  fleet.heading.assign(fleet.cell.size(), 1);
+  const auto isFree = [&](Cell cell) {
+    return std::count(fleet.cell.begin(), fleet.cell.end(), cell) == 0;
+  };
+  EpibtOptions braking;
+  braking.turn_ticks = 2;
+  const auto planner = makeEpibt(braking);
+  planner->start(floor, {}, 1);
+  Plan plan;
+  int ticks = 0;
+  for (; fleet.cell.back() == at(0, kMiddle) && ticks < 100; ++ticks) {
+    planner->plan(fleet, {}, plan);
+    for (int robot = 0; robot < fleet.size(); ++robot) {
+      const State state =
+          after(floor, {fleet.cell[robot], fleet.heading[robot]}, plan.at(robot, 0));
+      fleet.cell[robot] = state.cell;
+      fleet.heading[robot] = state.heading;
+    }
+    for (int robot = 0; robot + 1 < fleet.size(); ++robot) {
+      const bool is_through = fleet.cell[robot] >= at(0, kLength - 4);
+      if (is_through && isFree(at(1, 0)) && isFree(at(1, 1))) fleet.cell[robot] = at(1, 0);
+    }
+  }
+  EXPECT_LT(ticks, 15);
+}
+
 TEST(Epibt, DrivesAroundOneThatRestsWhereItWasToGo) {
   const std::vector<std::string> rows(3, "............");
   const Floor floor(drawn(rows));

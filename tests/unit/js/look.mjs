@@ -19,7 +19,8 @@ export const UNIT = [{ name: 'shelf', pose: AT(), shapes: [box([0.8, 0.8, 1.4], 
 export function scene() {
   return {
     revision: 1, robots: [1, 7], units: ['storage_unit3', 'storage_unit12'], items: ['item1', 'item2'],
-    item_unit: [0, 1], item_pose: [...AT(0.2, 0, 0.5), ...AT(0.2, 0, 0.5)], floor: [-5, 5, -5, 5], grid: 1,
+    item_unit: [0, 1], item_pose: [...AT(0.2, 0, 0.5), ...AT(0.2, 0, 0.5)],
+    fallen_item: [], fallen_from: [], floor: [-5, 5, -5, 5], grid: 1,
     looks: [ROBOT, UNIT], robot_look: 0, unit_look: 1, item_look: -1, scenery: ['conveyor_belt1'],
     scenery_look: [1],
   };

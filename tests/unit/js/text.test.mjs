@@ -59,7 +59,7 @@ test('a scan spans triangles from the laser on its robot', () => {
 });
 
 test('an update is read as it was written', () => {
-  const bytes = new ArrayBuffer(40 + 24 + 36);
+  const bytes = new ArrayBuffer(40 + 28 + 36);
   const view = new DataView(bytes);
   [1, 5].forEach((x, i) => view.setUint32(4 * i, x, true));
   view.setFloat64(8, 12.5, true);
@@ -67,10 +67,12 @@ test('an update is read as it was written', () => {
   view.setUint32(40, 2, true);
   view.setFloat32(44, 1.5, true);
   view.setUint8(60, 2);
-  view.setUint32(64, 8, true);
-  view.setInt32(96, 7, true);
+  view.setFloat32(64, 3.25, true);
+  view.setUint32(68, 8, true);
+  view.setInt32(100, 7, true);
   const { tick, stamp, revision, robots, units, loose } = decode(bytes);
   assert.deepEqual([tick, stamp, revision], [5, 12.5, 3]);
-  assert.deepEqual([robots.count, robots.i32[0], robots.f32[1], robots.u8[20]], [1, 2, 1.5, 2]);
+  assert.deepEqual([robots.count, robots.i32[0], robots.f32[1], robots.u8[20], robots.f32[6]],
+    [1, 2, 1.5, 2, 3.25]);
   assert.deepEqual([units.count, units.i32[0], units.i32[8], loose.count], [1, 8, 7, 0]);
 });

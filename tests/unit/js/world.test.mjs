@@ -6,9 +6,9 @@ import { beforeEach, test } from 'node:test';
 import { World, within, wrapped } from '../../../src/warehouse_sim/web/js/world.js';
 import { AT, scene, table } from './look.mjs';
 
-const BODY = 9, ROBOT = 6;
+const BODY = 9, ROBOT = 7;
 const bodies = (...rows) => table(rows, BODY, [0, 8]);
-const robots = (...rows) => table(rows, ROBOT, [0, 4, 5]); // index x y yaw shelf status|state<<8
+const robots = (...rows) => table(rows.map((row) => [...row, 0]), ROBOT, [0, 4, 5]); // index x y yaw shelf status|state<<8
 let world;
 
 function tell(now, { robot = [], unit = [] } = {}) {

@@ -9,7 +9,7 @@ from fake_ros import FakeRos
 from geometry_msgs.msg import Pose
 from nav_msgs.srv import GetMapResponse
 
-from warehouse_sim import models, poses
+from warehouse_sim import models, poses, tracking
 
 
 class FakeWorld(FakeRos):
@@ -84,7 +84,7 @@ class FakeWorld(FakeRos):
 
 def _pose(text):
     x, y, z, _, _, yaw = map(float, text.split())
-    pose = poses.message(poses.planar(x, y, yaw))
+    pose = tracking.message(poses.planar(x, y, yaw))
     pose.position.z = z
     return pose
 

@@ -9,7 +9,9 @@ import pytest
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.traffic import NOWHERE
 from warehouse_fleet.transports import STAY, Kind, Step
 
 EXAMPLES = pathlib.Path(__file__).parents[3] / "src/warehouse_fleet/examples"
@@ -146,6 +148,24 @@ def test_who_queues_is_not_stuck_however_long_a_service_takes(drive):
         # There is time to move up when the service ends, before the watchdog counts it.
         assert traffic.stuck_for[behind] < 10
     assert traffic.plan.lane.flat[traffic.cell[behind]]
+
+
+def test_who_only_waits_leaves_its_place_to_who_fetches_the_unit_there(drive):
+    world = World.preset("small")
+    plan = FloorPlan.of_world(world)
+    streets = plan.passable & ~plan.storage & ~plan.parking & ~plan.lane
+    world.set_pose("kiva1", *plan.point_of(int(np.flatnonzero(streets)[20])), 0, 0)
+    driver = drive(world)
+    transports, traffic = driver.transports, driver.traffic
+    waits, fetches = 0, 1
+    driver.step()
+    cell = int(traffic.goal[waits])
+    unit = next(shelf for shelf, at in transports.cell_of_unit.items() if at == cell)
+    transports.match_robots = lambda asked, free: [(asked[0], fetches)]
+    transports.submit(unit, driver.stations[0].name)
+    driver.step()
+    assert traffic.goal[fetches] == cell
+    assert traffic.goal[waits] not in (cell, NOWHERE)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from kiva_plugin_cpp import World
 from warehouse_fleet import floor_markings
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
-from warehouse_sim import looks, markers
+from warehouse_sim import markers, painted
 from warehouse_sim.drawing import Drawing, Moment
 from warehouse_sim.viewer.model import Model
 
@@ -64,7 +64,7 @@ def test_messages_tell_the_same_floor_plan_as_the_world(world, scenery):
 
 
 def test_rviz_shows_paint_in_few_triangles_and_names_stations(world, scenery):
-    marks = looks.marks(scenery)
+    marks = painted.marks(scenery)
     paint, *names = markers.paint(marks)
     assert {name._marker.text for name in names} == {"pick1", "pick2", "replenish1"}
     assert len(paint.points) == 6 * len(marks)

@@ -8,7 +8,7 @@ import pytest
 import uvicorn
 from asgi import echo
 
-from warehouse_sim.viewer import app
+from warehouse_sim.viewer import app, connections
 from warehouse_sim.viewer.connections import BoundedConnection
 
 PATIENCE = 20  # of this test with the server [s, wall]
@@ -25,7 +25,7 @@ def serving(visit, application=echo):
     """Runs visit(server, connect) with a server at its side."""
 
     async def run():
-        listener = app.listen("127.0.0.1", 0)
+        listener = connections.listen("127.0.0.1", 0)
         server = Server(app.config_of(application))
         task = asyncio.create_task(server.serve(sockets=[listener]))
         port = listener.getsockname()[1]

@@ -11,6 +11,7 @@ from std_msgs.msg import Header
 from test_viewer_model import World, fleet, rows
 
 from warehouse_msgs.msg import Event, FleetPaths
+from warehouse_sim.viewer import catalogue
 from warehouse_sim.viewer import hub as hub_module
 from warehouse_sim.viewer.commander import Commander
 from warehouse_sim.viewer.hub import IN_FLIGHT, Hub, Page, paths_of
@@ -32,7 +33,7 @@ class Socket:
 
 def hub_of(world, journal=None):
     feed = SimpleNamespace(want=lambda paths, ways, scans: None, coordinator=None)
-    return Hub(feed, world.model, journal or Journal(), None)
+    return Hub(feed, world.model, journal or Journal(), None, catalogue.coordinator)
 
 
 async def settle():
@@ -143,7 +144,11 @@ def test_events_come_once():
     async def scenario():
         journal, socket, world = Journal(), Socket(), World()
         hub, page = hub_of(world, journal), Page(socket, 0)
-        journal.add(Event(header=Header(stamp=rospy.Time(2)), kind=Event.DONE, model="kiva1"))
+        journal.add(
+            catalogue.event(
+                Event(header=Header(stamp=rospy.Time(2)), kind=Event.DONE, model="kiva1")
+            )
+        )
         await hub._send_news(page)
         await hub._send_news(page)
         (text,) = socket.texts
@@ -155,7 +160,7 @@ def test_events_come_once():
 def test_the_journal_keeps_the_last():
     journal = Journal(kept=3)
     for kind in (Event.ACCEPTED, Event.DONE, Event.ACCEPTED, Event.BLOCKED):
-        journal.add(Event(kind=kind, model="kiva1", other="wall1"))
+        journal.add(catalogue.event(Event(kind=kind, model="kiva1", other="wall1")))
     assert [e["id"] for e in journal.since(0)] == [2, 3, 4]
     assert [e["kind"] for e in journal.since(3)] == ["BLOCKED"]
     assert journal.since(4) == []

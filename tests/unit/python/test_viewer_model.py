@@ -16,6 +16,7 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
+from warehouse_sim import statuses
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.table import Table
@@ -23,7 +24,7 @@ from warehouse_sim.viewer.table import Table
 HEAD = 40  # bytes before the rows of an update
 
 
-def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, ended=()):
+def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, ended=(), limit=()):
     n = len(x)
     return FleetState(
         rospy.Time(stamp),
@@ -41,6 +42,7 @@ def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, 
         bytes(ended) or bytes(n),
         bytes(n),
         [1.0] * n,  # charge
+        list(limit),
     )
 
 
@@ -104,6 +106,11 @@ def test_a_newcomer_gets_all_and_then_what_changed():
     assert rows(world.model.update(world.model.tick)) == [0, 0, 0, 0]
 
 
+def test_statuses_are_numbered_as_in_messages():
+    assert statuses.BLOCKED == KivaStatus.STATUS_BLOCKED
+    assert statuses.ENDED_BLOCKED == Event.BLOCKED
+
+
 def test_nothing_new_is_no_update():
     world = World()
     world.turn()
@@ -126,11 +133,32 @@ def test_bytes_are_as_described():
     world = World()
     world.turn(fleet=fleet(x=(2.5, 1.0), shelf=(7, 0), stamp=4.0))
     update = world.model.update(-1)
-    assert len(update) == HEAD + 2 * 24 + 3 * 36
+    assert len(update) == HEAD + 2 * 28 + 3 * 36
     assert np.frombuffer(update, "<u4", 2).tolist() == [protocol.UPDATE, 1]
     assert np.frombuffer(update, "<f8", 1, 8)[0] == 4.0
     first = np.frombuffer(update, protocol.ROBOT, 1, HEAD)[0]
     assert (first["index"], first["x"], first["shelf"]) == (0, 2.5, 7)
+
+
+def test_the_limit_that_a_robot_keeps_for_its_load():
+    world = World()
+    world.turn(fleet=fleet(limit=(3.0, math.inf)))
+    assert world.model.robots.rows["load_limit"].tolist() == [3, 0]
+    world.turn(fleet=fleet())  # loads are ideal
+    assert world.model.robots.rows["load_limit"].tolist() == [0, 0]
+
+
+def test_an_item_that_fell_lies_where_it_is_told():
+    world = World()
+    world.turn()
+    fallen = objects()
+    fallen.item_unit, fallen.fallen_item, fallen.fallen_from = [-1], [0], [0]
+    lies = states()
+    lies.loose_item, lies.loose_pose = [0], [3, 4, 0, 0, 0, 0, 1]
+    assert world.turn(objects=fallen, states=lies)
+    assert world.model.loose.rows[0]["pose"][:2].tolist() == [3, 4]
+    scene = world.model.scene()
+    assert (scene["item_unit"], scene["fallen_item"], scene["fallen_from"]) == ([-1], [0], [0])
 
 
 def test_a_carried_unit_costs_nothing_while_it_is_driven():

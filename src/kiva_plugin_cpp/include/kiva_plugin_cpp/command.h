@@ -68,8 +68,11 @@ struct Event {
     kLost = 9,     ///< A robot no longer knows where it is, and stops.
     kFailed = 10,  ///< Something in a robot is broken.
     kRepaired = 11,
-    kTipped = 12  ///< A storage unit tips off the robot that carries it.
+    kTipped = 12,   ///< A storage unit tips off the robot that carries it.
+    kFell = 13,     ///< An item falls off its storage unit.
+    kPickedUp = 14  ///< One that fell is back on it.
   };
+  static constexpr int kKinds = static_cast<int>(Kind::kPickedUp) + 1;
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;
   std::string model;

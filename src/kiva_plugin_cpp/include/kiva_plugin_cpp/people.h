@@ -29,7 +29,8 @@ struct Person {
   std::string name;
   double x = 0, y = 0, yaw = 0;     ///< [m, rad]
   double vx = 0, vy = 0;            ///< [m/s]
-  double ahead_x = 0, ahead_y = 0;  ///< Where they are to be within kForesight, straight on [m].
+  double ahead_x = 0, ahead_y = 0;  ///< Where they are to be within kForesight, straight on, and
+                                    ///< if they wait now, want to be [m].
 };
 
 /// How far ahead Person::ahead_x looks [s].

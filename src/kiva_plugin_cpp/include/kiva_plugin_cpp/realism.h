@@ -78,16 +78,23 @@ struct FloorRealism {
   }
 };
 
-/// Loads stand on the robot's plate, and tip over its edge where it brakes too hard.
+/// Loads stand on the robot's plate, and tip over its edge where it brakes too hard. Items stand on
+/// the boards of their storage unit, and slide off where it is hit hard enough, or tips.
 struct LoadRealism {
   bool enabled = false;
   /// Share of the acceleration at which its load would tip that a robot plans with; from 1 on it
   /// takes no care.
   double tipping_share = 0.7;
+  double item_friction_least = 0.3;  ///< Coulomb coefficient of an item on its board, evenly
+  double item_friction_most = 0.5;   ///< distributed between these.
+  double pick_up_after = 300;  ///< An item lies on the floor until somebody comes [s]; 0: nobody.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
     field("tipping_share", s.tipping_share, 0.05, 100);
+    field("item_friction_least", s.item_friction_least, 0, 10);
+    field("item_friction_most", s.item_friction_most, 0, 10);
+    field("pick_up_after", s.pick_up_after, 0, 1e6);
   }
 };
 

@@ -66,6 +66,13 @@ struct Item {
   double mass = 0;          ///< [kg]
 };
 
+/// An item that fell off its storage unit, and belongs back there.
+struct FallenItem {
+  std::string name;
+  std::string unit;  ///< Its storage unit's name.
+  Pose pose;         ///< In world.
+};
+
 /// The floor that robots may stand on: a rectangle along the axes of `world` [m].
 struct Floor {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
@@ -210,6 +217,14 @@ class World {
   bool removeLightCurtain(const std::string& name);
   const std::vector<LightCurtain>& lightCurtains() const;
 
+  // --- fallen items
+  /// In the order in which they fell.
+  std::vector<FallenItem> fallenItems() const;
+  /// Somebody picks that item up, and puts it back in its place on its storage unit: PICKED_UP.
+  /// Throws std::invalid_argument, with nothing changed, if it did not fall, or its unit does not
+  /// stand upright.
+  void pickUp(const std::string& item);
+
   // --- models
   /// Throws DescriptionError, with nothing changed, if the name is taken or unfit ("entity already
   /// exists"), a plugin is unknown or a parameter is wrong. Never half a model.
@@ -279,6 +294,9 @@ class World {
   /// Where the robot believes to be, which it drives by: (x, y, yaw) in world [m, rad], yaw
   /// unwrapped. Where it is, unless localisation is real.
   Vector3 believedPose(int robot) const;
+  /// What the robot keeps its acceleration below so that its load does not tip [m/s²]; +inf without
+  /// a load, or where loads are ideal.
+  double loadLimit(int robot) const;
   Pose basePose(int robot) const;  ///< Of the chassis on the floor, in world.
   /// Counts up whenever a storage unit, or an item that lies on none, moved or changed hands.
   std::uint64_t unitsRevision() const;

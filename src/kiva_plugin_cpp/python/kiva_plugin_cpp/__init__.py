@@ -104,6 +104,8 @@ class EventKind(IntEnum):
     FAILED = 10
     REPAIRED = 11
     TIPPED = 12
+    FELL = 13
+    PICKED_UP = 14
 
 
 class FailureKind(IntEnum):

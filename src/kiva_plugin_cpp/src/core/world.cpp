@@ -15,13 +15,16 @@
 #include "core/control/commands.h"
 #include "core/control/energy.h"
 #include "core/control/failures.h"
+#include "core/control/falling.h"
 #include "core/control/protective_fields.h"
 #include "core/control/radio.h"
 #include "core/control/reports.h"
 #include "core/control/tipping.h"
 #include "core/control/walking.h"
+#include "core/models/items.h"
 #include "core/models/models.h"
 #include "core/models/user_plugins.h"
+#include "core/motion/drives.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/ground.h"
 #include "core/motion/joints.h"
@@ -174,6 +177,7 @@ void World::step() {
   sense(world);
   observeCollisions(world);
   swayLoads(world);
+  dropItems(world);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.dt); });
 }
 
@@ -214,6 +218,7 @@ void World::reset(bool time_too) {
   WorldState& world = *state_;
   forgetContacts(world, -1);
   world.crashes.clear();
+  putAllBack(world);
   for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
@@ -263,6 +268,9 @@ bool World::removeLightCurtain(const std::string& name) {
   return kiva::removeLightCurtain(*state_, name);
 }
 const std::vector<LightCurtain>& World::lightCurtains() const { return state_->curtains; }
+
+std::vector<FallenItem> World::fallenItems() const { return fallenIn(*state_); }
+void World::pickUp(const std::string& item) { kiva::pickUp(*state_, item); }
 
 void World::spawn(const ModelInstance& instance) {
   spawnModel(*state_, instance);
@@ -320,6 +328,8 @@ bool World::setState(const std::string& model, const EntityState& state) {
   Model* found = state_->find(model);
   if (!found) return false;
   placeModel(*state_, *found, state);
+  const int robot = found->owner->robot(*state_, *found);
+  if (robot >= 0) knowWhereabouts(*state_, robot);
   return true;
 }
 
@@ -454,6 +464,7 @@ Vector3 World::believedPose(int robot) const {
   const PlanarPose at = state_->fleet.believed(robot);
   return {at.x, at.y, at.yaw};
 }
+double World::loadLimit(int robot) const { return kiva::loadLimit(*state_, robot); }
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
 std::uint64_t World::unitsRevision() const { return state_->units_revision; }
 const Floor& World::floor() const { return state_->floor; }
@@ -526,6 +537,7 @@ void World::restore(const std::string& checkpoint) {
 std::vector<Event> World::takeEvents() {
   std::vector<Event> out;
   out.swap(state_->events);
+  state_->events.reserve(out.size());  // as many may follow
   return out;
 }
 

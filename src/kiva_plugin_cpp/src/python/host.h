@@ -55,6 +55,7 @@ py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 
 void definePeople(py::class_<Host, HostPtr>& world);
+void defineFallenItems(py::class_<Host, HostPtr>& world);
 void defineWorlds(py::module_& m);
 
 }  // namespace kiva::python

@@ -17,6 +17,7 @@
 
 #include "arrays.h"
 #include "host.h"
+#include "kiva_plugin_cpp/look.h"
 
 namespace kiva::python {
 namespace {
@@ -475,6 +476,11 @@ py::array_t<ItemRow> items(Host& host) {
   return out;
 }
 
+template <typename T>
+py::array copyOf(const std::vector<T>& values) {
+  return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
 /// Of all links, in the model's order.
 py::list visualsOf(Host& host, const std::string& name) {
   const auto lock = host.use();
@@ -490,6 +496,21 @@ py::list visualsOf(Host& host, const std::string& name) {
           py::make_tuple(size.X(), size.Y(), size.Z())));
     }
   }
+  return out;
+}
+
+py::dict lookOfModel(Host& host, const std::string& name) {
+  const auto lock = host.use();
+  checkModel(host, name);
+  const Look look = lookOf(*host.world.description(name));
+  py::dict out;
+  out["links"] = look.links;
+  out["link_pose"] = copyOf(look.link_pose);
+  out["shape_link"] = copyOf(look.shape_link);
+  out["shape_kind"] = copyOf(look.shape_kind);
+  out["shape_pose"] = copyOf(look.shape_pose);
+  out["shape_size"] = copyOf(look.shape_size);
+  out["shape_colour"] = copyOf(look.shape_colour);
   return out;
 }
 
@@ -747,6 +768,10 @@ A single one can be given a name and a place, (x, y, z, yaw) in world [m, rad]. 
 
 The pose is x y z [m] qx qy qz qw, the size a box's edges [m] (0 of other shapes). KeyError if there
 is none of that name.)");
+  world.def(
+      "look", &lookOfModel, py::arg("name"),
+      R"(What a model looks like, as a dict of arrays of the names, and the layout, of the fields of
+warehouse_msgs/Look. KeyError if there is none of that name.)");
   world.def("occupancy", &occupancyOf, R"(What is in the way on the floor: (x, y, spacing, cells).
 
 cells: (rows along y, columns along x) uint8, 0 free, 50 a storage unit, 99 a belt, 100 taken by
@@ -808,6 +833,7 @@ CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)
                               }),
                               "(min_x, max_x, min_y, max_y) in world [m].");
   definePeople(world);
+  defineFallenItems(world);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ none, and for places that are not finite or off the floor.)");
   world.def_property_readonly(
       "people", &people,
       R"(Who is there: rows by name, of x, y [m], yaw [rad], vx, vy [m/s] in world, and ahead_x, ahead_y,
-where each is to be within 3 s, straight on.)");
+where each is to be within 3 s, straight on; who waits now, wants to be.)");
   world.def("set_light_curtain", &setLightCurtain, py::arg("name"), py::arg("area") = py::none(),
             R"(While somebody is in `area`, (min_x, max_x, min_y, max_y) [m], robots in it stand.
 

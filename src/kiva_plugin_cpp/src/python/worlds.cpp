@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <mutex>
 
@@ -21,7 +20,7 @@ namespace kiva::python {
 namespace {
 
 constexpr std::int64_t kStepsBetweenSignals = 256;
-constexpr std::size_t kKinds = 10;  // of events
+constexpr std::size_t kKinds = Event::kKinds;
 
 /// The robots of all worlds; rows are worlds.
 struct FleetRows {
@@ -349,7 +348,8 @@ class Worlds {
   }
 
   /// In any order, on all threads.
-  void forEach(std::size_t count, const std::function<void(std::size_t)>& job) {
+  template <typename Job>
+  void forEach(std::size_t count, const Job& job) {
     workers_.share(static_cast<int>(count), 1, [&](int begin, int end) {
       for (int i = begin; i < end; ++i) job(static_cast<std::size_t>(i));
     });
@@ -443,8 +443,8 @@ A read-only view, current until the next call.)");
       "(n, robots) int32: the storage unit that each carries, 0 = none. A view.");
   worlds.def_property_readonly(
       "counts", &Worlds::counts,
-      "(n, robots, 10) uint32: events of each EventKind about each robot in the last step(). A "
-      "view.");
+      "(n, robots, kinds) uint32: events of each EventKind, by its value, about each robot in the "
+      "last step(). A view.");
 }
 
 }  // namespace kiva::python

@@ -30,6 +30,7 @@
 #include "ros/services/people_services.h"
 #include "ros/services/performance_topic.h"
 #include "ros/services/physics_services.h"
+#include "ros/services/pick_up_service.h"
 #include "ros/services/simulation_services.h"
 #include "ros/services/spawn_services.h"
 #include "ros/services/state_services.h"
@@ -115,6 +116,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   MapService map_service(root, simulation);
   FailureService failure_service(root, simulation);
   PeopleServices people_services(root, simulation, settings.model_paths);
+  PickUpService pick_up_service(root, simulation);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.
   CheckpointServices checkpoints(
       saving.node(), simulation,

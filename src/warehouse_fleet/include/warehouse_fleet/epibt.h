@@ -20,6 +20,7 @@ struct EpibtOptions {
   int revisits = 10;   ///< how often one robot may be moved aside for another
   int pushes = 400;    ///< how many robots may be moved aside to find one robot's operation
   int exchanges = 40;  ///< the same in the search for something better
+  int patience = 30;   ///< ticks in a cell after which others make way for a robot
   /// A goal is where it stops (for a lift, say); else to have passed it is enough.
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept

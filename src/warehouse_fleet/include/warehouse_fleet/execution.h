@@ -87,6 +87,9 @@ class Execution {
   void setZone(std::vector<Cell> cells);
   /// Nobody may enter it until `until` [s].
   void close(Cell cell, double until);
+  /// Something lies in a cell that robots don't see: who was released it stops before it, if it
+  /// can.
+  void recall(Cell cell);
   /// Whether a cell is closed by that, or because a robot found something in its way there: look
   /// whether it stands there still.
   bool isClosing() const;
@@ -200,6 +203,9 @@ class Execution {
   bool needs(int robot) const;
   bool mayTurn(int robot) const;
   bool keepsFromTurning(int robot, Cell in, Cell from) const;
+  void findTight();
+  bool isAskew(int robot) const;
+  bool isInReach(int robot, Cell cell) const;
   void extend(int robot);
   void recentre(int robot);
   Cell refuge(int robot) const;
@@ -232,6 +238,7 @@ class Execution {
   std::vector<int> next_claim_;
   std::vector<double> closed_until_;  ///< by cell [s]
   std::vector<Cell> units_;
+  std::vector<Cell> tight_;  ///< where a load that is turned would touch one askew; sorted
   std::vector<std::uint8_t> broken_;
   std::vector<Cell> closing_;  ///< cells that are, or were
   std::vector<Cell> zone_;

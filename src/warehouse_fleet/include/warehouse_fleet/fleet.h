@@ -49,6 +49,7 @@ struct Fleet {
   int committed_ticks = 0;
   std::vector<Cell> closed;  ///< cells that nobody may enter now
   std::vector<Cell> units;   ///< cells of the aisles where a unit stands: not for loaded robots
+  std::vector<Cell> tight;   ///< cells where a load has no room to turn, but may pass
 
   static constexpr std::uint8_t kFree = 0xff;
 

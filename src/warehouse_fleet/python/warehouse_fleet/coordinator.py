@@ -249,6 +249,7 @@ class Coordinator:
             self._end_paths(report, time)
         traffic.observe(time, report)
         traffic.see_people(self._people)
+        traffic.see_fallen(len(self._objects.fallen_item))
         if traffic.wants_map:
             self._see_map()
         transports.advance(report)
@@ -447,6 +448,11 @@ class Coordinator:
         state.alarms += [
             f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
             for kiva in traffic.kiva_ids[traffic.lost].tolist()
+        ]
+        objects = self._objects
+        state.alarms += [
+            f"{objects.items[item]} lies on the floor, off {objects.storage_units[unit]}"
+            for item, unit in zip(objects.fallen_item, objects.fallen_from)
         ]
         if traffic.alarm:
             state.alarms.append(traffic.alarm)

@@ -85,6 +85,7 @@ class IdealFleet:
         self.time = 0.0
         self.distance_m = 0.0
         self.collisions = self.blocked = self.watchdog = self.stuck = 0
+        self.fallen_items = ()
         self.plan_ms = []
         self.executed_over_planned = 1.0
         self.robot_seconds = dict.fromkeys(ACTIVITIES, 0.0)

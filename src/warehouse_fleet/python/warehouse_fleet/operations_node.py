@@ -181,13 +181,21 @@ class Warehouse:
             plan,
             dict(zip(robots.kiva_id, plan.cell_of(robots.x, robots.y).tolist())),
             dict(zip(units, self._unit_cells(plan))),
-            [
-                (item, units[unit])
-                for item, unit in zip(self.objects.items, self.objects.item_unit)
-                if unit >= 0
-            ],
+            [(item, units[unit]) for item, unit in self._homes() if unit >= 0],
             rospy.get_param("/warehouse/name", ""),
         )
+
+    def _homes(self):
+        """(item, index of the unit on which it belongs; -1 = on none)."""
+        objects, unit_of = self.objects, list(self.objects.item_unit)
+        for item, unit in zip(objects.fallen_item, objects.fallen_from):
+            unit_of[item] = unit
+        return zip(objects.items, unit_of)
+
+    @property
+    def fallen_items(self):
+        """Those that lie on the floor, by name."""
+        return [self.objects.items[item] for item in self.objects.fallen_item]
 
     def standing(self, plan):
         """The cells of the units that nobody carries, by id."""
@@ -297,6 +305,7 @@ class OperationsNode:
     def _step(self, now):
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
+        self._shift.fallen.see(self._warehouse.fallen_items)
         self._shift.advance(now)
         self._tell_changes(now)
         if now >= self._next_stations:

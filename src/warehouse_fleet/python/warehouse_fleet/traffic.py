@@ -28,7 +28,10 @@ from warehouse_fleet.people import zone_around
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
-GUIDANCE = {"turn_ticks": 2, "crowd": 10, "resting": 8, "at_lanes": 1, "memory": 50}  # measured
+GUIDANCE = {  # measured
+    **{"turn_ticks": 2, "crowd": 10, "resting": 8, "at_lanes": 1, "memory": 50},
+    "patience": 15,
+}
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
 STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
@@ -134,6 +137,7 @@ class Traffic:
         self._next_look = self._obstructed_until = 0.0
         self._units = np.zeros(0, np.int32)
         self._somebody = False  # was there when people were told last
+        self._fallen = 0  # items on the floor
 
     def close(self):
         """Ends the planner's thread."""
@@ -308,7 +312,7 @@ class Traffic:
     @property
     def wants_map(self):
         """Whether to look what stands on the floor now: only while something is in the way."""
-        if self.time < self._next_look or not self._execution.closing:
+        if self.time < self._next_look or not (self._execution.closing or self._fallen):
             return False
         self._next_look = self.time + LOOK
         return True
@@ -318,8 +322,17 @@ class Traffic:
         does, until it is seen no more."""
         cells = np.asarray(cells)
         if cells.shape == self.plan.shape:
-            for cell in np.flatnonzero(is_taken(cells) & self.plan.passable):
-                self.shut(int(cell), self.time + STAYS)
+            for cell in np.flatnonzero(is_taken(cells) & self.plan.passable).tolist():
+                self.shut(cell, self.time + STAYS)
+                if self._fallen:  # too low for lasers
+                    self._execution.recall(cell)
+
+    def see_fallen(self, count):
+        """So many items lie on the floor: the cells where the map has them are closed while they
+        do, from now on."""
+        if count != self._fallen:
+            self._next_look = self.time
+        self._fallen = count
 
     def see_people(self, people):
         """Who walks on the floor, as warehouse_fleet.people has them: a zone is closed around each,

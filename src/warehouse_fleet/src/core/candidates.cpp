@@ -93,6 +93,9 @@ bool Candidates::canDrive(const Path& path, const Wish& wish) const {
       // What it is committed to it can't be kept from any more.
       if (tick >= wish.committed && next(wish, state.cell, state.heading) == kNowhere) return false;
       state.cell = path.cells[tick + 1];
+    } else if (quarters(action) != 0 && tick >= wish.committed &&
+               !edges_.mayTurn(wish.deck, state.cell)) {
+      return false;
     }
     state.heading = turned(state.heading, quarters(action));
   }
@@ -116,8 +119,25 @@ Cell Candidates::next(const Wish& wish, Cell cell, int heading) const {
   const int edge = cell * kHeadings + heading;
   Cell to = edges_.next[static_cast<int>(wish.deck)][edge];
   if (to == kNowhere && wish.home != kNowhere && edges_.next[0][edge] == wish.home) to = wish.home;
-  if (to == kNowhere || (is_kept_[to] && to != wish.goal)) return kNowhere;
+  if (to == kNowhere || (to != wish.goal && (is_kept_[to] || isDeadEnd(wish, to, heading)))) {
+    return kNowhere;
+  }
   return isPassingThrough(floor_, cell, to, wish.goal) ? kNowhere : to;
+}
+
+/// Whether who comes there can neither drive straight on nor turn.
+bool Candidates::isDeadEnd(const Wish& wish, Cell cell, int heading) const {
+  return !edges_.mayTurn(wish.deck, cell) && next(wish, cell, heading) == kNowhere;
+}
+
+/// Where the actions after those committed turn.
+bool Candidates::hasRoomToTurn(const Wish& wish, const Path& path, const Actions& actions) const {
+  if (edges_.mayTurnEverywhere(wish.deck)) return true;
+  for (int tick = wish.committed; tick < horizon_; ++tick) {
+    const bool turns = quarters(actions[tick - wish.committed]) != 0;
+    if (turns && !edges_.mayTurn(wish.deck, path.cells[tick])) return false;
+  }
+  return true;
 }
 
 void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
@@ -142,12 +162,13 @@ void Candidates::grow(const Wish& wish, std::vector<Path>& paths) {
     std::fill(path.cells.begin() + end + 1, path.cells.begin() + horizon_ + 1, path.cells[end]);
     int best = -1;
     for (int turn = 0; turn < kHeadings; ++turn) {
-      if (!leaf.ends[turn]) continue;
+      if (!leaf.ends[turn] || !hasRoomToTurn(wish, path, leaf.actions[turn])) continue;
       const int cost = this->cost(wish, path, turned(start.heading, turn));
       if (best >= 0 && cost >= path.cost) continue;
       best = turn;
       path.cost = cost;
     }
+    if (best < 0) continue;
     path.cost += leaf.late;
     std::copy_n(leaf.actions[best].begin(), free, path.actions.begin() + wish.committed);
     std::fill(path.actions.begin() + end, path.actions.begin() + horizon_, Action::kWait);

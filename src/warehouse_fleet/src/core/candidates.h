@@ -53,6 +53,8 @@ class Candidates {
 
  private:
   State commit(const Wish& wish, Path& path) const;
+  bool hasRoomToTurn(const Wish& wish, const Path& path, const Actions& actions) const;
+  bool isDeadEnd(const Wish& wish, Cell cell, int heading) const;
   int cost(const Wish& wish, const Path& path, int heading) const;
   void grow(const Wish& wish, std::vector<Path>& paths);
 

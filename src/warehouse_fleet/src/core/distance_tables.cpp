@@ -103,8 +103,10 @@ void DistanceTables::relax(Deck deck, Cell goal, int state) {
   const int cost = cost_[state];
   const Cell cell = state / kHeadings;
   const int heading = state % kHeadings;
-  push(cell * kHeadings + turned(heading, 1), cost + turn_cost_);
-  push(cell * kHeadings + turned(heading, -1), cost + turn_cost_);
+  if (edges_.mayTurn(deck, cell)) {
+    push(cell * kHeadings + turned(heading, 1), cost + turn_cost_);
+    push(cell * kHeadings + turned(heading, -1), cost + turn_cost_);
+  }
   const Cell from = floor_.beside(cell, heading + 2);
   if (from == kNowhere) return;
   // A goal may be a storage place, which the aisles' deck does not lead into.

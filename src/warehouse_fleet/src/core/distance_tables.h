@@ -40,6 +40,10 @@ class DistanceTable {
 struct Edges {
   std::vector<Cell> next[2];  ///< by deck; by cell and heading
   const std::vector<std::uint8_t>* costs;
+  std::vector<std::uint8_t> is_tight;  ///< by cell: a load can't be turned there; empty: nowhere
+
+  bool mayTurnEverywhere(Deck deck) const { return deck == Deck::kUnder || is_tight.empty(); }
+  bool mayTurn(Deck deck, Cell cell) const { return mayTurnEverywhere(deck) || !is_tight[cell]; }
 };
 
 class DistanceTables {

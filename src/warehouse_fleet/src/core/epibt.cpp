@@ -56,6 +56,7 @@ class Epibt : public Planner {
   void observe(const Fleet& fleet);
   void close(const Fleet& fleet);
   void closeDeck(Deck deck, std::vector<Cell> cells);
+  void tighten(const std::vector<Cell>& cells);
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
@@ -92,6 +93,7 @@ class Epibt : public Planner {
   int now_ = 0;
   int version_ = 0;
   std::vector<Cell> closed_[2];  ///< now, by deck, sorted
+  std::vector<Cell> tight_;      ///< now
   std::vector<Memory> memory_;
   std::vector<Wish> wishes_;
   std::vector<int> order_, rank_;  ///< who comes first, and who comes when
@@ -111,12 +113,13 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
   edges_->next[0] = floor.edges(Deck::kUnder);
   edges_->next[1] = floor.edges(Deck::kAisles);
   edges_->costs = &guidance_->costs();
+  tight_.clear();
   tables_ =
       std::make_unique<DistanceTables>(floor, *edges_, options_.turn_ticks, options_.table_bytes);
   candidates_ = std::make_unique<Candidates>(floor, *edges_, options_.depth, options_.horizon);
   reserved_ = std::make_unique<Reservations>(floor, rules, options_.horizon);
   spacing_ = std::make_unique<Spacing>(options_.horizon);
-  way_ = std::make_unique<MakingWay>(floor);
+  way_ = std::make_unique<MakingWay>(floor, options_.patience);
   for (auto& closed : closed_) closed.clear();
   rules_ = rules;
 }
@@ -174,6 +177,7 @@ void Epibt::close(const Fleet& fleet) {
   aisles.insert(aisles.end(), fleet.units.begin(), fleet.units.end());
   closeDeck(Deck::kUnder, std::move(under));
   closeDeck(Deck::kAisles, std::move(aisles));
+  tighten(fleet.tight);
 }
 
 void Epibt::closeDeck(Deck deck, std::vector<Cell> cells) {
@@ -194,6 +198,14 @@ void Epibt::closeDeck(Deck deck, std::vector<Cell> cells) {
   set(closed, true);
   set(cells, false);
   closed = std::move(cells);
+  ++version_;
+}
+
+void Epibt::tighten(const std::vector<Cell>& cells) {
+  if (cells == tight_) return;
+  edges_->is_tight.assign(cells.empty() ? 0 : floor_->size(), 0);
+  for (const Cell cell : cells) edges_->is_tight[cell] = 1;
+  tight_ = cells;
   ++version_;
 }
 
@@ -278,9 +290,12 @@ void Epibt::resume(const std::vector<Path>& rests) {
 }
 
 /// Who is nearest to its goal goes first, which serves throughput; what a robot has waited counts
-/// against what it has still to go, so that nobody waits for ever.
+/// against what it has still to go, so that nobody waits for ever. Who stands for long counts it
+/// manifold: beside a stream of robots that have waited elsewhere it would never be let in.
 void Epibt::prioritise(const Fleet& fleet) {
-  constexpr int kWaitingWorth = 2;  // of kTickCost, a tick
+  constexpr int kWaitingWorth = 2;    // of kTickCost, a tick
+  constexpr int kStandingWorth = 24;  // the same, of those after the first
+  constexpr int kStands = 8;          // ticks in a cell
   constexpr int kFirst = std::numeric_limits<int>::min();
   constexpr int kLast = std::numeric_limits<int>::max();
   std::vector<int> distance(fleet.size()), key(fleet.size());
@@ -288,7 +303,9 @@ void Epibt::prioritise(const Fleet& fleet) {
     const Wish& wish = wishes_[robot];
     const bool has_goal = wish.goal != kNowhere;
     distance[robot] = has_goal ? candidates_->distance(wish, wish.state) : kLast;
-    key[robot] = distance[robot] - (has_goal ? kWaitingWorth * memory_[robot].waiting : 0);
+    const int waited = kWaitingWorth * memory_[robot].waiting;
+    const int stood = kStandingWorth * std::max(0, way_->still(robot) - kStands);
+    key[robot] = distance[robot] - (has_goal ? waited + stood : 0);
     if (way_->isTold(robot)) key[robot] = kFirst;
   }
   nearestFirst(distance, key);

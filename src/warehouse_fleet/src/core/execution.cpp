@@ -19,6 +19,8 @@ constexpr int kInsists = 3;          // refusals after which a path can't begin 
 constexpr int kRefuges = 1;          // cells around a robot in which it may come back to the grid
 constexpr double kFindsBack = 30;    // time in which one that was pushed does [s]
 constexpr double kReach = 0.43;      // of a robot with its load, from its centre along x and y [m]
+constexpr double kHalf = 0.4;        // of the length and the width of a load [m]
+constexpr double kSweep = 0.58;      // around a load that turns, with a little room [m]
 constexpr double kRoom = 1.2;        // that one takes which turns and drives back to the grid [m]
 constexpr double kTurnsSoon = 0.35;  // from a corner, where what comes after it is released [m]
 constexpr double kUnanswered = 0.5;  // after which something is sent again [s]
@@ -102,6 +104,7 @@ void Execution::observe(double time, const std::vector<Report>& reports) {
     }
     courses_[robot].is_member ? keepAround(robot) : occupy(robot);
   }
+  findTight();
 }
 
 void Execution::setWork(const std::vector<std::uint8_t>& busy,
@@ -182,7 +185,8 @@ void Execution::keepAround(int robot) {
 void Execution::cover(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  const bool is_coming_back = course.is_astray && course.is_active;
+  const bool is_trying = course.recovery.since >= 0 && !isLost(robot);  // between attempts, too
+  const bool is_coming_back = course.is_astray && (course.is_active || is_trying);
   const double reach = (is_coming_back ? kRoom : kReach) * motion_.spacing;
   const double ahead = 0.7 * motion_.spacing;
   const double speed = std::hypot(report.vx, report.vy);
@@ -198,6 +202,42 @@ void Execution::cover(int robot) {
       course.occupied.push_back(cell);
     }
   }
+}
+
+/// Robots drive past one that stands askew with room to spare, but a corner of its load may be
+/// where theirs turn.
+void Execution::findTight() {
+  tight_.clear();
+  for (int robot = 0; robot < robots(); ++robot) {
+    const Cell at = cellAt(reports_[robot].x, reports_[robot].y);
+    if (at == kNowhere || !isAskew(robot)) continue;
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const Cell beside = floor_.beside(at, heading);
+      if (beside == kNowhere) continue;
+      for (const Cell cell : {beside, floor_.beside(beside, heading + 1)}) {
+        if (cell == kNowhere || holder_[cell] == robot) continue;  // closed anyway
+        if (isInReach(robot, cell)) tight_.push_back(cell);
+      }
+    }
+  }
+  std::sort(tight_.begin(), tight_.end());
+  tight_.erase(std::unique(tight_.begin(), tight_.end()), tight_.end());
+}
+
+bool Execution::isAskew(int robot) const {
+  const Course& course = courses_[robot];
+  if (course.is_member && !course.is_astray) return false;
+  return !isCentred(robot, kCentred) || !isSquare(robot);
+}
+
+/// Whether a load that is turned in that cell would touch the robot's.
+bool Execution::isInReach(int robot, Cell cell) const {
+  const Report& report = reports_[robot];
+  const double c = std::cos(report.yaw), s = std::sin(report.yaw);
+  const double dx = xOf(cell) - report.x, dy = yOf(cell) - report.y;
+  const double along = std::max(0.0, std::abs(c * dx + s * dy) - kHalf);
+  const double across = std::max(0.0, std::abs(c * dy - s * dx) - kHalf);
+  return std::hypot(along, across) < kSweep;
 }
 
 void Execution::vacate(int robot) {
@@ -412,6 +452,7 @@ Fleet Execution::fleet(const std::vector<Cell>& goal, const std::vector<Cell>& h
   }
   asked_.closed = closed();
   asked_.units = units_;
+  asked_.tight = tight_;
   return asked_;
 }
 
@@ -443,6 +484,15 @@ void Execution::close(Cell cell, double until) {
   if (!floor_.has(cell)) return;
   if (std::find(closing_.begin(), closing_.end(), cell) == closing_.end()) closing_.push_back(cell);
   closed_until_[cell] = std::max(closed_until_[cell], until);
+}
+
+void Execution::recall(Cell cell) {
+  const int robot = floor_.has(cell) ? holder_[cell] : kNobody;
+  if (robot == kNobody) return;
+  const Course& course = courses_[robot];
+  const auto ahead = course.cells.begin() + course.reached;
+  const bool is_ahead = std::find(ahead, course.cells.end(), cell) != course.cells.end();
+  if (is_ahead && course.is_accepted && !course.is_withdrawn) withdraw(robot);
 }
 
 /// What it has been released, as actions: turns, drives, and waiting where it takes longer.
@@ -675,11 +725,13 @@ bool Execution::needs(int robot) const {
   return toGo(robot) < way;
 }
 
-/// Two side by side, one with a load, must not turn at once, and nobody is released around a corner
-/// before it comes to it.
+/// Two side by side, one with a load, must not turn at once, nor a load beside one that stands
+/// askew, and nobody is released around a corner before it comes to it.
 bool Execution::mayTurn(int robot) const {
   const Cell tip = courses_[robot].cells.back();
   if (toGo(robot) > kTurnsSoon) return false;
+  const bool is_tight = std::binary_search(tight_.begin(), tight_.end(), tip);
+  if (is_tight && reports_[robot].is_loaded) return false;
   for (int heading = 0; heading < kHeadings; ++heading) {
     const Cell beside = floor_.beside(tip, heading);
     const int other = beside == kNowhere ? kNobody : holder_[beside];

@@ -43,12 +43,9 @@ class Check {
                          floor_.name(cell));
       }
     }
-    for (const Cell cell : fleet_.closed) {
-      if (!floor_.has(cell)) throw FloorError("closed: " + floor_.name(cell));
-    }
-    for (const Cell cell : fleet_.units) {
-      if (!floor_.has(cell)) throw FloorError("units: " + floor_.name(cell));
-    }
+    cells(fleet_.closed, "closed: ");
+    cells(fleet_.units, "units: ");
+    cells(fleet_.tight, "tight: ");
   }
 
  private:
@@ -57,6 +54,12 @@ class Check {
     throw FloorError(std::string(field) + " has " + std::to_string(is) +
                      " elements; one a robot, " + std::to_string(fleet_.cell.size()) +
                      ", was expected");
+  }
+
+  void cells(const std::vector<Cell>& cells, const char* what) const {
+    for (const Cell cell : cells) {
+      if (!floor_.has(cell)) throw FloorError(what + floor_.name(cell));
+    }
   }
 
   void place(int robot, Cell cell, const char* what, bool or_nowhere) const {

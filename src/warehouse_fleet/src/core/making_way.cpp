@@ -6,10 +6,9 @@
 namespace fleet {
 namespace {
 
-constexpr int kStill = 30;     // ticks in one cell after which a robot presses
-constexpr int kStalled = 120;  // ticks without having come nearer after which it does
-constexpr int kPatience = 12;  // ticks in which to reach the next cell, and for each in its way
-constexpr int kPatienceEach = 3;
+constexpr int kStalled = 120;  // ticks without having come nearer after which a robot presses
+constexpr int kToldFor = 12;   // ticks in which to reach the next cell, and for each in its way
+constexpr int kToldForEach = 3;
 constexpr int kEffort = 2000;  // cells that are tried for one robot
 constexpr int kPressing = 16;  // robots a step
 
@@ -26,7 +25,7 @@ void MakingWay::direct(const Fleet& fleet, Candidates& candidates, std::vector<W
   std::vector<int> pressing;
   for (int robot = 0; robot < fleet.size(); ++robot) {
     const Progress& progress = progress_[robot];
-    const bool presses = progress.still > kStill || progress.stalled > kStalled;
+    const bool presses = progress.still > patience_ || progress.stalled > kStalled;
     if (presses && progress.told == kNowhere) pressing.push_back(robot);
   }
   std::sort(pressing.begin(), pressing.end(), [&](int one, int other) {
@@ -89,7 +88,7 @@ void MakingWay::press(int robot, const Candidates& candidates, const std::vector
   if (!move(robot, candidates, wishes, effort)) return;
   for (const int told : chain_) {
     progress_[told].told = to_[told];
-    progress_[told].patience = kPatience + kPatienceEach * static_cast<int>(chain_.size());
+    progress_[told].patience = kToldFor + kToldForEach * static_cast<int>(chain_.size());
   }
 }
 

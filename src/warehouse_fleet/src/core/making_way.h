@@ -14,7 +14,8 @@ namespace fleet {
 
 class MakingWay {
  public:
-  explicit MakingWay(const Floor& floor) : floor_(floor) {}
+  /// Who stands in a cell for more than `patience` ticks presses.
+  MakingWay(const Floor& floor, int patience) : floor_(floor), patience_(patience) {}
 
   /// Tells who presses and who makes way where to go: overwrites their goals in `wishes`.
   /// `candidates` knows how far it is, and keeps their next cells for them: whoever drives past
@@ -46,6 +47,7 @@ class MakingWay {
   std::vector<Cell> ways(const Candidates& candidates, const Wish& wish) const;
 
   const Floor& floor_;
+  const int patience_;
   std::vector<Progress> progress_;
   std::vector<int> standing_;  ///< by cell: who, or -1
   std::vector<int> entering_;  ///< by cell: who was told to go there, or -1

@@ -120,6 +120,7 @@ void bindExecution(py::module_& module) {
       .def("release", &release)
       .def("refused", [](Run& run, int robot) { run.execution.refused(robot); })
       .def("close", [](Run& run, Cell cell, double until) { run.execution.close(cell, until); })
+      .def("recall", [](Run& run, Cell cell) { run.execution.recall(cell); })
       .def("set_units",
            [](Run& run, const Array<Cell>& cells) {
              run.execution.setUnits({cells.data(), cells.data() + cells.size()});

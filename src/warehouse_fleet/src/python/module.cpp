@@ -39,7 +39,8 @@ std::shared_ptr<Floor> makeFloor(const Array<std::uint8_t>& passable, const Flag
 
 Fleet makeFleet(const Array<Cell>& cell, const Array<Heading>& heading, const Array<Cell>& goal,
                 const Flags& loaded, const std::optional<Array<Cell>>& home, const Flags& stopped,
-                const Flags& committed, const std::optional<Array<Cell>>& closed) {
+                const Flags& committed, const std::optional<Array<Cell>>& closed,
+                const std::optional<Array<Cell>>& tight) {
   Fleet fleet;
   fleet.cell = copied<Cell>(cell);
   fleet.heading = copied<Heading>(heading);
@@ -49,6 +50,7 @@ Fleet makeFleet(const Array<Cell>& cell, const Array<Heading>& heading, const Ar
   fleet.stopped = copied(stopped);
   fleet.committed = copied(committed);
   fleet.closed = copied(closed);
+  fleet.tight = copied(tight);
   if (committed) {
     if (committed->ndim() != 2) throw py::value_error("committed must be (robots, ticks)");
     fleet.committed_ticks = static_cast<int>(committed->shape(1));
@@ -114,7 +116,7 @@ void bindFleet(py::module_& module) {
   fleet.def(py::init(&makeFleet), py::arg("cell"), py::arg("heading"), py::arg("goal"),
             py::arg("loaded") = py::none(), py::arg("home") = py::none(),
             py::arg("stopped") = py::none(), py::arg("committed") = py::none(),
-            py::arg("closed") = py::none());
+            py::arg("closed") = py::none(), py::arg("tight") = py::none());
   fleet.def("__len__", &Fleet::size);
   const auto field = [&](const char* name, auto member) {
     fleet.def_property_readonly(name, [member](const py::object& self) {
@@ -128,6 +130,7 @@ void bindFleet(py::module_& module) {
   field("home", &Fleet::home);
   field("stopped", &Fleet::stopped);
   field("closed", &Fleet::closed);
+  field("tight", &Fleet::tight);
   fleet.def_property_readonly("committed", [](const py::object& self) {
     const auto& fleet = self.cast<const Fleet&>();
     return view(fleet.committed, self, {fleet.size(), fleet.committed_ticks});
@@ -193,6 +196,7 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   set("revisits", options.revisits);
   set("pushes", options.pushes);
   set("exchanges", options.exchanges);
+  set("patience", options.patience);
   set("goals_are_stops", options.goals_are_stops);
   set("table_bytes", options.table_bytes);
   set("table_work", options.table_work);

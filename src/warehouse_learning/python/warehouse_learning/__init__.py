@@ -37,9 +37,9 @@ def parallel_env(**options):
 
 def env(**options):
     """The same for PettingZoo's other interface, in which agents take turns."""
-    from pettingzoo.utils import parallel_to_aec
+    from warehouse_learning.parallel import in_turns
 
-    return parallel_to_aec(parallel_env(**options))
+    return in_turns(parallel_env(**options))
 
 
 def _register():

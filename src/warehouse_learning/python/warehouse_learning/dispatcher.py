@@ -16,6 +16,7 @@ from warehouse_learning import building, fields
 from warehouse_learning.fields import Field
 from warehouse_learning.grid import Grid
 from warehouse_learning.options import Options
+from warehouse_learning.page import Page
 from warehouse_learning.picture import Picture
 from warehouse_learning.screen import RENDER_MODES, Screen
 from warehouse_learning.warehouses import ActionError
@@ -59,7 +60,8 @@ class KivaDispatcherEnv(gymnasium.Env):
         self.render_mode = render_mode
         self._grid = Grid(FloorPlan.of_world(self._world), 0)
         self._scene = SimpleNamespace(worlds=[self._world], robots=robots, grid=self._grid)
-        self._screen = Screen(render_mode, lambda: Picture(self._scene))
+        page = lambda: Page(self._world, self.options.title)  # noqa: E731
+        self._screen = Screen(render_mode, lambda: Picture(self._scene), page)
 
     def reset(self, *, seed=None, options=None):
         """A new episode: the same seed, the same episode."""
@@ -74,7 +76,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._cycle = self.delivered = 0
         while len(self._tasks) < self.options.requests:
             self._ask()
-        self._show()
+        self._screen.stepped()
         return self._observation(), self._info()
 
     def step(self, action):
@@ -97,6 +99,7 @@ class KivaDispatcherEnv(gymnasium.Env):
         while self._driver.time < end - 1e-9:
             self._driver.step()
             self._hear()
+            self._screen.moved()
         self._cycle += 1
         reward = self.options.rewards
         earned = (
@@ -105,7 +108,7 @@ class KivaDispatcherEnv(gymnasium.Env):
             + reward["refused"] * refused
             + reward["collided"] * (self._driver.collisions - collisions)
         )
-        self._show()
+        self._screen.stepped()
         ends = self._cycle >= self.options.max_cycles
         return self._observation(), float(earned), False, ends, self._info()
 
@@ -120,10 +123,6 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._scene.requested = np.isin(units, asked)[None]
         self._scene.busy = ~self._free()[None]
         return self._screen.render()
-
-    def _show(self):
-        if self.render_mode == "human":
-            self.render()
 
     def close(self):
         self._screen.close()

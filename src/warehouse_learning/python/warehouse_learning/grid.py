@@ -28,6 +28,11 @@ class Grid:
         )
         self.stations = (row + rim) * self.width + column + rim
         self.steps = np.array([1, self.width, -1, -self.width])
+        row, column = np.divmod(np.arange(self.cells), self.width)
+        self._points = (
+            self.origin[0] + column * self.spacing,
+            self.origin[1] + row * self.spacing,
+        )
         self.native = Floor(
             self.width,
             self.height,
@@ -52,8 +57,8 @@ class Grid:
 
     def point_of(self, cell):
         """(x, y) of the centres of cells, in world [m]."""
-        row, column = np.divmod(cell, self.width)
-        return self.origin[0] + column * self.spacing, self.origin[1] + row * self.spacing
+        x, y = self._points
+        return x[cell], y[cell]
 
     def share_of(self, cell):
         """(…, 2): column and row of cells, each in 0…1 over the floor."""

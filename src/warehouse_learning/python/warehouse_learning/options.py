@@ -98,6 +98,12 @@ class Options:
             _real(f"rewards[{name!r}]", value, -1e9, 1e9)
         object.__setattr__(self, "rewards", REWARDS | self.rewards)
 
+    @property
+    def title(self):
+        """For a person."""
+        own = SIZES.get(self.size) == Size(self.robots, self.shelves)
+        return self.size if own else f"{self.robots} robots, {self.shelves} units"
+
     @classmethod
     def of(cls, given):
         """Of keyword arguments; OptionError for an unknown one."""

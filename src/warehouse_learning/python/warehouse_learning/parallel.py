@@ -4,6 +4,7 @@
 import numpy as np
 from gymnasium import spaces
 from pettingzoo import ParallelEnv
+from pettingzoo.utils import BaseWrapper, parallel_to_aec
 
 from warehouse_learning import fields
 from warehouse_learning.screen import FRAMES, RENDER_MODES
@@ -99,6 +100,21 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
             }
             for i, agent in enumerate(self.possible_agents)
         }
+
+
+class _Checked(BaseWrapper):
+    """Refuses an action when it is given, and not when all have theirs."""
+
+    def step(self, action):
+        agent = self.agent_selection
+        if not (self.terminations[agent] or self.truncations[agent]):
+            check_action(agent, action, self.action_space(agent))
+        super().step(action)
+
+
+def in_turns(env):
+    """The same for PettingZoo's other interface."""
+    return _Checked(parallel_to_aec(env))
 
 
 def check_action(agent, action, space):

@@ -44,7 +44,7 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
         """ActionError if the action is none."""
         if self._seed is None:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
-        rewards, happened, ends = self._decide(_by_robot(action, 1, self.options)[0])
+        rewards, happened, ends = self._decide(_by_robot(action, (), self.options)[0])
         info = self._mask() | {"rewards": rewards} | happened
         return self._observation(), float(rewards.sum()), False, ends, info
 
@@ -115,7 +115,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         """ActionError if the action of an environment is none."""
         if not self._begun:
             raise gymnasium.error.ResetNeeded("reset() begins the first episodes")
-        chosen = _by_robot(actions, self.num_envs, self.options)
+        chosen = _by_robot(actions, (self.num_envs,), self.options)
         begins = np.zeros(self.num_envs, bool)
         if self.autoreset_mode == AutoresetMode.NEXT_STEP:
             begins = self._ended.copy()
@@ -189,11 +189,11 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         return infos | {f"_{name}": everybody for name in infos}
 
 
-def _by_robot(actions, n, options):
-    """(n, robots) or, of wheels, (n, robots, 3); ActionError for another shape."""
+def _by_robot(actions, lead, options):
+    """(n, robots) or, of wheels, (n, robots, 3), of actions whose shape begins with `lead`: (n,),
+    or () for one; ActionError for another shape."""
     given = np.asarray(actions)
-    last = options.robots * (WHEELS if options.continuous else 1)
-    if given.shape not in ((n, last), (last,) if n == 1 else None):
-        raise ActionError(f"actions: shape {(n, last)} was expected, not {given.shape}")
-    shape = (n, options.robots) + ((WHEELS,) if options.continuous else ())
-    return given.reshape(shape)
+    expected = (*lead, options.robots * (WHEELS if options.continuous else 1))
+    if given.shape != expected:
+        raise ActionError(f"actions: shape {expected} was expected, not {given.shape}")
+    return given.reshape(-1, options.robots, *([WHEELS] if options.continuous else []))

@@ -1,36 +1,50 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `render_mode` means, the same for all environments."""
 
-from warehouse_learning.page import Page
-
 RENDER_MODES = ["human", "rgb_array"]
 FRAMES = 4  # a second, of a film
 
 
 class Screen:
-    """Pictures by `make`, a Picture's maker, once somebody wants them."""
+    """Once somebody wants to see: pictures by `make_picture`, a Picture's maker, and the page by
+    `make_page`, a Page's."""
 
-    def __init__(self, mode, make):
+    def __init__(self, mode, make_picture, make_page):
         if mode not in (None, *RENDER_MODES):
             raise ValueError(f"render_mode is {mode!r}; None or one of {RENDER_MODES} was expected")
-        self.mode, self._make = mode, make
+        self.mode, self._make_picture, self._make_page = mode, make_picture, make_page
         self._picture = self._page = None
+
+    @property
+    def is_watched(self):
+        """Whether it is shown as it goes."""
+        return self.mode == "human"
+
+    @property
+    def page(self):
+        """The Page that it is shown on; None if it is not."""
+        if self.is_watched and not self._page:
+            self._page = self._make_page()
+        return self._page
 
     def render(self):
         """The picture as (height, width, 3) uint8, or, for "human", on the page."""
-        if self.mode is None:
-            return None
-        self._picture = self._picture or self._make()
-        pixels = self._picture.draw()
-        if self.mode == "rgb_array":
-            return pixels
-        self._page = self._page or Page()
-        self._page.show(pixels)
+        if self.is_watched:
+            self.page.show()
+        elif self.mode == "rgb_array":
+            self._picture = self._picture or self._make_picture()
+            return self._picture.draw()
         return None
+
+    def moved(self, events=()):
+        """Time went on: as of Page.tell() and Page.moved(), where somebody may watch."""
+        if self.is_watched:
+            self.page.tell(events)
+            self.page.moved()
 
     def stepped(self):
         """Whoever watches sees every decision."""
-        if self.mode == "human":
+        if self.is_watched:
             self.render()
 
     def close(self):

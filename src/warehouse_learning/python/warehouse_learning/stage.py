@@ -7,6 +7,7 @@ import numpy as np
 from warehouse_learning import episodes
 from warehouse_learning.observing import Observer
 from warehouse_learning.options import Options
+from warehouse_learning.page import Page
 from warehouse_learning.picture import Picture
 from warehouse_learning.screen import Screen
 from warehouse_learning.warehouses import Warehouses
@@ -21,11 +22,19 @@ class Stage:
         self._in = Warehouses(n, self.options, threads)
         self._see = Observer(self._in)
         self.fields, self.state_fields = self._see.fields, self._see.state_fields
-        self._screen = Screen(render_mode, lambda: Picture(self._in))
+        page = lambda: Page(self._in.worlds[0], self.options.title)  # noqa: E731
+        self._screen = Screen(render_mode, lambda: Picture(self._in), page)
+        if self._screen.is_watched:
+            self._in.on_moved = self._screen.moved
 
     @property
     def render_mode(self):
         return self._screen.mode
+
+    @property
+    def page(self):
+        """The Page that shows it, with its `url`; None unless render_mode is "human"."""
+        return self._screen.page
 
     def render(self):
         return self._screen.render()
@@ -61,6 +70,11 @@ class OneWarehouse(Stage):
         self._screen.stepped()
         happened = {name: events[0] for name, events in happened.items()}
         return rewards[0], happened, bool(self._ends()[0])
+
+    @property
+    def world(self):
+        """The kiva_plugin_cpp.World that it is, for whoever wants to look closer."""
+        return self._in.worlds[0]
 
     def state(self):
         """(size,) float32: the whole warehouse, as `state_fields` says, for centralised critics."""

@@ -17,6 +17,7 @@ from warehouse_learning.grid import Grid
 
 LONGEST_ACTION = 20.0  # a decision ends then, whatever robots are at [s]
 TOP_SPEED, WHEEL_RADIUS = 1.5, 0.1  # of the Kiva in worlds/models [m/s, m]
+SHOWN_EVERY = 0.1  # to who watches one warehouse [s]
 STANDS = 0.02  # and slower: it can lift [m/s]
 
 
@@ -77,6 +78,9 @@ class Warehouses:
         )
         seconds = 0 if not self._fixed else self._fixed * options.physics_step
         self.decision_seconds = seconds  # 0: as long as it takes
+        # Called with what happened in the first world, as of Worlds.events(), as time passes.
+        self.on_moved = None
+        self._shown_every = max(1, round(SHOWN_EVERY / options.physics_step))
         self._rewards = options.rewards
         self.top_wheel_speed = TOP_SPEED / WHEEL_RADIUS  # [rad/s]
 
@@ -129,10 +133,11 @@ class Warehouses:
                 f"actions: shape {(self.n, self.robots)} was expected, one for each robot of each"
                 f" world, not {given.shape}"
             )
-        if given.dtype.kind not in "iu":
-            whole = given.dtype.kind == "f" and np.isfinite(given).all()
-            if not whole or (given != np.rint(given)).any():
-                raise ActionError(self._complaint(given, ~np.equal(given, np.rint(given))))
+        if given.dtype.kind not in "iuf":
+            raise ActionError(self._complaint(given, np.ones(given.shape, bool)))
+        # NaN is unequal to itself.
+        if given.dtype.kind == "f" and (given != np.rint(given)).any():
+            raise ActionError(self._complaint(given, given != np.rint(given)))
         if given.min() < 0 or given.max() > 4:
             raise ActionError(self._complaint(given, (given < 0) | (given > 4)))
         return given.astype(np.int8)
@@ -161,19 +166,34 @@ class Warehouses:
         done = (self._begin_wheels if self.options.continuous else self._begin)(actions)
         goal = self.goal.copy()
         before = self.task.distance() if self._rewards["approached"] else 0
-        if self._fixed:
-            self.worlds.step(self._fixed)
-        else:
-            self.worlds.step(self._limit, until_idle=True)
+        counts = self._pass_time()
         self._see(self._all)
         self.cycle += 1
-        happened = self._happened(done)
+        happened = self._happened(done, counts)
         self.task.renew_goals()
         rewards = self._reward(happened)
         if self._rewards["approached"]:
             nearer = np.where(goal == self.goal, before - self.task.distance(), 0)
             rewards += np.float32(self._rewards["approached"]) * nearer
         return rewards, happened
+
+    def _pass_time(self):
+        """As much as a decision lasts. Returns Worlds.counts of it."""
+        steps, until_idle = self._fixed or self._limit, not self._fixed
+        if not self.on_moved:
+            self.worlds.step(steps, until_idle=until_idle)
+            return self._counts
+        counts = np.zeros_like(self._counts)
+        # Of several worlds those that are ready would make another step at each call.
+        each = self._shown_every if self.n == 1 else steps
+        while steps > 0:
+            self.worlds.step(min(steps, each), until_idle=until_idle)
+            counts += self._counts
+            steps -= each
+            self.on_moved([event[1:] for event in self.worlds.events() if event[0] == 0])
+            if until_idle and not self.worlds.status.any():
+                break
+        return counts
 
     def _reward(self, happened):
         rewards = np.full((self.n, self.robots), self._rewards["step"], np.float32)
@@ -207,9 +227,9 @@ class Warehouses:
         self.task.see(which, *self._robots)
         self._masks = None
 
-    def _happened(self, done):
+    def _happened(self, done, counts):
         """{name: (n, robots) bool} in the last decision, by who did what it was told."""
-        refused, collided, hit = self.task.hear(done, self._counts)
+        refused, collided, hit = self.task.hear(done, counts)
         for w in hit:
             self._look_at_units(w)
         lifted, dropped, stored, arrived = self.task.settle()

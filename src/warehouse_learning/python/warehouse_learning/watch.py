@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Plays a saved episode on a page of this machine.
+"""Plays a saved episode on the warehouse's page, on this machine, once the page is open.
 
-python3 -m warehouse_learning.watch episode.json [--rate 4]
+python3 -m warehouse_learning.watch episode.json [--speed 5]
 """
 
 import argparse
@@ -9,15 +9,26 @@ import sys
 import time
 
 from warehouse_learning import episodes
-from warehouse_learning.page import Page
-from warehouse_learning.picture import Picture
+from warehouse_learning.page import SPEED, Page
 from warehouse_learning.warehouses import Warehouses
+
+LOOK = 0.1  # between two looks whether somebody has come [s, wall]
+
+
+def play(page, warehouses, actions):
+    """Returns how many units were delivered."""
+    warehouses.on_moved = lambda events: (page.tell(events), page.moved())
+    for action in actions:
+        warehouses.step(action[None])
+    page.show()
+    return int(warehouses.delivered.sum())
 
 
 def main():
     parser = argparse.ArgumentParser("python3 -m warehouse_learning.watch", description=__doc__)
     parser.add_argument("file", help="an episode, as save_episode() writes it")
-    parser.add_argument("--rate", type=float, default=4, help="decisions a second (4)")
+    speed = "simulated seconds a wall second, 0: as fast as it goes (5); the page can change it"
+    parser.add_argument("--speed", type=float, default=SPEED, help=speed)
     wanted = parser.parse_args()
     try:
         options, seed, actions = episodes.load(wanted.file)
@@ -25,15 +36,12 @@ def main():
         sys.exit(f"watch: {error}")
     warehouses = Warehouses(1, options)
     warehouses.reset([0], [seed])
-    page, picture = Page(), Picture(warehouses)
-    page.show(picture.draw())
-    for action in actions:
-        time.sleep(1 / wanted.rate)
-        warehouses.step(action[None])
-        page.show(picture.draw())
-    delivered = int(warehouses.delivered.sum())
-    print(f"{len(actions)} decisions, {delivered} units delivered; Ctrl-C ends the page")
+    page = Page(warehouses.worlds[0], options.title, speed=wanted.speed)
     try:
+        while not page.watchers:
+            time.sleep(LOOK)
+        delivered = play(page, warehouses, actions)
+        print(f"{len(actions)} decisions, {delivered} units delivered; Ctrl-C ends the page")
         while True:
             time.sleep(3600)
     except KeyboardInterrupt:

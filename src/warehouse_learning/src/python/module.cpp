@@ -28,8 +28,6 @@ namespace {
 template <typename T>
 using Array = py::array_t<T, py::array::c_style>;
 
-constexpr py::ssize_t kEventKinds = 10;  // of Worlds.counts
-
 std::string text(const py::object& value) { return py::str(value); }
 
 /// Nothing is converted: another type or shape is a ValueError that names the argument.
@@ -201,8 +199,8 @@ class Task {
   /// (refused, collided, [warehouse with collisions])
   py::tuple hear(const py::object& done, const py::object& counts) const {
     const auto told = byRobot<bool>("done", done);
-    const auto events = checked<std::uint32_t>("counts", counts,
-                                               {state_.warehouses(), state_.robots(), kEventKinds});
+    const auto events = checked<std::uint32_t>(
+        "counts", counts, {state_.warehouses(), state_.robots(), kiva::Event::kKinds});
     Table<bool> refused(state_.warehouses(), state_.robots());
     Table<bool> collided(state_.warehouses(), state_.robots());
     py::list hit;

@@ -11,8 +11,8 @@ from matplotlib.patches import Patch
 
 from warehouse_fleet import floor_markings
 from warehouse_msgs.msg import KivaStatus
-from warehouse_sim import looks, markers, poses, tracking
-from warehouse_sim.words import shown_status
+from warehouse_sim import looks, markers, painted, poses, tracking
+from warehouse_sim.statuses import shown_status
 
 UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour of what nobody described
 STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
@@ -61,7 +61,7 @@ class Drawing:
         axes.set_ylim(self.bounds[2:])
         self._floor()
         if moment.scenery:
-            _paint(axes, looks.marks(moment.scenery))
+            _paint(axes, painted.marks(moment.scenery))
             _scenery(axes, moment.scenery)
         _robots(axes, moment)
         _loads(axes, moment)
@@ -145,7 +145,7 @@ def _paint(axes, marks):
     rows = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4))
     corners = _rectangle((1, 1)) * rows[:, None, 2:] + rows[:, None, :2]
     _add(axes, corners, facecolors=[markers.paint_of(m) for m in marks], zorder=0.5)
-    served = markers.served(marks)
+    served = painted.served(marks)
     if len(served) <= MOST_NAMES:
         for m in served:
             axes.text(m.x, m.y, m.station, ha="center", va="center", fontsize=6, zorder=6)

@@ -19,6 +19,8 @@ COLOURS = {
     Event.FAILED: _RED,
     Event.REPAIRED: _GREEN,
     Event.TIPPED: _RED,
+    Event.FELL: _RED,
+    Event.PICKED_UP: _GREEN,
 }
 # What a terminal would obey rather than show; models have the names that their files give them.
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")

@@ -8,7 +8,7 @@ _HERE = Path(__file__).resolve()
 
 
 def share():
-    """The folder with launch/, worlds/ and web/; of a wheel with worlds/ alone."""
+    """The folder with launch/, worlds/ and web/; of a wheel with worlds/ and web/."""
     packaged = _HERE.parent / "share"
     if packaged.is_dir():
         return packaged

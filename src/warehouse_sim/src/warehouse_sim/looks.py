@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from warehouse_fleet import FloorError, floor_markings
 from warehouse_msgs.msg import Look
 from warehouse_sim import poses, shapes
 
@@ -90,11 +89,3 @@ def floor(scenery, fleet, states):
     at = [*zip(fleet.x, fleet.y), *poses.rows(states.pose)[:, :2]] or [(0, 0)]
     low, high = np.min(at, 0) - MARGIN, np.max(at, 0) + MARGIN
     return low[0], high[0], low[1], high[1]
-
-
-def marks(scenery):
-    """What is painted on the floor: floor_markings.Marks; none where they can't be read."""
-    try:
-        return floor_markings.of_scenery(scenery)
-    except FloorError:
-        return []

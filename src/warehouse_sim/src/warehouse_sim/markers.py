@@ -6,6 +6,7 @@ import numpy as np
 from warehouse_fleet import floor_markings
 from warehouse_msgs.msg import KivaStatus, Look
 from warehouse_sim import looks, poses, shapes
+from warehouse_sim.painted import served
 
 # Idle, busy, blocked: from the palette of Okabe and Ito (2008), told apart by everyone.
 STATUS_COLOURS = np.zeros((3, 4))
@@ -150,11 +151,6 @@ _QUAD = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)])  # two 
 def paint_of(mark):
     """Its colour, red green blue."""
     return floor_markings.COLOURS.get(mark.kind, FLOOR[:3])
-
-
-def served(marks):
-    """Those at which units are served."""
-    return [m for m in marks if m.kind == floor_markings.SERVICE]
 
 
 def scenery(message):

@@ -13,12 +13,12 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_sim import fleet_ways, looks, markers, poses, tracking
+from warehouse_sim import fleet_ways, looks, markers, painted, poses, tracking
 from warehouse_sim.chosen import Chosen
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 from warehouse_sim.paths import PathTopics, ways
 from warehouse_sim.shapes import ShapeArray
-from warehouse_sim.words import shown_status
+from warehouse_sim.statuses import shown_status
 
 
 def fleet_shapes(scenery, fleet, heights, chosen):
@@ -124,7 +124,7 @@ class Picture:
         """Made once, as long as it is the same message."""
         if scenery is not self._scenery:
             self._scenery = scenery
-            self._fixed = [*markers.paint(looks.marks(scenery)), *markers.scenery(scenery)]
+            self._fixed = [*markers.paint(painted.marks(scenery)), *markers.scenery(scenery)]
         return self._fixed
 
     def _show(self, made):

@@ -2,7 +2,6 @@
 """Arrays of poses: (n, 7) rows x y z [m] qx qy qz qw, as the messages lay them out."""
 
 import numpy as np
-from geometry_msgs.msg import Point, Pose, Quaternion
 
 
 def rows(flat):
@@ -55,9 +54,3 @@ def planar_of(messages):
     pairs = [(p.position, p.orientation) for p in messages]
     out = rows([(at.x, at.y, at.z, q.x, q.y, q.z, q.w) for at, q in pairs])
     return np.column_stack([out[:, :2], yaw(out)])
-
-
-def message(row):
-    """geometry_msgs/Pose of one row."""
-    x, y, z, qx, qy, qz, qw = row.tolist()
-    return Pose(Point(x, y, z), Quaternion(qx, qy, qz, qw))

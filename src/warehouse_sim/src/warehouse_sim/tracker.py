@@ -9,7 +9,7 @@ from geometry_msgs.msg import PoseStamped
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
-from warehouse_sim import poses, tracking
+from warehouse_sim import tracking
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
@@ -38,7 +38,7 @@ class PoseTopics:
             self._topics[name] = self._advertise(f"{self._prefix}/{name}/pose")
         known = [objects.names[i] for i in np.flatnonzero(moved[: self._limit])]
         for name in {*new, *(name for name in known if name in self._topics)}:
-            pose = poses.message(objects.pose[rows[name]])
+            pose = tracking.message(objects.pose[rows[name]])
             self._topics[name].publish(PoseStamped(Header(0, stamp, "world"), pose))
         return BATCH in (len(gone), len(new))
 

@@ -7,6 +7,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+from geometry_msgs.msg import Point, Pose, Quaternion
 
 from warehouse_msgs.msg import TrackedObject
 from warehouse_sim import poses
@@ -23,7 +24,13 @@ class Tracked:
 
     def message(self, i):
         carrier = f"kiva{self.carrier[i]}" if self.carrier[i] else ""
-        return TrackedObject(self.names[i], poses.message(self.pose[i]), self.unit[i], carrier)
+        return TrackedObject(self.names[i], message(self.pose[i]), self.unit[i], carrier)
+
+
+def message(row):
+    """geometry_msgs/Pose of a row of poses."""
+    x, y, z, qx, qy, qz, qw = row.tolist()
+    return Pose(Point(x, y, z), Quaternion(qx, qy, qz, qw))
 
 
 class StorageUnits:

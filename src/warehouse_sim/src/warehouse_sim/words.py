@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The numbers in messages as the words that the messages define for them."""
 
-import numpy as np
-
 from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
 from warehouse_msgs.srv import SetRobotModeRequest, TransportRequest
 
@@ -28,15 +26,3 @@ FAILURES = ("battery empty", "drive", "lift stuck", "laser blind", "radio lost",
 def failures_of(bits):
     """What is broken in a robot, as words."""
     return [name for bit, name in enumerate(FAILURES) if bits >> bit & 1]
-
-
-def shown_status(fleet):
-    """The status of each robot in a FleetState, (n,) uint8, as a person shall see it.
-
-    BLOCKED itself lasts but a moment; it shows until the robot's next command is accepted.
-    """
-    # rospy reads uint8[] as bytes.
-    status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
-    ended_blocked = np.frombuffer(bytes(fleet.last_end), np.uint8) == Event.BLOCKED
-    status[ended_blocked] = KivaStatus.STATUS_BLOCKED
-    return status

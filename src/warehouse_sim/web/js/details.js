@@ -13,10 +13,10 @@ const WAITS = 'sent; time stands still: it is taken when time goes on, after a r
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
-   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, and `wayOf(id)` what
-   *  the coordinator plans for a robot. */
-  constructor(world, select, say, { isPaused, fleet, wayOf }) {
-    Object.assign(this, { world, select, say, isPaused, fleet, wayOf, name: null, robot: null });
+   *  `isPaused()` tells whether time stands still; `fleet` is the FleetPanel, `fallen` the
+   *  FallenItems, and `wayOf(id)` what the coordinator plans for a robot. */
+  constructor(world, select, say, { isPaused, fleet, fallen, wayOf }) {
+    Object.assign(this, { world, select, say, isPaused, fleet, fallen, wayOf, name: null, robot: null });
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
@@ -58,6 +58,7 @@ export class Details {
     if (isRobot) this.refreshRobot(thing.index);
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
     $('fetch').textContent = `Send ${this.robot} beneath it`;
+    $('pick-up').hidden = thing?.kind !== 'item' || this.fallen.unitOf(thing.index) < 0;
     this.facts(thing ? this.factsOf(thing) : [['', 'is no longer there']]);
   }
 
@@ -75,30 +76,37 @@ export class Details {
 
   factsOf(thing) {
     const [x, y, z, yaw] = this.world.placeOf(thing);
-    const { index } = thing, { scene } = this.world;
+    const { index } = thing;
     const out = [['position', `${metres(x)}, ${metres(y)} m`]];
     if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
     out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
-    if (thing.kind === 'robot') {
-      out.push(['does', STATE[this.world.state[index]]], ...this.planOf(scene.robots[index]));
-      const broken = FAILURE.filter((_, bit) => this.world.failures[index] >> bit & 1);
-      if (broken.length) out.push(['broken', broken.join(', ')]);
-      if (this.world.charge.some((c) => c < 100)) out.push(['battery', `${this.world.charge[index]} %`]);
-      const load = this.world.loadOf(index);
-      out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
-      if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);
-    }
-    if (thing.kind === 'unit') {
-      const carrier = this.world.carrier[index];
-      out.push(['carried by', carrier ? link(`kiva${carrier}`) : 'nobody']);
-      out.push(['items', this.world.itemsOf[index].length
-        ? this.world.itemsOf[index].map((i) => scene.items[i]).join(', ') : 'none']);
-    }
-    if (thing.kind === 'item') {
-      const unit = scene.item_unit[index];
-      out.push(['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]);
-    }
+    return out.concat({ robot: () => this.factsOfRobot(index), unit: () => this.factsOfUnit(index),
+      item: () => this.factsOfItem(index) }[thing.kind]?.() ?? []);
+  }
+
+  factsOfRobot(index) {
+    const { world } = this, { scene } = world;
+    const out = [['does', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
+    const broken = FAILURE.filter((_, bit) => world.failures[index] >> bit & 1);
+    if (broken.length) out.push(['broken', broken.join(', ')]);
+    if (world.charge.some((c) => c < 100)) out.push(['battery', `${world.charge[index]} %`]);
+    const load = world.loadOf(index), limit = world.loadLimit[index];
+    out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
+    if (limit > 0) out.push(['brakes for it', `at ${limit.toFixed(1)} m/s² at most`]);
+    if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
     return out;
+  }
+
+  factsOfUnit(index) {
+    const carrier = this.world.carrier[index];
+    const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);
+    return [['carried by', carrier ? link(`kiva${carrier}`) : 'nobody'], ['items', items.join(', ') || 'none']];
+  }
+
+  factsOfItem(index) {
+    const { scene } = this.world, unit = scene.item_unit[index], home = this.fallen.unitOf(index);
+    if (home >= 0) return [['fell off', link(scene.units[home])]];
+    return [['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]];
   }
 
   /** Where the coordinator sends a robot, and for whom it waits. */

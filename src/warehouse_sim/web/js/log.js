@@ -4,7 +4,7 @@
 import { $, make, on } from './dom.js';
 
 const KEPT = 1000, SHOWN = 150, OWN = 20;
-const TROUBLE = ['REFUSED', 'BLOCKED', 'COLLISION', 'FAILED'];
+const TROUBLE = ['REFUSED', 'BLOCKED', 'COLLISION', 'FAILED', 'LOST', 'TIPPED', 'FELL'];
 
 export class EventLog {
   /** `select(name)` is called for the model of an event that was clicked. */

@@ -7,6 +7,7 @@ import { Builder } from './builder.js';
 import { Connection } from './connection.js';
 import { Details } from './details.js';
 import { $, isPressed, on, press } from './dom.js';
+import { FallenItems } from './fallen.js';
 import { FleetPanel } from './fleet.js';
 import { HeatMap } from './heat.js';
 import { Keys } from './keys.js';
@@ -40,11 +41,13 @@ class Page {
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
-    this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
-      fleet: this.fleet, wayOf: (id) => this.ways.get(id) });
     this.builder = new Builder(say);
     this.people = new People(say);
     this.placers = [this.builder, this.people];
+    this.fallen = new FallenItems(this.world, () => this.selected,
+      (request) => this.builder.attempt(request));
+    this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
+      fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
     this.sheets = new Sheets(() => this.fitPanels());
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
@@ -189,7 +192,7 @@ class Page {
     }
     this.drawn = now;
     this.actors.fill(this.stage.camera, innerHeight);
-    this.labels.draw(this.actors.view, this.named(), this.where.draw());
+    this.labels.draw(this.actors.view, this.named(), [...this.where.draw(), ...this.fallen.labels()]);
     return this.world.moving.size > 0;
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads what viewer/protocol.py writes; the layout is described there.
 
-export const VERSION = 2;
+export const VERSION = 3;
 const UPDATE = 1, SCAN = 2, HEAD = 40, SCAN_HEAD = 32, WAYS_HEAD = 8, WAY_WORDS = 6;
-export const ROBOT_WORDS = 6, BODY_WORDS = 9; // of four bytes, a row
+export const ROBOT_WORDS = 7, BODY_WORDS = 9; // of four bytes, a row
 
 /** {kind: 'update', tick, stamp, revision, robots, units, loose, scenery}, each a table; or
  *  {kind: 'scan', id, angleMin, angleStep, mount, ranges}, `mount` the laser's place on its robot; or

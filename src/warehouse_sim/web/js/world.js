@@ -14,6 +14,7 @@ export class World {
     this.interval = 100; // between two updates [ms, wall], measured
     this.arrived = 0;
     this.setScene({ revision: 0, robots: [], units: [], items: [], item_unit: [], item_pose: [],
+      fallen_item: [], fallen_from: [],
       floor: [0, 0, 0, 0], grid: 1, looks: [], robot_look: -1, unit_look: -1, item_look: -1,
       scenery: [], scenery_look: [], paint: {}, stations: [] });
   }
@@ -41,6 +42,7 @@ export class World {
     this.state = new Uint8Array(robots);
     this.charge = new Uint8Array(robots).fill(100); // [%]
     this.failures = new Uint8Array(robots); // bits of FAILURE
+    this.loadLimit = new Float32Array(robots); // [m/s²], 0 = none
     this.moving = new Set();
     this.unitPose = new Float32Array(7 * scene.units.length);
     this.carrier = new Int32Array(scene.units.length);
@@ -72,6 +74,7 @@ export class World {
       this.state[i] = u8[4 * (at + 5) + 1];
       this.charge[i] = u8[4 * (at + 5) + 2];
       this.failures[i] = u8[4 * (at + 5) + 3];
+      this.loadLimit[i] = f32[at + 6];
       this.aim(i, f32[at + 1], f32[at + 2], f32[at + 3], now);
     }
     return changed;

@@ -13,12 +13,13 @@
 #include "core/control/failures.h"
 #include "core/control/protective_fields.h"
 #include "core/sensing/scans.h"
+#include "core/state/path_progress.h"
 
 namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -48,6 +49,7 @@ void makeModels(WorldState& world, DescriptionTable table) {
   for (ModelDescription& d : table.descriptions) {
     shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
   }
+  world.models.reserve(table.of_slot.size());
   for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
     const std::int32_t description = table.of_slot[slot];
     if (description >= static_cast<std::int32_t>(shared.size())) {
@@ -88,7 +90,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   }
   FIELDS(world.fleet, world.units, world.items);
   if (world.fleet.localises) FIELDS(world.fleet.localisation);
-  if (world.realism.loads.enabled) FIELDS(world.fleet.sway);
+  if (world.realism.loads.enabled) FIELDS(world.fleet.sway, world.off_shelf);
   if (!world.fleet.lag.isNone()) FIELDS(world.fleet.command_speed);
   FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
          world.sighted, world.crashes);
@@ -126,6 +128,10 @@ void indexModels(WorldState& world) {
   world.fleet.sway.resize(world.fleet.size());
   world.fleet.heard.resize(world.fleet.size());
   world.fleet.command_speed.resize(world.fleet.size());
+  world.fleet.count_at.clear();
+  for (int i = 0; i < world.fleet.size(); ++i) {
+    world.fleet.count_at.push_back(nextCount(world, i));
+  }
 }
 
 struct Header {

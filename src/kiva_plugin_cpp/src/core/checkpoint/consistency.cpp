@@ -393,6 +393,15 @@ void checkLists(const WorldState& world) {
     require(walker.next <= walker.walk.waypoints.size(), "walkers", i, "next",
             "there is no such waypoint");
   }
+  for (std::size_t i = 0; i < world.off_shelf.size(); ++i) {
+    const OffShelf& one = world.off_shelf[i];
+    const Model* item = modelAt(world, one.item);
+    const Model* unit = modelAt(world, one.unit);
+    require(item && item->kind == ModelKind::kItem && item->in_physics == one.lies, "off_shelf", i,
+            "item", "there is no such item");
+    require(unit && unit->kind == ModelKind::kStorageUnit, "off_shelf", i, "unit",
+            "there is no such storage unit");
+  }
   for (std::size_t i = 0; i < world.sighted.size(); ++i) {
     require(isIn(world.sighted[i], robots), "sighted", i, "", "there is no such robot");
   }

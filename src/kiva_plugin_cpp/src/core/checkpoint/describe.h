@@ -23,7 +23,7 @@ constexpr Shape::Kind lastOf(Shape::Kind) { return Shape::Kind::kMesh; }
 constexpr Joint::Kind lastOf(Joint::Kind) { return Joint::Kind::kBall; }
 constexpr Light::Kind lastOf(Light::Kind) { return Light::Kind::kDirectional; }
 constexpr Command::Kind lastOf(Command::Kind) { return Command::Kind::kFollow; }
-constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kTipped; }
+constexpr Event::Kind lastOf(Event::Kind) { return Event::Kind::kPickedUp; }
 constexpr ModelKind lastOf(ModelKind) { return ModelKind::kOther; }
 constexpr Status lastOf(Status) { return Status::kBlocked; }
 constexpr State lastOf(State) { return State::kWaiting; }
@@ -254,9 +254,9 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 27);  // what only some realism needs: with the world
-  // What is broken, and charges, follow from what else the world holds; what people allow: with
-  // those.
+  DESCRIBED(FleetState, 28);  // what only some realism needs: with the world
+  // What is broken, charges, and where points are counted next, follow from what else the world
+  // holds; what people allow: with those.
   DESCRIBED(Fleet, 26);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
@@ -499,6 +499,12 @@ template <class A>
 void describe(A& a, Crash& c) {
   DESCRIBED(Crash, 2);
   FIELDS(c.kiva_id, c.with);
+}
+
+template <class A>
+void describe(A& a, OffShelf& o) {
+  DESCRIBED(OffShelf, 5);
+  FIELDS(o.item, o.unit, o.velocity, o.lies, o.due);
 }
 
 template <class A>

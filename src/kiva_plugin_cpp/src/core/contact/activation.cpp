@@ -81,11 +81,14 @@ std::vector<double> clearTimes(const WorldState& world) {
 /// One by one, since who enters Bullet changes what the next one finds.
 void lookAround(WorldState& world) {
   const FleetState& f = world.fleet;
+  const auto asks = [&](int robot) { return looksAround(world, robot); };
+  const std::vector<int>& all = world.stepped_singly;
+  if (std::none_of(all.begin(), all.end(), asks)) return;
   const std::vector<double> times = clearTimes(world);
   const std::size_t before = world.activated.size();
   for (std::size_t k = 0; k < times.size(); ++k) {
-    const int i = world.stepped_singly[k];
-    if (!looksAround(world, i)) continue;
+    const int i = all[k];
+    if (!asks(i)) continue;
     const bool is_known = world.activated.size() == before;
     const auto time = [&] { return is_known ? times[k] : clearTime(world, i, true); };
     if (f.activated[i] || !noteClearance(world, i, time())) activateClose(world, i);

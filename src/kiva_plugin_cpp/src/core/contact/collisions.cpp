@@ -49,6 +49,25 @@ void noteCrash(WorldState& world, const Model& model, const Model& other) {
   if (robot >= 0) world.crashes.push_back({world.fleet.robots[robot].id, other.name});
 }
 
+/// What an impact [Ns, in world] made of the storage unit that it hit, or whose robot.
+void noteJolt(WorldState& world, const Model& model, const Vector3& impulse) {
+  const int robot = robotIn(world, model);
+  if (robot >= 0 && world.fleet.unit[robot] >= 0) {
+    const Robot& r = world.fleet.robots[robot];
+    const int unit = world.units[world.fleet.unit[robot]].model;
+    world.jolts.push_back({unit, impulse / (r.mass + r.load_mass)});
+  } else if (model.owner->holdsItems()) {
+    world.jolts.push_back({model.slot, impulse / world.units[model.index].mass});
+  }
+}
+
+void noteJolts(WorldState& world, const TouchingPair& pair) {
+  if (!world.realism.loads.enabled) return;
+  const Vector3 impulse = pair.impact.normal * pair.impact.impulse;
+  noteJolt(world, *world.models[pair.model_a], impulse);
+  noteJolt(world, *world.models[pair.model_b], -impulse);
+}
+
 void tell(WorldState& world, TouchingPair* pair) {
   const Model* a = world.models[pair->model_a].get();
   const Model* b = world.models[pair->model_b].get();
@@ -65,7 +84,9 @@ void tell(WorldState& world, TouchingPair* pair) {
 
 void tellWhatIsOver(WorldState& world) {
   for (TouchingPair& pair : world.touching) {
-    if (pair.tell_at > 0 && pair.tell_at <= world.total_steps) tell(world, &pair);
+    if (pair.tell_at == 0 || pair.tell_at > world.total_steps) continue;
+    noteJolts(world, pair);
+    tell(world, &pair);
   }
 }
 

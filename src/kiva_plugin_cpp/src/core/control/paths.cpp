@@ -51,7 +51,7 @@ bool isSame(const PathPoint& a, const PathPoint& b) {
 /// Whether a model is a part of the building, or one of its belts: it will not go. What is not
 /// as long as a cell and stands for itself, as a person does, may.
 bool isBuilding(const WorldState& world, const Model& model) {
-  const std::uint8_t as = model.owner->occupies();
+  const std::uint8_t as = model.owner->occupies(world, model);
   if (as == Occupancy::kBelt) return true;
   if (as != Occupancy::kTaken || !model.isStatic()) return false;
   const Vector3 size = bounds(*model.description).max - bounds(*model.description).min;

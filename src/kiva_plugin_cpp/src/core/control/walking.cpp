@@ -188,10 +188,10 @@ std::vector<Person> peopleIn(const WorldState& world) {
     const Model& model = *world.models[walker.model];
     Person person{model.name, model.pose.X(), model.pose.Y(), model.pose.Yaw(),
                   walker.vx,  walker.vy,      model.pose.X(), model.pose.Y()};
-    const double speed = std::hypot(walker.vx, walker.vy);
-    if (speed > 0 && walker.walks()) {
+    if (walker.pause <= 0 && walker.walks()) {
       const PathPoint to = walker.target();
-      const double part = partOf(speed * kForesight, to.x - person.x, to.y - person.y);
+      const double way = walker.walk.waypoints[walker.next].speed * kForesight;
+      const double part = partOf(way, to.x - person.x, to.y - person.y);
       person.ahead_x += part * (to.x - person.x);
       person.ahead_y += part * (to.y - person.y);
     }

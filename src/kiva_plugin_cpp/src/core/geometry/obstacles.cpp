@@ -14,6 +14,9 @@ namespace {
 constexpr double kCell = 1.0;           // [m]
 constexpr int kMaxCells = 2048;         // a side; farther out nothing is indexed by cell
 constexpr long kMostCellsEach = 16384;  // what covers more is asked for everywhere
+// What single precision may lose of a place and a radius: so much, and a share of their size.
+constexpr double kSpotMargin = 0.001;  // [m]
+constexpr double kFloatMargin = 2.4e-7;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double halfX(const Footprint& f) {
@@ -56,7 +59,9 @@ double gap(const Footprint& a, const Footprint& b) {
 
 void Obstacles::clear() {
   entries_.clear();
+  spots_.clear();
   movers_.clear();
+  mover_corner_.clear();
   radius_.clear();
   free_.clear();
   cells_.clear();
@@ -69,12 +74,13 @@ int Obstacles::add(const Footprint& footprint) {
   int handle = static_cast<int>(entries_.size());
   if (free_.empty()) {
     entries_.emplace_back();
+    spots_.emplace_back();
   } else {
     handle = free_.back();
     free_.pop_back();
   }
   entries_[handle].used = true;
-  entries_[handle].footprint = footprint;
+  setFootprint(handle, footprint);
   cover(boxOf(footprint));
   link(handle, entries_[handle].place, boxOf(footprint));
   return handle;
@@ -82,7 +88,7 @@ int Obstacles::add(const Footprint& footprint) {
 
 void Obstacles::update(int handle, const Footprint& footprint) {
   Entry& entry = entries_[handle];
-  entry.footprint = footprint;
+  setFootprint(handle, footprint);
   const Box box = boxOf(footprint);
   if (!entry.place.everywhere && isInside(box) && range(box) == entry.place.range) return;
   unlink(handle, entry.place);
@@ -99,6 +105,7 @@ void Obstacles::remove(int handle) {
 void Obstacles::setMover(int robot, std::vector<Footprint> local) {
   if (robot >= static_cast<int>(movers_.size())) {
     movers_.resize(robot + 1);
+    mover_corner_.resize(robot + 1);
     radius_.resize(robot + 1);
   }
   radius_[robot] = 0;
@@ -131,6 +138,7 @@ void Obstacles::removeMover(int robot) {
     radius_[robot] = radius_[last];
   }
   movers_.pop_back();
+  mover_corner_.pop_back();
   radius_.pop_back();
   if (robot != last) linkMover(robot);
 }
@@ -191,10 +199,21 @@ bool Obstacles::isInside(const Box& box) const {
          box.max_x <= origin_x_ + columns_ * kCell && box.max_y <= origin_y_ + rows_ * kCell;
 }
 
+void Obstacles::setFootprint(int handle, const Footprint& f) {
+  entries_[handle].footprint = f;
+  Spot& spot = spots_[handle];
+  spot.x = static_cast<float>(f.x);
+  spot.y = static_cast<float>(f.y);
+  const double rounded = kSpotMargin + kFloatMargin * (std::abs(f.x) + std::abs(f.y));
+  spot.radius = static_cast<float>(radiusOf(f) + rounded);
+}
+
 void Obstacles::link(int handle, Place& place, const Box& box) {
   place.linked = true;
   place.range = range(box);
   const Range& cells = place.range;
+  Corner& corner = handle < 0 ? mover_corner_[~handle] : spots_[handle].corner;
+  corner = {static_cast<std::int16_t>(cells.x0), static_cast<std::int16_t>(cells.y0)};
   const long count = (cells.x1 - cells.x0 + 1L) * (cells.y1 - cells.y0 + 1L);
   place.everywhere = !isInside(box) || count > kMostCellsEach;
   if (place.everywhere) {
@@ -203,7 +222,10 @@ void Obstacles::link(int handle, Place& place, const Box& box) {
   }
   const Range& r = place.range;
   for (int cy = r.y0; cy <= r.y1; ++cy) {
-    for (int cx = r.x0; cx <= r.x1; ++cx) cells_[cell(cx, cy)].push_back(handle);
+    for (int cx = r.x0; cx <= r.x1; ++cx) {
+      auto& list = cells_[cell(cx, cy)];
+      list.insert(handle < 0 ? list.begin() : list.end(), handle);
+    }
   }
 }
 
@@ -211,9 +233,7 @@ void Obstacles::unlink(int handle, Place& place) {
   if (!place.linked) return;
   place.linked = false;
   const auto drop = [handle](auto& list) {
-    const auto at = std::find(list.begin(), list.end(), handle);
-    *at = list.back();
-    list.pop_back();
+    list.erase(std::find(list.begin(), list.end(), handle));
   };
   if (place.everywhere) {
     drop(everywhere_);

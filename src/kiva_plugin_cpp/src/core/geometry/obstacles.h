@@ -88,10 +88,38 @@ class Obstacles {
   /// mover.
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
-    return anyHandle({x - reach, x + reach, y - reach, y + reach}, [&](int handle) {
+    const Range cells = range({x - reach, x + reach, y - reach, y + reach});
+    return anyHandle(cells, cells, [&](int handle) {
       return handle >= 0 ? meets(entries_[handle].footprint)
                          : approaches(~handle, radius_[~handle]);
     });
+  }
+
+  /// The same of what has a point within the circle `reach` around (x, y), and of movers whose
+  /// circle has one within `mover_reach`.
+  template <typename Meets, typename Approaches>
+  bool anyAround(double x, double y, double reach, double mover_reach, Meets meets,
+                 Approaches approaches) const {
+    const auto moves = [&](int robot) {
+      const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
+      const double most = mover_reach + radius_[robot];
+      return dx * dx + dy * dy < most * most && approaches(robot, radius_[robot]);
+    };
+    const auto stands = [&](int handle) {
+      return spots_[handle].isWithin(reach, x, y) && meets(entries_[handle].footprint);
+    };
+    const auto ask = [&](int handle) { return handle < 0 ? moves(~handle) : stands(handle); };
+    const Range near = range({x - reach, x + reach, y - reach, y + reach});
+    const int movers = static_cast<int>(movers_.size());
+    if (movers > kFew) {
+      const double far = mover_reach;
+      return anyHandle(near, range({x - far, x + far, y - far, y + far}), ask);
+    }
+    // Few are gone through more quickly than the cells in which they may be.
+    for (int robot = 0; robot < movers; ++robot) {
+      if (moves(robot)) return true;
+    }
+    return anyHandle(near, near, [&](int handle) { return handle >= 0 && stands(handle); });
   }
 
   /// The first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but for
@@ -102,11 +130,14 @@ class Obstacles {
             FanHits* hits) const;
 
  private:
+  static constexpr int kFew = 32;  // movers
+
   struct Range {  // of cells, inclusive
     int x0 = 0, x1 = -1, y0 = 0, y1 = -1;
     bool operator==(const Range& o) const {
       return x0 == o.x0 && x1 == o.x1 && y0 == o.y0 && y1 == o.y1;
     }
+    bool holds(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
   };
   struct Box {  // along the world's axes [m]
     double min_x, max_x, min_y, max_y;
@@ -121,6 +152,19 @@ class Obstacles {
     Place place;
     bool used = false;
   };
+  struct Corner {  // of a Range: where it begins
+    std::int16_t x0 = 0, y0 = 0;
+  };
+  /// Most of what is near a robot is not near enough: to see that costs no look at all of it.
+  struct Spot {
+    Corner corner;
+    float x = 0, y = 0, radius = 0;  // of a circle that holds it [m]
+
+    bool isWithin(double reach, double from_x, double from_y) const {
+      const double dx = x - from_x, dy = y - from_y, most = reach + radius;
+      return dx * dx + dy * dy < most * most;
+    }
+  };
   struct Mover {
     std::vector<Footprint> local;  // in the robot's frame
     Place place;
@@ -129,16 +173,20 @@ class Obstacles {
     mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
   };
 
-  /// Whether ask(handle) is true for any that is indexed in a cell of that box, asked once each.
+  /// Whether ask(handle) is true for any mover that is indexed in a cell of `far`, or any other in
+  /// one of `near`, asked once each.
   template <typename Ask>
-  bool anyHandle(const Box& box, Ask ask) const {
-    const Range r = range(box);
-    for (int cy = r.y0; cy <= r.y1; ++cy) {
-      for (int cx = r.x0; cx <= r.x1; ++cx) {
+  bool anyHandle(const Range& near, const Range& far, Ask ask) const {
+    for (int cy = far.y0; cy <= far.y1; ++cy) {
+      for (int cx = far.x0; cx <= far.x1; ++cx) {
+        const bool is_near = near.holds(cx, cy);
         for (int handle : cells_[cell(cx, cy)]) {
+          if (handle >= 0 && !is_near) break;  // so are all that follow
           // In the first of its cells that is one of these.
-          const Range& own = placeOf(handle).range;
-          const bool is_first = cx == std::max(own.x0, r.x0) && cy == std::max(own.y0, r.y0);
+          const Corner own = handle >= 0 ? spots_[handle].corner : mover_corner_[~handle];
+          const Range& r = handle >= 0 ? near : far;
+          const bool is_first =
+              cx == std::max<int>(own.x0, r.x0) && cy == std::max<int>(own.y0, r.y0);
           if (is_first && ask(handle)) return true;
         }
       }
@@ -146,9 +194,6 @@ class Obstacles {
     return std::any_of(everywhere_.begin(), everywhere_.end(), ask);
   }
 
-  const Place& placeOf(int handle) const {
-    return handle >= 0 ? entries_[handle].place : movers_[~handle].place;
-  }
   static Box boxOf(const Footprint& footprint);
   Box boxOfMover(int robot) const;
   Range range(double min_x, double max_x, double min_y, double max_y) const;
@@ -156,6 +201,7 @@ class Obstacles {
   bool isInside(const Box& box) const;
   int cell(int cx, int cy) const { return cy * columns_ + cx; }
   void link(int handle, Place& place, const Box& box);
+  void setFootprint(int handle, const Footprint& footprint);
   void unlink(int handle, Place& place);
   void linkMover(int robot);
   void cover(const Box& box);
@@ -163,10 +209,13 @@ class Obstacles {
 
   const Fleet& fleet_;
   std::vector<Entry> entries_;
+  std::vector<Spot> spots_;  // of each entry
   std::vector<Mover> movers_;
+  std::vector<Corner> mover_corner_;
   std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
   std::vector<int> free_;
-  // Handles; ~robot for a mover. Few a cell: beside each other in memory, which is most of a ray.
+  // Handles; ~robot for a mover, which come first: who asks for movers far away passes the rest.
+  // Few a cell: beside each other in memory, which is most of a ray.
   std::vector<boost::container::small_vector<int, 4>> cells_;
   std::vector<int> everywhere_;  // too large for cells
   double origin_x_ = 0, origin_y_ = 0;

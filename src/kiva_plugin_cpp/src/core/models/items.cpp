@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/models/load.h"
+#include "core/motion/dynamics.h"
+#include "core/state/footprints.h"
 #include "core/state/poses.h"
 #include "core/state/unit_geometry.h"
 
@@ -30,6 +32,15 @@ int findUnit(const WorldState& world, Model& item) {
 }
 
 }  // namespace
+
+std::uint8_t Items::occupies(const WorldState& world, const Model& model) const {
+  if (liesOnUnit(world, model)) return Occupancy::kFree;
+  const auto& all = world.off_shelf;
+  const bool fell = std::any_of(all.begin(), all.end(), [&](const OffShelf& one) {
+    return one.lies && one.item == model.slot;
+  });
+  return fell ? Occupancy::kTaken : Occupancy::kFree;
+}
 
 void Items::add(WorldState& world, Model& model) const {
   Item item;
@@ -100,6 +111,47 @@ bool Items::push(WorldState& world, Model& model, int link, const Vector3& at, c
   }
   Model& unit = unitBelow(world, model);
   return unit.owner->push(world, unit, 0, at, force, torque);
+}
+
+void fallOff(WorldState& world, Model& model, const EntityState& state) {
+  Item& item = world.items[model.index];
+  const int unit = item.unit;
+  item.unit = -1;
+  addMass(world, unit, -item.mass);
+  OrdinaryModels().add(world, model);
+  OrdinaryModels().place(world, model, state);
+  moved(world, model);
+  alarm(world);
+  ++world.models_revision;
+}
+
+void putBack(WorldState& world, Model& model, const Model& unit) {
+  OrdinaryModels().remove(world, model);
+  world.physics.remove(model.bodies);
+  model.bodies = ModelBodies();
+  model.in_physics = false;
+  hideFootprints(world, model);
+  model.geometries.clear();
+  Item& item = world.items[model.index];
+  item.unit = unit.index;
+  addMass(world, item.unit, item.mass);
+  world.unitsMoved();
+  alarm(world);
+  wakeBodies(world);  // what lies on it falls
+  ++world.models_revision;
+}
+
+void forgetFallen(WorldState& world, int slot) {
+  auto& all = world.off_shelf;
+  const auto is_of = [slot](const OffShelf& o) { return o.item == slot || o.unit == slot; };
+  all.erase(std::remove_if(all.begin(), all.end(), is_of), all.end());
+}
+
+void putAllBack(WorldState& world) {
+  for (const OffShelf& one : world.off_shelf) {
+    if (one.lies) putBack(world, *world.models[one.item], *world.models[one.unit]);
+  }
+  world.off_shelf.clear();
 }
 
 }  // namespace kiva

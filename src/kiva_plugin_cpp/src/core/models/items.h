@@ -18,9 +18,19 @@ class Items : public OrdinaryModels {
   void reweigh(WorldState& world, Model& model, double added) const override;
   bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
-  std::uint8_t occupies() const override { return Occupancy::kFree; }
+  /// One that fell is to be picked up; where others lie loose, somebody wants them there.
+  std::uint8_t occupies(const WorldState& world, const Model& model) const override;
   int group(const Model& /*model*/) const override { return -1; }
   bool isTracked() const override { return true; }
 };
+
+/// The item slides over the edge of its unit, and is a body of its own from then on.
+void fallOff(WorldState& world, Model& item, const EntityState& state);
+/// It is in its place on that unit again.
+void putBack(WorldState& world, Model& item, const Model& unit);
+/// What is known of those that fell, without a model that is going.
+void forgetFallen(WorldState& world, int slot);
+/// All that fell are back on their units, and nobody is told.
+void putAllBack(WorldState& world);
 
 }  // namespace kiva

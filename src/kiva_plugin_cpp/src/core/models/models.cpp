@@ -123,6 +123,7 @@ void dismantle(WorldState& world, Model& model) {
   model.plugins.clear();
   forgetExternalInputs(world, model.name);
   forgetWalker(world, model.slot);
+  forgetFallen(world, model.slot);
   if (model.in_physics) world.physics.remove(model.bodies);
   model.in_physics = false;
   for (auto* slots : {&world.activated, &world.models_with_plugins}) {

@@ -20,14 +20,18 @@ class OrdinaryModels : public ModelOwner {
   bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
   ModelBodies build(const WorldState& world, const Model& model) const override;
-  std::uint8_t occupies() const override { return Occupancy::kTaken; }
+  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+    return Occupancy::kTaken;
+  }
   int group(const Model& model) const override { return kMaxKivaId + 1 + model.slot; }
 };
 
 /// They are in the way like any other, but somebody put them there for robots to come to.
 class ConveyorBelts : public OrdinaryModels {
  public:
-  std::uint8_t occupies() const override { return Occupancy::kBelt; }
+  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+    return Occupancy::kBelt;
+  }
   int group(const Model& /*model*/) const override { return -1; }
 };
 
@@ -35,7 +39,9 @@ class ConveyorBelts : public OrdinaryModels {
 class Floors : public OrdinaryModels {
  public:
   bool isFloor() const override { return true; }
-  std::uint8_t occupies() const override { return Occupancy::kFree; }
+  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+    return Occupancy::kFree;
+  }
 };
 
 /// Puts a model's bodies there, at that velocity.

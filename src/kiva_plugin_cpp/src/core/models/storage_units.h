@@ -28,7 +28,9 @@ class StorageUnits : public ModelOwner {
   void touched(WorldState& world, Model& model) const override;
   int robot(const WorldState& world, const Model& model) const override;
   bool stops(const WorldState& world, const Model& model, int robot) const override;
-  std::uint8_t occupies() const override { return Occupancy::kStorageUnit; }
+  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+    return Occupancy::kStorageUnit;
+  }
   bool isTracked() const override { return true; }
   bool holdsItems() const override { return true; }
 };

@@ -14,8 +14,9 @@ namespace {
 constexpr double kHorizons[] = {0.3, 0.08, 0.02}, kShortest = kHorizons[2];
 constexpr double kWorthwhile = 0.015;  // [s]: less is no clearance to cruise on
 constexpr double kAstray = 0.001;      // [m] that a robot may be beside its way at the horizon
-constexpr double kPushed = 0.5;  // [m/s] by which a robot in Bullet may be faster than it drives
-constexpr double kStill = 1e-9;  // [m/s, rad/s]
+constexpr double kPushed = 0.5;     // [m/s] by which a robot in Bullet may be faster than it drives
+constexpr double kStill = 1e-9;     // [m/s, rad/s]
+constexpr double kWanders = 0.003;  // [m/s] that wheels of unequal sizes move one that turns
 
 bool standsStill(const FleetState& f, int i) {
   if (!f.awake[i]) return true;
@@ -27,15 +28,17 @@ bool standsStill(const FleetState& f, int i) {
   return !task.segment() || task.lifts();
 }
 
-/// Its circle stays where it is until it begins another segment, and then it looks around itself.
+/// Its circle stays where it is, or nearly, until it begins another segment, and then it looks
+/// around itself.
 bool turnsInPlace(const FleetState& f, int i) {
+  const double most = f.localises ? kWanders : kStill;
   return !f.activated[i] && f.tasks[i].isAt(MotionSegment::Kind::kTurn) &&
-         std::abs(f.vx[i]) < kStill && std::abs(f.vy[i]) < kStill;
+         std::abs(f.vx[i]) < most && std::abs(f.vy[i]) < most;
 }
 
 /// How fast its circle may come nearer [m/s].
 double approachSpeed(const FleetState& f, int i) {
-  if (turnsInPlace(f, i)) return 0;
+  if (turnsInPlace(f, i)) return f.localises ? kWanders : 0;
   const double speed = f.robots[i].drive.speed;
   return f.activated[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
 }
@@ -139,9 +142,11 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double fastest = world.walkers.empty() ? 0 : kMostWalkingSpeed;
-  const double farthest = std::max(world.top_speed + kPushed, fastest) * time + kNear;
-  return !world.obstacles.any(swept.x, swept.y, radiusOf(swept) + farthest, meets, approaches);
+  const double walk = world.walkers.empty() ? 0 : kMostWalkingSpeed * time;
+  const double drive = std::max((world.top_speed + kPushed) * time, walk);
+  const double reach = radiusOf(swept) + kNear;
+  return !world.obstacles.anyAround(swept.x, swept.y, reach + walk, reach + drive, meets,
+                                    approaches);
 }
 
 /// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its
@@ -174,6 +179,13 @@ Footprint holding(const std::vector<Footprint>& all) {
 
 double clearTime(const WorldState& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
+  // In long steps the shorter horizons are one step, and nothing is indexed for longer.
+  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.dt) {
+    for (const double horizon : {kHorizons[0], kShortest}) {
+      if (isClearFor(world, i, horizon)) return horizon;
+    }
+    return 0;
+  }
   // Who is hemmed in asks at each step, and what is clear for longer is clear for less.
   if (is_crowded && !isClearFor(world, i, horizonOf(f, i, kShortest))) return 0;
   for (const double horizon : kHorizons) {

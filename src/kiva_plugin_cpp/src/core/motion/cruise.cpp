@@ -141,7 +141,7 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
   const double way = place - f.reference[i];
   const double faster = f.acceleration[i] * dt * dt;  // a step goes that much farther than the last
   double steps = way / (f.top_speed[i] * dt);
-  if (faster > 0) {
+  if (faster > 0 && f.reference_speed[i] < f.top_speed[i]) {
     const double first = f.reference_speed[i] * dt + faster / 2;
     steps = std::max(steps, (std::sqrt(first * first + 2 * faster * way) - first) / faster);
   }
@@ -156,9 +156,21 @@ void planAttention(WorldState& world, int i, double after) {
     const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.dt);
     f.attend_at[i] = std::min(f.attend_at[i], end);
   }
-  if (!f.tasks[i].follows()) return;
-  const double next = after + stepsTo(f, i, nextCount(world, i), world.dt);
+  if (std::isinf(f.count_at[i])) return;
+  const double next = after + stepsTo(f, i, f.count_at[i], world.dt);
   f.attend_at[i] = std::min(f.attend_at[i], next);
+}
+
+/// The same where its way has changed.
+void replanAttention(WorldState& world, int i) {
+  world.fleet.count_at[i] = nextCount(world, i);
+  planAttention(world, i, static_cast<double>(world.total_steps));
+}
+
+/// Of a robot that has come to where there is something to count.
+void count(WorldState& world, int i) {
+  countPoints(world, i, world.fleet.reference[i]);
+  world.fleet.count_at[i] = nextCount(world, i);
 }
 
 /// A robot that cruises and needs a look now.
@@ -172,7 +184,7 @@ void attend(WorldState& world, const Attention& due, double now) {
   FleetState& f = world.fleet;
   const int i = due.robot;
   bool ended = due.ended;
-  if (f.tasks[i].follows()) countPoints(world, i, f.reference[i]);
+  if (f.reference[i] >= f.count_at[i]) count(world, i);
   if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.dt);
   if (ended) return moved(f, i);
   // Who has just read a code may go elsewhere.
@@ -254,7 +266,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
   if (!hasEnded(f, i, world.dt) && findClearance(world, i, true)) {
-    planAttention(world, i, static_cast<double>(world.total_steps));
+    replanAttention(world, i);
     return true;
   }
   f.cruising[i] = 0;
@@ -272,7 +284,7 @@ void setGoal(WorldState& world, int i, double goal) {
   // Its way was found free up to the old goal only.
   if (goes_farther && isPatchy(world)) return moved(f, i);
   if (saw_the_end && goes_farther && !findClearance(world, i, false)) return moved(f, i);
-  planAttention(world, i, static_cast<double>(world.total_steps));
+  replanAttention(world, i);
 }
 
 void cruise(WorldState& world) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/motion/jointed.h"
 
@@ -13,20 +14,19 @@ constexpr double kGripReserve = 0.9;  // share of the grip that plans count on
 constexpr double kLeast = 0.05;       // [m/s²]: plans need some
 constexpr double kGripsAll = 1e16;    // Coulomb coefficient: the wheels' decides
 
-/// What a robot that knows its load asks of itself so that it does not tip [m/s²].
-double tippingLimit(const WorldState& world, int robot) {
-  const double tips = tippingAcceleration(world.fleet.robots[robot], world.gravityDown());
-  return std::max(kLeast, world.realism.loads.tipping_share * tips);
-}
-
 double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&), double wanted) {
   if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
   const double held = std::min(wanted, limit(plannedVehicle(world, robot)));
-  if (!world.realism.loads.enabled) return held;
-  return std::min(held, tippingLimit(world, robot));
+  return std::min(held, loadLimit(world, robot));
 }
 
 }  // namespace
+
+double loadLimit(const WorldState& world, int robot) {
+  if (!world.realism.loads.enabled) return std::numeric_limits<double>::infinity();
+  const double tips = tippingAcceleration(world.fleet.robots[robot], world.gravityDown());
+  return std::max(kLeast, world.realism.loads.tipping_share * tips);
+}
 
 Vector3 centreFromOrigin(const Fleet& f, int robot) {
   const Vehicle vehicle = vehicleOf(f.robots[robot], {});

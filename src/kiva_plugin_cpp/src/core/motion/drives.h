@@ -15,6 +15,10 @@ Vector3 centreFromOrigin(const Fleet& fleet, int robot);
 /// drive's parameters say, with a reserve to mend errors with.
 Vehicle plannedVehicle(WorldState& world, int robot);
 
+/// What a robot that knows its load asks of itself at most so that it does not tip [m/s²]; +inf
+/// without a load, or where loads are ideal.
+double loadLimit(const WorldState& world, int robot);
+
 /// What speeding up and braking are planned with, as far as motors and wheels can with that load
 /// [m/s²]; 0 = at once.
 double plannedAcceleration(WorldState& world, int robot);

@@ -140,6 +140,9 @@ struct FleetState : Fleet {
   /// Step at which a robot that cruises needs a look again: that one, or when it may have come to
   /// or left the next point of a path.
   Column<double> attend_at;
+  /// Where its reference comes to that next point, or leaves it [m]; infinity: nowhere. Kept while
+  /// it cruises.
+  Column<double> count_at;
 
   // Of robots that follow their references exactly, see core/motion/cruise.h.
   Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.

@@ -101,7 +101,9 @@ class ModelOwner {
     return true;
   }
   /// What it makes of a cell where it stands: of Occupancy.
-  virtual std::uint8_t occupies() const { return Occupancy::kFree; }
+  virtual std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const {
+    return Occupancy::kFree;
+  }
   /// Whether what is put into it stays there and goes where it goes.
   virtual bool holdsItems() const { return false; }
   /// Whether World::unitsRevision tells that it moved.

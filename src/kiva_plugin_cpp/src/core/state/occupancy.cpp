@@ -33,7 +33,7 @@ bool isInTheWay(const Floor& floor, const Footprint& other) {
 Floor withoutFloor(const WorldState& world) {
   Floor all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
-    if (!model || model->owner->occupies() != Occupancy::kTaken) continue;
+    if (!model || model->owner->occupies(world, *model) != Occupancy::kTaken) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& f = world.obstacles[geometry.handle];
       const double reach = radiusOf(f) + world.grid_spacing;
@@ -124,11 +124,12 @@ Occupancy World::occupancy() const {
     }
   }
   for (const auto& model : world.models) {
-    if (!model || model->owner->occupies() == Occupancy::kFree) continue;
+    const std::uint8_t as = model ? model->owner->occupies(world, *model) : Occupancy::kFree;
+    if (as == Occupancy::kFree) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       if (geometry.handle < 0) continue;  // it is carried
       const Footprint& footprint = world.obstacles[geometry.handle];
-      if (isInTheWay(world.floor, footprint)) mark(footprint, model->owner->occupies(), &map);
+      if (isInTheWay(world.floor, footprint)) mark(footprint, as, &map);
     }
   }
   return map;

@@ -21,7 +21,8 @@ enum class Matter : std::uint64_t {
   kEnergy = 8,
   kFailure = 9,
   kPeople = 10,
-  kFloor = 11
+  kFloor = 11,
+  kItem = 12
 };
 
 /// SplitMix64 (Steele, Lea, Flood 2014), begun from a hash of what it is for.

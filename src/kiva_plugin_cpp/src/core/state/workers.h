@@ -5,7 +5,6 @@
 // there are or who takes which.
 #pragma once
 
-#include <functional>
 #include <memory>
 
 namespace kiva {
@@ -14,7 +13,21 @@ namespace kiva {
 /// between two loops: nobody spins. In a forked child, where they are gone, others are started.
 class Workers {
  public:
-  using Loop = std::function<void(int begin, int end)>;
+  /// A callable (int begin, int end), referred to for as long as it is called: a world makes
+  /// several of them in a step of some microseconds, and a std::function would be on the heap.
+  class Loop {
+   public:
+    template <typename Callable>
+    Loop(const Callable& callable)
+        : callable_(&callable), call_([](const void* of, int begin, int end) {
+            (*static_cast<const Callable*>(of))(begin, end);
+          }) {}
+    void operator()(int begin, int end) const { call_(callable_, begin, end); }
+
+   private:
+    const void* callable_;
+    void (*call_)(const void* of, int begin, int end);
+  };
 
   /// 0: as many as the machine has cores.
   explicit Workers(unsigned threads);

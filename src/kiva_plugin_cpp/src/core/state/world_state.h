@@ -45,6 +45,21 @@ struct Crash {
   std::string with;  ///< A model's name.
 };
 
+/// Something changed a storage unit's velocity at once.
+struct Jolt {
+  int unit = -1;   ///< A model's slot.
+  Vector3 change;  ///< In world [m/s].
+};
+
+/// An item that slides off its storage unit, or lies on the floor since.
+struct OffShelf {
+  int item = -1, unit = -1;  ///< Models' slots.
+  Vector3 velocity;   ///< With which it comes to the edge, as the unit moves then, in its frame.
+  bool lies = false;  ///< It is a body of its own.
+  std::uint64_t due = 0;  ///< The step at which it comes to the edge; or, if it lies, at which
+                          ///< somebody picks it up, 0 = nobody does.
+};
+
 /// What is broken now.
 struct Defect {
   int kiva_id = 0;
@@ -157,11 +172,13 @@ struct WorldState {
   std::vector<Event> events;
   std::vector<StatusChange> status_changes;
   std::vector<TouchingPair> touching;
-  std::vector<Contact> contacts;   // scratch
-  std::vector<char> cruised;       // scratch: what is to be done for each block of robots
-  std::vector<int> sighted;        // robots whose lasers looked ahead in the last step
-  std::vector<Crash> crashes;      // of the last step
-  std::uint32_t last_command = 0;  // the number of the command that was answered last
+  std::vector<Contact> contacts;    // scratch
+  std::vector<char> cruised;        // scratch: what is to be done for each block of robots
+  std::vector<int> sighted;         // robots whose lasers looked ahead in the last step
+  std::vector<Crash> crashes;       // of the last step
+  std::vector<Jolt> jolts;          // of this step; scratch
+  std::vector<OffShelf> off_shelf;  // in the order in which they began to slide
+  std::uint32_t last_command = 0;   // the number of the command that was answered last
   ExternalInputs external_inputs;
   FailureState failures;
   std::vector<Walker> walkers;  // people, in the order in which they came

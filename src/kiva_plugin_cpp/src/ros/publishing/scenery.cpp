@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenery.h"
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "kiva_plugin_cpp/look.h"
 #include "ros/messages/convert.h"
 
 namespace kiva_ros {
@@ -15,71 +15,19 @@ namespace {
 
 using warehouse_msgs::Look;
 
-constexpr float kPlain[4] = {0.7F, 0.7F, 0.7F, 1};  // of what has a shape but no look
+static_assert(kiva::Look::kBox == Look::BOX && kiva::Look::kSphere == Look::SPHERE &&
+              kiva::Look::kCylinder == Look::CYLINDER && kiva::Look::kCapsule == Look::CAPSULE &&
+              kiva::Look::kEllipsoid == Look::ELLIPSOID && kiva::Look::kPlane == Look::PLANE);
 
-std::uint8_t kindOf(kiva::Shape::Kind kind) {
-  switch (kind) {
-    case kiva::Shape::Kind::kSphere:
-      return Look::SPHERE;
-    case kiva::Shape::Kind::kCylinder:
-      return Look::CYLINDER;
-    case kiva::Shape::Kind::kCapsule:
-      return Look::CAPSULE;
-    case kiva::Shape::Kind::kEllipsoid:
-      return Look::ELLIPSOID;
-    case kiva::Shape::Kind::kPlane:
-      return Look::PLANE;
-    default:
-      return Look::BOX;
-  }
-}
-
-/// Full extent along the shape's own axes [m].
-kiva::Vector3 extentOf(const kiva::Shape& shape) {
-  const double width = 2 * shape.radius;
-  switch (shape.kind) {
-    case kiva::Shape::Kind::kSphere:
-      return {width, width, width};
-    case kiva::Shape::Kind::kCylinder:
-      return {width, width, shape.length};
-    case kiva::Shape::Kind::kCapsule:
-      return {width, width, shape.length + width};
-    case kiva::Shape::Kind::kEllipsoid:
-      return shape.size * 2;
-    case kiva::Shape::Kind::kPlane:
-      return {shape.plane_size[0], shape.plane_size[1], 0};
-    default:
-      return shape.size;
-  }
-}
-
-template <typename Colour>
-void addShape(int link, const kiva::Pose& pose, const kiva::Shape& shape, const Colour& colour,
-              Look* out) {
-  out->shape_link.push_back(link);
-  out->shape_kind.push_back(kindOf(shape.kind));
-  append(pose, &out->shape_pose);
-  const kiva::Vector3 extent = extentOf(shape);
-  for (int axis = 0; axis < 3; ++axis) out->shape_size.push_back(extent[axis]);
-  for (int channel = 0; channel < 4; ++channel) {
-    out->shape_colour.push_back(static_cast<float>(colour[channel]));
-  }
-}
-
-bool isSeen(const kiva::Link& link) { return !link.visuals.empty(); }
-
-/// Its visuals; where it has none at all, what touches.
-Look lookOf(const kiva::ModelDescription& model) {
+Look toMessage(kiva::Look look) {
   Look out;
-  const bool seen = std::any_of(model.links.begin(), model.links.end(), isSeen);
-  for (const kiva::Link& link : model.links) {
-    const int index = static_cast<int>(out.links.size());
-    out.links.push_back(link.name);
-    append(link.pose_in_model, &out.link_pose);
-    for (const auto& v : link.visuals) addShape(index, v.pose_in_link, v.shape, v.rgba, &out);
-    if (seen) continue;
-    for (const auto& c : link.collisions) addShape(index, c.pose_in_link, c.shape, kPlain, &out);
-  }
+  out.links = std::move(look.links);
+  out.link_pose = std::move(look.link_pose);
+  out.shape_link = std::move(look.shape_link);
+  out.shape_kind = std::move(look.shape_kind);
+  out.shape_pose = std::move(look.shape_pose);
+  out.shape_size = std::move(look.shape_size);
+  out.shape_colour = std::move(look.shape_colour);
   return out;
 }
 
@@ -91,7 +39,7 @@ class Looks {
   int of(const std::string& model) {
     const auto description = world_.description(model);
     const auto [at, is_new] = known_.emplace(description, static_cast<int>(out_.size()));
-    if (is_new) out_.push_back(lookOf(*description));
+    if (is_new) out_.push_back(toMessage(kiva::lookOf(*description)));
     return at->second;
   }
   template <typename Models>

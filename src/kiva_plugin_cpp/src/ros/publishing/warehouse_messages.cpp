@@ -21,6 +21,7 @@ static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DEL
 static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
 static_assert(int(kiva::Event::Kind::kRepaired) == int(warehouse_msgs::Event::REPAIRED));
 static_assert(int(kiva::Event::Kind::kTipped) == int(warehouse_msgs::Event::TIPPED));
+static_assert(int(kiva::Event::Kind::kPickedUp) == int(warehouse_msgs::Event::PICKED_UP));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
@@ -46,6 +47,16 @@ void overwrite(const kiva::RobotReport& last, int i, warehouse_msgs::FleetState*
   out->reached[i] = last.reached;
   out->left[i] = last.left;
   out->last_end[i] = last.last_end;
+}
+
+void addFallen(const kiva::World& world, warehouse_msgs::WarehouseObjects* out) {
+  const auto index = [](const std::vector<std::string>& names, const std::string& name) {
+    return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  for (const kiva::FallenItem& fallen : world.fallenItems()) {
+    out->fallen_item.push_back(index(out->items, fallen.name));
+    out->fallen_from.push_back(index(out->storage_units, fallen.unit));
+  }
 }
 
 }  // namespace
@@ -137,7 +148,9 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   out.last_end.assign(f.last_end.begin(), f.last_end.end());
   out.failures.assign(f.failures.begin(), f.failures.end());
   out.charge.assign(f.charge.begin(), f.charge.end());
+  const bool has_limits = world.realism().loads.enabled;
   for (int i = 0; i < f.size(); ++i) {
+    if (has_limits) out.load_limit.push_back(static_cast<float>(world.loadLimit(i)));
     out.kiva_id.push_back(f.robots[i].id);
     out.yaw.push_back(kiva::wrapAngle(f.yaw[i]));
     out.status.push_back(static_cast<std::uint8_t>(f.status[i]));
@@ -183,6 +196,7 @@ warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world) {
     const int index = static_cast<int>(i);
     append(items[i].unit < 0 ? world.itemPose(index) : items[i].pose_in_unit, &out.item_pose);
   }
+  addFallen(world, &out);
   for (const std::string& name : world.modelNames()) {
     if (world.kind(name) == kiva::ModelKind::kBelt) out.belts.push_back(name);
   }

@@ -19,6 +19,8 @@ class Reason(StrEnum):
     PUT = "put"
     SHORT = "short"  # fewer were found than the books said
     DAMAGED = "damaged"
+    FELL = "fell"  # they lie on the floor, with their bin,
+    PICKED_UP = "picked up"  # or are back
 
 
 class StockError(ValueError):
@@ -26,14 +28,21 @@ class StockError(ValueError):
 
 
 class Bin:
-    """A place for one SKU on a unit; `sku` is of what lies there, or is expected, or last lay."""
+    """A place for one SKU on a unit; `sku` is of what lies there, or is expected, or last lay.
 
-    __slots__ = ("bin_id", "item", "unit", "sku", "quantity", "reserved", "expected", "capacity")
+    `fallen`: None, or the pieces with which it lies on the floor: they are in nobody's stock.
+    """
+
+    __slots__ = (
+        *("bin_id", "item", "unit", "sku", "capacity"),
+        *("quantity", "reserved", "expected", "fallen"),
+    )
 
     def __init__(self, bin_id, item, unit, capacity, sku=""):
         self.bin_id, self.item, self.unit = bin_id, item, unit
         self.capacity, self.sku = capacity, sku
         self.quantity = self.reserved = self.expected = 0
+        self.fallen = None
 
     @property
     def available(self):
@@ -43,12 +52,12 @@ class Bin:
     @property
     def room(self):
         """Pieces that can be put in beside those that are expected."""
-        return self.capacity - self.quantity - self.expected
+        return 0 if self.fallen is not None else self.capacity - self.quantity - self.expected
 
     @property
     def empty(self):
         """Whether another SKU may move in."""
-        return not self.quantity and not self.expected
+        return not self.quantity and not self.expected and self.fallen is None
 
 
 class Inventory:
@@ -148,6 +157,20 @@ class Inventory:
         """Expected pieces are there."""
         self._expect(one, sku, -quantity)
         self.move(one, sku, quantity, Reason.PUT, **context)
+
+    def fall(self, one):
+        """A bin lies on the floor; nothing of it is promised or expected any more."""
+        pieces, one.fallen = one.quantity, one.quantity
+        if pieces:
+            self.move(one, one.sku, -pieces, Reason.FELL)
+        self._measure(one)
+
+    def pick_up(self, one):
+        """It is back on its unit."""
+        pieces, one.fallen = one.fallen, None
+        if pieces:
+            self.move(one, one.sku, pieces, Reason.PICKED_UP)
+        self._measure(one)
 
     def _expect(self, one, sku, quantity):
         one.expected += quantity

@@ -126,7 +126,7 @@ def of_shift(shift, fleet, kinematics, wall_s):
         "plan_ms": _planning(fleet.plan_ms),
         "executed_over_planned": fleet.executed_over_planned,
         "state_hash": shift.state_hash(),
-    } | _of_troubles(fleet, tally.items_picked)
+    } | (shift.fallen.figures() | _of_troubles(fleet, tally.items_picked))
 
 
 def _of_troubles(fleet, items_picked):

@@ -145,6 +145,19 @@ class Picking:
             self._note(visit.station, line)
         self._to_fetch[visit.station] = None  # there is room for another one
 
+    def drop_bin(self, one):
+        """Nothing is to be taken out of a bin; returns (visit, line) of what it was to serve."""
+        dropped = [(v, p) for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]
+        for visit, pick in dropped:
+            self._drop(visit, pick)
+        return [(visit, pick.line) for visit, pick in dropped]
+
+    def serve_otherwise(self, dropped):
+        """What drop_bin returned comes out of other bins."""
+        for visit, line in dropped:
+            self._allot(visit.station, line)
+            self._leave_if_done(visit.station)
+
     def close(self, station):
         """Its orders go to others, its units are sent away."""
         for visit in list(station.coming):
@@ -277,9 +290,7 @@ class Picking:
         one = picks[0].bin
         if not 0 < lacking <= one.quantity:
             return False, f"{one.quantity} of {sku} are in {one.item} by the books"
-        for pick in [p for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]:
-            owner = next(v for v in self._visits_of(one.unit) if pick in v.picks)
-            self._drop(owner, pick)
+        self.drop_bin(one)
         self.shift.inventory.move(one, sku, -lacking, reason, station=station)
         for pick in picks:
             self.shift.tell_order(

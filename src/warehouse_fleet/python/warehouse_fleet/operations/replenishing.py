@@ -168,11 +168,24 @@ class Replenishing:
     def drop_visit(self, visit):
         """The unit does not come, or leaves early: its bundles are at the door again."""
         for bundle in visit.puts:
-            self.shift.inventory.unexpect(bundle.bin, bundle.sku, bundle.quantity)
-            bundle.bin = None
-            self.bundles[bundle.bundle_id] = bundle
-            self._ordered(bundle.sku, bundle.quantity)
+            self._return(bundle)
         visit.puts = deque()
+
+    def drop_bin(self, one):
+        """Nothing can be put into a bin any more: its bundles are at the door again."""
+        for visit in [v for s in self.stations for v in s.inbound.values() if v.unit == one.unit]:
+            dropped = [bundle for bundle in visit.puts if bundle.bin is one]
+            for bundle in dropped:
+                visit.puts.remove(bundle)
+                self._return(bundle)
+            if dropped:
+                self._leave_if_done(visit.station)
+
+    def _return(self, bundle):
+        self.shift.inventory.unexpect(bundle.bin, bundle.sku, bundle.quantity)
+        bundle.bin = None
+        self.bundles[bundle.bundle_id] = bundle
+        self._ordered(bundle.sku, bundle.quantity)
         self._look = True
 
     def close(self, station):

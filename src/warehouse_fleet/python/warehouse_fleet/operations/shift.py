@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from warehouse_fleet.operations.assortment import CAPACITY, Assortment
+from warehouse_fleet.operations.fallen import Fallen
 from warehouse_fleet.operations.inventory import Inventory, Reason
 from warehouse_fleet.operations.journal import Journal
 from warehouse_fleet.operations.kpis import Tally
@@ -95,6 +96,7 @@ class Shift:
             of_kind[station.kind].append(station)
         self.picking = Picking(self, of_kind["PICK"])
         self.replenishing = Replenishing(self, of_kind["REPLENISH"])
+        self.fallen = Fallen(self)
         self.on_order_event = None  # called with (order, kind, sku, quantity, station, unit, text)
         self.hooks = _Hooks(self)
         self.at(now, self._look_after_stock, None)

@@ -27,11 +27,13 @@ class Site:
     def of_world(cls, world, name=""):
         """That of an in-process kiva_plugin_cpp.World."""
         plan = FloorPlan.of_world(world)
-        fleet, units = world.fleet, world.storage_units
+        fleet, units, fallen = world.fleet, world.storage_units, world.fallen_items
+        unit_of = {int(i["item_id"]): int(i["shelf_id"]) for i in world.items}
+        unit_of |= {int(i["item_id"]): int(i["shelf_id"]) for i in fallen}
         return cls(
             plan,
             {int(i): plan.cell_of(x, y) for i, x, y in zip(fleet.kiva_id, fleet.x, fleet.y)},
             {int(u["shelf_id"]): plan.cell_of(u["x"], u["y"]) for u in units},
-            [(f"item{i['item_id']}", int(i["shelf_id"])) for i in world.items if i["shelf_id"]],
+            [(f"item{item}", unit) for item, unit in unit_of.items() if unit],
             name,
         )

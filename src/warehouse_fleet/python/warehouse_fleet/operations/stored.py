@@ -95,12 +95,20 @@ def heat(engine, now):
 
 
 def _bins(connection):
-    result = []
+    result, fallen = [], _fallen(connection)
     for row in connection.execute(select(schema.bin_).order_by(schema.bin_.c.id)):
         one = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
-        one.quantity = row.quantity
+        one.quantity, one.fallen = row.quantity, fallen.get(row.id)
         result.append(one)
     return result
+
+
+def _fallen(connection):
+    """The pieces that lie on the floor with their bins, by bin."""
+    move = schema.move.c
+    pieces = func.sum(move.quantity)
+    query = select(move.bin, pieces).where(move.reason.in_((Reason.FELL, Reason.PICKED_UP)))
+    return {one: -n for one, n in connection.execute(query.group_by(move.bin).having(pieces < 0))}
 
 
 def _orders(connection, now):

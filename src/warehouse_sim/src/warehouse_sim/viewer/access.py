@@ -8,8 +8,6 @@ import time
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
-from fastapi.security.utils import get_authorization_scheme_param
-
 MOST_BODY = 64 * 1024  # [bytes]
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
@@ -103,7 +101,7 @@ class AccessControl:
     def _check_token(self, scope, headers):
         if not self._token:
             return
-        scheme, given = get_authorization_scheme_param(headers.get("authorization"))
+        scheme, _, given = headers.get("authorization", "").partition(" ")
         if scheme.lower() != "bearer":
             given = _cookie(headers) or _query_token(scope)
         if not hmac.compare_digest(given.encode(), self._token.encode()):

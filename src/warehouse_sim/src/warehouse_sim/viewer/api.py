@@ -2,8 +2,6 @@
 """The HTTP API: what ROS offers, for those who speak no ROS. Described at /api/v1/openapi.json."""
 
 import asyncio
-import csv
-import io
 from contextlib import suppress
 from typing import Literal
 
@@ -168,6 +166,7 @@ def router(backend):
     _add_warehouse(out, backend)
     _add_robots(out, backend)
     _add_people(out, backend)
+    _add_fallen_items(out, backend)
     _add_things(out, backend, "storage_units", "storage_unit")
     _add_things(out, backend, "items", "item")
     _add_simulation(out, backend)
@@ -215,12 +214,8 @@ def _add_warehouse(out, backend):
     @out.get("/events.csv", response_class=Response, responses=_problems() | CSV)
     async def export_events():
         """All events that are kept, oldest first, for a spreadsheet."""
-        text = io.StringIO()
-        table = csv.DictWriter(text, schemas.Event.__fields__)
-        table.writeheader()
-        table.writerows(backend.journal.since(0))
         headers = {"content-disposition": 'attachment; filename="events.csv"'}
-        return Response(text.getvalue(), media_type="text/csv", headers=headers)
+        return Response(backend.journal.csv(), media_type="text/csv", headers=headers)
 
 
 def _add_robots(out, backend):
@@ -294,6 +289,13 @@ def _add_people(out, backend):
     async def send_person(wanted: schemas.NewWalk):
         """Has somebody walk over the floor: around what is in the way, and never into it."""
         return {"name": await backend.do("walk", *wanted.dict().values())}
+
+
+def _add_fallen_items(out, backend):
+    @out.post("/items/{number}/pick_up", response_model=schemas.Done, responses=_problems(*SENT))
+    async def pick_up_item(number: int = Number):
+        """Has somebody put an item that fell back on its storage unit."""
+        return {"message": await backend.do("pick_up", number)}
 
 
 def _add_things(out, backend, kind, noun):

@@ -3,16 +3,14 @@
 
 import asyncio
 import os
-import socket
 import threading
 from contextlib import suppress
 
 import uvicorn
 from fastapi import FastAPI, Request, WebSocket
 from fastapi.responses import FileResponse, Response
-from fastapi.staticfiles import StaticFiles
 
-from warehouse_sim.viewer import api, changes, metrics, sockets, stream
+from warehouse_sim.viewer import api, catalogue, changes, metrics, sockets, stream
 from warehouse_sim.viewer.access import AccessControl
 from warehouse_sim.viewer.change_book import ChangeBook
 from warehouse_sim.viewer.commander import Commander
@@ -24,13 +22,12 @@ from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.shift_feed import ShiftFeed
 from warehouse_sim.viewer.simulation import Simulation
+from warehouse_sim.viewer.static_files import FRESH, THREE, Files, FreshFiles
 from warehouse_sim.viewer.transport_book import TransportBook
 from warehouse_sim.viewer.work import Work
 
-THREE = "/usr/share/javascript/three"  # of Debian's libjs-three
 MOST_SOCKETS = 50
 MOST_MESSAGE = 64 * 1024  # from a page [bytes]
-FRESH = {"cache-control": "no-cache"}
 TRY_AGAIN, UNSUPPORTED = 1013, 1003  # a WebSocket's close codes
 MOST_REASON = 120  # characters beside one
 METRICS = {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}}
@@ -45,7 +42,7 @@ class Viewer:
         self.coordination, self.transports = Coordination(ros), TransportBook()
         self._loop, self.changes = None, ChangeBook()
         self.feed = Feed(ros, self._on_event, self._on_transport, self._on_news)
-        self.hub = Hub(self.feed, self.model, self.journal, self.simulation)
+        self.hub = Hub(self.feed, self.model, self.journal, self.simulation, catalogue.coordinator)
         parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
         work = Work(ros, ShiftFeed(ros, self.changes))
         self.metrics = metrics.Metrics(self.feed, work)
@@ -55,7 +52,7 @@ class Viewer:
         self._web, self._sockets = web, 0
 
     def _on_event(self, event):
-        entry = self.journal.add(event)
+        entry = self.journal.add(catalogue.event(event))
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
                 self._loop.call_soon_threadsafe(self._note, entry)
@@ -130,9 +127,7 @@ class Viewer:
 
     def _add_files(self, app):
         def page(name):
-            return lambda: FileResponse(
-                f"{self._web}/{name}", headers={"cache-control": "no-cache"}
-            )
+            return lambda: FileResponse(f"{self._web}/{name}", headers=FRESH)
 
         @app.get("/metrics", response_class=Response, responses=METRICS)
         async def get_metrics(request: Request):
@@ -154,25 +149,6 @@ def _bounded(rate):
     return min(10.0, max(0.1, rate)) if rate == rate else 2.0
 
 
-class Files(StaticFiles):
-    """Files of a folder. What can be no name of a file is not found."""
-
-    def lookup_path(self, path):
-        try:
-            return super().lookup_path(path)
-        except (ValueError, OSError):  # a zero byte; too long
-            return "", None
-
-
-class FreshFiles(Files):
-    """Such that a browser asks for again, so that page and server are of one version."""
-
-    def file_response(self, *args, **kwargs):
-        response = super().file_response(*args, **kwargs)
-        response.headers.update(FRESH)
-        return response
-
-
 class Server(uvicorn.Server):
     """Ends when told to: pages come back by themselves."""
 
@@ -191,22 +167,6 @@ class Server(uvicorn.Server):
         end = threading.Timer(self.GRACE, os._exit, (0,))
         end.daemon = True
         end.start()
-
-
-def listen(host, port):
-    """A listening socket. Raises OSError if the port is taken or the host is not this machine's."""
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    # Of a socket that doesn't name its protocol asyncio can't tell that it is TCP; small answers
-    # would then wait 40 ms for the client's acknowledgement (Nagle, 1984).
-    out = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    try:
-        out.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        out.bind((host, port))
-        out.listen(128)
-    except OSError:
-        out.close()
-        raise
-    return out
 
 
 def server_of(viewer, token="", rate=100):

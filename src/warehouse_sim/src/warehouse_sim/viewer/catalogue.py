@@ -5,8 +5,9 @@ import numpy as np
 
 from warehouse_sim import tracking
 from warehouse_sim.models import kind_and_number
+from warehouse_sim.statuses import shown_status
 from warehouse_sim.viewer import schemas
-from warehouse_sim.words import EVENT, STATE, STATUS, failures_of, shown_status
+from warehouse_sim.words import EVENT, STATE, STATUS, failures_of
 
 
 def robots(fleet):
@@ -76,3 +77,15 @@ def thing(tracked, i):
         storage_unit=tracked.unit[i],
         carrier=f"kiva{carrier}" if carrier else "",
     )
+
+
+def event(message):
+    """An Event, but for its id."""
+    return {
+        "time": round(message.header.stamp.to_sec(), 3),
+        "kind": EVENT.get(message.kind, str(message.kind)),
+        "command": message.command,
+        "model": message.model,
+        "other": message.other,
+        "text": message.text,
+    }

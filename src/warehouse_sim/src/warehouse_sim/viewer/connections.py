@@ -5,6 +5,8 @@ uvicorn bounds how long a connection may idle between two requests, but not how 
 the rest of one that was begun, may take to come; nor how many connections there are.
 """
 
+import socket
+
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 
@@ -49,3 +51,19 @@ class BoundedConnection(H11Protocol):
     def connection_lost(self, exc):
         self._timer.cancel()
         super().connection_lost(exc)
+
+
+def listen(host, port):
+    """A listening socket. Raises OSError if the port is taken or the host is not this machine's."""
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    # Of a socket that doesn't name its protocol asyncio can't tell that it is TCP; small answers
+    # would then wait 40 ms for the client's acknowledgement (Nagle, 1984).
+    out = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    try:
+        out.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        out.bind((host, port))
+        out.listen(128)
+    except OSError:
+        out.close()
+        raise
+    return out

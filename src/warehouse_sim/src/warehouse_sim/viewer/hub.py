@@ -14,7 +14,7 @@ import numpy as np
 from starlette.websockets import WebSocketDisconnect
 
 from warehouse_sim import poses
-from warehouse_sim.viewer import catalogue, protocol
+from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.access import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
@@ -45,9 +45,14 @@ class Page:
 
 
 class Hub:
-    """Lives in an asyncio loop; news() may be called from any thread."""
+    """Lives in an asyncio loop; news() may be called from any thread.
 
-    def __init__(self, feed, model, journal, simulation):
+    Without ROS: what comes is asked of `feed` and `simulation`, and `coordinator` tells a
+    CoordinatorState as the API does.
+    """
+
+    def __init__(self, feed, model, journal, simulation, coordinator=None):
+        self._tell_coordinator = coordinator
         self._feed, self._model, self._journal = feed, model, journal
         self._simulation = simulation
         self._pages, self._turn = set(), asyncio.Condition()
@@ -210,7 +215,7 @@ class Hub:
         state = self._feed.coordinator
         if state is not page.coordinator:
             page.coordinator = state
-            told = json.loads(catalogue.coordinator(state).json()) if state else None
+            told = json.loads(self._tell_coordinator(state).json()) if state else None
             await page.send_json({"type": "fleet", "fleet": told})
         ways = self._feed["ways"] if page.ways is None or page.ways else None
         if ways and ways is not page.seen_ways:

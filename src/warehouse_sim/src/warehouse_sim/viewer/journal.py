@@ -1,25 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """The last events, numbered, for readers that come late or read slowly."""
 
+import csv
+import io
 import threading
 from collections import deque
 
-from warehouse_sim.words import EVENT
-
 KEPT = 2000
+COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
 
 
 class Journal:
-    """Events as dicts with a running `id`. Any thread may add, any may read."""
+    """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read."""
 
     def __init__(self, kept=KEPT):
         self._lock, self._events, self.last_id = threading.Lock(), deque(maxlen=kept), 0
 
     def add(self, event):
-        """Takes a warehouse_msgs/Event in; returns its entry."""
+        """Takes in an event, as catalogue.event() tells it; returns its entry."""
         with self._lock:
             self.last_id += 1
-            entry = entry_of(event) | {"id": self.last_id}
+            entry = event | {"id": self.last_id}
             self._events.append(entry)
             return entry
 
@@ -35,14 +36,10 @@ class Journal:
             ]
         return found[-limit:]
 
-
-def entry_of(event):
-    """An Event as the API tells it, but for its id."""
-    return {
-        "time": round(event.header.stamp.to_sec(), 3),
-        "kind": EVENT.get(event.kind, str(event.kind)),
-        "command": event.command,
-        "model": event.model,
-        "other": event.other,
-        "text": event.text,
-    }
+    def csv(self):
+        """All entries, oldest first, for a spreadsheet."""
+        text = io.StringIO()
+        table = csv.DictWriter(text, COLUMNS)
+        table.writeheader()
+        table.writerows(self.since(0))
+        return text.getvalue()

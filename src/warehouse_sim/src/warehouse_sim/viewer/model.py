@@ -7,10 +7,10 @@ import time
 import numpy as np
 
 from warehouse_fleet import floor_markings
-from warehouse_sim import looks, markers, poses
+from warehouse_sim import painted, poses
+from warehouse_sim.statuses import shown_status
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.table import Table
-from warehouse_sim.words import shown_status
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
 STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
@@ -87,6 +87,7 @@ class Model:
             state=np.frombuffer(bytes(fleet.state), np.uint8),
             charge=np.rint(100 * np.asarray(fleet.charge)),
             failures=np.frombuffer(bytes(fleet.failures), np.uint8),
+            load_limit=_limits(fleet),
         )
 
     def _take_units(self, states):
@@ -144,6 +145,8 @@ class Model:
             "items": list(objects.items),
             "item_unit": list(map(int, objects.item_unit)),
             "item_pose": _short(objects.item_pose),
+            "fallen_item": list(map(int, objects.fallen_item)),
+            "fallen_from": list(map(int, objects.fallen_from)),
             "floor": list(map(float, scenery.floor)),
             "grid": scenery.grid_spacing,
             **_paint(scenery),
@@ -163,15 +166,21 @@ class Model:
         return [[] if i in paint else _look(look) for i, look in enumerate(scenery.looks)]
 
 
+def _limits(fleet):
+    """What robots keep below for their loads' sake [m/s²]; 0 where there is none."""
+    limits = np.asarray(fleet.load_limit, np.float32)
+    return np.where(np.isfinite(limits), limits, 0) if len(limits) else np.zeros(len(fleet.kiva_id))
+
+
 def _paint(scenery):
     """Rectangles on the floor by kind, x y and full extents of each in a row [m]; stations."""
-    marks = looks.marks(scenery)
+    marks = painted.marks(scenery)
     rectangles = {}
     for m in marks:
         rectangles.setdefault(m.kind, []).extend(_short([m.x, m.y, m.size_x, m.size_y]))
     return {
         "paint": rectangles,
-        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in markers.served(marks)],
+        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in painted.served(marks)],
     }
 
 

@@ -25,11 +25,11 @@ import struct
 
 import numpy as np
 
-VERSION = 2
+VERSION = 3
 UPDATE, SCAN, WAYS = 1, 2, 3
 
 # x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
-# KivaStatus; charge in percent; failures as in FleetState.
+# KivaStatus; charge in percent; failures as in FleetState, and its load_limit; 0 = none.
 ROBOT = np.dtype(
     [
         ("index", "<u4"),
@@ -41,6 +41,7 @@ ROBOT = np.dtype(
         ("state", "u1"),
         ("charge", "u1"),
         ("failures", "u1"),
+        ("load_limit", "<f4"),
     ]
 )
 # x y z [m] qx qy qz qw in world; or, where a robot carries it, in that robot's frame.

@@ -25,6 +25,7 @@ SERVICES = {
     "undo": ("/warehouse/undo", "warehouse_msgs", "Undo"),
     "create": ("/warehouse/create_warehouse_models", "warehouse_msgs", "CreateWarehouse"),
     "person": ("/warehouse/person", "warehouse_msgs", "Person"),
+    "pick_up": ("/warehouse/pick_up", "warehouse_msgs", "PickUp"),
 }
 
 
@@ -135,6 +136,10 @@ class Simulation:
             name = name or self._new_person()
             self._do("person", name=name, x=x, y=y, speed=speed, loop=loop)
         return name
+
+    def pick_up(self, number):
+        """Puts an item that fell back on its storage unit."""
+        return self._do("pick_up", item=f"item{number}")
 
     def _new_person(self):
         names = self._call("/gazebo/get_world_properties", GetWorldProperties, {}).model_names

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/falling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "core/geometry/footprint.h"
+#include "core/models/items.h"
+#include "core/state/footprints.h"
+#include "core/state/poses.h"
+#include "core/state/random_stream.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kClear = 0.002;  // [m] between an item that falls and the edge
+constexpr double kCreep = 0.001;  // [m/s]
+constexpr double kWaits = 0.5;    // [s] for which something may stand where it is to fall
+constexpr double kUpright =
+    0.99;  // cosine of a unit's tilt up to which items stay where one puts them
+constexpr double kNextTry = 10;  // [s] after which somebody comes again to a unit that lies
+
+/// Of an item on its board: its own, whenever it slides.
+double frictionOf(const WorldState& world, const Item& item) {
+  const LoadRealism& r = world.realism.loads;
+  RandomStream random(world.options.seed, Matter::kItem, item.id, 0);
+  return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
+}
+
+Bounds boundsIn(const ModelDescription& description, const Pose& pose) {
+  Bounds box;
+  for (const Link& link : description.links) {
+    for (const Collision& c : link.collisions) {
+      box.add(bounds(c.shape, pose * link.pose_in_model * c.pose_in_link));
+    }
+  }
+  return box;
+}
+
+/// How far it is from `at` to the end of `box` in the direction of `way`, a level unit vector.
+double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
+  const auto along = [](double from, double min, double max, double step) {
+    return step == 0 ? 1e9 : ((step > 0 ? max : min) - from) / step;
+  };
+  return std::min(along(at.X(), box.min.X(), box.max.X(), way.X()),
+                  along(at.Y(), box.min.Y(), box.max.Y(), way.Y()));
+}
+
+bool isSliding(const WorldState& world, const Item& item) {
+  return std::any_of(world.off_shelf.begin(), world.off_shelf.end(),
+                     [&](const OffShelf& one) { return one.item == item.model; });
+}
+
+/// Calls visit(item) for those that stand still on that unit.
+template <typename Visit>
+void forEachOn(WorldState& world, const Model& unit, Visit visit) {
+  for (const Item& item : world.items) {
+    if (item.unit == unit.index && !isSliding(world, item)) visit(item);
+  }
+}
+
+/// A unit that is suddenly faster by v leaves behind what stands on it: against friction that
+/// slides v² / 2 μ g far.
+void slide(WorldState& world, const Jolt& jolt) {
+  const Model& unit = *world.models[jolt.unit];
+  Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
+  way.Z() = 0;
+  const double change = way.Length(), g = world.gravityDown();
+  if (change == 0 || g <= 0) return;
+  way /= change;
+  const Bounds box = bounds(*unit.description);
+  forEachOn(world, unit, [&](const Item& item) {
+    const double brake = frictionOf(world, item) * g;
+    const double left2 = change * change - 2 * brake * wayOut(box, item.pose_in_unit.Pos(), way);
+    if (left2 <= 0) return;
+    const double left = std::sqrt(left2);
+    const double time = brake > 0 ? (change - left) / brake : 0;
+    world.off_shelf.push_back(
+        {item.model, unit.slot, way * left, false, world.total_steps + world.stepsIn(time)});
+  });
+}
+
+/// Boards that are steeper than friction holds: over their lower edge, as slowly as can be.
+void tilt(WorldState& world, const Model& unit) {
+  Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.gravity);
+  const double down = -way.Z();
+  way.Z() = 0;
+  const double slope = way.Length();
+  if (slope <= world.realism.loads.item_friction_least * down) return;
+  forEachOn(world, unit, [&](const Item& item) {
+    if (slope <= frictionOf(world, item) * down) return;
+    world.off_shelf.push_back(
+        {item.model, unit.slot, way / slope * kCreep, false, world.total_steps});
+  });
+}
+
+void tiltAll(WorldState& world) {
+  for (const int slot : world.activated) {
+    const Model& model = *world.models[slot];
+    const bool may_lean = model.disturbed && !model.upright && model.owner->holdsItems();
+    if (may_lean && isAwake(model)) tilt(world, model);
+  }
+}
+
+/// Whether nothing but its unit is there, above the floor.
+bool isFree(const WorldState& world, const Model& item, const Pose& pose, int unit) {
+  bool is_free = true;
+  for (const Link& link : item.description->links) {
+    for (const Collision& c : link.collisions) {
+      const Footprint own = makeFootprint(c.shape, pose * link.pose_in_model * c.pose_in_link);
+      is_free = is_free && own.z_min >= world.floor.z;
+      world.obstacles.near(own.x, own.y, radiusOf(own), [&](const Footprint& other) {
+        if (other.model == unit || other.model == item.slot) return;
+        is_free = is_free && (!shareHeight(own, other) || gap(own, other) >= 0);
+      });
+    }
+  }
+  return is_free;
+}
+
+/// Just outside of its unit, the way it slides; in the unit's frame.
+Pose outside(const Model& unit, const Model& item, const Pose& in_unit, const Vector3& way) {
+  Bounds box = bounds(*unit.description);
+  const Bounds own = boundsIn(*item.description, in_unit);
+  const Vector3 centre = (own.min + own.max) / 2, half = (own.max - own.min) / 2;
+  box.min -= half + Vector3(kClear, kClear, 0);
+  box.max += half + Vector3(kClear, kClear, 0);
+  return Pose(in_unit.Pos() + way * wayOut(box, centre, way), in_unit.Rot());
+}
+
+std::string placeOf(const Pose& pose) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.2f, %.2f)", pose.X(), pose.Y());
+  return text;
+}
+
+/// Returns whether it has fallen; else something stands where it would.
+bool goOver(WorldState& world, OffShelf& one) {
+  Model& item = *world.models[one.item];
+  const Model& unit = *world.models[one.unit];
+  const EntityState below = modelState(world, unit);
+  const Pose pose = below.pose * outside(unit, item, world.items[item.index].pose_in_unit,
+                                         one.velocity.Normalized());
+  if (!isFree(world, item, pose, unit.slot)) return false;
+  EntityState state = carriedState(below, pose);
+  state.twist.linear += below.pose.Rot() * one.velocity;
+  fallOff(world, item, state);
+  one.lies = true;
+  const double until = world.realism.loads.pick_up_after;
+  one.due = until > 0 ? world.total_steps + world.stepsIn(until) : 0;
+  world.report(Event::Kind::kFell, item.name, unit.name,
+               item.name + " falls off " + unit.name + " at " + placeOf(pose));
+  return true;
+}
+
+bool isUpright(const WorldState& world, const OffShelf& one) {
+  const Model& unit = *world.models[one.unit];
+  return unitPose(world, unit.index).Rot().ZAxis().Z() > kUpright;
+}
+
+/// From the floor to its place.
+void lift(WorldState& world, const OffShelf& one) {
+  Model& item = *world.models[one.item];
+  const Model& unit = *world.models[one.unit];
+  const std::string from = placeOf(modelState(world, item).pose);
+  putBack(world, item, unit);
+  world.report(Event::Kind::kPickedUp, item.name, unit.name,
+               item.name + " is picked up at " + from + " and is back on " + unit.name);
+}
+
+/// What is due for one of them; returns whether that was the last.
+bool attend(WorldState& world, OffShelf& one) {
+  if (!one.lies) {
+    if (one.due > world.total_steps || goOver(world, one)) return false;
+    return one.due + world.stepsIn(kWaits) < world.total_steps;
+  }
+  if (one.due == 0 || one.due > world.total_steps) return false;
+  if (!isUpright(world, one)) {
+    one.due = world.total_steps + world.stepsIn(kNextTry);
+    return false;
+  }
+  lift(world, one);
+  return true;
+}
+
+}  // namespace
+
+void dropItems(WorldState& world) {
+  if (!world.realism.loads.enabled) return;
+  for (const Jolt& jolt : world.jolts) slide(world, jolt);
+  world.jolts.clear();
+  tiltAll(world);
+  auto& all = world.off_shelf;
+  for (std::size_t i = 0; i < all.size();) {
+    if (attend(world, all[i])) {
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+}
+
+std::vector<FallenItem> fallenIn(const WorldState& world) {
+  std::vector<FallenItem> out;
+  for (const OffShelf& one : world.off_shelf) {
+    if (!one.lies) continue;
+    const Model& item = *world.models[one.item];
+    out.push_back({item.name, world.models[one.unit]->name, modelState(world, item).pose});
+  }
+  return out;
+}
+
+void pickUp(WorldState& world, const std::string& item) {
+  const Model* model = world.find(item);
+  auto& all = world.off_shelf;
+  const auto at = std::find_if(all.begin(), all.end(), [&](const OffShelf& one) {
+    return model && one.lies && one.item == model->slot;
+  });
+  if (at == all.end()) {
+    throw std::invalid_argument("no '" + item + "' has fallen off a storage unit");
+  }
+  if (!isUpright(world, *at)) {
+    throw std::invalid_argument(item + " can't be put back: " + world.models[at->unit]->name +
+                                " does not stand upright");
+  }
+  lift(world, *at);
+  all.erase(at);
+}
+
+}  // namespace kiva

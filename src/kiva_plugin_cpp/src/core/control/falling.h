@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Items that slide off the boards of a storage unit which is hit or tips, lie on the floor, and are
+// picked up; nothing while the world's realism has no loads.
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// Which items the last step's jolts and tilts set sliding, which come to the edge of their boards
+/// and become bodies, FELL, and which somebody picks up.
+void dropItems(WorldState& world);
+
+/// As World::fallenItems and World::pickUp say.
+std::vector<FallenItem> fallenIn(const WorldState& world);
+void pickUp(WorldState& world, const std::string& item);
+
+}  // namespace kiva

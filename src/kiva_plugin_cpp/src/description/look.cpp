@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kiva_plugin_cpp/look.h"
+
+#include <algorithm>
+
+namespace kiva {
+namespace {
+
+constexpr float kPlain[4] = {0.7F, 0.7F, 0.7F, 1};  // of what has a shape but no look
+
+Look::Kind kindOf(Shape::Kind kind) {
+  switch (kind) {
+    case Shape::Kind::kSphere:
+      return Look::kSphere;
+    case Shape::Kind::kCylinder:
+      return Look::kCylinder;
+    case Shape::Kind::kCapsule:
+      return Look::kCapsule;
+    case Shape::Kind::kEllipsoid:
+      return Look::kEllipsoid;
+    case Shape::Kind::kPlane:
+      return Look::kPlane;
+    default:
+      return Look::kBox;
+  }
+}
+
+/// Full extent along the shape's own axes [m].
+Vector3 extentOf(const Shape& shape) {
+  const double width = 2 * shape.radius;
+  switch (shape.kind) {
+    case Shape::Kind::kSphere:
+      return {width, width, width};
+    case Shape::Kind::kCylinder:
+      return {width, width, shape.length};
+    case Shape::Kind::kCapsule:
+      return {width, width, shape.length + width};
+    case Shape::Kind::kEllipsoid:
+      return shape.size * 2;
+    case Shape::Kind::kPlane:
+      return {shape.plane_size[0], shape.plane_size[1], 0};
+    default:
+      return shape.size;
+  }
+}
+
+void append(const Pose& pose, std::vector<double>* out) {
+  const Vector3& at = pose.Pos();
+  const Quaternion& turn = pose.Rot();
+  out->insert(out->end(), {at.X(), at.Y(), at.Z(), turn.X(), turn.Y(), turn.Z(), turn.W()});
+}
+
+template <typename Colour>
+void addShape(int link, const Pose& pose, const Shape& shape, const Colour& colour, Look* out) {
+  out->shape_link.push_back(link);
+  out->shape_kind.push_back(kindOf(shape.kind));
+  append(pose, &out->shape_pose);
+  const Vector3 extent = extentOf(shape);
+  for (int axis = 0; axis < 3; ++axis) out->shape_size.push_back(extent[axis]);
+  for (int channel = 0; channel < 4; ++channel) {
+    out->shape_colour.push_back(static_cast<float>(colour[channel]));
+  }
+}
+
+bool isSeen(const Link& link) { return !link.visuals.empty(); }
+
+}  // namespace
+
+Look lookOf(const ModelDescription& model) {
+  Look out;
+  const bool seen = std::any_of(model.links.begin(), model.links.end(), isSeen);
+  for (const Link& link : model.links) {
+    const int index = static_cast<int>(out.links.size());
+    out.links.push_back(link.name);
+    append(link.pose_in_model, &out.link_pose);
+    for (const Visual& v : link.visuals) addShape(index, v.pose_in_link, v.shape, v.rgba, &out);
+    if (seen) continue;
+    for (const Collision& c : link.collisions) {
+      addShape(index, c.pose_in_link, c.shape, kPlain, &out);
+    }
+  }
+  return out;
+}
+
+}  // namespace kiva

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <ros/ros.h>
+#include <warehouse_msgs/PickUp.h>
+
+#include "ros/simulation/simulation_thread.h"
+
+namespace kiva_ros {
+
+/// `/warehouse/pick_up`: items that fell off their storage units are put back.
+class PickUpService {
+ public:
+  PickUpService(ros::NodeHandle& root, SimulationThread& simulation);
+
+ private:
+  bool pickUp(warehouse_msgs::PickUp::Request& request, warehouse_msgs::PickUp::Response& response);
+
+  SimulationThread& simulation_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bins that fell off their units: out of stock while they lie on the floor."""
+
+
+class Fallen:
+    """The part of a Shift that knows which of its bins lie on the floor."""
+
+    def __init__(self, shift):
+        self.shift = shift
+        self._bins = {one.item: one for one in shift.inventory.bins.values()}
+        self._items = {one.item for one in self._bins.values() if one.fallen is not None}
+        self.count = 0  # how often one fell
+
+    def see(self, items):
+        """Takes in which items lie on the floor now, by name; those that are no bins are nothing
+        to it."""
+        items = self._bins.keys() & set(items)
+        for item in sorted(items - self._items):
+            self._falls(self._bins[item])
+        for item in sorted(self._items - items):
+            self._is_back(self._bins[item])
+        self._items = items
+
+    def _falls(self, one):
+        dropped = self.shift.picking.drop_bin(one)
+        self.shift.replenishing.drop_bin(one)
+        self.shift.inventory.fall(one)
+        self.shift.picking.serve_otherwise(dropped)
+        self.count += 1
+
+    def _is_back(self, one):
+        self.shift.inventory.pick_up(one)
+        if one.unit in self.shift.free_units:
+            self.shift.picking.unit_free(one.unit)
+            self.shift.replenishing.unit_free()
+
+    def figures(self):
+        """As kpis.json has them; empty where nothing fell."""
+        if not self.count and not self._items:
+            return {}
+        return {
+            "items_fallen": self.count,
+            "items_on_floor": len(self._items),
+            "pieces_on_floor": sum(self._bins[item].fallen for item in self._items),
+        }

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse's page of an environment: what it is served, and that it changes nothing."""
+
+import json
+import socket
+import threading
+import urllib.error
+import urllib.request
+
+import numpy as np
+import pytest
+
+pytest.importorskip("gymnasium", reason="scripts/learning_packages brings it from PyPI")
+
+from wsproto import ConnectionType, WSConnection  # noqa: E402
+from wsproto.events import BytesMessage, Request, TextMessage  # noqa: E402
+
+import warehouse_learning  # noqa: E402
+from warehouse_learning import episodes, watch  # noqa: E402
+from warehouse_learning.page import Page  # noqa: E402
+from warehouse_learning.warehouses import Warehouses  # noqa: E402
+from warehouse_sim.viewer import protocol  # noqa: E402
+
+PATIENCE = 60  # with a machine that has much to do [s, wall]
+PAUSED = 0.3  # that nothing happens [s, wall]
+STAMP, COUNT, HEAD = 8, 20, 40  # places in an update, of warehouse_sim.viewer.protocol
+FORWARD, LEFT = 1, 2
+
+
+class Browser:
+    """Who opens the page, as far as its WebSocket goes."""
+
+    def __init__(self, url):
+        host = url.split("/")[2]
+        name, port = host.split(":")
+        self._socket = socket.create_connection((name, int(port)), timeout=PATIENCE)
+        self._connection = WSConnection(ConnectionType.CLIENT)
+        self._socket.sendall(self._connection.send(Request(host=host, target="/live")))
+        self._part, self._told = None, {}
+        self.time, self.robots, self.events = 0.0, {}, set()  # (x, y) by index; kinds
+
+    def until(self, holds):
+        """Reads until holds() does."""
+        while not holds():
+            self._connection.receive_data(self._socket.recv(1 << 16))
+            for event in self._connection.events():
+                self._take(event)
+
+    def told(self, kind):
+        """The newest message of that type."""
+        self.until(lambda: kind in self._told)
+        return self._told[kind]
+
+    def close(self):
+        self._socket.close()
+
+    def _take(self, event):
+        if not isinstance(event, TextMessage | BytesMessage):
+            return
+        self._part = event.data if self._part is None else self._part + event.data
+        if event.message_finished:
+            (self._hear if isinstance(event, TextMessage) else self._see)(self._part)
+            self._part = None
+
+    def _hear(self, text):
+        message = json.loads(text)
+        self._told[message["type"]] = message
+        self.events |= {event["kind"] for event in message.get("events", [])}
+
+    def _see(self, update):
+        """Takes an update in, and answers as a page does."""
+        self._socket.sendall(self._connection.send(TextMessage('{"ack": 1}')))
+        self.time = float(np.frombuffer(update, "<f8", 1, STAMP)[0])
+        count = int(np.frombuffer(update, "<u4", 1, COUNT)[0])
+        for row in np.frombuffer(update, protocol.ROBOT, count, HEAD):
+            self.robots[int(row["index"])] = float(row["x"]), float(row["y"])
+
+
+def get(url):
+    with urllib.request.urlopen(url, timeout=PATIENCE) as answer:
+        return answer.read()
+
+
+def post(url, **body):
+    head = {"content-type": "application/json"}
+    request = urllib.request.Request(url, json.dumps(body).encode(), head, method="POST")
+    return get(request)
+
+
+@pytest.fixture
+def watched():
+    """(environment, its page)."""
+    env = warehouse_learning.parallel_env(size="tiny", render_mode="human")
+    env.reset(seed=1)
+    post(f"{env.page.url}api/v1/simulation/speed", factor=0)
+    yield env, env.page
+    env.close()
+
+
+def test_the_page_has_its_files_and_the_warehouse(watched):
+    env, page = watched
+    for path in ("", "web/js/main.js", "web/style.css", "three/build/three.module.js"):
+        assert get(page.url + path)
+    browser = Browser(page.url)
+    scene = browser.told("scene")
+    assert scene["robots"] == [1, 2, 3] and len(scene["units"]) == 12 and scene["paint"]
+    shapes = [link["shapes"] for link in scene["looks"][scene["robot_look"]]]
+    assert any(shapes)
+    status = browser.told("status")
+    assert not status["away"] and status["lacks"]["reset"] and status["warehouse"] == "tiny"
+    with pytest.raises(urllib.error.HTTPError, match="409"):
+        post(f"{page.url}api/v1/robots/1/commands", command="ROT")
+    browser.close()
+
+
+def test_who_looks_sees_what_robots_do_and_nothing_changes_by_it(watched):
+    env, page = watched
+    alone = warehouse_learning.parallel_env(size="tiny")
+    alone.reset(seed=1)
+    browser = Browser(page.url)
+    browser.told("scene")
+    for action in (LEFT, FORWARD, FORWARD):
+        actions = dict.fromkeys(env.agents, action)
+        seen, expected = env.step(actions)[0], alone.step(actions)[0]
+        assert all((seen[a] == expected[a]).all() for a in expected)
+    fleet = env.world.fleet
+    browser.until(lambda: "DONE" in browser.events and browser.time >= env.world.time - 1e-9)
+    seen = [browser.robots[i] for i in range(3)]
+    np.testing.assert_allclose(seen, np.stack([fleet.x, fleet.y], 1), atol=1e-4)
+    browser.close()
+
+
+def test_a_pause_holds_the_environment(watched):
+    env, page = watched
+    simulation = f"{page.url}api/v1/simulation/"
+    post(simulation + "pause")
+    stepping = threading.Thread(target=env.step, args=(dict.fromkeys(env.agents, LEFT),))
+    stepping.start()
+    stepping.join(PAUSED)
+    assert stepping.is_alive()
+    post(simulation + "resume")
+    stepping.join(PATIENCE)
+    assert not stepping.is_alive()
+
+
+def test_a_saved_episode_is_played_as_it_was(tmp_path):
+    env = warehouse_learning.parallel_env(size="tiny")
+    env.reset(seed=3)
+    for action in (LEFT, FORWARD, LEFT, FORWARD):
+        env.step(dict.fromkeys(env.agents, action))
+    env.save_episode(tmp_path / "episode.json")
+    options, seed, actions = episodes.load(tmp_path / "episode.json")
+    warehouses = Warehouses(1, options)
+    warehouses.reset([0], [seed])
+    page = Page(warehouses.worlds[0], options.title, speed=0)
+    browser = Browser(page.url)
+    browser.told("scene")
+    watch.play(page, warehouses, actions)
+    assert warehouses.worlds[0].state_hash() == env.world.state_hash()
+    browser.until(lambda: browser.time >= env.world.time - 1e-9)
+    browser.close()
+    page.close()
