@@ -127,6 +127,23 @@ TEST(FloorPatch, IsRefusedIfItIsFaulty) {
   EXPECT_PRED2(contains, complaint(replaced(patch(1), "centre", "middle")), "'middle'");
 }
 
+TEST(FloorPatch, IsTurnedOnAsHardAsItGrips) {
+  const auto localised = [](Realism& real) { real.localisation.enabled = true; };
+  for (const double friction : {0.05, 0.15, 0.25}) {
+    Warehouse w(planWith(localised, patch(friction, "0 0")));
+    w.spawn("kiva", "kiva1", 0, 0);
+    w.spawnText(unitOfMass(300), "storage_unit1", 0, 0);
+    w.carry(1, 1);
+    w.runUntilIdle(1);
+    for (int quarters = 1; quarters <= 4; ++quarters) {
+      w.rot(1, kLeft);
+      w.runUntilIdle(1);
+      EXPECT_NEAR(w.yaw(1), quarters * kQuarter, 0.02) << friction;
+    }
+    EXPECT_EQ(w.count(Kind::kBlocked), 0) << friction;
+  }
+}
+
 /// Of 64 robots, who does not come to the next cell as it should.
 std::vector<int> whoSlides(double share, std::uint64_t seed) {
   Floorplan plan = planWith([share](Realism& real) { real.floor = {true, share, 0.05}; });

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from test_failures import Fleet
 
 from kiva_plugin_cpp import DescriptionError, EventKind, Status, World, worlds_folder
 from warehouse_fleet.fleet_driver import FleetDriver
@@ -280,3 +281,21 @@ def test_a_fleet_works_with_robots_that_err():
     driver = work({"localisation": {}, "lasers": {}, "actuation": {}, "radio": {}}, 180)
     assert driver.collisions == 0 and driver.watchdog == 0
     assert driver.transports.totals.delivered > 25 and driver.transports.totals.failed == 0
+
+
+# --- floors
+
+
+def test_nobody_gets_stuck_on_a_floor_that_is_slippery_in_places():
+    realism = {
+        "localisation": True,
+        "actuation": True,
+        "floor": {"slippery_cells": 0.05, "friction": 0.25},
+    }
+    with Fleet("medium", **realism) as fleet:
+        fleet.driver.events = []
+        assert fleet.run(120) > 5
+        told = [event["text"] for events in fleet.driver.events for event in events]
+        assert not [text for text in told if "stuck" in text]
+        assert fleet.driver.collisions == 0
+        assert not fleet.traffic.mode.any()

@@ -6,6 +6,7 @@
 
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
+#include "core/motion/ground.h"
 #include "core/motion/self_location.h"
 #include "core/motion/stretches.h"
 #include "core/state/tasks.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr double kGain = 20;      // [1/s] yaw rate for angle lagged
 constexpr double kStuck = 0.3;    // [rad] behind the profile
 constexpr double kOverdue = 2.0;  // [s]
+constexpr double kSpins = 0.2;    // [rad/s] between a profile and the gyro
+constexpr double kLeast = 0.1;    // [rad/s²] that it turns with where nothing grips
 constexpr double kReserve = 0.9;  // of the motors' torque, so that errors can be mended
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
@@ -49,6 +52,16 @@ void holdTurn(WorldState& world, int i) {
   setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }
 
+/// On a floor that is slippery in places a gyro tells that wheels spin, before odometry is misled:
+/// from there on it turns half as hard.
+void feelGrip(WorldState& world, int i) {
+  FleetState& f = world.fleet;
+  const bool spins = std::abs(f.reference_speed[i] - f.yaw_rate[i]) > kSpins;
+  if (!spins || f.deceleration[i] == 0 || !isPatchy(world)) return;
+  f.deceleration[i] = std::max(kLeast, f.deceleration[i] / 2);
+  f.setProfile(i, {f.believed(i).yaw, f.yaw_rate[i]});
+}
+
 void turnSegment(WorldState& world, int i) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[i];
@@ -63,6 +76,7 @@ void turnSegment(WorldState& world, int i) {
     f.goal[i] = task.segments.front().yaw;
     f.deceleration[i] = turnAcceleration(world, i, std::abs(f.goal[i] - yaw));
   }
+  feelGrip(world, i);
   const double lag = f.reference[i] - f.believed(i).yaw;
   const bool ended = f.reference[i] == f.goal[i];
   if (ended && std::abs(lag) < kThereAngle && stands(f, i)) {

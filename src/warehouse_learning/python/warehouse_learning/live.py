@@ -45,7 +45,7 @@ class LiveWorld:
             "loose_item": [],
             "loose_pose": [],
         }
-        news = {"fleet": {"stamp": stamp, **fleet}, "states": states}
+        news = {"fleet": {"stamp": stamp, "load_limit": [], **fleet}, "states": states}
         self._now = self._now | {name: SimpleNamespace(**of) for name, of in news.items()}
 
     # --- as viewer.Feed
@@ -75,6 +75,8 @@ class LiveWorld:
             items=[],
             item_unit=[],
             item_pose=[],
+            fallen_item=[],
+            fallen_from=[],
             kiva_id=self._world.fleet.kiva_id.tolist(),
         )
 

@@ -155,7 +155,7 @@ bool goOver(WorldState& world, OffShelf& one) {
   return true;
 }
 
-bool standsUpright(const WorldState& world, const OffShelf& one) {
+bool isUpright(const WorldState& world, const OffShelf& one) {
   const Model& unit = *world.models[one.unit];
   return unitPose(world, unit.index).Rot().ZAxis().Z() > kUpright;
 }
@@ -177,7 +177,7 @@ bool attend(WorldState& world, OffShelf& one) {
     return one.due + world.stepsIn(kWaits) < world.total_steps;
   }
   if (one.due == 0 || one.due > world.total_steps) return false;
-  if (!standsUpright(world, one)) {
+  if (!isUpright(world, one)) {
     one.due = world.total_steps + world.stepsIn(kNextTry);
     return false;
   }
@@ -221,7 +221,7 @@ void pickUp(WorldState& world, const std::string& item) {
   if (at == all.end()) {
     throw std::invalid_argument("no '" + item + "' has fallen off a storage unit");
   }
-  if (!standsUpright(world, *at)) {
+  if (!isUpright(world, *at)) {
     throw std::invalid_argument(item + " can't be put back: " + world.models[at->unit]->name +
                                 " does not stand upright");
   }

@@ -34,6 +34,7 @@ int findUnit(const WorldState& world, Model& item) {
 }  // namespace
 
 std::uint8_t Items::occupies(const WorldState& world, const Model& model) const {
+  if (liesOnUnit(world, model)) return Occupancy::kFree;
   const auto& all = world.off_shelf;
   const bool fell = std::any_of(all.begin(), all.end(), [&](const OffShelf& one) {
     return one.lies && one.item == model.slot;
@@ -117,17 +118,15 @@ void fallOff(WorldState& world, Model& model, const EntityState& state) {
   const int unit = item.unit;
   item.unit = -1;
   addMass(world, unit, -item.mass);
-  const Items items;
-  items.OrdinaryModels::add(world, model);
-  items.OrdinaryModels::place(world, model, state);
+  OrdinaryModels().add(world, model);
+  OrdinaryModels().place(world, model, state);
   moved(world, model);
   alarm(world);
   ++world.models_revision;
 }
 
 void putBack(WorldState& world, Model& model, const Model& unit) {
-  const Items items;
-  items.OrdinaryModels::remove(world, model);
+  OrdinaryModels().remove(world, model);
   world.physics.remove(model.bodies);
   model.bodies = ModelBodies();
   model.in_physics = false;
