@@ -252,8 +252,8 @@ class Transports:
         return cell
 
     def _refuges(self, robot):
-        """Cells where nobody passes: with a unit, places for one; with an empty battery, those where
-        it is charged."""
+        """Cells where nobody passes: with a unit, places for one; with an empty battery, those
+        where it is charged."""
         if self.traffic.loaded[robot]:
             return self._places
         if self.traffic.failures[robot] >> EMPTY & 1 and len(self.plan.charging):
