@@ -171,12 +171,14 @@ def test_nobody_is_towed_to_where_others_are_about_to_pass():
 
 def test_who_is_empty_is_towed_to_where_it_is_charged():
     with Fleet("medium") as fleet:
-        fleet.run(1)
-        robot = int(np.flatnonzero(~fleet.traffic.loaded)[0])
-        fleet.traffic.broken[robot] = True
-        fleet.traffic.failures = np.full(len(fleet.traffic.broken), 1 << EMPTY, np.uint8)
-        refuge = fleet.transports.refuge(fleet.kiva(robot))
-        assert refuge in fleet.driver.plan.charging
+        fleet.run(20)
+        traffic = fleet.traffic
+        traffic.broken = np.ones(len(traffic.broken), bool)
+        traffic.failures = np.full(len(traffic.broken), 1 << EMPTY, np.uint8)
+        unloaded = traffic.kiva_ids[~traffic.loaded].tolist()
+        assert unloaded
+        refuges = [fleet.transports.refuge(kiva) for kiva in unloaded]
+        assert np.isin(refuges, fleet.driver.plan.charging).all()
 
 
 def test_what_is_not_yet_lifted_others_take_over():
