@@ -435,6 +435,26 @@ TEST_F(ExecutionTest, OneThatWasPushedHoldsBothCellsAndDrivesBackFirst) {
   EXPECT_EQ(execution_.holder(cell(4, 3)), -1);
 }
 
+TEST_F(ExecutionTest, OneThatWasPushedKeepsItsRoomBetweenTwoAttempts) {
+  const int robot = add(4, 3);
+  observe();
+  robots_[robot].x = 4.3;
+  robots_[robot].yaw = 0.3;
+  observe();
+  ASSERT_EQ(release().size(), 1u);
+  execution_.refused(robot);
+  for (int i = 0; i < 30; ++i) {
+    now_ += kTick;
+    observe();
+    EXPECT_EQ(execution_.holder(cell(5, 4)), robot) << now_;
+    if (!release().empty()) execution_.refused(robot);
+  }
+  now_ += 30;
+  observe();
+  ASSERT_TRUE(execution_.isLost(robot));
+  EXPECT_EQ(execution_.holder(cell(5, 4)), -1);
+}
+
 TEST_F(ExecutionTest, OneThatIsTakenAwayKeepsItsPathUntilThatIsOver) {
   const int robot = add(1, 1);
   observe();

@@ -119,6 +119,17 @@ TEST_F(Failures, OfTheRadioMakeItDeafAndDumbButItDoesWhatItWasTold) {
   EXPECT_EQ(w.changes.back().status, Status::kIdle);
 }
 
+TEST_F(Failures, OfTheRadioDoNotHideItFromWhoeverMovesIt) {
+  w.movx(1, 3);
+  w.run(1);
+  w.world.fail(1, Failure::kRadio, 0);
+  w.world.setState("kiva1", {Pose(0, 7, 0, 0, 0, 0), {}});
+  const auto last = w.world.lastHeard(0);
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->y, 7);
+  EXPECT_EQ(last->status, Status::kIdle);
+}
+
 TEST_F(Failures, OfTheWheelsMakeItTurnSlowlyAndArriveAllTheSame) {
   const auto time = [&] {
     const double before = w.world.time();

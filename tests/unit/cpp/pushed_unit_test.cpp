@@ -81,6 +81,56 @@ TEST_F(PushedUnit, SpinsDownByTheGripOfItsFeet) {
   EXPECT_LT(w.unitPose(1).Pos().Length(), kMillimetre);
 }
 
+/// Two units on a floor without friction, the first on its way to the second.
+struct Encounter {
+  explicit Encounter(double aside) {
+    w.spawnText(unitWithFriction(0), "storage_unit1", 0, 0);
+    w.spawnText(unitWithFriction(0), "storage_unit2", 1, aside);
+    w.world.setState("storage_unit2", {Pose(1, aside, 0, 0, 0, 0), {}});
+    w.world.setState("storage_unit1", {Pose::Zero, {Vector3(kSpeed, 0, 0), Vector3::Zero}});
+  }
+  EntityState unit(int id) { return *w.world.state("storage_unit" + std::to_string(id)); }
+  Vector3 momentum() { return (unit(1).twist.linear + unit(2).twist.linear) * kMass; }
+  /// About the origin.
+  double turning() {
+    double sum = 0;
+    for (int id : {1, 2}) {
+      const EntityState state = unit(id);
+      sum += kMass * state.pose.Pos().Cross(state.twist.linear).Z();
+      sum += kInertia * state.twist.angular.Z();
+    }
+    return sum;
+  }
+
+  static constexpr double kMass = 60, kInertia = 6.4, kSpeed = 0.5;  // of the model; [m/s]
+  Warehouse w;
+};
+
+TEST(UnitsThatMeet, GoOnTogetherWhereTheyMeetHeadOn) {
+  Encounter head_on(0);
+  head_on.w.run(1);
+  for (int id : {1, 2}) {
+    EXPECT_NEAR(head_on.unit(id).twist.linear.X(), Encounter::kSpeed / 2, 1e-4) << id;
+    EXPECT_NEAR(head_on.unit(id).twist.angular.Z(), 0, 1e-4) << id;
+    EXPECT_EQ(head_on.unit(id).pose.Z(), 0) << id;
+  }
+  const double apart = head_on.unit(2).pose.X() - head_on.unit(1).pose.X() - 0.8;  // their width
+  EXPECT_NEAR(apart, 0, 2e-4);
+}
+
+TEST(UnitsThatMeet, KeepTheirMomentumWhereOneIsHitAside) {
+  Encounter aside(0.5);
+  const double turning = aside.turning();
+  aside.w.run(1);
+  EXPECT_NEAR(aside.momentum().X(), Encounter::kMass * Encounter::kSpeed, 1e-6);
+  EXPECT_NEAR(aside.momentum().Y(), 0, 1e-6);
+  EXPECT_NEAR(aside.turning(), turning, 0.01);
+  // Each is pushed as far beside its centre of mass as the other.
+  const double rate = aside.unit(1).twist.angular.Z();
+  EXPECT_GT(rate, 0.3);
+  EXPECT_NEAR(rate, aside.unit(2).twist.angular.Z(), 1e-3);
+}
+
 TEST_F(PushedUnit, PushedSlowlyByALoadItSlidesUpright) {
   w.spawnText(unitWithFriction(0.2), "storage_unit1", 2, 0);
   w.spawn("storage_unit", "storage_unit2", 0, 0);

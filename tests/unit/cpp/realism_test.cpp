@@ -250,6 +250,25 @@ TEST(Load, TipsTheSameFromACheckpointOn) {
   EXPECT_EQ(other.stateHash(), w.world.stateHash());
 }
 
+// --- localisation
+
+/// Of ten drives of a metre each [s].
+double timeOfStops(const Floorplan& plan) {
+  Warehouse w(plan);
+  w.spawn("kiva", "kiva1", 0, 0);
+  for (int metre = 1; metre <= 10; ++metre) {
+    w.movx(1, metre);
+    w.runUntilIdle(1);
+  }
+  return w.world.time();
+}
+
+TEST(Localisation, DoesNotKeepARobotFromStopping) {
+  const double ideal = timeOfStops(planWith([](Realism&) {}));
+  const double real = timeOfStops(planWith([](Realism& r) { r.localisation.enabled = true; }));
+  EXPECT_NEAR(real, ideal, 10 * 0.15);
+}
+
 // --- reports
 
 Floorplan lateReports(double least, double mean, double lost) {

@@ -26,9 +26,9 @@ KEPT = 0.85  # of the throughput of sound robots
 class Fleet:
     """A preset whose stations are all busy."""
 
-    def __init__(self, size, seed=1, **realism):
+    def __init__(self, size, seed=1, tow_after=None, **realism):
         self.world = World.preset(size, seed=seed, realism=realism)
-        self.driver = FleetDriver(self.world, seed=seed)
+        self.driver = FleetDriver(self.world, seed=seed, tow_after=tow_after)
         self.traffic, self.transports = self.driver.traffic, self.driver.transports
         self._demand = RandomTransports(self.transports, seed, exchange=10)
         self.told = []
@@ -128,6 +128,33 @@ def test_a_broken_robot_is_towed_away_with_its_unit():
         fleet.until(lambda: fleet.world.fleet.shelf_id[robot] == 0)
         assert fleet.driver.collisions == 0
         assert [e.text for e in fleet.told if e.kind == Kind.FAILED] == ["its robot is broken"]
+
+
+def test_who_is_not_heard_in_a_street_is_found_and_towed():
+    with Fleet("medium", tow_after=10) as fleet:
+        fleet.run(WARM_UP)
+        robot = fleet.until(fleet.loaded_in_streets)[0]
+        fleet.world.fail(fleet.kiva(robot), FailureKind.RADIO_LOST)
+        fleet.run(15)
+        at = fleet.traffic.cell[robot]
+        assert fleet.driver.plan.storage.flat[at]
+        assert at == fleet.driver.plan.cell_of(
+            fleet.world.fleet.x[robot], fleet.world.fleet.y[robot]
+        )
+        assert fleet.driver.collisions == 0
+
+
+def test_who_was_not_heard_since_it_lifted_works_again_when_it_is_repaired():
+    with Fleet("medium") as fleet:
+        fleet.run(WARM_UP)
+        lifting = lambda: [t for t in fleet.transports if t.step == Step.LIFTING]  # noqa: E731
+        transport = fleet.until(lifting)[0]
+        fleet.world.fail(fleet.kiva(transport.robot), FailureKind.RADIO_LOST, 45)
+        fleet.told.clear()
+        is_stored = lambda e: e.kind == Kind.STORED and e.shelf_id == transport.shelf  # noqa: E731
+        fleet.until(lambda: any(map(is_stored, fleet.told)), 180)
+        assert [e.text for e in fleet.told if e.kind == Kind.FAILED] == ["its robot is broken"]
+        fleet.until(lambda: any(t.robot == transport.robot for t in fleet.transports))
 
 
 def test_nobody_is_towed_to_where_others_are_about_to_pass():

@@ -72,7 +72,7 @@ struct Event {
     kFell = 13,     ///< An item falls off its storage unit.
     kPickedUp = 14  ///< One that fell is back on it.
   };
-  static constexpr int kKinds = static_cast<int>(Kind::kTipped) + 1;
+  static constexpr int kKinds = static_cast<int>(Kind::kPickedUp) + 1;
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;
   std::string model;

@@ -328,6 +328,8 @@ bool World::setState(const std::string& model, const EntityState& state) {
   Model* found = state_->find(model);
   if (!found) return false;
   placeModel(*state_, *found, state);
+  const int robot = found->owner->robot(*state_, *found);
+  if (robot >= 0) knowWhereabouts(*state_, robot);
   return true;
 }
 

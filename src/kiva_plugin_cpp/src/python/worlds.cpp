@@ -339,7 +339,7 @@ class Worlds {
       for (const std::string* model : {&event.model, &event.other}) {
         const int robot = world.fleet().find(kivaId(*model));
         const bool counts = model == &event.model || event.kind == Event::Kind::kCollision;
-        if (robot >= 0 && counts) {
+        if (robot >= 0 && counts && kind < kKinds) {
           ++rows_.counts[(i * static_cast<std::size_t>(robots_) + robot) * kKinds + kind];
         }
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The node /gazebo: a warehouse world behind Gazebo's ROS 1 names.
+#include <malloc.h>
 #include <ros/ros.h>
 
 #include <csignal>
@@ -48,6 +49,10 @@ namespace {
 using namespace kiva_ros;
 
 constexpr int kCallbackThreads = 4;  // each may wait for the step thread
+
+// Of the heap: what one thread makes another deletes, and with a heap for each thread memory grew
+// by four fifths while a large warehouse was created again and again.
+constexpr int kHeaps = 2;
 
 volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
 
@@ -153,6 +158,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mallopt(M_ARENA_MAX, kHeaps);
   setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // that a log file has each line at once
   if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
   ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);

@@ -11,6 +11,7 @@ import numpy as np
 from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.people import PeopleLog, people_in
+from warehouse_fleet.towing import Towing
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
 
@@ -27,15 +28,17 @@ class FleetDriver:
     """Drives all robots of a kiva_plugin_cpp.World. `transports` is what it is told to do.
 
     The same world, seed and requests give the same run. Events of the world that are about
-    something else than driving go to `events`, if that is a list.
+    something else than driving go to `events`, if that is a list. Robots that are broken in others'
+    way are towed `tow_after` [s] later; None: when tow() is called.
     """
 
-    def __init__(self, world, seed=1, planner=None, kinematics=None):
+    def __init__(self, world, seed=1, planner=None, kinematics=None, tow_after=None):
         self.world = world
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
         self.traffic = Traffic(self.plan, world.fleet.kiva_id, kinematics, seed, planner)
         self.transports = Transports(self.plan, self.traffic, self._lift)
+        self._towing = None if tow_after is None else Towing(self.transports, self.tow, tow_after)
         self._see_units()
         self.traffic.loaded[:] = world.fleet.shelf_id != 0
         for cell in np.flatnonzero(self.plan.obstructed):
@@ -59,7 +62,7 @@ class FleetDriver:
             self.world.drop(kiva_id, shelf_id)
 
     def tow(self, kiva_id):
-        """People move a broken robot out of the way. Raises as Transports.refuge does."""
+        """People move a broken or lost robot out of the way. Raises as Transports.refuge does."""
         x, y = self.plan.point_of(self.transports.refuge(kiva_id))
         yaw = self.world.fleet.yaw[self.world.fleet.index(kiva_id)]
         self.world.set_pose(f"kiva{kiva_id}", float(x), float(y), yaw=square(yaw))
@@ -87,6 +90,8 @@ class FleetDriver:
         self.traffic.observe(self.world.time, report)
         self.failures.observe(self.world.time, report.failures)
         self._see_people()
+        if self._towing:
+            self._towing.advance()
         self.traffic.see_fallen(len(self.fallen))
         looks = self.traffic.wants_map
         if looks:

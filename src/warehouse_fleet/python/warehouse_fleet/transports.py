@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from warehouse_fleet.charging import Charging
-from warehouse_fleet.failures import RADIO_LOST
-from warehouse_fleet.traffic import NOWHERE, STAYS, Mode
+from warehouse_fleet.traffic import IDLE, NOWHERE, STAYS, Mode
 
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
 LIFT_PATIENCE = 3.0  # a lift that has not begun within this is asked for again [s]
@@ -233,16 +232,14 @@ class Transports:
                 self.cancel(transport.number)
 
     def refuge(self, kiva_id):
-        """The nearest cell where a broken robot would be in nobody's way, with what it carries.
-        Raises ValueError: it works, is not heard, or there is none."""
+        """The nearest cell where a broken or lost robot would be in nobody's way, with what it
+        carries. Raises ValueError: it works, or there is none."""
         traffic = self.traffic
         robot = traffic.index(kiva_id)
         if robot == NOWHERE:
             raise ValueError(f"there is no kiva{kiva_id}")
-        if not traffic.broken[robot]:
+        if not (traffic.broken[robot] or traffic.lost[robot]):
             raise ValueError(f"kiva{kiva_id} is not broken")
-        if traffic.failures[robot] >> RADIO_LOST & 1:
-            raise ValueError(f"kiva{kiva_id} is not heard: nobody knows where it is")
         out = set(traffic.closed.tolist()) | set(traffic.cell.tolist()) | set(traffic.goal.tolist())
         if traffic.loaded[robot]:
             out |= self._taken()
@@ -255,6 +252,11 @@ class Transports:
         if cell == NOWHERE:
             raise ValueError("there is no place for it")
         return cell
+
+    def in_the_way(self, robots):
+        """Which of those, (n,) bool, stand in a street or a lane."""
+        cell = self.traffic.cell
+        return robots & ~self.traffic.gone & ((cell == NOWHERE) | ~self._aside[cell])
 
     def take_events(self):
         """All TransportEvents since the last call."""
@@ -419,6 +421,8 @@ class Transports:
         without = np.ones(len(loaded), bool)
         without[known] = False
         traffic.loaded[without] = loaded[without]
+        # Who broke while it lifted, or stood at a station, and lost its transport, is free again.
+        traffic.busy[without & ~traffic.broken & (np.asarray(report.status) == IDLE)] = False
         ready = without & loaded & traffic.stands & ~traffic.broken & ~self._are_lost()
         for robot in np.flatnonzero(ready):
             self.adopt(int(robot), int(shelf[robot]))

@@ -185,7 +185,8 @@ void Execution::keepAround(int robot) {
 void Execution::cover(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  const bool is_coming_back = course.is_astray && course.is_active;
+  const bool is_trying = course.recovery.since >= 0 && !isLost(robot);  // between attempts, too
+  const bool is_coming_back = course.is_astray && (course.is_active || is_trying);
   const double reach = (is_coming_back ? kRoom : kReach) * motion_.spacing;
   const double ahead = 0.7 * motion_.spacing;
   const double speed = std::hypot(report.vx, report.vy);
@@ -203,8 +204,8 @@ void Execution::cover(int robot) {
   }
 }
 
-/// Robots drive past one that stands askew with room to spare, but a corner of its load may be where
-/// theirs turn.
+/// Robots drive past one that stands askew with room to spare, but a corner of its load may be
+/// where theirs turn.
 void Execution::findTight() {
   tight_.clear();
   for (int robot = 0; robot < robots(); ++robot) {

@@ -18,7 +18,7 @@ from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.static_files import FRESH, THREE, Files, FreshFiles
 
 HOST, TRIES = "127.0.0.1", 20
-ENDS = 5.0  # until the server has ended [s, wall]
+PATIENCE = 10.0  # with a server that begins or ends [s, wall]
 DECIDES = "the program that steps this warehouse decides that"
 LACKS = ("reset", "reset_poses", "checkpoint", "restore", "undo", "create", "person")
 
@@ -33,15 +33,18 @@ class PageServer:
         self._name, self._step_size = name, step_size
         self._journal, self._pace = journal, pace
         self.hub = Hub(live, Model(), journal, self)
-        listener = _first_free(port)
-        self.url = "http://{}:{}/".format(*listener.getsockname())
+        self._listener = _first_free(port)
+        self.url = "http://{}:{}/".format(*self._listener.getsockname())
         self._server = _Server(self._application(), self.hub)
-        self._thread = threading.Thread(target=self._server.run, args=([listener],), daemon=True)
+        run = {"target": self._server.run, "args": ([self._listener],)}
+        self._thread = threading.Thread(**run, daemon=True)
         self._thread.start()
+        self._server.serves.wait(PATIENCE)
 
     def close(self):
         self._server.should_exit = self._server.force_exit = True
-        self._thread.join(ENDS)
+        self._thread.join(PATIENCE)
+        self._listener.close()
 
     # --- what the hub asks of a simulation
     def offers(self):
@@ -122,8 +125,9 @@ class _Server(uvicorn.Server):
                 access_log=False,
             )
         )
-        self._hub = hub
+        self._hub, self.serves = hub, threading.Event()
 
     async def startup(self, sockets=None):
         await super().startup(sockets)
         self._running = asyncio.create_task(self._hub.run())
+        self.serves.set()

@@ -76,34 +76,37 @@ export class Details {
 
   factsOf(thing) {
     const [x, y, z, yaw] = this.world.placeOf(thing);
-    const { index } = thing, { scene } = this.world;
+    const { index } = thing;
     const out = [['position', `${metres(x)}, ${metres(y)} m`]];
     if (Math.abs(z) > 0.005) out.push(['height', `${metres(z)} m`]);
     out.push(['heading', `${Math.round(yaw * 180 / Math.PI) + 0}°`]);
-    if (thing.kind === 'robot') {
-      out.push(['does', STATE[this.world.state[index]]], ...this.planOf(scene.robots[index]));
-      const broken = FAILURE.filter((_, bit) => this.world.failures[index] >> bit & 1);
-      if (broken.length) out.push(['broken', broken.join(', ')]);
-      if (this.world.charge.some((c) => c < 100)) out.push(['battery', `${this.world.charge[index]} %`]);
-      const load = this.world.loadOf(index);
-      out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
-      const limit = this.world.loadLimit[index];
-      if (limit > 0) out.push(['brakes for it', `at ${limit.toFixed(1)} m/s² at most`]);
-      if (load >= 0) out.push(['items', String(this.world.itemsOf[load].length)]);
-    }
-    if (thing.kind === 'unit') {
-      const carrier = this.world.carrier[index];
-      out.push(['carried by', carrier ? link(`kiva${carrier}`) : 'nobody']);
-      out.push(['items', this.world.itemsOf[index].length
-        ? this.world.itemsOf[index].map((i) => scene.items[i]).join(', ') : 'none']);
-    }
-    if (thing.kind === 'item') {
-      const unit = scene.item_unit[index];
-      const home = this.fallen.unitOf(index);
-      if (home >= 0) out.push(['fell off', link(scene.units[home])]);
-      else out.push(['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]);
-    }
+    return out.concat({ robot: () => this.factsOfRobot(index), unit: () => this.factsOfUnit(index),
+      item: () => this.factsOfItem(index) }[thing.kind]?.() ?? []);
+  }
+
+  factsOfRobot(index) {
+    const { world } = this, { scene } = world;
+    const out = [['does', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
+    const broken = FAILURE.filter((_, bit) => world.failures[index] >> bit & 1);
+    if (broken.length) out.push(['broken', broken.join(', ')]);
+    if (world.charge.some((c) => c < 100)) out.push(['battery', `${world.charge[index]} %`]);
+    const load = world.loadOf(index), limit = world.loadLimit[index];
+    out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
+    if (limit > 0) out.push(['brakes for it', `at ${limit.toFixed(1)} m/s² at most`]);
+    if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
     return out;
+  }
+
+  factsOfUnit(index) {
+    const carrier = this.world.carrier[index];
+    const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);
+    return [['carried by', carrier ? link(`kiva${carrier}`) : 'nobody'], ['items', items.join(', ') || 'none']];
+  }
+
+  factsOfItem(index) {
+    const { scene } = this.world, unit = scene.item_unit[index], home = this.fallen.unitOf(index);
+    if (home >= 0) return [['fell off', link(scene.units[home])]];
+    return [['lies on', unit < 0 ? 'no storage unit' : link(scene.units[unit])]];
   }
 
   /** Where the coordinator sends a robot, and for whom it waits. */

@@ -89,4 +89,13 @@ void exchangeReports(WorldState& world) {
   receiveReports(world);
 }
 
+void knowWhereabouts(WorldState& world, int robot) {
+  const RobotReport report = reportOf(world, robot);
+  if (world.fleet.heard[robot].number > 0) hear(world, robot, ++world.reports, report);
+  const int id = world.fleet.robots[robot].id;
+  for (Defect& defect : world.failures.defects) {
+    if (defect.kiva_id == id) defect.last = report;
+  }
+}
+
 }  // namespace kiva

@@ -13,5 +13,7 @@ RobotReport reportOf(const WorldState& world, int robot);
 /// Robots report ten times a second, and when their status changes; takes in what has come by now.
 /// Nothing while the world's realism has no radio.
 void exchangeReports(WorldState& world);
+/// Whoever has put a robot somewhere knows where it is, heard or not.
+void knowWhereabouts(WorldState& world, int robot);
 
 }  // namespace kiva

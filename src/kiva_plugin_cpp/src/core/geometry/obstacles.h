@@ -95,18 +95,31 @@ class Obstacles {
     });
   }
 
-  /// The same of what has a point within the circle `reach` around (x, y), and of movers, maybe
-  /// farther away, within `mover_reach`, which is no less.
+  /// The same of what has a point within the circle `reach` around (x, y), and of movers whose
+  /// circle has one within `mover_reach`.
   template <typename Meets, typename Approaches>
   bool anyAround(double x, double y, double reach, double mover_reach, Meets meets,
                  Approaches approaches) const {
-    const double far = mover_reach;
-    const Range near_cells = range({x - reach, x + reach, y - reach, y + reach});
-    const Range far_cells = range({x - far, x + far, y - far, y + far});
-    return anyHandle(near_cells, far_cells, [&](int handle) {
-      if (handle < 0) return approaches(~handle, radius_[~handle]);
+    const auto moves = [&](int robot) {
+      const double dx = fleet_.x[robot] - x, dy = fleet_.y[robot] - y;
+      const double most = mover_reach + radius_[robot];
+      return dx * dx + dy * dy < most * most && approaches(robot, radius_[robot]);
+    };
+    const auto stands = [&](int handle) {
       return spots_[handle].isWithin(reach, x, y) && meets(entries_[handle].footprint);
-    });
+    };
+    const auto ask = [&](int handle) { return handle < 0 ? moves(~handle) : stands(handle); };
+    const Range near = range({x - reach, x + reach, y - reach, y + reach});
+    const int movers = static_cast<int>(movers_.size());
+    if (movers > kFew) {
+      const double far = mover_reach;
+      return anyHandle(near, range({x - far, x + far, y - far, y + far}), ask);
+    }
+    // Few are gone through more quickly than the cells in which they may be.
+    for (int robot = 0; robot < movers; ++robot) {
+      if (moves(robot)) return true;
+    }
+    return anyHandle(near, near, [&](int handle) { return handle >= 0 && stands(handle); });
   }
 
   /// The first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but for
@@ -117,6 +130,8 @@ class Obstacles {
             FanHits* hits) const;
 
  private:
+  static constexpr int kFew = 32;  // movers
+
   struct Range {  // of cells, inclusive
     int x0 = 0, x1 = -1, y0 = 0, y1 = -1;
     bool operator==(const Range& o) const {

@@ -14,8 +14,9 @@ namespace {
 constexpr double kHorizons[] = {0.3, 0.08, 0.02}, kShortest = kHorizons[2];
 constexpr double kWorthwhile = 0.015;  // [s]: less is no clearance to cruise on
 constexpr double kAstray = 0.001;      // [m] that a robot may be beside its way at the horizon
-constexpr double kPushed = 0.5;  // [m/s] by which a robot in Bullet may be faster than it drives
-constexpr double kStill = 1e-9;  // [m/s, rad/s]
+constexpr double kPushed = 0.5;     // [m/s] by which a robot in Bullet may be faster than it drives
+constexpr double kStill = 1e-9;     // [m/s, rad/s]
+constexpr double kWanders = 0.003;  // [m/s] that wheels of unequal sizes move one that turns
 
 bool standsStill(const FleetState& f, int i) {
   if (!f.awake[i]) return true;
@@ -27,15 +28,17 @@ bool standsStill(const FleetState& f, int i) {
   return !task.segment() || task.lifts();
 }
 
-/// Its circle stays where it is until it begins another segment, and then it looks around itself.
+/// Its circle stays where it is, or nearly, until it begins another segment, and then it looks
+/// around itself.
 bool turnsInPlace(const FleetState& f, int i) {
+  const double most = f.localises ? kWanders : kStill;
   return !f.activated[i] && f.tasks[i].isAt(MotionSegment::Kind::kTurn) &&
-         std::abs(f.vx[i]) < kStill && std::abs(f.vy[i]) < kStill;
+         std::abs(f.vx[i]) < most && std::abs(f.vy[i]) < most;
 }
 
 /// How fast its circle may come nearer [m/s].
 double approachSpeed(const FleetState& f, int i) {
-  if (turnsInPlace(f, i)) return 0;
+  if (turnsInPlace(f, i)) return f.localises ? kWanders : 0;
   const double speed = f.robots[i].drive.speed;
   return f.activated[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
 }

@@ -97,9 +97,12 @@ bool isBehindBox(const std::vector<Column>& body, std::size_t part, const Column
   return false;
 }
 
-/// Parts that could touch, whatever the bodies do; none if one of these is no upright box.
+/// Parts that could touch, whatever the bodies do; none if one of these is no upright box. Faces
+/// that press on each other keep the bodies upright, as far as they reach: the force acts as near
+/// to the height of the centre of mass as it can.
 std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Column>& a,
-                                                           const std::vector<Column>& b) {
+                                                           const std::vector<Column>& b,
+                                                           btScalar centre) {
   std::vector<PlanarContacts::Pair> pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {
@@ -108,7 +111,7 @@ std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Col
       if (!a[i].is_box || !b[j].is_box) return std::nullopt;
       const btScalar from = std::max(a[i].z_min, b[j].z_min);
       const btScalar to = std::min(a[i].z_max, b[j].z_max);
-      pairs.push_back({static_cast<int>(i), static_cast<int>(j), (from + to) / 2});
+      pairs.push_back({static_cast<int>(i), static_cast<int>(j), std::clamp(centre, from, to)});
     }
   }
   return pairs;
@@ -131,6 +134,16 @@ bool staysUpright(const btCollisionObject& object) {
   const btRigidBody* body = btRigidBody::upcast(&object);
   return body && isUpright(body->getWorldTransform().getBasis()) &&
          (body->isStaticObject() || isPlanar(*body));
+}
+
+/// The height of their centres of mass in world [m]; that of what is higher, and can move.
+btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b) {
+  btScalar height = 0;
+  for (const auto* body : {a, b}) {
+    if (body->getCollisionObject()->isStaticObject()) continue;
+    height = std::max(height, body->getWorldTransform().getOrigin().z());
+  }
+  return height;
 }
 
 /// How fast a point of the body within `radius` [m] of its centre may go [m/s].
@@ -287,7 +300,7 @@ btCollisionAlgorithm* PlanarContacts::Creator::CreateCollisionAlgorithm(
                 "what a dispatcher allocates is no larger than Bullet's own");
   if (staysUpright(*a->getCollisionObject()) && staysUpright(*b->getCollisionObject())) {
     const std::vector<Column> of_a = columnsOf(a), of_b = columnsOf(b);
-    if (auto pairs = findPairs(of_a, of_b)) {
+    if (auto pairs = findPairs(of_a, of_b, centreOf(a, b))) {
       void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(PlanarContacts));
       return new (memory) PlanarContacts(info, a, b, std::move(*pairs), hullOf(of_a), hullOf(of_b));
     }

@@ -13,8 +13,8 @@ namespace kiva {
 /// Whether the body can do nothing but slide on the floor and turn on it.
 bool isPlanar(const btRigidBody& body);
 
-/// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points,
-/// halfway up what of their heights they share, wherever outlines come near.
+/// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points
+/// wherever outlines come near.
 class PlanarContacts : public btActivatingCollisionAlgorithm {
  public:
   /// Two parts that share heights, and where they touch.

@@ -9,6 +9,7 @@ from warehouse_fleet.fleet_driver import UPDATE, FleetDriver
 from warehouse_fleet.protocols import Task
 from warehouse_fleet.travel import Travel
 
+TOW_AFTER = 60.0  # in which people come to a robot that is broken in others' way [s]
 STUCK = 60.0  # a robot with somewhere to go that stood still for so long is stuck [s]
 ROUNDING = 1e-9  # [s]
 
@@ -19,7 +20,9 @@ class WorldFleet:
     def __init__(self, world, site, seed):
         self.world, self.plan, self.robots = world, site.plan, len(site.robots)
         self.travel = Travel(site.plan, site.kinematics)
-        self._driver = FleetDriver(world, seed=seed, kinematics=site.kinematics)
+        self._driver = FleetDriver(
+            world, seed=seed, kinematics=site.kinematics, tow_after=TOW_AFTER
+        )
         self.transports = self._driver.transports
         self._cells = self._driver.traffic.cell
         self._traffic, self._waiting = np.zeros((2, site.plan.passable.size))
