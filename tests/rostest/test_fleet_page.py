@@ -12,7 +12,7 @@ from node_test import Listener, call, latched, wait_until
 from page_test import PageTest, ask
 
 from gazebo_msgs.msg import ModelState
-from gazebo_msgs.srv import SetModelState
+from gazebo_msgs.srv import GetModelState, SetModelState
 from warehouse_msgs.msg import CoordinatorState, Scenery, WarehouseObjects
 from warehouse_msgs.srv import PickUp
 
@@ -85,6 +85,8 @@ class FleetPage(PageTest):
         self.page.read(f"page.select('{robot}')")
         self.page.until("document.getElementById('facts').textContent.includes('pick1')")
         self.page.until("page.overlays.goal.visible")
+        limit = "/at [0-9.]+ m.s² at most/.test(document.getElementById('facts').textContent)"
+        self.page.until(limit)  # that it keeps for its load
         self.wait_for(transport, "ARRIVED")
         self.page.until(
             "document.getElementById('fleet-facts').textContent.includes('1 delivered')"
@@ -121,8 +123,9 @@ class FleetPage(PageTest):
 
     def test_items_that_fell_are_seen_and_picked_up(self):
         """Off a unit that is thrown over where nothing else stands."""
-        unit, (x, y) = "storage_unit7", open_place()
-        put(unit, x, y, tilt=0.7)
+        unit = "storage_unit7"
+        home = call("/gazebo/get_model_state", GetModelState, unit, "world").pose.position
+        put(unit, *open_place(), tilt=0.7)
         fell = latched("/warehouse/objects", WarehouseObjects, lambda told: told.fallen_item)
         item = fell.items[fell.fallen_item[0]]
         self.assertEqual(fell.storage_units[fell.fallen_from[0]], unit)
@@ -138,7 +141,7 @@ class FleetPage(PageTest):
         self.page.click_on("pick-up")
         self.page.until("document.getElementById('tip').textContent.includes('upright')")
         self.assertIn("does not stand upright", call("/warehouse/pick_up", PickUp, item).message)
-        put(unit, x, y)
+        put(unit, home.x, home.y)
         self.page.click_on("pick-up")
         self.page.until(f"!page.world.scene.fallen_item.some((i) => {name_of('i')} === '{item}')")
         self.page.until("document.getElementById('facts').textContent.includes('lies on')")

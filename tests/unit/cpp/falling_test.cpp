@@ -93,6 +93,28 @@ TEST(Items, FallIfTheirUnitIsHitHarderThanFrictionHolds) {
   EXPECT_EQ(whoFalls(1.05 * kLimit, plan), kFirstRow);
 }
 
+/// Who falls off a unit that stands, and is hit from behind by something low of 300 kg.
+std::set<std::string> whoFallsOfThoseThatStand(double speed) {
+  Warehouse w(planWith(kFriction, kFriction));
+  fill(&w, lowUnit());
+  w.spawnText(
+      "<sdf version='1.9'><model name='crate'><link name='l'><pose>0 0 0.2 0 0 0</pose><inertial>"
+      "<mass>300</mass><inertia><ixx>24</ixx><iyy>10</iyy><izz>27</izz></inertia></inertial>"
+      "<collision name='c'><geometry><box><size>0.5 0.9 0.4</size></box></geometry></collision>"
+      "</link></model></sdf>",
+      "crate", -kHalfUnit - 0.252, 0);
+  w.world.setState("crate", {w.world.state("crate")->pose, {Vector3(speed, 0, 0), Vector3::Zero}});
+  w.run(2);
+  return fallen(w.world);
+}
+
+TEST(Items, FallOffAUnitThatStandsAndIsHit) {
+  const double share = 300 / (300 + 60 + 12 * kItem);  // of its speed that both have afterwards
+  EXPECT_TRUE(whoFallsOfThoseThatStand(0.9 * kLimit / share).empty());
+  const std::set<std::string> last_row = {"item10", "item11", "item12", "item9"};
+  EXPECT_EQ(whoFallsOfThoseThatStand(1.1 * kLimit / share), last_row);
+}
+
 TEST(Items, StayIfLoadsAreIdeal) {
   Floorplan plan{60};
   EXPECT_TRUE(whoFalls(1.5, plan).empty());
@@ -192,6 +214,7 @@ TEST(Items, SlideOffAUnitThatTips) {
   });
   const std::set<std::string> names = fallen(w.world);
   EXPECT_TRUE(std::includes(names.begin(), names.end(), kFirstRow.begin(), kFirstRow.end()));
+  EXPECT_EQ(w.count(Kind::kCollision), 0);                       // each falls off what it touches
   EXPECT_THROW(w.world.pickUp("item1"), std::invalid_argument);  // its unit lies
   w.world.setState("storage_unit1", {Pose(9, 9, 0, 0, 0, 0), {}});
   w.world.pickUp("item1");

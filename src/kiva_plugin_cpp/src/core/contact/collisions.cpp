@@ -24,13 +24,21 @@ int robotIn(const WorldState& world, const Model& model) {
   return model.owner->robot(world, model);
 }
 
+/// Whether one is an item that slides, or has fallen, off the other.
+bool isFall(const WorldState& world, const Contact& contact) {
+  const int a = contact.model_a, b = contact.model_b;
+  return std::any_of(world.off_shelf.begin(), world.off_shelf.end(), [a, b](const OffShelf& one) {
+    return (one.item == a && one.unit == b) || (one.item == b && one.unit == a);
+  });
+}
+
 bool isCollision(const WorldState& world, const Contact& contact) {
   const Model& a = *world.models[contact.model_a];
   const Model& b = *world.models[contact.model_b];
   if (a.owner->isFloor() || b.owner->isFloor()) return false;
   if (!a.owner->tellsCollisions() && !b.owner->tellsCollisions()) return false;
   const int robot = robotIn(world, a);
-  return robot < 0 || robot != robotIn(world, b);
+  return (robot < 0 || robot != robotIn(world, b)) && !isFall(world, contact);
 }
 
 bool areApart(const WorldState& world, const TouchingPair& pair) {
