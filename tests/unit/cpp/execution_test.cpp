@@ -414,6 +414,23 @@ TEST_F(ExecutionTest, ARefusedPathFreesItsCells) {
   EXPECT_EQ(execution_.holder(cell(2, 1)), -1);
 }
 
+TEST_F(ExecutionTest, OneThatIsNotHeardKeepsWhatItMayHaveTaken) {
+  const int robot = add(1, 1);
+  observe();
+  plan({straight(3)});
+  release();
+  execution_.setBroken({1});
+  execution_.refused(robot);  // a twin of what it drives now, unheard
+  for (int i = 0; i < 15; ++i) {
+    now_ += kTick;
+    observe();
+  }
+  EXPECT_EQ(execution_.holder(cell(2, 1)), robot);
+  execution_.setBroken({0});
+  observe();
+  EXPECT_EQ(execution_.holder(cell(2, 1)), -1);
+}
+
 TEST_F(ExecutionTest, OneThatWasPushedHoldsBothCellsAndDrivesBackFirst) {
   const int robot = add(3, 3);
   observe();

@@ -29,7 +29,7 @@ class Tables : public testing::Test {
 
   const Floor floor_{drawn({std::string(kWidth, '.')})};
   std::vector<std::uint8_t> costs_ = std::vector<std::uint8_t>(kWidth * kHeadings, kTickCost);
-  Edges edges_{{}, &costs_};
+  Edges edges_{{}, &costs_, {}};
   DistanceTables tables_{floor_, edges_, 1, std::size_t{1} << 20};
   int now_ = 0;
 };

@@ -11,10 +11,12 @@ namespace {
 
 constexpr double kGravity = 9.81;  // [m/s²]
 
-std::string unitWithFriction(double friction) {
+std::string unitWithFriction(double friction, double restitution = 0) {
   return replaced(modelText("storage_unit"), "</collision>",
                   "<surface><friction><ode><mu>" + number(friction) +
-                      "</mu></ode></friction></surface></collision>");
+                      "</mu></ode></friction><bounce><restitution_coefficient>" +
+                      number(restitution) +
+                      "</restitution_coefficient></bounce></surface></collision>");
 }
 
 /// A box of that mass [kg] and size.
@@ -83,9 +85,9 @@ TEST_F(PushedUnit, SpinsDownByTheGripOfItsFeet) {
 
 /// Two units on a floor without friction, the first on its way to the second.
 struct Encounter {
-  explicit Encounter(double aside) {
-    w.spawnText(unitWithFriction(0), "storage_unit1", 0, 0);
-    w.spawnText(unitWithFriction(0), "storage_unit2", 1, aside);
+  explicit Encounter(double aside, double restitution = 0) {
+    w.spawnText(unitWithFriction(0, restitution), "storage_unit1", 0, 0);
+    w.spawnText(unitWithFriction(0, restitution), "storage_unit2", 1, aside);
     w.world.setState("storage_unit2", {Pose(1, aside, 0, 0, 0, 0), {}});
     w.world.setState("storage_unit1", {Pose::Zero, {Vector3(kSpeed, 0, 0), Vector3::Zero}});
   }
@@ -116,6 +118,15 @@ TEST(UnitsThatMeet, GoOnTogetherWhereTheyMeetHeadOn) {
   }
   const double apart = head_on.unit(2).pose.X() - head_on.unit(1).pose.X() - 0.8;  // their width
   EXPECT_NEAR(apart, 0, 2e-4);
+}
+
+TEST(UnitsThatMeet, PartAsFastAsTheirRestitutionSays) {
+  const double restitution = 0.6;
+  Encounter bounce(0, restitution);
+  bounce.w.run(1);
+  const double first = bounce.unit(1).twist.linear.X(), second = bounce.unit(2).twist.linear.X();
+  EXPECT_NEAR(second - first, restitution * Encounter::kSpeed, 0.01 * Encounter::kSpeed);
+  EXPECT_NEAR(first + second, Encounter::kSpeed, 1e-6);
 }
 
 TEST(UnitsThatMeet, KeepTheirMomentumWhereOneIsHitAside) {

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import EventKind, FailureKind, World
-from warehouse_fleet.failures import FailureLog
+from warehouse_fleet.failures import EMPTY, FailureLog
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.transports import Kind, Step
@@ -167,6 +167,18 @@ def test_nobody_is_towed_to_where_others_are_about_to_pass():
                 refuge = fleet.transports.refuge(fleet.kiva(robot))
                 traffic.broken[robot] = False
                 assert all(refuge not in traffic.paths(other)[0] for other in range(count))
+
+
+def test_who_is_empty_is_towed_to_where_it_is_charged():
+    with Fleet("medium") as fleet:
+        fleet.run(20)
+        traffic = fleet.traffic
+        traffic.broken = np.ones(len(traffic.broken), bool)
+        traffic.failures = np.full(len(traffic.broken), 1 << EMPTY, np.uint8)
+        unloaded = traffic.kiva_ids[~traffic.loaded].tolist()
+        assert unloaded
+        refuges = [fleet.transports.refuge(kiva) for kiva in unloaded]
+        assert np.isin(refuges, fleet.driver.plan.charging).all()
 
 
 def test_what_is_not_yet_lifted_others_take_over():

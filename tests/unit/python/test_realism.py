@@ -146,8 +146,15 @@ def test_a_checkpoint_goes_on_in_the_middle_of_things():
 # --- localisation
 
 
+def typical_but(*without):
+    """The sections of a typical day, but for those."""
+    sections = World(realism="typical").realism.items()
+    numbers = {name: dict(section) for name, section in sections if name not in without}
+    return {name: section for name, section in numbers.items() if section.pop("enabled")}
+
+
 def test_robots_stop_on_their_grid_points_by_what_they_believe():
-    world = robots(6, 6, realism={"localisation": {}}, seed=2)
+    world = robots(6, 6, realism=typical_but("failures", "energy"), seed=2)
     fleet, off, unsure = world.fleet, [], []
     for idle in wander(world, np.random.default_rng(2), 600):
         at = np.stack([fleet.x, fleet.y], axis=1)[idle]

@@ -50,9 +50,9 @@ using namespace kiva_ros;
 
 constexpr int kCallbackThreads = 4;  // each may wait for the step thread
 
-// Of the heap: what one thread makes another deletes, and with a heap for each thread memory grew
-// by four fifths while a large warehouse was created again and again.
-constexpr int kHeaps = 2;
+// For all threads: what one makes another deletes, and with a heap for each memory grew by four
+// fifths while a large warehouse was created again and again.
+constexpr int kHeaps = 1;
 
 volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
 

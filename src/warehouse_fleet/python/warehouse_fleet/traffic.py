@@ -29,7 +29,11 @@ NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
 HORIZON = 7  # ticks
 GUIDANCE = {  # measured
-    **{"turn_ticks": 2, "crowd": 10, "resting": 8, "at_lanes": 1, "memory": 50},
+    "turn_ticks": 2,
+    "crowd": 10,
+    "resting": 8,
+    "at_lanes": 1,
+    "memory": 50,
     "patience": 15,
 }
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL

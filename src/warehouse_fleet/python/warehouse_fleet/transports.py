@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from warehouse_fleet.charging import Charging
+from warehouse_fleet.failures import EMPTY
 from warehouse_fleet.traffic import IDLE, NOWHERE, STAYS, Mode
 
 STORE, STAY = 0, 1  # what becomes of the unit afterwards
@@ -241,17 +242,23 @@ class Transports:
         if not (traffic.broken[robot] or traffic.lost[robot]):
             raise ValueError(f"kiva{kiva_id} is not broken")
         out = set(traffic.closed.tolist()) | set(traffic.cell.tolist()) | set(traffic.goal.tolist())
-        if traffic.loaded[robot]:
-            out |= self._taken()
-            cells = self._places
-        else:
-            cells = np.flatnonzero(self._aside)
+        out |= self._taken() if traffic.loaded[robot] else set()
         # Nor may anybody be about to pass there.
-        free = [c for c in cells.tolist() if c not in out and traffic.holder(c) == NOWHERE]
+        cells = self._refuges(robot).tolist()
+        free = [c for c in cells if c not in out and traffic.holder(c) == NOWHERE]
         cell = self._nearest(int(traffic.cell[robot]), free)
         if cell == NOWHERE:
             raise ValueError("there is no place for it")
         return cell
+
+    def _refuges(self, robot):
+        """Cells where nobody passes: with a unit, places for one; with an empty battery, those
+        where it is charged."""
+        if self.traffic.loaded[robot]:
+            return self._places
+        if self.traffic.failures[robot] >> EMPTY & 1 and len(self.plan.charging):
+            return np.asarray(self.plan.charging)
+        return np.flatnonzero(self._aside)
 
     def in_the_way(self, robots):
         """Which of those, (n,) bool, stand in a street or a lane."""

@@ -265,8 +265,10 @@ void Execution::follow(int robot) {
   }
   const bool is_reported = report.path_id == course.id;
   if (report.status == kStatusIdle) {
-    // What was refused may still have a twin under way, and that may be accepted.
-    const bool is_dead = course.is_refused && now_ - course.sent > kSettled;
+    // What was refused may still have a twin under way, and that may be accepted; by one that is
+    // not heard it may have been.
+    const bool is_settled = now_ - course.sent > kSettled && !isBroken(robot);
+    const bool is_dead = course.is_refused && is_settled;
     if (course.is_accepted || is_reported || is_dead) finish(robot);
     return;
   }

@@ -97,21 +97,21 @@ bool isBehindBox(const std::vector<Column>& body, std::size_t part, const Column
   return false;
 }
 
-/// Parts that could touch, whatever the bodies do; none if one of these is no upright box. Faces
-/// that press on each other keep the bodies upright, as far as they reach: the force acts as near
-/// to the height of the centre of mass as it can.
+/// Parts that could touch, whatever the bodies do; none if one of these is no upright box.
 std::optional<std::vector<PlanarContacts::Pair>> findPairs(const std::vector<Column>& a,
-                                                           const std::vector<Column>& b,
-                                                           btScalar centre) {
+                                                           const std::vector<Column>& b) {
   std::vector<PlanarContacts::Pair> pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {
       if (!shareHeight(a[i], b[j])) continue;
       if (isBehindBox(a, i, b[j]) || isBehindBox(b, j, a[i])) continue;
       if (!a[i].is_box || !b[j].is_box) return std::nullopt;
-      const btScalar from = std::max(a[i].z_min, b[j].z_min);
-      const btScalar to = std::min(a[i].z_max, b[j].z_max);
-      pairs.push_back({static_cast<int>(i), static_cast<int>(j), std::clamp(centre, from, to)});
+      PlanarContacts::Pair pair;
+      pair.a = static_cast<int>(i);
+      pair.b = static_cast<int>(j);
+      pair.z_min = std::max(a[i].z_min, b[j].z_min);
+      pair.z_max = std::min(a[i].z_max, b[j].z_max);
+      pairs.push_back(pair);
     }
   }
   return pairs;
@@ -146,17 +146,14 @@ btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrap
   return height;
 }
 
-/// How fast a point of the body within `radius` [m] of its centre may go [m/s].
-btScalar speedOf(const btCollisionObject& object, btScalar radius) {
-  const btRigidBody& body = *btRigidBody::upcast(&object);
-  return body.getLinearVelocity().length() + std::abs(body.getAngularVelocity().z()) * radius;
-}
-
-btScalar radiusOf(const btCollisionObject& object) {
+/// How fast a point of the body may go [m/s].
+btScalar speedOf(const btCollisionObject& object) {
   btVector3 centre;
   btScalar radius;
   object.getCollisionShape()->getBoundingSphere(centre, radius);
-  return centre.length() + radius;
+  const btRigidBody& body = *btRigidBody::upcast(&object);
+  return body.getLinearVelocity().length() +
+         std::abs(body.getAngularVelocity().z()) * (centre.length() + radius);
 }
 
 /// What pressed there in the last step, if something did.
@@ -198,13 +195,13 @@ btManifoldPoint pointAt(const OutlineContact& contact, btScalar height,
 }
 
 /// Instead of those of the last step.
-void setPoints(const OutlineContacts& contacts, const PlanarContacts::Pair& pair,
+void setPoints(const PlanarContacts::Pair& pair, btScalar height,
                const btCollisionObjectWrapper* body_a, const btCollisionObjectWrapper* body_b) {
-  if (contacts.count == 0) return pair.manifold->clearManifold();
+  const OutlineContacts& contacts = pair.contacts;
   const btCollisionObjectWrapper a = partOf(body_a, pair.a), b = partOf(body_b, pair.b);
   btManifoldPoint points[2];
   for (int i = 0; i < contacts.count; ++i) {
-    points[i] = pointAt(contacts.at[i], pair.height, a, b);
+    points[i] = pointAt(contacts.at[i], height, a, b);
     points[i].m_appliedImpulse = impulseNear(*pair.manifold, points[i].m_localPointA);
   }
   pair.manifold->clearManifold();
@@ -262,28 +259,54 @@ PlanarContacts::~PlanarContacts() {
 void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
                                       const btCollisionObjectWrapper* b,
                                       const btDispatcherInfo& info, btManifoldResult*) {
+  if (areFarther(kNear, inWorld(a, hull_a_), inWorld(b, hull_b_))) return forget();
   const btCollisionObject &body_a = *a->getCollisionObject(), &body_b = *b->getCollisionObject();
-  const btScalar speed = speedOf(body_a, radiusOf(body_a)) + speedOf(body_b, radiusOf(body_b));
-  const btScalar reach = std::min(kForeseen, kClose + 2 * speed * info.m_timeStep);
-  const bool are_near = !areFarther(kNear, inWorld(a, hull_a_), inWorld(b, hull_b_));
-  Rectangle on_a;
-  int part = -1;  // of a, whose outline that is
+  const btScalar reach =
+      std::min(kForeseen, kClose + 2 * (speedOf(body_a) + speedOf(body_b)) * info.m_timeStep);
+  bool any = false;
+  for (Pair& pair : pairs_) any = look(a, b, reach, &pair) || any;
+  const btScalar height = any ? heightOfPush(centreOf(a, b)) : 0;
   for (Pair& pair : pairs_) {
-    if (!are_near) {
-      if (pair.manifold) pair.manifold->clearManifold();
-      continue;
-    }
-    if (pair.a != part) on_a = partOutline(a, part = pair.a);
-    const Rectangle on_b = partOutline(b, pair.b);
-    const bool is_near = mayBeWithin(kNear, on_a, on_b);
-    if (is_near && !pair.manifold) {
-      pair.manifold = m_dispatcher->getNewManifold(&body_a, &body_b);
-      pair.manifold->m_companionIdA = pair.a;
-      pair.manifold->m_companionIdB = pair.b;
-    }
     if (!pair.manifold) continue;
-    const OutlineContacts contacts = is_near ? findContacts(on_a, on_b, reach) : OutlineContacts();
-    setPoints(contacts, pair, a, b);
+    if (pair.contacts.count == 0) {
+      pair.manifold->clearManifold();
+    } else {
+      setPoints(pair, height, a, b);
+    }
+  }
+}
+
+bool PlanarContacts::look(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                          double reach, Pair* pair) {
+  pair->contacts.count = 0;
+  const Rectangle on_a = partOutline(a, pair->a), on_b = partOutline(b, pair->b);
+  if (!mayBeWithin(kNear, on_a, on_b)) return false;
+  if (!pair->manifold) {
+    pair->manifold = m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject());
+    pair->manifold->m_companionIdA = pair->a;
+    pair->manifold->m_companionIdB = pair->b;
+  }
+  pair->contacts = findContacts(on_a, on_b, reach);
+  return pair->contacts.count > 0;
+}
+
+/// Faces that press on each other keep the bodies upright, as far as they reach: the force acts as
+/// near to the height of the centre of mass as it can.
+double PlanarContacts::heightOfPush(double centre) const {
+  double z_min = centre, z_max = centre;
+  bool is_first = true;
+  for (const Pair& pair : pairs_) {
+    if (pair.contacts.count == 0) continue;
+    z_min = is_first ? pair.z_min : std::min(z_min, pair.z_min);
+    z_max = is_first ? pair.z_max : std::max(z_max, pair.z_max);
+    is_first = false;
+  }
+  return std::clamp(centre, z_min, z_max);
+}
+
+void PlanarContacts::forget() {
+  for (Pair& pair : pairs_) {
+    if (pair.manifold) pair.manifold->clearManifold();
   }
 }
 
@@ -300,7 +323,7 @@ btCollisionAlgorithm* PlanarContacts::Creator::CreateCollisionAlgorithm(
                 "what a dispatcher allocates is no larger than Bullet's own");
   if (staysUpright(*a->getCollisionObject()) && staysUpright(*b->getCollisionObject())) {
     const std::vector<Column> of_a = columnsOf(a), of_b = columnsOf(b);
-    if (auto pairs = findPairs(of_a, of_b, centreOf(a, b))) {
+    if (auto pairs = findPairs(of_a, of_b)) {
       void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(PlanarContacts));
       return new (memory) PlanarContacts(info, a, b, std::move(*pairs), hullOf(of_a), hullOf(of_b));
     }

@@ -20,8 +20,9 @@ class PlanarContacts : public btActivatingCollisionAlgorithm {
   /// Two parts that share heights, and where they touch.
   struct Pair {
     int a = 0, b = 0;                          ///< Children of the compounds.
-    double height = 0;                         ///< Halfway up what they share, in world [m].
+    double z_min = 0, z_max = 0;               ///< That they share, in world [m].
     btPersistentManifold* manifold = nullptr;  ///< Once they have come near.
+    OutlineContacts contacts;                  ///< Of the last look.
   };
 
   PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
@@ -46,6 +47,12 @@ class PlanarContacts : public btActivatingCollisionAlgorithm {
   };
 
  private:
+  void forget();
+  /// Whether the pair may touch soon; it has a manifold then.
+  bool look(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, double reach,
+            Pair* pair);
+  double heightOfPush(double centre) const;
+
   std::vector<Pair> pairs_;
   Rectangle hull_a_, hull_b_;  ///< Of all their parts, in the bodies' frames.
 };

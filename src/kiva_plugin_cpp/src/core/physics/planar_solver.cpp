@@ -178,6 +178,10 @@ class Solver {
     const btCollisionObject &a = *manifold.getBody0(), &b = *manifold.getBody1();
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       btManifoldPoint& point = manifold.getContactPoint(p);
+      if (point.getDistance() > manifold.getContactProcessingThreshold()) {
+        point.m_appliedImpulse = point.m_appliedImpulseLateral1 = 0;  // not yet
+        continue;
+      }
       const btVector3 arm_a = point.getPositionWorldOnA() - a.getWorldTransform().getOrigin();
       const btVector3 arm_b = point.getPositionWorldOnB() - b.getWorldTransform().getOrigin();
       const btVector3& n = point.m_normalWorldOnB;
