@@ -155,9 +155,8 @@ class Warehouses:
 
     def _complaint(self, given, bad, expected="a whole number from 0 to 4"):
         w, robot = np.argwhere(bad)[0]
-        return (
-            f"robot_{robot + 1} of world {w}: action {given[w, robot]!r}; {expected} was expected"
-        )
+        action = given.tolist()[w][robot]  # as whoever gave it would write it
+        return f"robot_{robot + 1} of world {w}: action {action!r}; {expected} was expected"
 
     def step(self, actions):
         """One decision of every robot. Returns rewards (n, robots) and what happened by robot:
