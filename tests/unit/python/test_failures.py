@@ -14,6 +14,7 @@ from kiva_plugin_cpp import EventKind, FailureKind, World
 from warehouse_fleet.failures import EMPTY, FailureLog
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.traffic import Mode
 from warehouse_fleet.transports import Kind, Step
 
 LONG = float(os.environ.get("FAILURE_MINUTES", "0"))
@@ -142,6 +143,18 @@ def test_who_is_not_heard_in_a_street_is_found_and_towed():
             fleet.world.fleet.x[robot], fleet.world.fleet.y[robot]
         )
         assert fleet.driver.collisions == 0
+
+
+def test_who_is_lost_beneath_a_unit_is_towed_from_there():
+    with Fleet("medium", tow_after=10) as fleet:
+        fleet.run(20)
+        traffic, plan = fleet.traffic, fleet.driver.plan
+        beneath = lambda: plan.storage.flat[traffic.cell] & ~traffic.loaded  # noqa: E731
+        robot = fleet.until(lambda: np.flatnonzero(beneath()).tolist())[0]
+        at = traffic.cell[robot]
+        traffic.lost[robot], traffic.mode[robot] = True, Mode.OUT_OF_SERVICE
+        fleet.until(lambda: traffic.cell[robot] != at, 30)
+        assert traffic.mode[robot] == Mode.AUTOMATIC
 
 
 def test_who_was_not_heard_since_it_lifted_works_again_when_it_is_repaired():

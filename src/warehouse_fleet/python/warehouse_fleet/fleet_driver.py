@@ -28,8 +28,8 @@ class FleetDriver:
     """Drives all robots of a kiva_plugin_cpp.World. `transports` is what it is told to do.
 
     The same world, seed and requests give the same run. Events of the world that are about
-    something else than driving go to `events`, if that is a list. Robots that are broken in others'
-    way are towed `tow_after` [s] later; None: when tow() is called.
+    something else than driving go to `events`, if that is a list. Robots that are lost, or broken
+    in others' way, are towed `tow_after` [s] later; None: when tow() is called.
     """
 
     def __init__(self, world, seed=1, planner=None, kinematics=None, tow_after=None):
