@@ -255,11 +255,27 @@ class Commander {
   ros::Subscriber events_;
 };
 
-/// The newest message of a topic that comes by itself.
+template <typename Condition>
+bool spinUntil(double deadline, Condition condition) {
+  double look = 0;
+  while (ros::ok() && now() < deadline) {
+    if (now() > look) {
+      if (condition()) return true;
+      look = now() + 0.05;
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+  }
+  return false;
+}
+
+/// The newest message of a topic that comes by itself. It waits by the wall clock: simulated
+/// seconds may be short.
 template <typename Message>
 boost::shared_ptr<const Message> first(ros::NodeHandle& node, const std::string& topic) {
-  const auto message = ros::topic::waitForMessage<Message>(topic, node, ros::Duration(kPatience));
-  if (!message) {
+  boost::shared_ptr<const Message> message;
+  const ros::Subscriber subscriber = node.subscribe<Message>(
+      topic, 1, [&](const boost::shared_ptr<const Message>& newest) { message = newest; });
+  if (!spinUntil(now() + kPatience, [&] { return message != nullptr; })) {
     std::fprintf(stderr, "fleet_client: nothing came on %s\n", topic.c_str());
     std::exit(1);
   }
@@ -273,19 +289,6 @@ void readUnits(ros::NodeHandle& node, Commander& commander) {
     const int id = numberOf(objects->storage_units[i]);
     commander.standsAt(id, units->pose[7 * i], units->pose[7 * i + 1]);
   }
-}
-
-template <typename Condition>
-bool spinUntil(double deadline, Condition condition) {
-  double look = 0;
-  while (ros::ok() && now() < deadline) {
-    if (now() > look) {
-      if (condition()) return true;
-      look = now() + 0.05;
-    }
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
-  }
-  return false;
 }
 
 int run(const Options& options) {
