@@ -26,10 +26,11 @@ int robotIn(const WorldState& world, const Model& model) {
 
 /// Whether one is an item that slides, or has fallen, off the other.
 bool isFall(const WorldState& world, const Contact& contact) {
-  const int a = contact.model_a, b = contact.model_b;
-  return std::any_of(world.off_shelf.begin(), world.off_shelf.end(), [a, b](const OffShelf& one) {
-    return (one.item == a && one.unit == b) || (one.item == b && one.unit == a);
-  });
+  const auto is_off = [&](int item, int unit) {
+    const OffShelf* off = world.offShelf(item);
+    return off && off->unit == unit;
+  };
+  return is_off(contact.model_a, contact.model_b) || is_off(contact.model_b, contact.model_a);
 }
 
 bool isCollision(const WorldState& world, const Contact& contact) {

@@ -29,16 +29,6 @@ double frictionOf(const WorldState& world, const Item& item) {
   return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
 }
 
-Bounds boundsIn(const ModelDescription& description, const Pose& pose) {
-  Bounds box;
-  for (const Link& link : description.links) {
-    for (const Collision& c : link.collisions) {
-      box.add(bounds(c.shape, pose * link.pose_in_model * c.pose_in_link));
-    }
-  }
-  return box;
-}
-
 /// How far it is from `at` to the end of `box` in the direction of `way`, a level unit vector.
 double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
   const auto along = [](double from, double min, double max, double step) {
@@ -48,16 +38,11 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
                   along(at.Y(), box.min.Y(), box.max.Y(), way.Y()));
 }
 
-bool isSliding(const WorldState& world, const Item& item) {
-  return std::any_of(world.off_shelf.begin(), world.off_shelf.end(),
-                     [&](const OffShelf& one) { return one.item == item.model; });
-}
-
 /// Calls visit(item) for those that stand still on that unit.
 template <typename Visit>
 void forEachOn(WorldState& world, const Model& unit, Visit visit) {
   for (const Item& item : world.items) {
-    if (item.unit == unit.index && !isSliding(world, item)) visit(item);
+    if (item.unit == unit.index && !world.offShelf(item.model)) visit(item);
   }
 }
 
@@ -123,7 +108,7 @@ bool isFree(const WorldState& world, const Model& item, const Pose& pose, int un
 /// Just outside of its unit, the way it slides; in the unit's frame.
 Pose outside(const Model& unit, const Model& item, const Pose& in_unit, const Vector3& way) {
   Bounds box = bounds(*unit.description);
-  const Bounds own = boundsIn(*item.description, in_unit);
+  const Bounds own = bounds(*item.description, in_unit);
   const Vector3 centre = (own.min + own.max) / 2, half = (own.max - own.min) / 2;
   box.min -= half + Vector3(kClear, kClear, 0);
   box.max += half + Vector3(kClear, kClear, 0);

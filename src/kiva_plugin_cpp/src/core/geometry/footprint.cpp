@@ -77,11 +77,11 @@ Bounds bounds(const Shape& shape, const Pose& pose) {
   return {centre - half, centre + half};
 }
 
-Bounds bounds(const ModelDescription& description) {
+Bounds bounds(const ModelDescription& description, const Pose& pose) {
   Bounds all;
   for (const Link& link : description.links) {
     for (const Collision& collision : link.collisions) {
-      all.add(bounds(collision.shape, link.pose_in_model * collision.pose_in_link));
+      all.add(bounds(collision.shape, pose * link.pose_in_model * collision.pose_in_link));
     }
   }
   return all;

@@ -63,8 +63,8 @@ struct Bounds {
 /// Of a shape at that pose; that of a mesh bounds the box around it; a plane has its own extent and
 /// no height.
 Bounds bounds(const Shape& shape, const Pose& pose);
-/// Of all the collisions of a model in its own frame, joints at zero.
-Bounds bounds(const ModelDescription& description);
+/// Of all the collisions of a model at that pose, joints at zero.
+Bounds bounds(const ModelDescription& description, const Pose& pose = Pose());
 
 /// What a shape at that pose in world covers on the floor. Not for planes.
 Footprint makeFootprint(const Shape& shape, const Pose& pose);

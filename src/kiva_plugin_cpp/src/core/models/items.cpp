@@ -35,11 +35,8 @@ int findUnit(const WorldState& world, Model& item) {
 
 std::uint8_t Items::occupies(const WorldState& world, const Model& model) const {
   if (liesOnUnit(world, model)) return Occupancy::kFree;
-  const auto& all = world.off_shelf;
-  const bool fell = std::any_of(all.begin(), all.end(), [&](const OffShelf& one) {
-    return one.lies && one.item == model.slot;
-  });
-  return fell ? Occupancy::kTaken : Occupancy::kFree;
+  const OffShelf* off = world.offShelf(model.slot);
+  return off && off->lies ? Occupancy::kTaken : Occupancy::kFree;
 }
 
 void Items::add(WorldState& world, Model& model) const {

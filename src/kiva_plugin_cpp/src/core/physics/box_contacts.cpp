@@ -96,7 +96,7 @@ Closest closest(const btBoxShape* a, const btBoxShape* b, const Input& input) {
 
 BoxBoxContacts::BoxBoxContacts(const btCollisionAlgorithmConstructionInfo& info,
                                const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b)
-    : btActivatingCollisionAlgorithm(info, a, b),
+    : ContactAlgorithm(info, a, b),
       manifold_(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {}
 
 BoxBoxContacts::~BoxBoxContacts() { m_dispatcher->releaseManifold(manifold_); }

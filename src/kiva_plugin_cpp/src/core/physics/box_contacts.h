@@ -4,6 +4,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btDiscreteCollisionDetectorInterface.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "core/physics/contact_algorithm.h"
+
 namespace kiva {
 
 /// Contacts of two boxes, foreseen while they are still apart.
@@ -12,7 +14,7 @@ namespace kiva {
 /// detector sees overlapping boxes only, and GJK loses the contact once a corner is in. So GJK
 /// finds the distance while there is one, its normal gives the whole patch of the faces that
 /// oppose, and the detector takes over where boxes overlap.
-class BoxBoxContacts : public btActivatingCollisionAlgorithm {
+class BoxBoxContacts : public ContactAlgorithm {
  public:
   BoxBoxContacts(const btCollisionAlgorithmConstructionInfo& info,
                  const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b);
@@ -20,10 +22,6 @@ class BoxBoxContacts : public btActivatingCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1;
-  }
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
   /// What a dispatcher is told to use for two boxes.

@@ -245,10 +245,7 @@ PlanarContacts::PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
                                const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                                std::vector<Pair> pairs, const Rectangle& hull_a,
                                const Rectangle& hull_b)
-    : btActivatingCollisionAlgorithm(info, a, b),
-      pairs_(std::move(pairs)),
-      hull_a_(hull_a),
-      hull_b_(hull_b) {}
+    : ContactAlgorithm(info, a, b), pairs_(std::move(pairs)), hull_a_(hull_a), hull_b_(hull_b) {}
 
 PlanarContacts::~PlanarContacts() {
   for (Pair& pair : pairs_) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/rectangle_contacts.h"
+#include "core/physics/contact_algorithm.h"
 
 namespace kiva {
 
@@ -15,7 +16,7 @@ bool isPlanar(const btRigidBody& body);
 
 /// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points
 /// wherever outlines come near.
-class PlanarContacts : public btActivatingCollisionAlgorithm {
+class PlanarContacts : public ContactAlgorithm {
  public:
   /// Two parts that share heights, and where they touch.
   struct Pair {
@@ -32,10 +33,6 @@ class PlanarContacts : public btActivatingCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1;
-  }
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
   /// What a dispatcher is told to use for two compounds: this, or Bullet's own where one of them

@@ -266,7 +266,7 @@ RoundContacts::RoundContacts(const btCollisionAlgorithmConstructionInfo& info,
                              const btCollisionObjectWrapper* round,
                              const btCollisionObjectWrapper* flat, bool is_swapped,
                              btCollisionAlgorithmCreateFunc* at_edges)
-    : btActivatingCollisionAlgorithm(info, round, flat),
+    : ContactAlgorithm(info, round, flat),
       is_swapped_(is_swapped),
       manifold_(
           m_dispatcher->getNewManifold(round->getCollisionObject(), flat->getCollisionObject())) {

@@ -3,6 +3,8 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "core/physics/contact_algorithm.h"
+
 namespace kiva {
 
 /// Contacts of a cylinder or a capsule with a plane or the face of a box, found anew in every step.
@@ -11,7 +13,7 @@ namespace kiva {
 /// error, and keeps that of the other end while it rolls up and away with the body: a rolling
 /// cylinder gains energy by it, and a turning wheel scrubs over its edges. What is found here is
 /// the line itself, as its middle and its ends, or four points of a cylinder's rim if it stands.
-class RoundContacts : public btActivatingCollisionAlgorithm {
+class RoundContacts : public ContactAlgorithm {
  public:
   /// `round` is the cylinder or capsule, `flat` the plane or box; where such a body is met at an
   /// edge of the box, what `at_edges` makes takes over.
@@ -22,10 +24,6 @@ class RoundContacts : public btActivatingCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1;
-  }
   void getAllContactManifolds(btManifoldArray& manifolds) override;
 
   /// What a dispatcher is told to use for such a pair, in that order or swapped.

@@ -200,6 +200,13 @@ struct WorldState {
   double gravityDown() const { return -gravity.Z(); }
   Model& modelOf(int robot) { return *models[fleet.robots[robot].model]; }
   const Model& modelOf(int robot) const { return *models[fleet.robots[robot].model]; }
+  /// Of the item in that slot; null: it stands on its unit, or never did.
+  const OffShelf* offShelf(int item) const {
+    for (const OffShelf& one : off_shelf) {
+      if (one.item == item) return &one;
+    }
+    return nullptr;
+  }
   Model* find(const std::string& model) const {
     const auto at = slot_of_name.find(model);
     return at == slot_of_name.end() ? nullptr : models[at->second].get();
