@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/motion/cruise.h"
 #include "core/motion/drives.h"
 #include "core/motion/ground.h"
 #include "core/motion/self_location.h"
 #include "core/motion/stretches.h"
+#include "core/sensing/room.h"
 #include "core/state/tasks.h"
 #include "plugins/motion.h"
 
@@ -62,6 +64,17 @@ void feelGrip(WorldState& world, int i) {
   f.setProfile(i, {f.believed(i).yaw, f.yaw_rate[i]});
 }
 
+/// Ends a turn that would tear at the legs of a storage unit that stands askew, before it begins.
+bool hasRoom(WorldState& world, int i) {
+  const FleetState& f = world.fleet;
+  const double goal = f.yaw[i] + f.tasks[i].segments.front().yaw - f.believed(i).yaw;
+  const TurnRoom room = roomToTurn(world, i, {f.x[i], f.y[i], f.yaw[i]}, Among::kUnits);
+  if (room.holds(goal)) return true;
+  const std::string& unit = world.models[goal > room.most ? room.at_most : room.at_least]->name;
+  haltRobot(world, i, unit, unit + " leaves no room to turn");
+  return false;
+}
+
 void turnSegment(WorldState& world, int i) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[i];
@@ -69,6 +82,7 @@ void turnSegment(WorldState& world, int i) {
   if (halting(world, i)) return;
   if (isHeld(f, i)) return holdTurn(world, i);
   if (task.phase == Phase::kStarting) {
+    if (!hasRoom(world, i)) return;
     if (f.localises) readCode(world, i, true);
     task.phase = Phase::kTurning;
     const double yaw = f.believed(i).yaw;

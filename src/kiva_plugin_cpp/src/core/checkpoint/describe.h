@@ -254,7 +254,7 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 28);  // what only some realism needs: with the world
+  DESCRIBED(FleetState, 29);  // what only some realism needs: with the world
   // What is broken, charges, and where points are counted next, follow from what else the world
   // holds; what people allow: with those.
   DESCRIBED(Fleet, 26);
@@ -262,7 +262,8 @@ void describe(A& a, FleetState& f) {
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,
          f.left, within(f.stopped, 0, 1), within(f.awake, 0, 1), within(f.activated, 0, 1),
-         within(f.clear_until, -kEndless, kEndless), within(f.attend_at, -kEndless, kEndless));
+         within(f.clear_until, -kEndless, kEndless), within(f.attend_at, -kEndless, kEndless),
+         within(f.wedged_until, -kEndless, kEndless));
   FIELDS(f.reference, f.reference_speed, f.goal, f.deceleration);
   FIELDS(within(f.cruising, -1, 0), f.per_x, f.per_y, f.per_yaw, f.per_wheel, f.top_speed,
          f.acceleration);

@@ -14,6 +14,8 @@
 namespace kiva {
 namespace {
 
+constexpr double kLookAgain = 0.5;  // [s] after which a robot looks for a way back again
+
 struct Plan {
   std::deque<MotionSegment> segments;
   std::string text;
@@ -204,10 +206,19 @@ void obey(WorldState& world, const Command& command, const FollowPath& path) {
   world.last_command = number;
 }
 
+/// A client may tell an idle robot something at each step; to find that there is no way back takes
+/// longer than all else that a step does for it.
+void restFromLooking(WorldState& world, int kiva_id) {
+  double& until = world.fleet.wedged_until[world.fleet.find(kiva_id)];
+  const auto now = static_cast<double>(world.total_steps);
+  if (until <= now) until = now + static_cast<double>(world.stepsIn(kLookAgain));
+}
+
 void answer(WorldState& world, const Command& command, const FollowPath& path) {
   try {
     obey(world, command, path);
   } catch (const Refusal& refusal) {
+    if (dynamic_cast<const Wedged*>(&refusal)) restFromLooking(world, command.kiva_id);
     const bool is_fleets = command.kiva_id == 0 && !path.fault.empty();
     world.events.push_back({world.time(),
                             Event::Kind::kRefused,

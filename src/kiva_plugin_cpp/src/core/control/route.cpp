@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/control/recovery.h"
 #include "core/geometry/angle.h"
-#include "core/sensing/look_ahead.h"
 
 namespace kiva {
 namespace {
@@ -14,54 +14,9 @@ constexpr double kHalfPi = M_PI / 2;
 constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
 constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
 constexpr double kNearGrid = 0.02;             // [m], [rad]: of one that has to find out
-constexpr int kRecoverCells = 2;               // around a robot that looks for a free grid point
-constexpr double kRoomStep = 0.1;              // [m]: in which it looks for room to turn
-constexpr double kRoomReach = 1.5;             // [m]
-
-/// The free grid point nearest to a place. Throws Refusal if there is none near.
-Point nearestFree(const WorldState& world, int robot, const Point& from) {
-  Point best;
-  double least = 1e9;
-  for (int i = -kRecoverCells; i <= kRecoverCells; ++i) {
-    for (int j = -kRecoverCells; j <= kRecoverCells; ++j) {
-      const Point p{nearestGrid(world, from.x) + i * world.grid_spacing,
-                    nearestGrid(world, from.y) + j * world.grid_spacing};
-      const double distance = std::hypot(p.x - from.x, p.y - from.y);
-      if (distance >= least || !isOnFloor(world, p) || !isFree(world, robot, p.x, p.y)) continue;
-      least = distance;
-      best = p;
-    }
-  }
-  if (least > 1e8) throw Refusal("it is off the grid and no free grid point is near");
-  return best;
-}
-
-/// Whether a robot may be told to return there.
-bool isNear(const WorldState& world, const Point& here, const Point& back) {
-  const double far = std::max(std::abs(back.x - here.x), std::abs(back.y - here.y));
-  return far < kRecoverCells * world.grid_spacing && isOnFloor(world, back);
-}
-
-/// The nearest place straight ahead or behind where the robot has room to turn; here, if it has
-/// room here or nowhere.
-Point roomToTurn(const WorldState& world, int robot) {
-  const PlanarPose at = world.fleet.believed(robot);
-  const Point here{at.x, at.y};
-  const double c = std::cos(at.yaw), s = std::sin(at.yaw);
-  for (int step = 0; step * kRoomStep <= kRoomReach; ++step) {
-    for (double way : {step * kRoomStep, -step * kRoomStep}) {
-      const Point p{here.x + c * way, here.y + s * way};
-      if (isFree(world, robot, p.x, p.y)) return p;
-    }
-  }
-  return here;
-}
+constexpr double kAside = 0.05;                // [m]: who can't get back may go on from there
 
 }  // namespace
-
-double nearestGrid(const WorldState& world, double coordinate) {
-  return std::round(coordinate / world.grid_spacing) * world.grid_spacing;
-}
 
 void checkGoal(const WorldState& world, const Point& goal) {
   if (isOnFloor(world, goal)) return;
@@ -82,13 +37,6 @@ double checkedGoal(const WorldState& world, double coordinate, char axis) {
 
 void checkMotion(const WorldState& world, int robot) {
   if (!world.fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
-}
-
-bool isOnFloor(const WorldState& world, const Point& p) {
-  const double half = world.grid_spacing / 2 - 1e-6;
-  const Floor& floor = world.floor;
-  return p.x - half >= floor.min_x && p.x + half <= floor.max_x && p.y - half >= floor.min_y &&
-         p.y + half <= floor.max_y;
 }
 
 Route::Route(const WorldState& world, int robot, const Point* back)
@@ -144,16 +92,20 @@ MotionSegment Route::makeDrive(State state) const {
   return segment;
 }
 
-/// Back to the grid from wherever it was pushed: out to where there is room to turn, then straight
-/// to a grid point, by the smaller turn, forwards or backwards.
+/// Who finds no way back and stands but a little aside goes on from there: its next drive leads it
+/// back to its line.
 void Route::recover(const Point* back) {
-  const Point here{here_.x, here_.y}, room = roomToTurn(world_, robot_);
-  const bool is_told =
-      back != nullptr && isNear(world_, here, *back) && isFree(world_, robot_, back->x, back->y);
-  const Point to = is_told ? *back : nearestFree(world_, robot_, room);
+  Point from{here_.x, here_.y};
+  const bool is_wedged =
+      world_.fleet.wedged_until[robot_] > static_cast<double>(world_.total_steps);
+  if (is_wedged) throw Wedged();
+  const std::vector<Point> way = wayBack(world_, robot_, back);
+  if (way.empty() && std::hypot(from.x - at_.x, from.y - at_.y) > kAside) throw Wedged();
   yaw_ = here_.yaw;
-  driveOff(here, room);
-  driveOff(room, to);
+  for (const Point& to : way) {
+    driveOff(from, to);
+    from = to;
+  }
   const double square = std::round(yaw_ / kHalfPi) * kHalfPi;
   if (std::abs(square - yaw_) > kSquare) turnTo(square);
   yaw_ = square;
@@ -161,18 +113,14 @@ void Route::recover(const Point* back) {
 
 /// Straight from one place to another, off the grid.
 void Route::driveOff(const Point& from, const Point& to) {
-  const double dx = to.x - from.x, dy = to.y - from.y;
-  if (std::hypot(dx, dy) < kOnGrid) return;
-  const double ahead = headingNear(yaw_, std::atan2(dy, dx));
-  const double back = headingNear(yaw_, std::atan2(-dy, -dx));
-  const bool reverse = std::abs(back - yaw_) < std::abs(ahead - yaw_);
-  const double heading = reverse ? back : ahead;
-  if (std::abs(heading - yaw_) > kSquare) turnTo(heading);
-  yaw_ = heading;
+  const StraightWay way = straightWay({from.x, from.y, yaw_}, to);
+  if (std::abs(way.length) < kOnGrid) return;
+  if (std::abs(way.heading - yaw_) > kSquare) turnTo(way.heading);
+  yaw_ = way.heading;
   at_ = to;
-  MotionSegment segment =
-      makeDrive(std::abs(dx) > std::abs(dy) ? State::kMovingX : State::kMovingY);
-  segment.reverse = reverse;
+  MotionSegment segment = makeDrive(
+      std::abs(to.x - from.x) > std::abs(to.y - from.y) ? State::kMovingX : State::kMovingY);
+  segment.reverse = way.length < 0;
   segment.on_grid = false;
   segments_.push_back(segment);
 }

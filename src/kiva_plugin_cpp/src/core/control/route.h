@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "core/state/world_state.h"
+#include "core/control/grid.h"
 
 namespace kiva {
 
@@ -18,10 +18,9 @@ struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// In world [m].
-struct Point {
-  double x = 0, y = 0;
-  double& operator[](int axis) { return axis == 0 ? x : y; }
+/// It is off the grid and finds no way back.
+struct Wedged : Refusal {
+  Wedged() : Refusal("it is off the grid and no free grid point is near that it gets to") {}
 };
 
 /// How near is there, for numbers that clients computed [m].
@@ -34,14 +33,11 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-double nearestGrid(const WorldState& world, double coordinate);
 /// These throw Refusal: the grid's coordinate, where `axis` is x or y [m]; that a goal is on the
 /// floor; that the robot can drive.
 double checkedGoal(const WorldState& world, double coordinate, char axis);
 void checkGoal(const WorldState& world, const Point& goal);
 void checkMotion(const WorldState& world, int robot);
-/// Whether the cell around the grid point lies on the floor as a whole.
-bool isOnFloor(const WorldState& world, const Point& p);
 
 /// Plans the way of one robot, segment by segment; knows where each segment will leave it.
 class Route {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/sensing/room.h"
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
@@ -29,9 +30,11 @@ double endMargin(const WorldState& world) {
   return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
 }
 
+/// A unit that stands askew is none that the robot can pass beneath.
 bool stops(const WorldState& world, int model, int robot) {
   const Model& other = *world.models[model];
-  return other.owner->stops(world, other, robot);
+  if (other.owner->stops(world, other, robot)) return true;
+  return other.kind == ModelKind::kStorageUnit && standsInLane(world, other, robot);
 }
 
 /// The nearest obstacle in the corridor that the robot would sweep.
@@ -122,20 +125,6 @@ double reachOfInterest(const WorldState& world, int robot) {
   const MotionSegment& segment = task.segments.front();
   if (!task.follows() || !segment.on_grid) return std::numeric_limits<double>::infinity();
   return segment.goal + halfLength(world.fleet.robots[robot]) + endMargin(world);
-}
-
-bool isFree(const WorldState& world, int robot, double x, double y) {
-  Footprint disc;
-  disc.kind = Footprint::Kind::kCircle;
-  disc.x = x;
-  disc.y = y;
-  disc.hx = cornerRadius(world.fleet.robots[robot]);
-  bool is_free = true;
-  world.obstacles.near(x, y, disc.hx, [&](const Footprint& other) {
-    if (!is_free || other.group == robot || gap(disc, other) > 0) return;
-    is_free = !stops(world, other.model, robot);
-  });
-  return is_free;
 }
 
 }  // namespace kiva

@@ -11,9 +11,6 @@ namespace kiva {
 /// drive. Task::sighting says what they saw, WorldState::sighted who they are.
 void lookAhead(WorldState& world);
 
-/// Whether the robot, standing or turning at (x, y), would touch anything.
-bool isFree(const WorldState& world, int robot, double x, double y);
-
 /// How far along its segment something is in the robot's way: on a path up to what it takes to
 /// stand at the end of the run as it is released [m]; +inf = wherever it is.
 double reachOfInterest(const WorldState& world, int robot);

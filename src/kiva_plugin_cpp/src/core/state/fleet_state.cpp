@@ -19,7 +19,7 @@ void forEachArray(FleetState& f, Visit visit) {
   }
   for (auto* array : {&f.reference, &f.reference_speed, &f.command_speed, &f.goal, &f.deceleration,
                       &f.per_x, &f.per_y, &f.per_yaw, &f.top_speed, &f.acceleration, &f.clear_until,
-                      &f.attend_at, &f.count_at}) {
+                      &f.attend_at, &f.count_at, &f.wedged_until}) {
     visit(*array);
   }
   visit(f.cruising);

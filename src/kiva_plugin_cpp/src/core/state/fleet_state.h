@@ -140,6 +140,8 @@ struct FleetState : Fleet {
   /// Step at which a robot that cruises needs a look again: that one, or when it may have come to
   /// or left the next point of a path.
   Column<double> attend_at;
+  /// Step up to which a robot that found no way back to the grid looks for none again.
+  Column<double> wedged_until;
   /// Where its reference comes to that next point, or leaves it [m]; infinity: nowhere. Kept while
   /// it cruises.
   Column<double> count_at;

@@ -144,7 +144,8 @@ void hideFootprints(WorldState& world, Model& model) {
 }
 
 void alarm(WorldState& world) {
-  for (auto* column : {&world.fleet.clear_until, &world.fleet.attend_at}) {
+  FleetState& f = world.fleet;
+  for (auto* column : {&f.clear_until, &f.attend_at, &f.wedged_until}) {
     std::fill(column->begin(), column->end(), 0);
   }
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/grid.h"
+
+#include <cmath>
+
+namespace kiva {
+
+double nearestGrid(const WorldState& world, double coordinate) {
+  return std::round(coordinate / world.grid_spacing) * world.grid_spacing;
+}
+
+bool isOnFloor(const WorldState& world, const Point& p) {
+  const double half = world.grid_spacing / 2 - 1e-6;
+  const Floor& floor = world.floor;
+  return p.x - half >= floor.min_x && p.x + half <= floor.max_x && p.y - half >= floor.min_y &&
+         p.y + half <= floor.max_y;
+}
+
+}  // namespace kiva

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The grid that robots drive along, and the floor beneath it.
+#pragma once
+
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// In world [m].
+struct Point {
+  double x = 0, y = 0;
+  double& operator[](int axis) { return axis == 0 ? x : y; }
+};
+
+double nearestGrid(const WorldState& world, double coordinate);
+/// Whether the cell around the grid point lies on the floor as a whole.
+bool isOnFloor(const WorldState& world, const Point& p);
+
+}  // namespace kiva

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/control/recovery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/geometry/angle.h"
+#include "core/sensing/room.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kHalfPi = M_PI / 2;
+constexpr int kCells = 2;           // around a robot that looks for a free grid point
+constexpr double kRoomStep = 0.1;   // [m]: in which it looks for room to turn
+constexpr double kRoomReach = 1.5;  // [m]
+constexpr double kShift = 0.025;    // [m]: who is wedged drives a little first, and looks again
+constexpr double kThere = 0.001;    // [m]
+
+// What is to be free beside it [m]; who is wedged may push a leg aside a little.
+constexpr double kClear = 0.002, kScrape = -0.01;
+
+double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+std::vector<Point> gridAround(const WorldState& world, const Point& here) {
+  std::vector<Point> points;
+  for (int i = -kCells; i <= kCells; ++i) {
+    for (int j = -kCells; j <= kCells; ++j) {
+      points.push_back({nearestGrid(world, here.x) + i * world.grid_spacing,
+                        nearestGrid(world, here.y) + j * world.grid_spacing});
+    }
+  }
+  std::stable_sort(points.begin(), points.end(), [&](const Point& a, const Point& b) {
+    return distance(here, a) < distance(here, b);
+  });
+  return points;
+}
+
+/// On the floor, the nearest first.
+std::vector<Point> goalsAround(const WorldState& world, const Point& here) {
+  std::vector<Point> points = gridAround(world, here);
+  const auto is_outside = [&](const Point& p) { return !isOnFloor(world, p); };
+  points.erase(std::remove_if(points.begin(), points.end(), is_outside), points.end());
+  return points;
+}
+
+/// That one alone, if it is among the goals.
+std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
+  for (const Point& known : goals) {
+    if (distance(known, goal) < kThere) return {known};
+  }
+  return {};
+}
+
+double squareTo(double yaw) { return std::round(yaw / kHalfPi) * kHalfPi; }
+
+/// So far along its heading [m].
+PlanarPose shifted(const PlanarPose& from, double way) {
+  return {from.x + std::cos(from.yaw) * way, from.y + std::sin(from.yaw) * way, from.yaw};
+}
+
+/// How far straight on to look for room to turn [m]: in steps, and where grid points lie beside.
+std::vector<double> waysToRoom(const WorldState& world, const PlanarPose& at) {
+  std::vector<double> ways;
+  for (int step = 1; step * kRoomStep <= kRoomReach; ++step) {
+    for (double way : {step * kRoomStep, -step * kRoomStep}) ways.push_back(way);
+  }
+  for (const Point& p : gridAround(world, {at.x, at.y})) {
+    ways.push_back(std::cos(at.yaw) * (p.x - at.x) + std::sin(at.yaw) * (p.y - at.y));
+  }
+  std::stable_sort(ways.begin(), ways.end(),
+                   [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return ways;
+}
+
+/// One robot's search. Ways are the points to which it drives straight; empty: there is none.
+class Search {
+ public:
+  Search(const WorldState& world, int robot, std::vector<Point> goals, double margin)
+      : world_(world), robot_(robot), goals_(std::move(goals)), margin_(margin) {}
+
+  /// From that pose, or from a little ahead of it or behind.
+  std::vector<Point> wayFromNear(const PlanarPose& at) const {
+    std::vector<Point> way = wayFrom(at);
+    if (!way.empty()) return way;
+    visitStraight(at, {kShift, -kShift, 2 * kShift, -2 * kShift, 3 * kShift, -3 * kShift},
+                  [&](const PlanarPose& there) {
+                    way = wayFrom(there);
+                    if (!way.empty()) way.insert(way.begin(), {there.x, there.y});
+                    return !way.empty();
+                  });
+    return way;
+  }
+
+ private:
+  /// To a goal, turning as far as the robot can there; or straight on, or square, to where there is
+  /// room: who was hit while it turned stands askew.
+  std::vector<Point> wayFrom(const PlanarPose& at) const {
+    const TurnRoom room = roomToTurn(world_, robot_, at, Among::kAll);
+    if (const Point* goal = findGoal(at, room)) return {*goal};
+    const double square = squareTo(at.yaw);
+    for (double heading : {at.yaw, square, square + std::copysign(kHalfPi, at.yaw - square)}) {
+      if (!room.holds(heading)) continue;
+      const std::vector<Point> way = wayByRoom({at.x, at.y, heading});
+      if (!way.empty()) return way;
+    }
+    return {};
+  }
+
+  /// Straight on to where there is room to turn all around, then to a goal.
+  std::vector<Point> wayByRoom(const PlanarPose& at) const {
+    std::vector<Point> way;
+    visitStraight(at, waysToRoom(world_, at), [&](const PlanarPose& there) {
+      const bool has_room = hasRoomToTurn(world_, robot_, there.x, there.y);
+      const Point* goal = has_room ? findGoal(there, TurnRoom()) : nullptr;
+      if (goal) way = {{there.x, there.y}, *goal};
+      return goal != nullptr;
+    });
+    return way;
+  }
+
+  /// The first of the goals to which the robot can drive from there, and turn square at; null:
+  /// none.
+  const Point* findGoal(const PlanarPose& from, const TurnRoom& room) const {
+    for (const Point& goal : goals_) {
+      const StraightWay way = straightWay(from, goal);
+      const PlanarPose begin{from.x, from.y, way.heading}, end{goal.x, goal.y, way.heading};
+      if (room.holds(way.heading) && isWayFree(world_, robot_, begin, way.length, margin_) &&
+          isFree(world_, robot_, goal.x, goal.y) &&
+          roomToTurn(world_, robot_, end, Among::kAll).holds(squareTo(way.heading))) {
+        return &goal;
+      }
+    }
+    return nullptr;
+  }
+
+  /// Calls visit(pose) for the places so far straight ahead and behind to which the robot can
+  /// drive, until that returns true.
+  template <typename Visit>
+  void visitStraight(const PlanarPose& at, const std::vector<double>& ways, Visit visit) const {
+    bool is_open[] = {true, true};  // behind, ahead
+    for (double way : ways) {
+      bool& open = is_open[way > 0];
+      open = open && isWayFree(world_, robot_, at, way, margin_);
+      if (open && visit(shifted(at, way))) return;
+    }
+  }
+
+  const WorldState& world_;
+  const int robot_;
+  const std::vector<Point> goals_;
+  const double margin_;
+};
+
+}  // namespace
+
+StraightWay straightWay(const PlanarPose& from, const Point& to) {
+  const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
+  if (length < kThere) return {from.yaw, 0};
+  const double ahead = headingNear(from.yaw, std::atan2(dy, dx));
+  const double back = headingNear(from.yaw, std::atan2(-dy, -dx));
+  const bool reverse = std::abs(back - from.yaw) < std::abs(ahead - from.yaw);
+  return {reverse ? back : ahead, reverse ? -length : length};
+}
+
+std::vector<Point> wayBack(const WorldState& world, int robot, const Point* back) {
+  const PlanarPose at = world.fleet.believed(robot);
+  const std::vector<Point> goals = goalsAround(world, {at.x, at.y});
+  const std::vector<Point> told = back ? only(*back, goals) : std::vector<Point>();
+  for (const std::vector<Point>& to : {told, goals}) {
+    for (double margin : {kClear, kScrape}) {
+      if (to.empty()) continue;
+      std::vector<Point> way = Search(world, robot, to, margin).wayFromNear(at);
+      if (!way.empty()) return way;
+    }
+  }
+  return {};
+}
+
+}  // namespace kiva
