@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "core/state/workers.h"
 #include "core/state/world_state.h"
@@ -100,6 +103,37 @@ TEST(Threads, TakeEachTurnOnce) {
     });
     for (const auto& times : turns) ASSERT_EQ(times, round);
   }
+}
+
+/// One that is held up by its first turn is left with that alone.
+TEST(Threads, TakeOverWhatOthersDoNotComeTo) {
+  constexpr int kTurns = 100;
+  Workers workers(2);
+  std::atomic<int> others{0};
+  workers.share(kTurns, 1, [&](int begin, int) {
+    if (begin > 0) {
+      ++others;
+      return;
+    }
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (others < kTurns - 1 && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::yield();
+    }
+    EXPECT_EQ(others, kTurns - 1);
+  });
+}
+
+/// Of the whole process [s].
+double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+TEST(Threads, CostNothingWhileTheyWait) {
+  Workers workers(8);
+  std::atomic<int> turns{0};
+  workers.share(1000, 1, [&](int, int) { ++turns; });
+  EXPECT_EQ(turns, 1000);
+  const double before = cpuTime();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_LT(cpuTime() - before, 0.02);
 }
 
 TEST(Threads, HandOnWhatIsThrownWhenAllIsDone) {

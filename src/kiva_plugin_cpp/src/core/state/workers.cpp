@@ -21,10 +21,32 @@ using std::chrono::microseconds;
 // Between two loops a thread stays awake for so long: to wake it takes 20 µs, and who wakes it 7,
 // and the loops of a step, with what lies between them, last no longer.
 constexpr microseconds kPatience{50};
-// A core that was gone for longer than this when it was offered to others is wanted by them;
-constexpr microseconds kWanted{200};
-constexpr microseconds kRest{10'000};  // for so long then it is left to them at once.
-constexpr int kPieces = 4;             // that a thread takes its turns in, at least
+// Who is offered the core and takes it for longer than this, an interrupt's time, wants it: it is
+// left to others at once for so many times what they took.
+constexpr microseconds kInterrupt{100};
+constexpr int kLeft = 30;
+constexpr int kPieces = 4;  // that a thread takes its turns in, at least
+
+/// Whether others want the calling thread's core.
+bool isCoreWanted() {
+  static thread_local Clock::time_point left_until;
+  const auto before = Clock::now();
+  if (before < left_until) return true;
+  std::this_thread::yield();
+  const auto taken = Clock::now() - before;
+  if (taken > kInterrupt) left_until = before + kLeft * taken;
+  return taken > kInterrupt;
+}
+
+/// Awake, for as long as patience lasts; whether it is over by then.
+template <typename IsOver>
+bool awaitAwake(IsOver isOver) {
+  const auto latest = Clock::now() + kPatience;
+  while (!isOver()) {
+    if (Clock::now() > latest) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -67,9 +89,6 @@ struct Workers::Board {
   std::condition_variable posted, left;
   std::atomic<int> asleep{0};
   std::atomic<bool> caller_sleeps{false};
-
- private:
-  bool stayAwake() const;
 };
 
 /// Opens the job for others, and wakes so many of them if they sleep.
@@ -82,26 +101,12 @@ void Workers::Board::post(int others) {
 
 /// Until there may be a job to join, or to quit.
 void Workers::Board::await() {
-  if (stayAwake()) return;
+  const auto isOver = [&] { return isOpen() || quits; };
+  if (!isCoreWanted() && awaitAwake(isOver)) return;
   std::unique_lock<std::mutex> lock(mutex);
   ++asleep;
-  posted.wait(lock, [&] { return isOpen() || quits; });
+  posted.wait(lock, isOver);
   --asleep;
-}
-
-/// The same without sleep. False: it was in vain, or others want the core.
-bool Workers::Board::stayAwake() const {
-  static thread_local Clock::time_point rests_until;
-  auto now = Clock::now();
-  const auto latest = now + kPatience;
-  while (!isOpen() && !quits) {
-    if (now < rests_until || now > latest) return false;
-    const auto before = now;
-    std::this_thread::yield();
-    now = Clock::now();
-    if (now - before > kWanted) rests_until = now + kRest;
-  }
-  return true;
 }
 
 bool Workers::Board::join() {
@@ -123,12 +128,11 @@ void Workers::Board::leave() {
 /// Waits for those that have joined by now. The others sleep on.
 void Workers::Board::finish() {
   state &= ~kOpen;
-  for (const auto latest = Clock::now() + kPatience; state != 0 && Clock::now() < latest;) {
-  }
-  if (state == 0) return;
+  const auto isOver = [&] { return state == 0; };
+  if (awaitAwake(isOver)) return;
   std::unique_lock<std::mutex> lock(mutex);
   caller_sleeps = true;
-  left.wait(lock, [&] { return state == 0; });
+  left.wait(lock, isOver);
   caller_sleeps = false;
 }
 
