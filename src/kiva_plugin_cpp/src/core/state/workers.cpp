@@ -170,7 +170,7 @@ void Workers::share(int count, int worth, const Loop& loop) {
   } else {
     Part all;
     all.end = count;
-    Job job{loop, piece, &all, 1, {}, {}};
+    Job job{loop, worth, &all, 1, {}, {}};
     work(job, 0);
     if (job.error) std::rethrow_exception(job.error);
   }
