@@ -22,7 +22,8 @@ constexpr int kRobots = 20, kUnits = 160;  // as in the preset `medium`
 constexpr double kTime = 60;               // [s]
 
 /// Robots, a third of them without a laser, and units close to one another, and random commands:
-/// many end in collisions. Lasers scan at each step, so that there are many scans to share.
+/// many end in collisions. Lasers scan every other step: of ten scans a second there would be none
+/// to share.
 class Crowd {
  public:
   explicit Crowd(int threads) : w(plan(threads)) {
@@ -30,7 +31,7 @@ class Crowd {
     for (int i = 0; i < kUnits; ++i) {
       w.spawn("storage_unit", "storage_unit" + std::to_string(i + 1), i % 16 - 8, i / 16 - 5);
     }
-    const std::string sees = kivaText({{"rate", "200"}}), blind = withoutPlugin(sees, "laser");
+    const std::string sees = kivaText({{"rate", "100"}}), blind = withoutPlugin(sees, "laser");
     for (int i = 0; i < kRobots; ++i) {  // each under a unit, and commanded to carry that
       const int unit = 8 * i;
       w.spawnText(i % 3 ? sees : blind, "kiva" + std::to_string(i + 1), unit % 16 - 8,

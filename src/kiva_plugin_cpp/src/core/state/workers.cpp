@@ -24,7 +24,7 @@ constexpr microseconds kPatience{50};
 // Who is offered the core and takes it for longer than this, an interrupt's time, wants it: it is
 // left to others at once for so many times what they took.
 constexpr microseconds kInterrupt{100};
-constexpr int kLeft = 30;
+constexpr int kLeft = 5;
 constexpr int kPieces = 4;  // that a thread takes its turns in, at least
 
 /// Whether others want the calling thread's core.
@@ -50,8 +50,8 @@ bool awaitAwake(IsOver isOver) {
 
 }  // namespace
 
-/// What one thread begins with; who has done with its own goes on with another's. So the same robots
-/// mostly stay in the same core's cache. In a cache line of its own.
+/// What one thread begins with; who has done with its own goes on with another's. So the same
+/// robots mostly stay in the same core's cache. In a cache line of its own.
 struct alignas(64) Workers::Part {
   std::atomic<int> next{0};
   int end = 0;
