@@ -162,21 +162,18 @@ void Workers::start(int others) {
 void Workers::share(int count, int worth, const Loop& loop) {
   if (count <= 0) return;
   if (shares_all_) worth = 1;
-  const int piece = (worth - 1) / kPieces + 1;
-  const int others = std::clamp(count / worth, 1, static_cast<int>(threads_)) - 1;
-  if (others > 0) {
-    start(others);
-    shareOut(count, piece, others, loop);
-  } else {
-    Part all;
-    all.end = count;
-    Job job{loop, worth, &all, 1, {}, {}};
-    work(job, 0);
-    if (job.error) std::rethrow_exception(job.error);
-  }
+  if (count <= worth) return loop(0, count);  // as in each step of a small fleet
+  const int others = std::min(count / worth, static_cast<int>(threads_)) - 1;
+  if (others > 0) return shareOut(count, (worth - 1) / kPieces + 1, others, loop);
+  Part all;
+  all.end = count;
+  Job job{loop, worth, &all, 1, {}, {}};
+  work(job, 0);
+  if (job.error) std::rethrow_exception(job.error);
 }
 
 void Workers::shareOut(int count, int piece, int others, const Loop& loop) {
+  start(others);
   Board& board = *board_;
   const long pieces = (count - 1) / piece + 1;
   Job job{loop, piece, board.parts.data(), others + 1, {}, {}};
