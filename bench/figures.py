@@ -3,6 +3,7 @@
 bare arrays' loop of the same run, which takes a slow or crowded machine out of the comparison."""
 
 from dataclasses import dataclass
+from statistics import median
 
 LISTENING, UNHEARD = "one client hears all robots", "nobody listens"
 
@@ -95,6 +96,17 @@ def _scaling(measured):
             what = f"{engine}: cost of a robot at N = 10,000 over {few:,}"
             out.append(Figure(what, cost[10000] / cost[few], "", limit))
     return out
+
+
+def _threads(measured, _):
+    """By the wall clock, since CPU time is the calling thread's alone."""
+    speed = {n: median(f["rtf"] for f in measured if f["threads"] == n) for n in (1, 2)}
+    what = "default, N = 10,000: "
+    return [
+        Figure(f"{what}one thread, by the wall clock", speed[1], "RTF"),
+        Figure(f"{what}two threads, by the wall clock", speed[2], "RTF"),
+        Figure(f"{what}two threads over one", speed[2] / speed[1], "", ">= 1.6"),
+    ]
 
 
 def _others(measured, scale):
@@ -197,6 +209,7 @@ def _build(found, scale):
 
 OF_PART = {
     "fleet": _fleet,
+    "threads": _threads,
     "references": _others,
     "peers": _others,
     "following": _following,

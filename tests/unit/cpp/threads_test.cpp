@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "core/state/workers.h"
 #include "core/state/world_state.h"
@@ -19,7 +22,8 @@ constexpr int kRobots = 20, kUnits = 160;  // as in the preset `medium`
 constexpr double kTime = 60;               // [s]
 
 /// Robots, a third of them without a laser, and units close to one another, and random commands:
-/// many end in collisions.
+/// many end in collisions. Lasers scan every other step: of ten scans a second there would be none
+/// to share.
 class Crowd {
  public:
   explicit Crowd(int threads) : w(plan(threads)) {
@@ -27,7 +31,7 @@ class Crowd {
     for (int i = 0; i < kUnits; ++i) {
       w.spawn("storage_unit", "storage_unit" + std::to_string(i + 1), i % 16 - 8, i / 16 - 5);
     }
-    const std::string sees = modelText("kiva"), blind = withoutPlugin(sees, "laser");
+    const std::string sees = kivaText({{"rate", "100"}}), blind = withoutPlugin(sees, "laser");
     for (int i = 0; i < kRobots; ++i) {  // each under a unit, and commanded to carry that
       const int unit = 8 * i;
       w.spawnText(i % 3 ? sees : blind, "kiva" + std::to_string(i + 1), unit % 16 - 8,
@@ -100,6 +104,37 @@ TEST(Threads, TakeEachTurnOnce) {
     });
     for (const auto& times : turns) ASSERT_EQ(times, round);
   }
+}
+
+/// One that is held up by its first turn is left with that alone.
+TEST(Threads, TakeOverWhatOthersDoNotComeTo) {
+  constexpr int kTurns = 100;
+  Workers workers(2);
+  std::atomic<int> others{0};
+  workers.share(kTurns, 1, [&](int begin, int) {
+    if (begin > 0) {
+      ++others;
+      return;
+    }
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (others < kTurns - 1 && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::yield();
+    }
+    EXPECT_EQ(others, kTurns - 1);
+  });
+}
+
+/// Of the whole process [s].
+double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+TEST(Threads, CostNothingWhileTheyWait) {
+  Workers workers(8);
+  std::atomic<int> turns{0};
+  workers.share(1000, 1, [&](int, int) { ++turns; });
+  EXPECT_EQ(turns, 1000);
+  const double before = cpuTime();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_LT(cpuTime() - before, 0.02);
 }
 
 TEST(Threads, HandOnWhatIsThrownWhenAllIsDone) {

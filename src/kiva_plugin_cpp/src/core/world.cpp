@@ -46,7 +46,7 @@ constexpr double kMostStep = 1;                       // [s]
 constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
 constexpr double kLeastMoment = 1e-12;                // [kg m²]
 constexpr double kMostArm = 1000;                     // [m]
-constexpr int kScansTogether = 8;                     // on one thread
+constexpr int kScansTogether = 16;                    // on one thread
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const WorldOptions& checked(const WorldOptions& options) {

@@ -55,7 +55,7 @@ bool hasEnded(const FleetState& f, int i, double dt) {
 }
 
 constexpr int kBlock = 16;           // robots that are stepped together
-constexpr int kBlocksTogether = 64;  // on one thread: less is not worth waking another
+constexpr int kBlocksTogether = 96;  // on one thread: less is not worth waking another
 constexpr int kLooksTogether = 32;   // the same
 
 /// As advance() says, of robots whose motors lag or don't.

@@ -9,8 +9,10 @@
 
 namespace kiva {
 
-/// The caller and `threads` − 1 others, which are started when there is work for them and sleep
-/// between two loops: nobody spins. In a forked child, where they are gone, others are started.
+/// The caller and `threads` − 1 others, which are started when there is work for them. Between the
+/// loops of a step they stay awake, for microseconds and if nobody else wants their core, since a
+/// step is over before one has woken; then they sleep. In a forked child, where they are gone,
+/// others are started.
 class Workers {
  public:
   /// A callable (int begin, int end), referred to for as long as it is called: a world makes
@@ -37,19 +39,21 @@ class Workers {
 
   unsigned threads() const { return threads_; }
 
-  /// Calls loop(begin, end) until all of [0, count) is done, in blocks of `block`, on all threads;
-  /// where one block is all, on the caller's. If some throw, the others are done nevertheless, and
-  /// what the first of them threw is thrown then.
-  void share(int count, int block, const Loop& loop);
+  /// Calls loop(begin, end) until all of [0, count) is done, on as many threads as have `worth`
+  /// turns each: for fewer it is not worth waking one. If some throw, the others are done
+  /// nevertheless, and what the first of them threw is thrown then.
+  void share(int count, int worth, const Loop& loop);
 
-  /// For tests: in blocks of one, so that a small fleet is shared too.
+  /// For tests: one turn is worth it, so that a small fleet is shared too.
   void shareAll() { shares_all_ = true; }
 
  private:
+  struct Part;
   struct Job;
   struct Board;
-  static void serve(const std::shared_ptr<Board>& board);
-  static void work(Job& job);
+  static void serve(const std::shared_ptr<Board>& board, int place);
+  static void work(Job& job, int place);
+  void shareOut(int count, int piece, int others, const Loop& loop);
   void start(int others);
   void quit();
 
