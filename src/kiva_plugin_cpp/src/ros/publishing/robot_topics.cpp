@@ -12,7 +12,7 @@ namespace kiva_ros {
 namespace {
 
 constexpr int kStatusQueue = 100;
-constexpr int kRobotQueue = 10;
+constexpr int kStreamQueue = 10;
 
 }  // namespace
 
@@ -56,10 +56,10 @@ RobotTopics::Topics RobotTopics::advertise(const RobotInfo& robot) {
   out.status = BulkPublisher(
       advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true));
   out.odometry =
-      BulkPublisher(advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kRobotQueue));
+      BulkPublisher(advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue));
   if (!robot.laser.fitted) return out;
   out.scan = BulkPublisher(
-      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kRobotQueue));
+      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue));
   return out;
 }
 
