@@ -14,7 +14,6 @@ namespace {
 
 /// For a slow subscriber: all commands that may wait for one step, each answered, several times.
 constexpr int kEventQueue = 1000000;
-constexpr int kBroadcastQueue = 10;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
 constexpr auto kBatch = std::chrono::milliseconds(4);
@@ -35,31 +34,30 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
     : snapshots_(snapshots),
       robots_(root, subscribers),
       transforms_(root, subscribers),
-      clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kBroadcastQueue, kLatched)),
+      clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kStreamQueue, kLatched)),
       events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
       collisions_(root.advertise<warehouse_msgs::Collision>("/warehouse/collisions", kEventQueue)),
-      objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects",
-                                                                kBroadcastQueue, kLatched)),
-      units_(root.advertise<warehouse_msgs::UnitStates>("/warehouse/unit_states", kBroadcastQueue,
+      objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
+                                                                kLatched)),
+      units_(root.advertise<warehouse_msgs::UnitStates>("/warehouse/unit_states", kStreamQueue,
                                                         kLatched)),
-      people_(
-          root.advertise<warehouse_msgs::People>("/warehouse/people", kBroadcastQueue, kLatched)) {
+      people_(root.advertise<warehouse_msgs::People>("/warehouse/people", kStreamQueue, kLatched)) {
   fleet_ = advertiseCounted<warehouse_msgs::FleetState>(
-      root, "/warehouse/fleet", kBroadcastQueue,
+      root, "/warehouse/fleet", kStreamQueue,
       [&subscribers](int change) { subscribers.count(SubscriberCounts::Topic::kFleet, change); });
   hash_ = advertiseCounted<std_msgs::String>(
-      root, "/warehouse/state_hash", kBroadcastQueue, [&subscribers](int change) {
+      root, "/warehouse/state_hash", kStreamQueue, [&subscribers](int change) {
         subscribers.count(SubscriberCounts::Topic::kStateHash, change);
       });
   const auto count_models = [&subscribers](int change) {
     subscribers.count(SubscriberCounts::Topic::kModelStates, change);
   };
-  model_states_ = advertiseCounted<gazebo_msgs::ModelStates>(root, "/model_states", kBroadcastQueue,
-                                                             count_models);
-  gazebo_model_states_ = advertiseCounted<gazebo_msgs::ModelStates>(node, "model_states",
-                                                                    kBroadcastQueue, count_models);
+  model_states_ =
+      advertiseCounted<gazebo_msgs::ModelStates>(root, "/model_states", kStreamQueue, count_models);
+  gazebo_model_states_ =
+      advertiseCounted<gazebo_msgs::ModelStates>(node, "model_states", kStreamQueue, count_models);
   link_states_ = advertiseCounted<gazebo_msgs::LinkStates>(
-      node, "link_states", kBroadcastQueue, [&subscribers](int change) {
+      node, "link_states", kStreamQueue, [&subscribers](int change) {
         subscribers.count(SubscriberCounts::Topic::kLinkStates, change);
       });
   thread_ = std::thread(&Broadcaster::run, this);
