@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
+.PHONY: help configured run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -13,7 +13,7 @@ unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MA
 JOBS ?= $(shell nproc)
 PREFIX ?= install
 SEEDS ?= 20
-BUILD = cmake --build build -j$(JOBS) -- --no-print-directory
+BUILD = cmake --build build -j$(JOBS)
 # If make is killed, what it started still ends. roslaunch asks for distutils, in whose place it would
 # get all of setuptools, half of its time to start.
 DEVEL := . devel/setup.bash; export SETUPTOOLS_USE_DISTUTILS=stdlib; exec setpriv --pdeathsig TERM
@@ -56,12 +56,12 @@ test-install: build  ## install into a folder of its own, and use it from there
 	@scripts/test-install
 
 # catkin looks after each message in every build; where no source is newer than the last one that would be all.
-build: build/Makefile  ## compile everything but the tests
+build: configured  ## compile everything but the tests
 	@[ build/.built -nt build/CMakeCache.txt ] && [ -z "$$(find CMakeLists.txt src -newer build/.built -not -path '*/__pycache__*' -print -quit)" ] || \
 	{ touch build/.begun; $(BUILD); mv build/.begun build/.built; }
 
-build/Makefile: packages
-	@[ -e $@ ] || scripts/configure
+configured: packages
+	@[ -e build/build.ninja -o -e build/Makefile ] || scripts/configure
 
 packages:  # without those that only tests and lint need
 	@scripts/deps run

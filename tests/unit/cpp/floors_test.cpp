@@ -124,7 +124,7 @@ TEST(Floors, CarryStorageUnitsAndTheirItems) {
 }
 
 TEST(Floors, HaveWallsOfTheSameMesh) {
-  for (const std::string models : {mesh("hall_floor.obj"), kPlane + mesh("hall_floor.obj")}) {
+  for (const std::string& models : {mesh("hall_floor.obj"), kPlane + mesh("hall_floor.obj")}) {
     Hall w(models);
     w.spawn("kiva", "kiva1", 3, 0);
     w.movx(1, 4);

@@ -17,7 +17,6 @@ constexpr double kAlongGain = 10;      // [1/s] speed for distance lagged
 constexpr double kHeadingGain = 8;     // [1/s] yaw rate for heading error
 constexpr double kLineGain = 8;        // [1/m²] yaw rate for distance off the line and speed
 constexpr double kStuck = 0.15;        // [m] behind the profile
-constexpr double kOverdue = 2.0;       // [s]
 constexpr double kRecoverSpeed = 0.3;  // [m/s] back to the grid
 constexpr double kSquare = 0.005;      // [rad] off its line as which a drive may end
 // None that a profile ends with: acceleration · dt is a round number.

@@ -21,6 +21,9 @@ constexpr double kThereDistance = 1e-5;  // [m]
 constexpr double kThereAngle = 1e-6;     // [rad]
 bool stands(const Fleet& fleet, int i);
 
+/// How long a robot may be at a segment's end without having come to it.
+constexpr double kOverdue = 2.0;  // [s]
+
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
 /// it is.
 bool halting(WorldState& world, int i);

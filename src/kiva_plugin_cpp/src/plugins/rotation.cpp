@@ -17,12 +17,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kGain = 20;      // [1/s] yaw rate for angle lagged
-constexpr double kStuck = 0.3;    // [rad] behind the profile
-constexpr double kOverdue = 2.0;  // [s]
-constexpr double kSpins = 0.2;    // [rad/s] between a profile and the gyro
-constexpr double kLeast = 0.1;    // [rad/s²] that it turns with where nothing grips
-constexpr double kReserve = 0.9;  // of the motors' torque, so that errors can be mended
+constexpr double kGain = 20;         // [1/s] yaw rate for angle lagged
+constexpr double kStuckAngle = 0.3;  // [rad] behind the profile
+constexpr double kSpins = 0.2;       // [rad/s] between a profile and the gyro
+constexpr double kLeast = 0.1;       // [rad/s²] that it turns with where nothing grips
+constexpr double kReserve = 0.9;     // of the motors' torque, so that errors can be mended
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
 /// motors and floor can. 0 = at once, where they are without limit.
@@ -98,7 +97,7 @@ void turnSegment(WorldState& world, int i) {
     return finishSegment(world, i);
   }
   if (ended) task.overdue += world.dt;
-  if (std::abs(lag) > kStuck || task.overdue > kOverdue) {
+  if (std::abs(lag) > kStuckAngle || task.overdue > kOverdue) {
     return haltRobot(world, i, "", "is stuck: it can't turn");
   }
   const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];

@@ -19,6 +19,9 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
+/// So many at a time; then Python is asked whether Ctrl-C was pressed.
+constexpr std::int64_t kStepsBetweenSignals = 256;
+
 /// A row of World.storage_units.
 struct UnitRow {
   std::int32_t shelf_id;

@@ -22,8 +22,6 @@
 namespace kiva::python {
 namespace {
 
-constexpr std::uint64_t kStepsBetweenSignals = 256;
-
 /// A row of World.items.
 struct ItemRow {
   std::int32_t item_id;
@@ -92,7 +90,7 @@ void step(Host& host, std::int64_t steps) {
   if (steps < 0) throw py::value_error("steps is " + std::to_string(steps) + "; 0 or more");
   const auto lock = host.use();
   while (steps > 0) {
-    const std::int64_t now = std::min<std::int64_t>(steps, kStepsBetweenSignals);
+    const std::int64_t now = std::min(steps, kStepsBetweenSignals);
     {
       py::gil_scoped_release release;
       for (std::int64_t i = 0; i < now; ++i) host.world.step();

@@ -19,7 +19,6 @@
 namespace kiva::python {
 namespace {
 
-constexpr std::int64_t kStepsBetweenSignals = 256;
 constexpr std::size_t kKinds = Event::kKinds;
 
 /// The robots of all worlds; rows are worlds.

@@ -8,13 +8,10 @@
 #include "kiva_plugin_cpp/description.h"
 #include "world_file/errors.h"
 #include "world_file/inertia.h"
+#include "world_file/xml.h"
 
 namespace kiva {
 namespace {
-
-bool startsWith(const std::string& text, const std::string& start) {
-  return text.compare(0, start.size(), start) == 0;
-}
 
 /// Names of what is in an element, by kind: links among links, models among models and so on. Of
 /// plugins several may have one name.

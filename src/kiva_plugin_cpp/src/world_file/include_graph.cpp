@@ -11,8 +11,8 @@
 namespace kiva {
 namespace {
 
-constexpr int kMostIncludes = 1000;   // within models: each takes libsdformat 20 to 40 ms
-constexpr std::size_t kDeepest = 30;  // includes in includes
+constexpr int kMostIncludes = 1000;      // within models: each takes libsdformat 20 to 40 ms
+constexpr std::size_t kMostNested = 30;  // includes in includes
 
 bool isInclude(const XmlElement& element) { return element.Name() == std::string("include"); }
 
@@ -88,8 +88,8 @@ IncludeGraph::Cost IncludeGraph::follow(const std::string& uri) {
     }
     const auto known = known_.find(file);
     if (known != known_.end()) return known->second;
-    if (open_.size() > kDeepest) {
-      cost.fault = "its includes nest deeper than " + std::to_string(kDeepest);
+    if (open_.size() > kMostNested) {
+      cost.fault = "its includes nest deeper than " + std::to_string(kMostNested);
       return cost;
     }
     open_.insert(file);

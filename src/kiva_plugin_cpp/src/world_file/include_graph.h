@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <sdf/Types.hh>
 #include <set>
 #include <string>
 

@@ -19,10 +19,6 @@ constexpr std::size_t kSchemeLength = sizeof(kScheme) - 1;
 
 bool isModelUri(const std::string& uri) { return uri.compare(0, kSchemeLength, kScheme) == 0; }
 
-bool startsWith(const std::string& text, const std::string& start) {
-  return text.compare(0, start.size(), start) == 0;
-}
-
 bool isFile(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);

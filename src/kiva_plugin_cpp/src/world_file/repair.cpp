@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostTries = 300;  // parts of a model
 
-std::string nameOf(const XmlElement& element) { return element.Name(); }
+std::string kindOf(const XmlElement& element) { return element.Name(); }
 
 XmlElement* parentOf(XmlElement* element) {
   tinyxml2::XMLNode* const parent = element->Parent();
@@ -26,17 +26,17 @@ XmlElement* wholeOf(XmlElement* faulty) {
                                                 "scene",  "script", "gui",     "particle_emitter"};
   for (XmlElement* around = faulty; around; around = parentOf(around)) {
     XmlElement* const parent = parentOf(around);
-    const bool is_half = nameOf(*around) == "geometry" || nameOf(*around) == "axis" ||
-                         nameOf(*around) == "axis2" ||
-                         (around == faulty && nameOf(*around) == "pose");
+    const bool is_half = kindOf(*around) == "geometry" || kindOf(*around) == "axis" ||
+                         kindOf(*around) == "axis2" ||
+                         (around == faulty && kindOf(*around) == "pose");
     if (is_half && parent) return parent;
-    if (kWholes.count(nameOf(*around))) return around;
+    if (kWholes.count(kindOf(*around))) return around;
   }
   return faulty;
 }
 
 bool isDispensable(const XmlElement* element) {
-  return element && nameOf(*element) != "sdf" && nameOf(*element) != "world";
+  return element && kindOf(*element) != "sdf" && kindOf(*element) != "world";
 }
 
 /// What a document is made of: the parts of its world, or its model.
@@ -46,7 +46,7 @@ std::vector<XmlElement*> partsOf(XmlDocument& document) {
   if (!root) return parts;
   const auto add = [&parts](XmlElement* around) {
     for (auto* part = around->FirstChildElement(); part; part = part->NextSiblingElement()) {
-      if (nameOf(*part) != "world") parts.push_back(part);
+      if (kindOf(*part) != "world") parts.push_back(part);
     }
   };
   add(root);
@@ -60,7 +60,7 @@ std::vector<XmlElement*> partsOf(XmlDocument& document) {
 /// Without it its model would be none.
 bool isOnlyLink(const XmlElement& element) {
   const tinyxml2::XMLNode* const parent = element.Parent();
-  if (nameOf(element) != "link" || parent->FirstChildElement("model")) return false;
+  if (kindOf(element) != "link" || parent->FirstChildElement("model")) return false;
   return parent->FirstChildElement("link") == &element && !element.NextSiblingElement("link");
 }
 
@@ -72,11 +72,11 @@ std::vector<XmlElement*> smallPartsOf(XmlElement* part) {
   std::vector<XmlElement*> found;
   forAll(part, [&](XmlElement* element) {
     if (element == part || isOnlyLink(*element)) return;
-    if (std::count(kKinds.begin(), kKinds.end(), nameOf(*element))) found.push_back(element);
+    if (std::count(kKinds.begin(), kKinds.end(), kindOf(*element))) found.push_back(element);
   });
   std::stable_sort(found.begin(), found.end(), [](const XmlElement* a, const XmlElement* b) {
     const auto rank = [](const XmlElement* e) {
-      return std::find(kKinds.begin(), kKinds.end(), nameOf(*e)) - kKinds.begin();
+      return std::find(kKinds.begin(), kKinds.end(), kindOf(*e)) - kKinds.begin();
     };
     return rank(a) < rank(b);
   });
@@ -164,7 +164,7 @@ bool leaveOut(const sdf::Error& fault, const FaultOf& fault_of, XmlDocument* doc
   const std::string file = fault.FilePath().value_or("");
   const bool is_elsewhere = !file.empty() && file[0] != '<';
   const std::string cause = is_elsewhere ? describe(fault, "") : causeOf(fault);
-  const std::string message = "this " + nameOf(*out) + " is left out: " + cause;
+  const std::string message = "this " + kindOf(*out) + " is left out: " + cause;
   warnings->push_back(at ? reworded(fault, message) : noteAt(*out, message));
   out->Parent()->DeleteChild(out);
   return true;

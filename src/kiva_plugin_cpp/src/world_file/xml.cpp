@@ -147,6 +147,10 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
 std::optional<std::vector<double>> parseNumbers(const std::string& text, std::size_t count) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());

@@ -43,6 +43,7 @@ std::string attributeOf(const XmlElement& element, const char* name);
 /// The text in an element, without the blanks around it; empty for null.
 std::string contentOf(const XmlElement* element);
 std::string trimmed(const std::string& text);
+bool startsWith(const std::string& text, const std::string& start);
 
 /// Calls visit(element) for `element` and all below it, but for what is inside plugins: that is
 /// their own affair. `visit` may remove children of what it is given.

@@ -172,7 +172,7 @@ bool hears(const WorldState& world, int robot) {
   return (world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0;
 }
 
-int findRobot(const WorldState& world, int id) {
+int findListening(const WorldState& world, int id) {
   const int robot = world.fleet.find(id);
   if (robot < 0) throw Refusal("there is no robot kiva" + std::to_string(id));
   if (!hears(world, robot)) throw Refusal("its radio is lost: it hears nothing");
@@ -192,7 +192,7 @@ void obey(WorldState& world, const Command& command, const FollowPath& path) {
   const bool is_stop = command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
   const Order order = orderOf(command.kind);
   if (is_stop && command.kiva_id == 0) return obeyAll(world, order);
-  const int robot = findRobot(world, command.kiva_id);
+  const int robot = findListening(world, command.kiva_id);
   if (order) return order(world, robot);
   const bool follows = command.kind == Command::Kind::kFollow;
   if (follows && changesPath(world, robot, path)) return changePath(world, robot, path);

@@ -11,11 +11,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kPeriod = 0.1;        // [s]
-constexpr double kJoule = 3600;        // in a watt hour
-constexpr double kLeastCharge = 0.05;  // share of the power that a nearly full battery takes
-constexpr double kRestarts = 0.02;     // state of charge from which an empty robot works again
-constexpr double kStandstill = 1e-3;   // [m/s]
+constexpr double kBatteryPeriod = 0.1;  // [s]
+constexpr double kJoule = 3600;         // in a watt hour
+constexpr double kLeastCharge = 0.05;   // share of the power that a nearly full battery takes
+constexpr double kRestarts = 0.02;      // state of charge from which an empty robot works again
+constexpr double kStandstill = 1e-3;    // [m/s]
 constexpr char kMarkings[] = "floor_markings";
 constexpr char kChargingLink[] = "charging";
 
@@ -143,7 +143,7 @@ void reckon(WorldState& world, int i, double seconds) {
 
 void useEnergy(WorldState& world) {
   if (!world.realism.energy.enabled) return;
-  const auto period = std::max<std::uint64_t>(1, std::llround(kPeriod / world.dt));
+  const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.dt));
   if (world.total_steps % period != 0) return;
   findChargers(world);
   for (int i = 0; i < world.fleet.size(); ++i) {

@@ -16,7 +16,7 @@ namespace kiva {
 namespace {
 
 constexpr double kClear = 0.002;  // [m] between an item that falls and the edge
-constexpr double kCreep = 0.001;  // [m/s]
+constexpr double kSlip = 0.001;   // [m/s]
 constexpr double kWaits = 0.5;    // [s] for which something may stand where it is to fall
 constexpr double kUpright =
     0.99;  // cosine of a unit's tilt up to which items stay where one puts them
@@ -77,7 +77,7 @@ void tilt(WorldState& world, const Model& unit) {
   forEachOn(world, unit, [&](const Item& item) {
     if (slope <= frictionOf(world, item) * down) return;
     world.off_shelf.push_back(
-        {item.model, unit.slot, way / slope * kCreep, false, world.total_steps});
+        {item.model, unit.slot, way / slope * kSlip, false, world.total_steps});
   });
 }
 

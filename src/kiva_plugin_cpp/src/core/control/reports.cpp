@@ -10,7 +10,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kPeriod = 0.1;  // [s]
+constexpr double kReportPeriod = 0.1;  // [s]
 
 bool comesLater(const ReportMessage& a, const ReportMessage& b) {
   return std::tie(a.due, a.number) > std::tie(b.due, b.number);
@@ -83,7 +83,7 @@ void exchangeReports(WorldState& world) {
       sendReport(world, robot);
     }
   }
-  const auto period = static_cast<int>(world.stepsIn(kPeriod));
+  const auto period = static_cast<int>(world.stepsIn(kReportPeriod));
   const auto first = static_cast<int>(world.total_steps % static_cast<std::uint64_t>(period));
   for (int i = first; i < world.fleet.size(); i += period) sendReport(world, i);
   receiveReports(world);

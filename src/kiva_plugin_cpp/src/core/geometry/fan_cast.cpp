@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/geometry/footprint_ray.h"
+#include "core/geometry/infinity.h"
 #include "core/geometry/obstacles.h"
 
 namespace kiva {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAngleError = 1e-3;  // [rad] that angleOf() may be off, with much to spare
 constexpr double kTouching = 1e-6;    // [m]: a laser as near to a surface may be in it
 

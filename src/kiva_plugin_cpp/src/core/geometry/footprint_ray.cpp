@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/geometry/infinity.h"
 #include "core/geometry/ray.h"
 #include "core/geometry/triangle_footprint.h"
 
 namespace kiva {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Distance along the ray (x, y) + t (dx, dy) to a circle, from outside or inside, or +inf.
 double castCircle(const FlatPose& at, double radius, double x, double y, double dx, double dy) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/geometry/footprint_ray.h"
+#include "core/geometry/infinity.h"
 #include "core/geometry/triangle_footprint.h"
 
 namespace kiva {
@@ -17,7 +17,6 @@ constexpr long kMostCellsEach = 16384;  // what covers more is asked for everywh
 // What single precision may lose of a place and a radius: so much, and a share of their size.
 constexpr double kSpotMargin = 0.001;  // [m]
 constexpr double kFloatMargin = 2.4e-7;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double halfX(const Footprint& f) {
   return f.kind == Footprint::Kind::kBox ? std::abs(f.c) * f.hx + std::abs(f.s) * f.hy : f.hx;

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/geometry/infinity.h"
 
 namespace kiva {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Where a line is inside something: from `enter` to `leave`, nowhere if that is before.
 struct Span {

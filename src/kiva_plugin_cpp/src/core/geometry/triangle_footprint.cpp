@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/geometry/infinity.h"
 
 namespace kiva {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Interval {
   double min = kInfinity, max = -kInfinity;
@@ -43,13 +42,13 @@ double gapAlong(const Triangle& triangle, const Footprint& other, double nx, dou
   return gap(project(triangle, nx, ny), project(other, nx, ny));
 }
 
-struct Point {
+struct CutEnd {
   double x = 0, y = 0;
 };
 
 /// Where the triangle is cut at height z; false if it is not.
-bool slice(const Triangle& triangle, double z, Point* from, Point* to) {
-  Point* const ends[] = {from, to};
+bool slice(const Triangle& triangle, double z, CutEnd* from, CutEnd* to) {
+  CutEnd* const ends[] = {from, to};
   int found = 0;
   for (int i = 0; i < 3 && found < 2; ++i) {
     const Vector3& a = triangle[i];
@@ -91,7 +90,7 @@ Footprint makeFootprint(const Triangle& triangle) {
 }
 
 double castTriangle(const Triangle& triangle, double x, double y, double z, double dx, double dy) {
-  Point a, b;
+  CutEnd a, b;
   if (!slice(triangle, z, &a, &b)) return kInfinity;
   const double ex = b.x - a.x, ey = b.y - a.y;
   const double across = dx * ey - dy * ex;

@@ -107,7 +107,7 @@ void configure(const WorldState& world, const ModelDescription& description, Rob
 }
 
 /// What is stored by index follows a robot that got another one.
-void reindex(WorldState& world, int from, int to) {
+void reindexRobot(WorldState& world, int from, int to) {
   Model& model = world.modelOf(to);
   model.index = to;
   for (StorageUnit& unit : world.units) {
@@ -204,7 +204,7 @@ void Robots::remove(WorldState& world, Model& model) const {
   world.obstacles.removeMover(robot);
   world.scans_due.clear();  // indices have changed
   world.sighted.clear();
-  if (robot != last) reindex(world, last, robot);
+  if (robot != last) reindexRobot(world, last, robot);
 }
 
 void Robots::place(WorldState& world, Model& model, const EntityState& state) const {

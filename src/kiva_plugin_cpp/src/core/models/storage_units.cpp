@@ -31,7 +31,7 @@ bool standsStill(const WorldState& world, const Model& model) {
 }
 
 /// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
-void reindex(WorldState& world, int from, int to) {
+void reindexUnit(WorldState& world, int from, int to) {
   for (Item& item : world.items) {
     if (item.unit == from) item.unit = to;
   }
@@ -76,10 +76,10 @@ void StorageUnits::remove(WorldState& world, Model& model) const {
   const StorageUnit& unit = world.units[index];
   if (unit.carrier >= 0) unload(world, unit.carrier);
   world.unit_of_id.erase(unit.id);
-  reindex(world, index, -1);
+  reindexUnit(world, index, -1);
   if (index != last) {
     world.units[index] = std::move(world.units[last]);
-    reindex(world, last, index);
+    reindexUnit(world, last, index);
   }
   world.units.pop_back();
   world.unitsMoved();

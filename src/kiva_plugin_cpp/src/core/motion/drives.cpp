@@ -10,9 +10,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kGripReserve = 0.9;  // share of the grip that plans count on
-constexpr double kLeast = 0.05;       // [m/s²]: plans need some
-constexpr double kGripsAll = 1e16;    // Coulomb coefficient: the wheels' decides
+constexpr double kGripReserve = 0.9;    // share of the grip that plans count on
+constexpr double kLeastPlanned = 0.05;  // [m/s²]: plans need some
+constexpr double kGripsAll = 1e16;      // Coulomb coefficient: the wheels' decides
 
 double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&), double wanted) {
   if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
@@ -25,7 +25,7 @@ double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&
 double loadLimit(const WorldState& world, int robot) {
   if (!world.realism.loads.enabled) return std::numeric_limits<double>::infinity();
   const double tips = tippingAcceleration(world.fleet.robots[robot], world.gravityDown());
-  return std::max(kLeast, world.realism.loads.tipping_share * tips);
+  return std::max(kLeastPlanned, world.realism.loads.tipping_share * tips);
 }
 
 Vector3 centreFromOrigin(const Fleet& f, int robot) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFarthest = 1e6;  // [m] from the origin
 constexpr double kMostFriction = 10;
-constexpr double kAside = 0.1;  // [m] off its line that a robot may drive
+constexpr double kOffLine = 0.1;  // [m] off its line that a robot may drive
 
 /// A cell of the grid, by its point.
 struct Cell {
@@ -105,7 +105,7 @@ Ground groundAhead(const WorldState& world, int robot) {
   const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
   const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
   const double to_y = f.y[robot] + way * std::sin(f.yaw[robot]);
-  const double reach = f.robots[robot].drive.wheel_separation / 2 + kAside;
+  const double reach = f.robots[robot].drive.wheel_separation / 2 + kOffLine;
   const double least = leastFriction(
       world, {std::min(f.x[robot], to_x) - reach, std::max(f.x[robot], to_x) + reach,
               std::min(f.y[robot], to_y) - reach, std::max(f.y[robot], to_y) + reach, 0});

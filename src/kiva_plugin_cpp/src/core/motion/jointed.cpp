@@ -11,12 +11,12 @@
 namespace kiva {
 namespace {
 
-constexpr double kForeseen = 0.01;   // [m] above the floor at which a contact is looked at
-constexpr double kMending = 0.2;     // share of a contact's depth that a step takes back,
-constexpr double kMendSpeed = 0.05;  // [m/s] but no faster
-constexpr double kSteady = 1e-6;     // [m/s, rad/s]
-constexpr double kSteepest = 0.01;   // cosine of a pitch beyond which headings mean nothing
-constexpr double kUnlimited = 1e6;   // [Nm s]
+constexpr double kForeseen = 0.01;      // [m] above the floor at which a contact is looked at
+constexpr double kMending = 0.2;        // share of a contact's depth that a step takes back,
+constexpr double kMendSpeed = 0.05;     // [m/s] but no faster
+constexpr double kSteady = 1e-6;        // [m/s, rad/s]
+constexpr double kSteepest = 0.01;      // cosine of a pitch beyond which headings mean nothing
+constexpr double kUnlimitedPush = 1e6;  // [Nm s]
 
 /// The chassis frame against the one that looks along the robot's heading, z up.
 struct Tilt {
@@ -93,7 +93,7 @@ class Step {
     read();
     findContacts();
     loadSprings();
-    const double limit = drive_.acceleration == 0 ? kUnlimited : drive_.motor_torque * dt_;
+    const double limit = drive_.acceleration == 0 ? kUnlimitedPush : drive_.motor_torque * dt_;
     // A motor holds its wheel at the target as long as its torque suffices; then it gives what it
     // has, and the wheel's speed is found with the floor's.
     int free = 0;

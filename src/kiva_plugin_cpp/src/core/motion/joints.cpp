@@ -11,9 +11,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kNoLimit = 1e15;   // what is beyond is none
-constexpr double kMostSpeed = 1e6;  // of a motor [rad/s, m/s]
-constexpr double kMostPush = 1e9;   // [Nm, N]
+constexpr double kNoLimit = 1e15;      // what is beyond is none
+constexpr double kFastestMotor = 1e6;  // of a motor [rad/s, m/s]
+constexpr double kMostPush = 1e9;      // [Nm, N]
 
 bool isSlider(const Joint& joint) { return joint.kind == Joint::Kind::kPrismatic; }
 
@@ -288,7 +288,7 @@ void setJoint(Model& model, int joint, const JointSettings& s) {
       refuse(model, name, "needs a damping, friction and motor effort of 0 or above");
     }
   }
-  if (!(std::abs(s.motor_speed) <= kMostSpeed)) {
+  if (!(std::abs(s.motor_speed) <= kFastestMotor)) {
     refuse(model, name, "needs a motor speed of at most 1e6 rad/s or m/s");
   }
   if (!(s.lower <= s.upper)) refuse(model, name, "needs a lower limit at or below the upper one");

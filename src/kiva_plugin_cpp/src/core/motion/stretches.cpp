@@ -14,7 +14,7 @@ namespace {
 constexpr double kMostLag = 0.002;       // [m, rad]
 constexpr double kMostHeading = 0.02;    // [rad]
 constexpr double kMostAcross = 0.03;     // [m]
-constexpr double kMostSpeed = 0.005;     // [m/s] that motors mend in a step
+constexpr double kMostMended = 0.005;    // [m/s] that motors mend in a step
 constexpr double kMostYawRate = 0.1;     // [rad/s] the same
 constexpr double kSteering = 0.5;        // [m] on which it comes back to its line, in two arcs;
 constexpr double kLeastSteering = 0.15;  // [m]: on less it goes straight on
@@ -131,8 +131,8 @@ bool keepsUpByEstimate(const FleetState& f, int i, bool turns) {
   const double v = f.reference_speed[i];
   const double c = std::cos(f.yaw[i]), s = std::sin(f.yaw[i]);
   const double ahead = turns ? 0 : v;
-  return std::abs(c * f.vx[i] + s * f.vy[i] - ahead) < kMostSpeed &&
-         std::abs(c * f.vy[i] - s * f.vx[i]) < kMostSpeed &&
+  return std::abs(c * f.vx[i] + s * f.vy[i] - ahead) < kMostMended &&
+         std::abs(c * f.vy[i] - s * f.vx[i]) < kMostMended &&
          std::abs(f.yaw_rate[i] - (turns ? v : 0)) < kMostYawRate;
 }
 

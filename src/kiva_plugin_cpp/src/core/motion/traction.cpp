@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/physics/coulomb.h"
 
 namespace kiva {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kRestSpeed = 1e-9;  // [m/s, rad/s]: below, a braked robot stands
 constexpr double kSettled = 1e-12;   // [N s] of change in a sweep
 constexpr int kMaxSweeps = 100;

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kiva {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kLeast = 1e-3;  // [m/s², rad/s²]: plans need some
 
 /// Largest acceleration [m/s²] along the heading without yaw: each wheel gives its share.

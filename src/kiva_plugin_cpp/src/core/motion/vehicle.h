@@ -5,10 +5,13 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "kiva_plugin_cpp/fleet.h"
 
 namespace kiva {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// What robots drive on.
 struct Ground {

@@ -15,7 +15,7 @@ namespace {
 using Input = btDiscreteCollisionDetectorInterface::ClosestPointInput;
 
 // GJK tells distances no worse than that.
-constexpr btScalar kExact = 1e-4;  // [m]
+constexpr btScalar kGjkExact = 1e-4;  // [m]
 
 // Boxes no farther apart than that may lie on each other, and keep what pressed them together.
 constexpr btScalar kTouches = 1e-3;  // [m]
@@ -120,7 +120,7 @@ void BoxBoxContacts::foresee(const btBoxShape* a, const btBoxShape* b, const Inp
                              btManifoldResult* result) {
   forgetForeseen(*manifold_);
   const btScalar foresight = manifold_->getContactBreakingThreshold();
-  if (areFarther(foresight + kExact, a, b, input)) return;
+  if (areFarther(foresight + kGjkExact, a, b, input)) return;
   const Closest apart = closest(a, b, input);
   if (!apart.found) return;
   result->addContactPoint(apart.normal, apart.point, apart.distance);

@@ -12,10 +12,10 @@ namespace {
 // Of a row's own response: where contacts share a load that could rest on fewer, they share it
 // evenly, as if the ground were that soft.
 constexpr double kSoftness = 1e-9;
-constexpr double kExact = 1e-12;    // [m/s]
+constexpr double kHolds = 1e-12;    // [m/s]
 constexpr double kSettled = 1e-10;  // [m/s] of change in a sweep
 constexpr int kMaxSweeps = 100;
-constexpr int kMaxRounds = 4;
+constexpr int kMaxPivots = 4;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ bool ContactProblem::isWithinFriction(int c) const {
 bool ContactProblem::solveHolding() {
   bool holds[kMaxContacts];
   for (int c = 0; c < contacts_; ++c) holds[c] = b[first_[c]] < 0;
-  for (int round = 0; round < kMaxRounds; ++round) {
+  for (int round = 0; round < kMaxPivots; ++round) {
     int active[kMaxRows], count = 0;
     for (int c = 0; c < contacts_; ++c) {
       const int end = first_[c] + (hasFriction(c) ? 3 : 1);
@@ -56,7 +56,7 @@ bool ContactProblem::solveHolding() {
     solveActive(active, count);
     bool changed = false;
     for (int c = 0; c < contacts_; ++c) {
-      const bool wrong = holds[c] ? x[first_[c]] < 0 : residual(first_[c]) < -kExact;
+      const bool wrong = holds[c] ? x[first_[c]] < 0 : residual(first_[c]) < -kHolds;
       if (wrong) holds[c] = !holds[c];
       changed = changed || wrong;
     }

@@ -11,8 +11,8 @@
 namespace kiva {
 namespace {
 
-constexpr btScalar kLevel = 1e-9;  // of a normal's height
-constexpr int kFixed = 0;          // among the bodies: all that stands still
+constexpr btScalar kLeaning = 1e-9;  // of a normal's height
+constexpr int kFixed = 0;            // among the bodies: all that stands still
 constexpr btScalar kUnlimited = 1e30;
 
 struct Body {
@@ -233,7 +233,7 @@ class Solver {
 
 bool isLevel(const btPersistentManifold& manifold) {
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
-    if (std::abs(manifold.getContactPoint(i).m_normalWorldOnB.z()) > kLevel) return false;
+    if (std::abs(manifold.getContactPoint(i).m_normalWorldOnB.z()) > kLeaning) return false;
   }
   return !manifold.getBody0()->isKinematicObject() && !manifold.getBody1()->isKinematicObject();
 }

@@ -15,7 +15,7 @@ constexpr double kHalfPi = M_PI / 2;
 constexpr double kCentred = 0.001;      // [m] from a point: the robot has come to it
 constexpr double kFacing = 0.002;       // [rad] off: it can drive; how it may be pushed, standing
 constexpr double kNearlyFacing = 0.02;  // [rad] off, of one that has to find out
-constexpr double kRounding = 1e-9;      // [m]
+constexpr double kCellRounding = 1e-9;  // [m]
 
 /// A place seen from the origin of a run [m].
 struct OnRun {
@@ -48,7 +48,7 @@ class Run {
 /// How far the middle of a robot must be from that of a cell to be out of it, ahead and aside [m].
 OnRun outOfCell(const WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const double half = world.grid_spacing / 2 - kRounding;
+  const double half = world.grid_spacing / 2 - kCellRounding;
   return {half + halfLength(r), half + halfWidth(r)};
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 /// For a slow subscriber: all commands that may wait for one step, each answered, several times.
 constexpr int kEventQueue = 1000000;
-constexpr int kStreamQueue = 10;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
 constexpr auto kBatch = std::chrono::milliseconds(4);

@@ -12,7 +12,6 @@ namespace kiva_ros {
 namespace {
 
 constexpr int kStatusQueue = 100;
-constexpr int kStreamQueue = 10;
 
 }  // namespace
 

@@ -11,6 +11,9 @@
 
 namespace kiva_ros {
 
+/// Messages that wait for a slow subscriber, of what is soon told anew.
+constexpr int kStreamQueue = 10;
+
 /// The topics of each robot: they come and go with it.
 class RobotTopics {
  public:

@@ -15,9 +15,12 @@ namespace {
 
 using warehouse_msgs::Look;
 
-static_assert(kiva::Look::kBox == Look::BOX && kiva::Look::kSphere == Look::SPHERE &&
-              kiva::Look::kCylinder == Look::CYLINDER && kiva::Look::kCapsule == Look::CAPSULE &&
-              kiva::Look::kEllipsoid == Look::ELLIPSOID && kiva::Look::kPlane == Look::PLANE);
+constexpr bool areSame(int kind, int in_message) { return kind == in_message; }
+static_assert(areSame(kiva::Look::kBox, Look::BOX) && areSame(kiva::Look::kSphere, Look::SPHERE) &&
+              areSame(kiva::Look::kCylinder, Look::CYLINDER) &&
+              areSame(kiva::Look::kCapsule, Look::CAPSULE) &&
+              areSame(kiva::Look::kEllipsoid, Look::ELLIPSOID) &&
+              areSame(kiva::Look::kPlane, Look::PLANE));
 
 Look toMessage(kiva::Look look) {
   Look out;

@@ -23,7 +23,7 @@ namespace {
 using ignition::math::MassMatrix3d;
 using ignition::math::Matrix3d;
 
-constexpr int kSetQueue = 10;
+constexpr int kSetLinkQueue = 10;
 
 /// Throws Refusal with that text unless there is such a link.
 std::pair<std::string, std::string> linkNamed(const kiva::World& world, const std::string& name,
@@ -194,7 +194,7 @@ LinkServices::LinkServices(ros::NodeHandle& node, SimulationThread& simulation)
         return true;
       };
   servers_.push_back(node.advertiseService("clear_body_wrenches", clear));
-  set_link_ = node.subscribe("set_link_state", kSetQueue, &LinkServices::setByTopic, this,
+  set_link_ = node.subscribe("set_link_state", kSetLinkQueue, &LinkServices::setByTopic, this,
                              ros::TransportHints().tcpNoDelay());
 }
 

@@ -8,7 +8,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kSetQueue = 10;
+constexpr int kSetModelQueue = 10;
 
 bool isNested(const std::string& name) { return name.find("::") != std::string::npos; }
 
@@ -46,8 +46,8 @@ StateServices::StateServices(ros::NodeHandle& root, ros::NodeHandle& node,
               node.advertiseService("get_model_state", &StateServices::getModel, this),
               node.advertiseService("get_model_properties", &StateServices::getProperties, this),
               node.advertiseService("set_model_state", &StateServices::setModel, this)};
-  set_model_ = node.subscribe("set_model_state", kSetQueue, &StateServices::setModelByTopic, this,
-                              ros::TransportHints().tcpNoDelay());
+  set_model_ = node.subscribe("set_model_state", kSetModelQueue, &StateServices::setModelByTopic,
+                              this, ros::TransportHints().tcpNoDelay());
 }
 
 bool StateServices::getModel(gazebo_msgs::GetModelState::Request& request,

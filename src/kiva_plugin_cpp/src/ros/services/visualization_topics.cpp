@@ -9,18 +9,18 @@
 namespace kiva_ros {
 namespace {
 
-constexpr double kRate = 5;  // [Hz]
-constexpr int kQueue = 1;
+constexpr double kDrawnRate = 5;  // [Hz]
+constexpr int kLatestOnly = 1;
 
 }  // namespace
 
 VisualizationTopics::VisualizationTopics(ros::NodeHandle& root, SimulationThread& simulation)
     : simulation_(simulation),
       scenery_topic_(root.advertise<warehouse_msgs::Scenery>(
-          "/warehouse/scenery", kQueue,
+          "/warehouse/scenery", kLatestOnly,
           [this](const ros::SingleSubscriberPublisher&) { newcomer_ = true; })),
-      paths_topic_(root.advertise<warehouse_msgs::FleetPaths>("/warehouse/paths", kQueue)),
-      timer_(root.createWallTimer(ros::WallDuration(1 / kRate),
+      paths_topic_(root.advertise<warehouse_msgs::FleetPaths>("/warehouse/paths", kLatestOnly)),
+      timer_(root.createWallTimer(ros::WallDuration(1 / kDrawnRate),
                                   [this](const ros::WallTimerEvent&) { publish(); })) {}
 
 void VisualizationTopics::publish() {
