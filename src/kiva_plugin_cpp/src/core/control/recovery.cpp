@@ -11,15 +11,14 @@
 namespace kiva {
 namespace {
 
-constexpr double kHalfPi = M_PI / 2;
-constexpr int kCells = 2;           // around a robot that looks for a free grid point
-constexpr double kRoomStep = 0.1;   // [m]: in which it looks for room to turn
-constexpr double kRoomReach = 1.5;  // [m]
-constexpr double kShift = 0.025;    // [m]: who is wedged drives a little first, and looks again
-constexpr double kThere = 0.001;    // [m]
+constexpr int kCells = 2;             // around a robot that looks for a free grid point
+constexpr double kRoomStep = 0.1;     // [m]: in which it looks for room to turn
+constexpr double kRoomReach = 1.5;    // [m]
+constexpr double kShift = 0.025;      // [m]: who is wedged drives a little first, and looks again
+constexpr double kSamePlace = 0.001;  // [m]
 
 // What is to be free beside it [m]; who is wedged may push a leg aside a little.
-constexpr double kClear = 0.002, kScrape = -0.01;
+constexpr double kSideClearance = 0.002, kScrape = -0.01;
 
 double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
@@ -48,7 +47,7 @@ std::vector<Point> goalsAround(const WorldState& world, const Point& here) {
 /// That one alone, if it is among the goals.
 std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
   for (const Point& known : goals) {
-    if (distance(known, goal) < kThere) return {known};
+    if (distance(known, goal) < kSamePlace) return {known};
   }
   return {};
 }
@@ -75,9 +74,9 @@ std::vector<double> waysToRoom(const WorldState& world, const PlanarPose& at) {
 }
 
 /// One robot's search. Ways are the points to which it drives straight; empty: there is none.
-class Search {
+class ReturnSearch {
  public:
-  Search(const WorldState& world, int robot, std::vector<Point> goals, double margin)
+  ReturnSearch(const WorldState& world, int robot, std::vector<Point> goals, double margin)
       : world_(world), robot_(robot), goals_(std::move(goals)), margin_(margin) {}
 
   /// From that pose, or from a little ahead of it or behind.
@@ -157,7 +156,7 @@ class Search {
 
 StraightWay straightWay(const PlanarPose& from, const Point& to) {
   const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
-  if (length < kThere) return {from.yaw, 0};
+  if (length < kSamePlace) return {from.yaw, 0};
   const double ahead = headingNear(from.yaw, std::atan2(dy, dx));
   const double back = headingNear(from.yaw, std::atan2(-dy, -dx));
   const bool reverse = std::abs(back - from.yaw) < std::abs(ahead - from.yaw);
@@ -169,9 +168,9 @@ std::vector<Point> wayBack(const WorldState& world, int robot, const Point* back
   const std::vector<Point> goals = goalsAround(world, {at.x, at.y});
   const std::vector<Point> told = back ? only(*back, goals) : std::vector<Point>();
   for (const std::vector<Point>& to : {told, goals}) {
-    for (double margin : {kClear, kScrape}) {
+    for (double margin : {kSideClearance, kScrape}) {
       if (to.empty()) continue;
-      std::vector<Point> way = Search(world, robot, to, margin).wayFromNear(at);
+      std::vector<Point> way = ReturnSearch(world, robot, to, margin).wayFromNear(at);
       if (!way.empty()) return way;
     }
   }

@@ -10,7 +10,6 @@
 namespace kiva {
 namespace {
 
-constexpr double kHalfPi = M_PI / 2;
 constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
 constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
 constexpr double kNearGrid = 0.02;             // [m], [rad]: of one that has to find out
