@@ -16,7 +16,7 @@ constexpr int kEventQueue = 1000000;
 constexpr int kStreamQueue = 10;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
-constexpr auto kBatch = std::chrono::milliseconds(4);
+constexpr auto kBatch = std::chrono::milliseconds(2);
 
 /// Latched, so that who comes while time stands still learns it too.
 constexpr bool kLatched = true;
