@@ -18,8 +18,11 @@ def ros():
     return FakeRos()
 
 
-def pose_topics(ros, limit=100):
-    return tracker.PoseTopics("/units", lambda topic: ros.Publisher(topic, PoseStamped), limit)
+def pose_topics(ros, limit=100, **options):
+    def advertise(topic):
+        return ros.Publisher(topic, PoseStamped)
+
+    return tracker.PoseTopics("/units", advertise, limit, **{"linger": 0, **options})
 
 
 def scene(*xs, names=None, stamp=0):
@@ -72,6 +75,27 @@ def test_a_name_that_comes_back_gets_its_topic_back(ros):
     publisher = ros.publishers["/units/storage_unit2/pose"]
     assert publisher.open
     assert len(publisher.sent) == 1
+
+
+def test_topics_outlive_a_warehouse_that_is_created_again(ros):
+    now = 0.0
+    topics = pose_topics(ros, linger=5, clock=lambda: now)
+    follow = tracker.Tracker(tracking.StorageUnits, topics)
+    follow.update(*scene(1, 2))
+    publishers = dict(ros.publishers)
+    assert follow.update(*scene()) == (True, False)
+    now = 4.9
+    assert follow.go_on() is False
+    follow.update(*scene(1, 3))
+    now = 20.0
+    follow.go_on()
+    assert ros.publishers == publishers  # none was advertised anew
+    assert [p.open for p in publishers.values()] == [True, True]
+    assert sent(ros) == {"/units/storage_unit1/pose": 2, "/units/storage_unit2/pose": 2}
+    follow.update(*scene(1))
+    now = 25.0
+    assert follow.go_on() is False
+    assert [p.open for p in publishers.values()] == [True, False]
 
 
 def test_thousands_of_topics_come_in_batches(ros):

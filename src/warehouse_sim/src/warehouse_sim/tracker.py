@@ -3,9 +3,11 @@
 
 import resource
 import threading
+import time
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped
+from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
@@ -14,6 +16,8 @@ from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
 BATCH = 200
+# How long topics outlive their objects [s, wall]: a warehouse that is created again has the same.
+LINGER = 5.0
 SPARE_FILES = 500
 
 
@@ -23,24 +27,38 @@ class PoseTopics:
     `advertise(topic)` returns something with publish(message) and unregister().
     """
 
-    def __init__(self, prefix, advertise, limit):
+    def __init__(self, prefix, advertise, limit, linger=LINGER, clock=time.monotonic):
         self._prefix, self._advertise, self._limit = prefix, advertise, limit
         self._topics = {}
+        self._names, self._rows = None, {}  # as of the last update
+        self._gone, self._new = [], []  # names whose topics are still to go, or to come
+        self._linger, self._clock, self._gone_at = linger, clock, 0.0
 
     def update(self, objects, moved, stamp):
-        """Publishes the poses that `moved` marks. True if topics are still to come or go."""
-        rows = {name: i for i, name in enumerate(objects.names[: self._limit])}
-        gone = [name for name in self._topics if name not in rows][:BATCH]
-        new = [name for name in rows if name not in self._topics][:BATCH]
-        for name in gone:
-            self._topics.pop(name).unregister()
+        """Publishes the poses that `moved` marks. True if topics are to come, or go, at once."""
+        if objects.names is not self._names:
+            self._plan(objects.names)
+        new, self._new = self._new[:BATCH], self._new[BATCH:]
+        are_gone = self._clock() >= self._gone_at
+        if are_gone:
+            for name in self._gone[:BATCH]:
+                self._topics.pop(name).unregister()
+            self._gone = self._gone[BATCH:]
         for name in new:
             self._topics[name] = self._advertise(f"{self._prefix}/{name}/pose")
         known = [objects.names[i] for i in np.flatnonzero(moved[: self._limit])]
         for name in {*new, *(name for name in known if name in self._topics)}:
-            pose = tracking.message(objects.pose[rows[name]])
+            pose = tracking.message(objects.pose[self._rows[name]])
             self._topics[name].publish(PoseStamped(Header(0, stamp, "world"), pose))
-        return BATCH in (len(gone), len(new))
+        return bool(self._new or (are_gone and self._gone))
+
+    def _plan(self, names):
+        """Other objects are there: whose topics are to go, and whose to come?"""
+        self._names = names
+        self._rows = {name: i for i, name in enumerate(names[: self._limit])}
+        self._gone = [name for name in self._topics if name not in self._rows]
+        self._new = [name for name in self._rows if name not in self._topics]
+        self._gone_at = self._clock() + self._linger
 
 
 class ObjectList:
@@ -97,6 +115,8 @@ class Tracker:
 
     def go_on(self):
         """Does more of the work that update left. Returns if there is still some left."""
+        if self._last is None:
+            return False
         nothing = np.zeros(self.count, bool)
         return self._pose_topics.update(self._last, nothing, self._stamp)
 
@@ -122,8 +142,8 @@ def follow(ros, kind, prefix):
     listing = LazyPublisher(ros, prefix, TrackedObjects, tracker.message)
     newest = LatestMessages(
         ros,
-        objects=("/warehouse/objects", WarehouseObjects),
-        states=("/warehouse/unit_states", UnitStates),
+        objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
+        states=("/warehouse/unit_states", numpy_msg(UnitStates)),
     )
     work_left = False
     while not ros.is_shutdown():
@@ -131,7 +151,7 @@ def follow(ros, kind, prefix):
             differs, work_left = tracker.update(*newest.units_and_objects)
             if differs:
                 listing.publish()
-        elif work_left:
+        else:
             work_left = tracker.go_on()
         if tracker.count > limit:
             ros.logwarn_once(f"{tracker.count} objects, {limit} topics (~max_topics, ulimit -n)")
