@@ -189,11 +189,11 @@ class Listener {
     second_.push_back(wall - stamp);
   }
 
-  std::vector<ros::Subscriber> subscribers_;
   std::vector<long> counts_;  // two topics a robot
   std::vector<double> second_;
   double second_ends_ = 0;
   Times late_;
+  std::vector<ros::Subscriber> subscribers_;  // last: they go before what their callbacks write
 };
 
 /// Gives commands, and measures how long they take to be accepted.
@@ -278,7 +278,7 @@ class Commander {
   std::map<int, long> counts_;  // of events, by kind
   Times took_;
   ros::Publisher mov_, movx_, movy_, rot_, lift_;
-  ros::Subscriber events_;
+  ros::Subscriber events_;  // last, likewise
 };
 
 template <typename Condition>

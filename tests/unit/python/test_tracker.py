@@ -2,11 +2,13 @@
 """What the tracking nodes publish, and when they don't."""
 
 import resource
+from types import SimpleNamespace
 
 import pytest
 import rospy
 from fake_ros import FakeRos
 from geometry_msgs.msg import PoseStamped
+from rospy.topics import _PublisherImpl
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
 from warehouse_sim import poses, tracker, tracking
@@ -106,6 +108,27 @@ def test_thousands_of_topics_come_in_batches(ros):
     assert follow.go_on() is False
     assert set(sent(ros).values()) == {1}
     assert len(ros.publishers) == tracker.BATCH + 5
+
+
+def test_topics_that_linger_make_room(ros):
+    topics = pose_topics(ros, limit=2, linger=5, clock=lambda: 0.0)
+    follow = tracker.Tracker(tracking.StorageUnits, topics)
+    follow.update(*scene(1, 2))
+    follow.update(*scene(3, 4, names=["storage_unit3", "storage_unit2"]))
+    assert {t: p.open for t, p in ros.publishers.items()} == {
+        "/units/storage_unit1/pose": False,
+        "/units/storage_unit2/pose": True,
+        "/units/storage_unit3/pose": True,
+    }
+
+
+def test_a_topic_that_goes_gives_its_file_back():
+    """rospy itself keeps it until garbage is collected."""
+    impl = _PublisherImpl("/units/storage_unit1/pose", PoseStamped)
+    poller = impl.connection_poll.poller
+    publisher = SimpleNamespace(impl=impl, publish=impl.publish, unregister=impl.close)
+    tracker.PoseTopic(SimpleNamespace(Publisher=lambda *_, **__: publisher), "").unregister()
+    assert poller.closed
 
 
 def test_no_more_topics_than_allowed(ros):

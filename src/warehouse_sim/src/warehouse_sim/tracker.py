@@ -17,7 +17,7 @@ from warehouse_sim.latest import LatestMessages, LazyPublisher
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
 BATCH = 200
 # How long topics outlive their objects [s, wall]: a warehouse that is created again has the same.
-LINGER = 5.0
+LINGER = 15.0
 SPARE_FILES = 500
 
 
@@ -38,12 +38,14 @@ class PoseTopics:
         """Publishes the poses that `moved` marks. True if topics are to come, or go, at once."""
         if objects.names is not self._names:
             self._plan(objects.names)
-        new, self._new = self._new[:BATCH], self._new[BATCH:]
-        are_gone = self._clock() >= self._gone_at
+        is_full = len(self._topics) + len(self._new) > self._limit
+        are_gone = is_full or self._clock() >= self._gone_at
         if are_gone:
             for name in self._gone[:BATCH]:
                 self._topics.pop(name).unregister()
             self._gone = self._gone[BATCH:]
+        count = min(BATCH, self._limit - len(self._topics))
+        new, self._new = self._new[:count], self._new[count:]
         for name in new:
             self._topics[name] = self._advertise(f"{self._prefix}/{name}/pose")
         known = [objects.names[i] for i in np.flatnonzero(moved[: self._limit])]
@@ -121,6 +123,21 @@ class Tracker:
         return self._pose_topics.update(self._last, nothing, self._stamp)
 
 
+class PoseTopic:
+    """What PoseTopics advertises. `ros` is rospy."""
+
+    def __init__(self, ros, topic):
+        self._publisher = ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
+        self.publish = self._publisher.publish
+
+    def unregister(self):
+        """Closes the topic's file at once: rospy leaves it to the garbage collector, which comes
+        late, and with thousands of topics none could be opened any more."""
+        poller = self._publisher.impl.connection_poll.poller
+        self._publisher.unregister()
+        poller.close()
+
+
 def topics_allowed(wanted):
     """How many topics a process can have: rospy opens a file for each, beside those of sockets."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -135,7 +152,7 @@ def follow(ros, kind, prefix):
     """Until shutdown; the body of a tracking node. `ros` is rospy."""
 
     def advertise(topic):
-        return ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
+        return PoseTopic(ros, topic)
 
     limit = topics_allowed(ros.get_param("~max_topics", 30000))
     tracker = Tracker(kind, PoseTopics(prefix, advertise, limit))
