@@ -141,7 +141,7 @@ class Session:
     def delivered(self):
         """Storage units that the coordinator had brought to stations."""
         with urllib.request.urlopen(f"http://localhost:{self._page}/api/v1/coordinator") as answer:
-            return json.load(answer)["delivered"]
+            return json.load(answer)["transports"]["delivered"]
 
     def nodes(self):
         """Process ids by program name: all that roslaunch started, and itself."""
