@@ -27,7 +27,7 @@ from warehouse_sim import request
 from warehouse_sim.tracker import topics_allowed
 
 PATIENCE = 120  # [s]
-UNDER_WAY = 120  # after which a fleet's stations are busy [s, simulated]
+UNDER_WAY = 40  # storage units that were delivered, after which a fleet's stations are busy
 TICK = os.sysconf("SC_CLK_TCK")
 NODE = "kiva_world_node"
 
@@ -83,7 +83,7 @@ class Session:
         self._log.close()
         self._home.cleanup()
 
-    def _wait(self, condition, what):
+    def _wait(self, condition, what, pause=0.05):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             if self._launch.poll() is not None:
@@ -91,7 +91,7 @@ class Session:
             with contextlib.suppress(OSError, rosservice.ROSServiceException):
                 if condition():
                     return
-            time.sleep(0.05)
+            time.sleep(pause)
         self._log.seek(0)
         told = " | ".join(self._log.read().strip().splitlines()[-3:])
         raise programs.FailedError(f"{what} did not come up: {told}")
@@ -142,6 +142,10 @@ class Session:
         """Storage units that the coordinator had brought to stations."""
         with urllib.request.urlopen(f"http://localhost:{self._page}/api/v1/coordinator") as answer:
             return json.load(answer)["transports"]["delivered"]
+
+    def wait_for_deliveries(self, count):
+        """Until so many storage units were brought to stations."""
+        self._wait(lambda: self.delivered() >= count, f"{count} deliveries", pause=1)
 
     def nodes(self):
         """Process ids by program name: all that roslaunch started, and itself."""
@@ -227,12 +231,10 @@ def unheard(seconds):
 
 
 def working(seconds):
-    """`huge` with its robots at work as a fleet, as fast as it goes, from when the first units come
-    to stations."""
+    """`huge` with its robots at work as a fleet, as fast as it goes, once its stations are busy."""
     with Session(size="huge", rtf=0, coordinator="true", transports="random") as session:
         session.item_topics_stand()
-        while session.simulated() < UNDER_WAY:
-            time.sleep(1)
+        session.wait_for_deliveries(UNDER_WAY)
         before, delivered = session.cpu(), session.delivered()
         simulated, begin = session.simulated(), time.monotonic()
         time.sleep(seconds)
@@ -241,7 +243,7 @@ def working(seconds):
         return {
             "seconds": seconds,
             "rtf": simulated / took,
-            "delivered_per_minute": 60 * (session.delivered() - delivered) / simulated,
+            "delivered_per_second": (session.delivered() - delivered) / took,  # wall
             "cores": cores,
             "memory_mb": session.memory(),
         }
