@@ -168,6 +168,21 @@ def _unheard(found, scale):
     ]
 
 
+def _work(measured, scale):
+    alone, found = measured["in_process"], measured["under_ros"]
+    within = f"huge at work in-process, {alone['simulated_s'] / 60:.0f} min from standstill"
+    what = f"huge at work under ROS, rtf:=0, {found['seconds']:g} s: "
+    # Time flies where robots wait for a coordinator that is slower than the world.
+    work = found["delivered_per_second"] / alone["units_per_second"]
+    return [
+        scale.speed(within, alone["rtf_cpu"], limit=">= 8", wall=alone["rtf"]),
+        Figure(f"{within}: units delivered", alone["delivered"]),
+        scale.speed(what + "RTF", found["rtf"], "", ">= 4"),
+        scale.speed(what + "units, over what stations take in real time", work, "", ">= 4"),
+        *_nodes(found, what, scale),
+    ]
+
+
 def _nodes(found, what, scale):
     out = [Figure(what + "memory of all nodes", found["memory_mb"], "MB", "<= 1500")]
     for node, cores in sorted(found["cores"].items()):
@@ -216,6 +231,7 @@ OF_PART = {
     "warehouse": _warehouse,
     "ros": _ros,
     "unheard": _unheard,
+    "work": _work,
     "recreations": _recreations,
     "start": _start,
     "build": _build,

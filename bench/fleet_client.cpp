@@ -7,7 +7,7 @@
 //
 // How late: a message's wall time less its stamp, against the quickest message of the same second.
 // That needs simulated time to follow the wall clock, that is, rtf:=1.
-#include <ros/callback_queue.h>
+#include <ros/callback_queue_interface.h>
 #include <ros/ros.h>
 #include <sensor_msgs/LaserScan.h>
 #include <unistd.h>
@@ -22,13 +22,16 @@
 #include <warehouse_msgs/WarehouseObjects.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "random_commands.h"
@@ -42,7 +45,9 @@ constexpr char kHelp[] =
     "  --seconds     of wall time, once all is connected (30)\n"
     "  --watch       whose CPU time to tell besides its own\n";
 constexpr double kPatience = 120;  // until all is connected [s]
+constexpr double kSettling = 3;    // until what came while connecting is worked off [s]
 constexpr int kQueue = 100000;
+constexpr auto kLook = std::chrono::milliseconds(50);  // between two at what came
 
 struct Options {
   bool listen = true, command = true;
@@ -107,6 +112,27 @@ class Times {
   std::vector<float> ms_;
 };
 
+/// Calls back in the thread that received, roscpp's own: for so many small messages the usual
+/// second thread would cost as much, since it has to wake for them.
+class ReceivingThread : public ros::CallbackQueueInterface {
+ public:
+  void addCallback(const ros::CallbackInterfacePtr& callback, std::uint64_t) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    callback->call();
+  }
+  void removeByID(std::uint64_t) override {}  // nothing waits
+
+  /// What callbacks write is read, and reset, while none is called.
+  template <typename Look>
+  auto pause(Look look) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return look();
+  }
+
+ private:
+  std::mutex mutex_;
+};
+
 /// Subscribes to each robot's status and scan; counts, and measures how late they are.
 class Listener {
  public:
@@ -163,11 +189,11 @@ class Listener {
     second_.push_back(wall - stamp);
   }
 
-  std::vector<ros::Subscriber> subscribers_;
   std::vector<long> counts_;  // two topics a robot
   std::vector<double> second_;
   double second_ends_ = 0;
   Times late_;
+  std::vector<ros::Subscriber> subscribers_;  // last: they go before what their callbacks write
 };
 
 /// Gives commands, and measures how long they take to be accepted.
@@ -252,72 +278,49 @@ class Commander {
   std::map<int, long> counts_;  // of events, by kind
   Times took_;
   ros::Publisher mov_, movx_, movy_, rot_, lift_;
-  ros::Subscriber events_;
+  ros::Subscriber events_;  // last, likewise
 };
 
 template <typename Condition>
-bool spinUntil(double deadline, Condition condition) {
-  double look = 0;
+bool waitUntil(double deadline, ReceivingThread& thread, Condition condition) {
   while (ros::ok() && now() < deadline) {
-    if (now() > look) {
-      if (condition()) return true;
-      look = now() + 0.05;
-    }
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    if (thread.pause(condition)) return true;
+    std::this_thread::sleep_for(kLook);
   }
   return false;
 }
 
+void sleepUntil(double deadline) { ros::WallTime::sleepUntil(ros::WallTime(deadline)); }
+
 /// The newest message of a topic that comes by itself. It waits by the wall clock: simulated
 /// seconds may be short.
 template <typename Message>
-boost::shared_ptr<const Message> first(ros::NodeHandle& node, const std::string& topic) {
+boost::shared_ptr<const Message> first(ros::NodeHandle& node, ReceivingThread& thread,
+                                       const std::string& topic) {
   boost::shared_ptr<const Message> message;
   const ros::Subscriber subscriber = node.subscribe<Message>(
       topic, 1, [&](const boost::shared_ptr<const Message>& newest) { message = newest; });
-  if (!spinUntil(now() + kPatience, [&] { return message != nullptr; })) {
+  if (!waitUntil(now() + kPatience, thread, [&] { return message != nullptr; })) {
     std::fprintf(stderr, "fleet_client: nothing came on %s\n", topic.c_str());
     std::exit(1);
   }
   return message;
 }
 
-void readUnits(ros::NodeHandle& node, Commander& commander) {
-  const auto objects = first<warehouse_msgs::WarehouseObjects>(node, "/warehouse/objects");
-  const auto units = first<warehouse_msgs::UnitStates>(node, "/warehouse/unit_states");
-  for (std::size_t i = 0; i < objects->storage_units.size(); ++i) {
-    const int id = numberOf(objects->storage_units[i]);
-    commander.standsAt(id, units->pose[7 * i], units->pose[7 * i + 1]);
-  }
+void readUnits(ros::NodeHandle& node, ReceivingThread& thread, Commander& commander) {
+  const auto objects = first<warehouse_msgs::WarehouseObjects>(node, thread, "/warehouse/objects");
+  const auto units = first<warehouse_msgs::UnitStates>(node, thread, "/warehouse/unit_states");
+  thread.pause([&] {
+    for (std::size_t i = 0; i < objects->storage_units.size(); ++i) {
+      const int id = numberOf(objects->storage_units[i]);
+      commander.standsAt(id, units->pose[7 * i], units->pose[7 * i + 1]);
+    }
+  });
 }
 
-int run(const Options& options) {
-  ros::NodeHandle node;
-  const auto fleet = first<warehouse_msgs::FleetState>(node, "/warehouse/fleet");
-  Listener listener;
-  Commander commander(node);
-  readUnits(node, commander);
-  double simulated = fleet->stamp.toSec();
-  const auto follow = node.subscribe<warehouse_msgs::FleetState>(
-      "/warehouse/fleet", 10, [&](const warehouse_msgs::FleetState::ConstPtr& state) {
-        simulated = state->stamp.toSec();
-        if (options.command) commander.dispatch(*state);
-      });
-  if (options.listen) listener.listen(node, fleet->kiva_id);
-  if (!spinUntil(now() + kPatience, [&] { return listener.heardAll(); })) {
-    std::fprintf(stderr, "fleet_client: some robots were not heard\n");
-    return 1;
-  }
-  spinUntil(now() + 3, [] { return false; });  // what came while connecting is worked off
-
-  std::fprintf(stderr, "  %zu robots heard, measuring %g s\n", fleet->kiva_id.size(),
-               options.seconds);
-  listener.restart();
-  commander.restart();
-  const double begin = now(), simulated_begin = simulated;
-  const double cpu_begin = cpuTime(0), watched_begin = cpuTime(options.watched);
-  spinUntil(begin + options.seconds, [] { return false; });
-  const double took = now() - begin;
+/// What was measured, as a line of JSON. `took`: [s, wall]; `simulated` meanwhile [s].
+void print(std::size_t robots, double took, double simulated, double cpu, double watched_cpu,
+           Listener& listener, Commander& commander) {
   using warehouse_msgs::Event;
   std::printf(
       "{\"robots\": %zu, \"rtf\": %.3f, \"messages_per_second\": %.0f, "
@@ -325,15 +328,50 @@ int run(const Options& options) {
       "\"accepted_p50_ms\": %s, \"accepted_p99_ms\": %s, \"accepted\": %ld, \"refused\": %ld, "
       "\"done\": %ld, \"blocked\": %ld, \"lifted\": %ld, \"collision\": %ld, "
       "\"cpu_s\": %.2f, \"watched_cpu_s\": %.2f}\n",
-      fleet->kiva_id.size(), (simulated - simulated_begin) / took,
-      static_cast<double>(listener.messages()) / took,
+      robots, simulated / took, static_cast<double>(listener.messages()) / took,
       static_cast<double>(listener.fewest()) / took, listener.late().percentile(0.5).c_str(),
       listener.late().percentile(0.99).c_str(), commander.took().percentile(0.5).c_str(),
       commander.took().percentile(0.99).c_str(), commander.count(Event::ACCEPTED),
       commander.count(Event::REFUSED), commander.count(Event::DONE),
       commander.count(Event::BLOCKED), commander.count(Event::LIFTED),
-      commander.count(Event::COLLISION), cpuTime(0) - cpu_begin,
-      cpuTime(options.watched) - watched_begin);
+      commander.count(Event::COLLISION), cpu, watched_cpu);
+}
+
+int run(const Options& options) {
+  ReceivingThread thread;
+  ros::NodeHandle node;
+  node.setCallbackQueue(&thread);
+  const auto fleet = first<warehouse_msgs::FleetState>(node, thread, "/warehouse/fleet");
+  Listener listener;
+  Commander commander(node);
+  readUnits(node, thread, commander);
+  double simulated = fleet->stamp.toSec();
+  const auto follow = node.subscribe<warehouse_msgs::FleetState>(
+      "/warehouse/fleet", 10, [&](const warehouse_msgs::FleetState::ConstPtr& state) {
+        simulated = state->stamp.toSec();
+        if (options.command) commander.dispatch(*state);
+      });
+  if (options.listen) listener.listen(node, fleet->kiva_id);
+  if (!waitUntil(now() + kPatience, thread, [&] { return listener.heardAll(); })) {
+    std::fprintf(stderr, "fleet_client: some robots were not heard\n");
+    return 1;
+  }
+  sleepUntil(now() + kSettling);
+
+  std::fprintf(stderr, "  %zu robots heard, measuring %g s\n", fleet->kiva_id.size(),
+               options.seconds);
+  const double simulated_begin = thread.pause([&] {
+    listener.restart();
+    commander.restart();
+    return simulated;
+  });
+  const double begin = now();
+  const double cpu_begin = cpuTime(0), watched_begin = cpuTime(options.watched);
+  sleepUntil(begin + options.seconds);
+  thread.pause([&] {
+    print(fleet->kiva_id.size(), now() - begin, simulated - simulated_begin, cpuTime(0) - cpu_begin,
+          cpuTime(options.watched) - watched_begin, listener, commander);
+  });
   return 0;
 }
 

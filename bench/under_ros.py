@@ -2,6 +2,7 @@
 """The warehouse under ROS: a session of its own, what its clients get, and what its nodes need."""
 
 import contextlib
+import json
 import os
 import random
 import signal
@@ -10,6 +11,7 @@ import sys
 import tempfile
 import threading
 import time
+import urllib.request
 import xmlrpc.client
 from pathlib import Path
 
@@ -18,12 +20,14 @@ import rosgraph
 import rospy
 import rosservice
 
+from gazebo_msgs.srv import GetModelState
 from warehouse_msgs.msg import WarehouseState
 from warehouse_msgs.srv import CreateWarehouse
 from warehouse_sim import request
 from warehouse_sim.tracker import topics_allowed
 
 PATIENCE = 120  # [s]
+UNDER_WAY = 40  # storage units that were delivered, after which a fleet's stations are busy
 TICK = os.sysconf("SC_CLK_TCK")
 NODE = "kiva_world_node"
 
@@ -40,6 +44,7 @@ class Session:
 
     def __enter__(self):
         port = random.randrange(21000, 29000)
+        self._page = port + 9000
         os.environ["ROS_MASTER_URI"] = f"http://localhost:{port}"
         self._home = tempfile.TemporaryDirectory(prefix="bench_ros_")
         os.environ["ROS_HOME"] = self._home.name
@@ -49,7 +54,7 @@ class Session:
             "warehouse_sim",
             "warehouse.launch",
             *self._words,
-            f"viewer_port:={port + 9000}",
+            f"viewer_port:={self._page}",
         ]
         print(f"$ {' '.join(command)}", file=sys.stderr, flush=True)
         self._log = open(f"{self._home.name}/roslaunch.log", "w+")  # noqa: SIM115, closed with it
@@ -78,7 +83,7 @@ class Session:
         self._log.close()
         self._home.cleanup()
 
-    def _wait(self, condition, what):
+    def _wait(self, condition, what, pause=0.05):
         end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             if self._launch.poll() is not None:
@@ -86,7 +91,7 @@ class Session:
             with contextlib.suppress(OSError, rosservice.ROSServiceException):
                 if condition():
                     return
-            time.sleep(0.05)
+            time.sleep(pause)
         self._log.seek(0)
         told = " | ".join(self._log.read().strip().splitlines()[-3:])
         raise programs.FailedError(f"{what} did not come up: {told}")
@@ -113,10 +118,10 @@ class Session:
             raise programs.FailedError(f"create_warehouse_models {name}: {reply.message}")
         return time.monotonic() - begin
 
-    def item_topics_stand(self):
-        """Seconds until all items of `huge` have topics, or as many as may open files here have;
+    def item_topics_stand(self, name="huge"):
+        """Seconds until all items of a preset have topics, or as many as may open files here have;
         None if they never have."""
-        return self._topics_stand("/items/item", topics_allowed(20000))
+        return self._topics_stand("/items/item", topics_allowed(request.PRESETS[name].items))
 
     def _topics_stand(self, prefix, count):
         master = xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"])
@@ -127,6 +132,20 @@ class Session:
                 return time.monotonic() - begin
             time.sleep(1)
         return None
+
+    def simulated(self):
+        """The time of the world [s]."""
+        state = rospy.ServiceProxy("/gazebo/get_model_state", GetModelState)("kiva1", "")
+        return state.header.stamp.to_sec()
+
+    def delivered(self):
+        """Storage units that the coordinator had brought to stations."""
+        with urllib.request.urlopen(f"http://localhost:{self._page}/api/v1/coordinator") as answer:
+            return json.load(answer)["transports"]["delivered"]
+
+    def wait_for_deliveries(self, count):
+        """Until so many storage units were brought to stations."""
+        self._wait(lambda: self.delivered() >= count, f"{count} deliveries", pause=1)
 
     def nodes(self):
         """Process ids by program name: all that roslaunch started, and itself."""
@@ -209,3 +228,22 @@ def unheard(seconds):
     with Session(size="huge", rtf=0) as session:
         session.item_topics_stand()
         return client(session, seconds, "--no-listen")
+
+
+def working(seconds):
+    """`huge` with its robots at work as a fleet, as fast as it goes, once its stations are busy."""
+    with Session(size="huge", rtf=0, coordinator="true", transports="random") as session:
+        session.item_topics_stand()
+        session.wait_for_deliveries(UNDER_WAY)
+        before, delivered = session.cpu(), session.delivered()
+        simulated, begin = session.simulated(), time.monotonic()
+        time.sleep(seconds)
+        took, simulated = time.monotonic() - begin, session.simulated() - simulated
+        cores = {name: (used - before.get(name, 0)) / took for name, used in session.cpu().items()}
+        return {
+            "seconds": seconds,
+            "rtf": simulated / took,
+            "delivered_per_second": (session.delivered() - delivered) / took,  # wall
+            "cores": cores,
+            "memory_mb": session.memory(),
+        }

@@ -2,11 +2,13 @@
 """What the tracking nodes publish, and when they don't."""
 
 import resource
+from types import SimpleNamespace
 
 import pytest
 import rospy
 from fake_ros import FakeRos
 from geometry_msgs.msg import PoseStamped
+from rospy.topics import _PublisherImpl
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
 from warehouse_sim import poses, tracker, tracking
@@ -18,8 +20,11 @@ def ros():
     return FakeRos()
 
 
-def pose_topics(ros, limit=100):
-    return tracker.PoseTopics("/units", lambda topic: ros.Publisher(topic, PoseStamped), limit)
+def pose_topics(ros, limit=100, **options):
+    def advertise(topic):
+        return ros.Publisher(topic, PoseStamped)
+
+    return tracker.PoseTopics("/units", advertise, limit, **{"linger": 0, **options})
 
 
 def scene(*xs, names=None, stamp=0):
@@ -74,6 +79,27 @@ def test_a_name_that_comes_back_gets_its_topic_back(ros):
     assert len(publisher.sent) == 1
 
 
+def test_topics_outlive_a_warehouse_that_is_created_again(ros):
+    now = 0.0
+    topics = pose_topics(ros, linger=5, clock=lambda: now)
+    follow = tracker.Tracker(tracking.StorageUnits, topics)
+    follow.update(*scene(1, 2))
+    publishers = dict(ros.publishers)
+    assert follow.update(*scene()) == (True, False)
+    now = 4.9
+    assert follow.go_on() is False
+    follow.update(*scene(1, 3))
+    now = 20.0
+    follow.go_on()
+    assert ros.publishers == publishers  # none was advertised anew
+    assert [p.open for p in publishers.values()] == [True, True]
+    assert sent(ros) == {"/units/storage_unit1/pose": 2, "/units/storage_unit2/pose": 2}
+    follow.update(*scene(1))
+    now = 25.0
+    assert follow.go_on() is False
+    assert [p.open for p in publishers.values()] == [True, False]
+
+
 def test_thousands_of_topics_come_in_batches(ros):
     follow = tracker.Tracker(tracking.StorageUnits, pose_topics(ros, limit=1000))
     crowd = scene(*range(tracker.BATCH + 5))
@@ -82,6 +108,27 @@ def test_thousands_of_topics_come_in_batches(ros):
     assert follow.go_on() is False
     assert set(sent(ros).values()) == {1}
     assert len(ros.publishers) == tracker.BATCH + 5
+
+
+def test_topics_that_linger_make_room(ros):
+    topics = pose_topics(ros, limit=2, linger=5, clock=lambda: 0.0)
+    follow = tracker.Tracker(tracking.StorageUnits, topics)
+    follow.update(*scene(1, 2))
+    follow.update(*scene(3, 4, names=["storage_unit3", "storage_unit2"]))
+    assert {t: p.open for t, p in ros.publishers.items()} == {
+        "/units/storage_unit1/pose": False,
+        "/units/storage_unit2/pose": True,
+        "/units/storage_unit3/pose": True,
+    }
+
+
+def test_a_topic_that_goes_gives_its_file_back():
+    """rospy itself keeps it until garbage is collected."""
+    impl = _PublisherImpl("/units/storage_unit1/pose", PoseStamped)
+    poller = impl.connection_poll.poller
+    publisher = SimpleNamespace(impl=impl, publish=impl.publish, unregister=impl.close)
+    tracker.PoseTopic(SimpleNamespace(Publisher=lambda *_, **__: publisher), "").unregister()
+    assert poller.closed
 
 
 def test_no_more_topics_than_allowed(ros):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from actionlib import ActionServer
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Pose2D
+from rospy.numpy_msg import numpy_msg
 
 from warehouse_msgs.msg import (
     CarryAction,
@@ -100,8 +101,8 @@ class RobotActions:
         self._publishers = {t: ros.Publisher(t, k, queue_size=10) for t, k in COMMANDS.items()}
         self._places = LatestMessages(
             ros,
-            objects=("/warehouse/objects", WarehouseObjects),
-            states=("/warehouse/unit_states", UnitStates),
+            objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
+            states=("/warehouse/unit_states", numpy_msg(UnitStates)),
         )
         ros.Subscriber("/warehouse/events", Event, self._on_event, queue_size=1000)
         self._servers = [

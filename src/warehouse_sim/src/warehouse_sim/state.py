@@ -2,6 +2,7 @@
 """The warehouse at a glance: one message with every robot's status and every unit's carrier."""
 
 from geometry_msgs.msg import Pose2D
+from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import (
@@ -69,8 +70,8 @@ class StatePublisher:
         self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
-            objects=("/warehouse/objects", WarehouseObjects),
-            states=("/warehouse/unit_states", UnitStates),
+            objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
+            states=("/warehouse/unit_states", numpy_msg(UnitStates)),
             scenery=("/warehouse/scenery", Scenery),
         )
         self._floor = FloorReader(ros)

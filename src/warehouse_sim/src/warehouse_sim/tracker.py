@@ -3,9 +3,11 @@
 
 import resource
 import threading
+import time
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped
+from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
 
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
@@ -14,6 +16,8 @@ from warehouse_sim.latest import LatestMessages, LazyPublisher
 
 # Topics that come or go between two looks at what moved; each costs the master half a millisecond.
 BATCH = 200
+# How long topics outlive their objects [s, wall]: a warehouse that is created again has the same.
+LINGER = 15.0
 SPARE_FILES = 500
 
 
@@ -23,24 +27,40 @@ class PoseTopics:
     `advertise(topic)` returns something with publish(message) and unregister().
     """
 
-    def __init__(self, prefix, advertise, limit):
+    def __init__(self, prefix, advertise, limit, linger=LINGER, clock=time.monotonic):
         self._prefix, self._advertise, self._limit = prefix, advertise, limit
         self._topics = {}
+        self._names, self._rows = None, {}  # as of the last update
+        self._gone, self._new = [], []  # names whose topics are still to go, or to come
+        self._linger, self._clock, self._gone_at = linger, clock, 0.0
 
     def update(self, objects, moved, stamp):
-        """Publishes the poses that `moved` marks. True if topics are still to come or go."""
-        rows = {name: i for i, name in enumerate(objects.names[: self._limit])}
-        gone = [name for name in self._topics if name not in rows][:BATCH]
-        new = [name for name in rows if name not in self._topics][:BATCH]
-        for name in gone:
-            self._topics.pop(name).unregister()
+        """Publishes the poses that `moved` marks. True if topics are to come, or go, at once."""
+        if objects.names is not self._names:
+            self._plan(objects.names)
+        is_full = len(self._topics) + len(self._new) > self._limit
+        are_gone = is_full or self._clock() >= self._gone_at
+        if are_gone:
+            for name in self._gone[:BATCH]:
+                self._topics.pop(name).unregister()
+            self._gone = self._gone[BATCH:]
+        count = min(BATCH, self._limit - len(self._topics))
+        new, self._new = self._new[:count], self._new[count:]
         for name in new:
             self._topics[name] = self._advertise(f"{self._prefix}/{name}/pose")
         known = [objects.names[i] for i in np.flatnonzero(moved[: self._limit])]
         for name in {*new, *(name for name in known if name in self._topics)}:
-            pose = tracking.message(objects.pose[rows[name]])
+            pose = tracking.message(objects.pose[self._rows[name]])
             self._topics[name].publish(PoseStamped(Header(0, stamp, "world"), pose))
-        return BATCH in (len(gone), len(new))
+        return bool(self._new or (are_gone and self._gone))
+
+    def _plan(self, names):
+        """Other objects are there: whose topics are to go, and whose to come?"""
+        self._names = names
+        self._rows = {name: i for i, name in enumerate(names[: self._limit])}
+        self._gone = [name for name in self._topics if name not in self._rows]
+        self._new = [name for name in self._rows if name not in self._topics]
+        self._gone_at = self._clock() + self._linger
 
 
 class ObjectList:
@@ -97,8 +117,25 @@ class Tracker:
 
     def go_on(self):
         """Does more of the work that update left. Returns if there is still some left."""
+        if self._last is None:
+            return False
         nothing = np.zeros(self.count, bool)
         return self._pose_topics.update(self._last, nothing, self._stamp)
+
+
+class PoseTopic:
+    """What PoseTopics advertises. `ros` is rospy."""
+
+    def __init__(self, ros, topic):
+        self._publisher = ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
+        self.publish = self._publisher.publish
+
+    def unregister(self):
+        """Closes the topic's file at once: rospy leaves it to the garbage collector, which comes
+        late, and with thousands of topics none could be opened any more."""
+        poller = self._publisher.impl.connection_poll.poller
+        self._publisher.unregister()
+        poller.close()
 
 
 def topics_allowed(wanted):
@@ -115,15 +152,15 @@ def follow(ros, kind, prefix):
     """Until shutdown; the body of a tracking node. `ros` is rospy."""
 
     def advertise(topic):
-        return ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
+        return PoseTopic(ros, topic)
 
     limit = topics_allowed(ros.get_param("~max_topics", 30000))
     tracker = Tracker(kind, PoseTopics(prefix, advertise, limit))
     listing = LazyPublisher(ros, prefix, TrackedObjects, tracker.message)
     newest = LatestMessages(
         ros,
-        objects=("/warehouse/objects", WarehouseObjects),
-        states=("/warehouse/unit_states", UnitStates),
+        objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
+        states=("/warehouse/unit_states", numpy_msg(UnitStates)),
     )
     work_left = False
     while not ros.is_shutdown():
@@ -131,7 +168,7 @@ def follow(ros, kind, prefix):
             differs, work_left = tracker.update(*newest.units_and_objects)
             if differs:
                 listing.publish()
-        elif work_left:
+        else:
             work_left = tracker.go_on()
         if tracker.count > limit:
             ros.logwarn_once(f"{tracker.count} objects, {limit} topics (~max_topics, ulimit -n)")

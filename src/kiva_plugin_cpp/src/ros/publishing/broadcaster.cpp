@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "broadcaster.h"
 
-#include <rosgraph_msgs/Clock.h>
 #include <std_msgs/String.h>
 
 #include <chrono>
@@ -16,7 +15,7 @@ namespace {
 constexpr int kEventQueue = 1000000;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
-constexpr auto kBatch = std::chrono::milliseconds(4);
+constexpr auto kBatch = std::chrono::milliseconds(2);
 
 /// Latched, so that who comes while time stands still learns it too.
 constexpr bool kLatched = true;
@@ -34,7 +33,7 @@ Broadcaster::Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node,
     : snapshots_(snapshots),
       robots_(root, subscribers),
       transforms_(root, subscribers),
-      clock_(root.advertise<rosgraph_msgs::Clock>("/clock", kStreamQueue, kLatched)),
+      clock_(root, "/clock", kStreamQueue, [](int) {}),
       events_(root.advertise<warehouse_msgs::Event>("/warehouse/events", kEventQueue)),
       collisions_(root.advertise<warehouse_msgs::Collision>("/warehouse/collisions", kEventQueue)),
       objects_(root.advertise<warehouse_msgs::WarehouseObjects>("/warehouse/objects", kStreamQueue,
@@ -70,8 +69,8 @@ void Broadcaster::run() {
       publish(snapshot);
       bulk += snapshot.bulk();
     }
-    if (bulk > 0) poll_thread_.wake();
-    // Together rather than one by one: so this thread, roscpp's and each client's wake less often.
+    events_.flush();
+    // Together rather than one by one: so this thread and each client's wake less often.
     if (bulk >= kCrowd && !batch.back().reliable) std::this_thread::sleep_for(kBatch);
   }
 }
@@ -93,7 +92,7 @@ void Broadcaster::publish(const Snapshot& s) {
   }
   for (const kiva::Event& event : s.events) publishEvent(event);
   for (const kiva::StatusChange& status : s.statuses) robots_.publish(status);
-  for (const kiva::StatusChange& status : s.heartbeats) robots_.publishHeartbeat(status);
+  for (const kiva::StatusChange& status : s.heartbeats) robots_.publish(status);
   for (const Scan& scan : s.scans) robots_.publish(scan, s.time);
   for (const RobotPose& robot : s.odometry) robots_.publishOdometry(robot, s.time);
   if (!s.transforms.empty()) transforms_.publish(s.transforms, s.time);
@@ -106,12 +105,16 @@ void Broadcaster::publish(const Snapshot& s) {
   for (const PublishQueue::Publication& publication : s.publications) publication();
   if (!s.state_hash.empty()) hash_.publish(hashMessage(s.state_hash));
   // roscpp's queues are short: what comes next could push this out.
-  if (s.reliable || s.published) poll_thread_.flush();
+  if (s.reliable || s.published) {
+    events_.flush();
+    poll_thread_.flush();
+  }
   if (s.published) s.published();
 }
 
 void Broadcaster::publishEvent(const kiva::Event& event) {
-  events_.publish(toMessage(event));
+  warehouse_msgs::Event message = toMessage(event);
+  events_.add(message);
   if (event.kind == kiva::Event::Kind::kCollision) {
     collisions_.publish(toCollision(event));
     ROS_WARN("Collision: %s", event.text.c_str());

@@ -4,6 +4,7 @@
 #include <gazebo_msgs/LinkStates.h>
 #include <gazebo_msgs/ModelStates.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 
 #include <memory>
 #include <string>
@@ -12,6 +13,8 @@
 
 #include "robot_topics.h"
 #include "robot_transforms.h"
+#include "ros/transport/direct_publisher.h"
+#include "ros/transport/latched_publisher.h"
 #include "ros/transport/poll_thread.h"
 #include "ros/transport/subscriber_counts.h"
 #include "snapshot_queue.h"
@@ -40,7 +43,9 @@ class Broadcaster {
   RobotTopics robots_;
   RobotTransforms transforms_;
   PollThread poll_thread_;
-  ros::Publisher clock_, events_, collisions_, fleet_, objects_, units_, people_, hash_;
+  LatchedPublisher<rosgraph_msgs::Clock> clock_;
+  DirectPublisher events_;
+  ros::Publisher collisions_, fleet_, objects_, units_, people_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
   // Kept, since their names seldom change.
   std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.

@@ -37,37 +37,26 @@ void RobotTopics::update(const RobotInfos& robots) {
   }
 }
 
-template <typename Message>
-ros::Publisher RobotTopics::advertise(int kiva_id, const char* topic,
-                                      SubscriberCounts::RobotTopic kind, int queue_size,
-                                      bool latched) {
-  const auto count = [this, kind, kiva_id](int change) {
-    subscribers_.count(kind, kiva_id, change);
-  };
-  const std::string name = "/kiva" + std::to_string(kiva_id) + "/" + topic;
-  return advertiseCounted<Message>(node_, name, queue_size, count, latched);
+std::function<void(int)> RobotTopics::counter(SubscriberCounts::RobotTopic topic, int kiva_id) {
+  return [this, topic, kiva_id](int change) { subscribers_.count(topic, kiva_id, change); };
 }
 
 RobotTopics::Topics RobotTopics::advertise(const RobotInfo& robot) {
   using Kind = SubscriberCounts::RobotTopic;
+  const std::string name = "/kiva" + std::to_string(robot.id);
   Topics out;
   out.laser = robot.laser;
-  out.status = BulkPublisher(
-      advertise<warehouse_msgs::KivaStatus>(robot.id, "status", Kind::kStatus, kStatusQueue, true));
-  out.odometry =
-      BulkPublisher(advertise<nav_msgs::Odometry>(robot.id, "odom", Kind::kOdometry, kStreamQueue));
+  out.status = LatchedPublisher<warehouse_msgs::KivaStatus>(node_, name + "/status", kStatusQueue,
+                                                            counter(Kind::kStatus, robot.id));
+  out.odometry = DirectPublisher(advertiseCounted<nav_msgs::Odometry>(
+      node_, name + "/odom", kStreamQueue, counter(Kind::kOdometry, robot.id)));
   if (!robot.laser.fitted) return out;
-  out.scan = BulkPublisher(
-      advertise<sensor_msgs::LaserScan>(robot.id, "chassis/laser/scan", Kind::kScan, kStreamQueue));
+  out.scan = DirectPublisher(advertiseCounted<sensor_msgs::LaserScan>(
+      node_, name + "/chassis/laser/scan", kStreamQueue, counter(Kind::kScan, robot.id)));
   return out;
 }
 
 void RobotTopics::publish(const kiva::StatusChange& status) {
-  const auto at = robots_.find(status.kiva_id);
-  if (at != robots_.end()) at->second.status.publisher().publish(toMessage(status));
-}
-
-void RobotTopics::publishHeartbeat(const kiva::StatusChange& status) {
   const auto at = robots_.find(status.kiva_id);
   if (at != robots_.end()) at->second.status.publish(toMessage(status));
 }

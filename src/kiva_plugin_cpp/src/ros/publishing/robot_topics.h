@@ -2,10 +2,14 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <warehouse_msgs/KivaStatus.h>
 
+#include <functional>
 #include <map>
+#include <string>
 
-#include "ros/transport/bulk_publisher.h"
+#include "ros/transport/direct_publisher.h"
+#include "ros/transport/latched_publisher.h"
 #include "ros/transport/subscriber_counts.h"
 #include "snapshot.h"
 
@@ -21,23 +25,19 @@ class RobotTopics {
       : node_(node), subscribers_(subscribers) {}
 
   void update(const RobotInfos& robots);
-  /// Latched, and sent at once.
-  void publish(const kiva::StatusChange& status);
-  /// Neither: sent with the next wake-up of roscpp's thread, as the following are.
-  void publishHeartbeat(const kiva::StatusChange& status);
+  void publish(const kiva::StatusChange& status);  ///< Latched.
   void publish(const Scan& scan, double time);
   void publishOdometry(const RobotPose& robot, double time);
 
  private:
   struct Topics {
     kiva::LaserParameters laser;
-    BulkPublisher status, scan, odometry;
+    LatchedPublisher<warehouse_msgs::KivaStatus> status;
+    DirectPublisher scan, odometry;
   };
 
   Topics advertise(const RobotInfo& robot);
-  template <typename Message>
-  ros::Publisher advertise(int kiva_id, const char* topic, SubscriberCounts::RobotTopic kind,
-                           int queue_size, bool latched = false);
+  std::function<void(int)> counter(SubscriberCounts::RobotTopic topic, int kiva_id);
 
   ros::NodeHandle& node_;
   SubscriberCounts& subscribers_;

@@ -23,8 +23,6 @@ PollThread::PollThread()
 
 PollThread::~PollThread() { ros::PollManager::instance()->removePollThreadListener(connection_); }
 
-void PollThread::wake() { ros::PollManager::instance()->getPollSet().signal(); }
-
 void PollThread::flush() {
   std::unique_lock<std::mutex> lock(mutex_);
   // The turn under way may have looked before; the next one empties the queues.
@@ -33,7 +31,7 @@ void PollThread::flush() {
   while (turns_ < enough && std::chrono::steady_clock::now() < end) {
     const std::uint64_t now = turns_;
     lock.unlock();
-    wake();
+    ros::PollManager::instance()->getPollSet().signal();
     lock.lock();
     turned_.wait_until(lock, end, [&] { return turns_ > now; });
   }

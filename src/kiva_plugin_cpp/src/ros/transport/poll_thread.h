@@ -8,13 +8,11 @@
 
 namespace kiva_ros {
 
-/// roscpp only queues what is published; a thread of its own writes it.
+/// roscpp only queues what its publishers publish; a thread of its own writes it.
 class PollThread {
  public:
   PollThread();
   ~PollThread();
-  /// Lets that thread write what BulkTopics published.
-  void wake();
   /// Returns when that thread has handed all that was published before to the sockets.
   void flush();
 

@@ -6,33 +6,27 @@
 #include <ros/service_manager.h>
 #include <ros/service_publication.h>
 
+#include "private_member.h"
+
 namespace kiva_ros {
-namespace {
 
-// roscpp tells a service's callback nothing of the connection, and offers no way to ask for it. An
-// explicit instantiation may name private members.
-template <typename Tag, typename Tag::Type member>
-struct Access {
-  friend typename Tag::Type memberOf(Tag) { return member; }
-};
-struct Links {
+// roscpp tells a service's callback nothing of the connection.
+struct ServiceLinks {
   using Type = ros::V_ServiceClientLink ros::ServicePublication::*;
-  friend Type memberOf(Links);
+  friend Type memberOf(ServiceLinks);
 };
-struct LinksMutex {
+struct ServiceLinksMutex {
   using Type = boost::mutex ros::ServicePublication::*;
-  friend Type memberOf(LinksMutex);
+  friend Type memberOf(ServiceLinksMutex);
 };
-template struct Access<Links, &ros::ServicePublication::client_links_>;
-template struct Access<LinksMutex, &ros::ServicePublication::client_links_mutex_>;
-
-}  // namespace
+template struct PrivateMember<ServiceLinks, &ros::ServicePublication::client_links_>;
+template struct PrivateMember<ServiceLinksMutex, &ros::ServicePublication::client_links_mutex_>;
 
 ServiceCaller::ServiceCaller(const std::string& service, const ros::M_string& header) {
   const auto publication = ros::ServiceManager::instance()->lookupServicePublication(service);
   if (!publication) return;
-  const boost::mutex::scoped_lock lock((*publication).*memberOf(LinksMutex()));
-  for (const ros::ServiceClientLinkPtr& link : (*publication).*memberOf(Links())) {
+  const boost::mutex::scoped_lock lock((*publication).*memberOf(ServiceLinksMutex()));
+  for (const ros::ServiceClientLinkPtr& link : (*publication).*memberOf(ServiceLinks())) {
     const ros::ConnectionPtr& connection = link->getConnection();
     if (connection->getHeader().getValues().get() == &header) connection_ = connection;
   }

@@ -59,10 +59,10 @@ class SubscriberCounts {
 /// Advertises a topic whose subscribers are counted: `count` is called with +1 or -1.
 template <typename Message>
 ros::Publisher advertiseCounted(ros::NodeHandle& node, const std::string& topic, int queue_size,
-                                const std::function<void(int)>& count, bool latched = false) {
+                                const std::function<void(int)>& count) {
   return node.advertise<Message>(
       topic, queue_size, [count](const ros::SingleSubscriberPublisher&) { count(+1); },
-      [count](const ros::SingleSubscriberPublisher&) { count(-1); }, ros::VoidConstPtr(), latched);
+      [count](const ros::SingleSubscriberPublisher&) { count(-1); });
 }
 
 }  // namespace kiva_ros

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "direct_publisher.h"
+#include "subscriber_counts.h"
+
+namespace kiva_ros {
+
+/// A DirectPublisher whose last message a newcomer gets at once. roscpp would have it made ready to
+/// be sent each time, though nobody comes.
+template <typename Message>
+class LatchedPublisher {
+ public:
+  LatchedPublisher() = default;
+  /// `count` is called with +1 or -1 as subscribers come and go.
+  LatchedPublisher(ros::NodeHandle& node, const std::string& topic, int queue_size,
+                   const std::function<void(int)>& count)
+      : last_(std::make_shared<Last>()) {
+    const auto welcome = [last = last_, count](const ros::SingleSubscriberPublisher& newcomer) {
+      count(+1);
+      const std::lock_guard<std::mutex> lock(last->mutex);
+      if (last->message) newcomer.publish(*last->message);
+    };
+    const auto part = [count](const ros::SingleSubscriberPublisher&) { count(-1); };
+    constexpr bool kLatched = true;  // which clients are told
+    publisher_ = DirectPublisher(
+        node.advertise<Message>(topic, queue_size, welcome, part, ros::VoidConstPtr(), kLatched));
+  }
+
+  void publish(Message message) {
+    // So that no newcomer hears of older things last.
+    const std::lock_guard<std::mutex> lock(last_->mutex);
+    publisher_.add(message);
+    publisher_.flush();
+    last_->message = std::move(message);
+  }
+
+ private:
+  struct Last {
+    std::mutex mutex;
+    std::optional<Message> message;
+  };
+
+  std::shared_ptr<Last> last_;  ///< Which newcomers are told even as the topic goes.
+  DirectPublisher publisher_;
+};
+
+}  // namespace kiva_ros
