@@ -171,14 +171,13 @@ def _unheard(found, scale):
 def _work(measured, scale):
     alone, found = measured["in_process"], measured["under_ros"]
     within = f"huge at work in-process, {alone['simulated_s'] / 60:.0f} min from standstill"
-    what = f"huge at work under ROS, rtf:=0, {found['seconds']:g} s: "
-    # Time flies where robots wait for a coordinator that is slower than the world.
+    what = f"huge at work under ROS, rtf:=4, {found['seconds']:g} s: "
     work = found["delivered_per_second"] / alone["units_per_second"]
     return [
         scale.speed(within, alone["rtf_cpu"], limit=">= 8", wall=alone["rtf"]),
         Figure(f"{within}: units delivered", alone["delivered"]),
-        scale.speed(what + "RTF", found["rtf"], "", ">= 4"),
-        scale.speed(what + "units, over what stations take in real time", work, "", ">= 4"),
+        scale.speed(what + "RTF", found["rtf"], "", ">= 3.96"),
+        Figure(what + "units, over what the fleet brings in-process", work, "", ">= 0.9"),
         *_nodes(found, what, scale),
     ]
 
