@@ -130,7 +130,10 @@ def _warehouse(measured, scale):
     for f in measured:
         scans = "all scans read" if f["lasers"] else "no scans read"
         what = f"huge in-process, random commands, {scans}"
-        out.append(scale.speed(what, f["rtf_cpu"], limit=">= 4", wall=f["rtf"]))
+        limit = ">= 4"
+        if minutes := f.get("after_min"):
+            what, limit = f"{what}, after {minutes} min", ">= 5"
+        out.append(scale.speed(what, f["rtf_cpu"], limit=limit, wall=f["rtf"]))
     return out
 
 
