@@ -35,7 +35,7 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@scripts/learning_packages || true  # their tests are skipped then, and say so
-	@$(BUILD) tests
+	@$(BUILD) --target tests
 	@scripts/test -j$(JOBS) $(ARGS)
 
 test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
