@@ -14,11 +14,7 @@ constexpr double kFromOthers = 0.05;  // and off what does not drive [m]
 constexpr double kFar = 1;            // [m]: no matter how much farther
 
 Footprint discOf(const WorldState& world, const Walker& walker, double x, double y) {
-  Footprint disc;
-  disc.kind = Footprint::Kind::kCircle;
-  disc.x = x;
-  disc.y = y;
-  disc.hx = walker.radius;
+  Footprint disc = circleAt(x, y, walker.radius);
   const double origin = world.models[walker.model]->pose.Z();
   disc.z_min = origin + walker.bottom;
   disc.z_max = origin + walker.top;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/control/grid.h"
 
+#include <cmath>
+
 namespace kiva {
 
 double nearestGrid(const WorldState& world, double coordinate) {

@@ -3,8 +3,6 @@
 // The grid that robots drive along, and the floor beneath it.
 #pragma once
 
-#include <cmath>
-
 #include "core/state/world_state.h"
 
 namespace kiva {
@@ -14,8 +12,6 @@ struct Point {
   double x = 0, y = 0;
   double& operator[](int axis) { return axis == 0 ? x : y; }
 };
-
-constexpr double kHalfPi = M_PI / 2;  ///< Between two headings along the grid [rad].
 
 double nearestGrid(const WorldState& world, double coordinate);
 /// Whether the cell around the grid point lies on the floor as a whole.

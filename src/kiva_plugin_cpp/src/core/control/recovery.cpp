@@ -52,8 +52,6 @@ std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
   return {};
 }
 
-double squareTo(double yaw) { return std::round(yaw / kHalfPi) * kHalfPi; }
-
 /// So far along its heading [m].
 PlanarPose shifted(const PlanarPose& from, double way) {
   return {from.x + std::cos(from.yaw) * way, from.y + std::sin(from.yaw) * way, from.yaw};

@@ -43,7 +43,7 @@ Route::Route(const WorldState& world, int robot, const Point* back)
       robot_(robot),
       here_(world.fleet.believed(robot)),
       at_{nearestGrid(world, here_.x), nearestGrid(world, here_.y)},
-      yaw_(std::round(here_.yaw / kHalfPi) * kHalfPi) {
+      yaw_(squareTo(here_.yaw)) {
   const bool localises = world.fleet.localises;
   const double off = std::hypot(here_.x - at_.x, here_.y - at_.y);
   if (off > (localises ? kNearGrid : kOnGrid)) {
@@ -105,7 +105,7 @@ void Route::recover(const Point* back) {
     driveOff(from, to);
     from = to;
   }
-  const double square = std::round(yaw_ / kHalfPi) * kHalfPi;
+  const double square = squareTo(yaw_);
   if (std::abs(square - yaw_) > kSquare) turnTo(square);
   yaw_ = square;
 }

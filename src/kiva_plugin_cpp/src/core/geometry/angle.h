@@ -5,6 +5,11 @@
 
 namespace kiva {
 
+constexpr double kHalfPi = M_PI / 2;  ///< Between two headings along the grid [rad].
+
+/// The heading along the grid that is nearest.
+inline double squareTo(double yaw) { return std::round(yaw / kHalfPi) * kHalfPi; }
+
 /// Wraps to (-pi, pi].
 inline double wrapAngle(double angle) { return std::remainder(angle, 2 * M_PI); }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "core/geometry/solid.h"
 #include "kiva_plugin_cpp/description.h"
@@ -41,6 +42,22 @@ inline void place(const Footprint& local, double x, double y, double c, double s
   world->y = y + s * local.x + c * local.y;
   world->c = c * local.c - s * local.s;
   world->s = s * local.c + c * local.s;
+}
+
+/// The same for each of several.
+inline void placeAll(const std::vector<Footprint>& local, double x, double y, double yaw,
+                     std::vector<Footprint>* world) {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  for (std::size_t k = 0; k < local.size(); ++k) place(local[k], x, y, c, s, &(*world)[k]);
+}
+
+inline Footprint circleAt(double x, double y, double radius) {
+  Footprint circle;
+  circle.kind = Footprint::Kind::kCircle;
+  circle.x = x;
+  circle.y = y;
+  circle.hx = radius;
+  return circle;
 }
 
 /// Of the circle around (x, y) that holds it [m].

@@ -153,10 +153,7 @@ const std::vector<Footprint>& Obstacles::footprints(int robot) const {
   const Mover& mover = movers_[robot];
   const double x = fleet_.x[robot], y = fleet_.y[robot], yaw = fleet_.yaw[robot];
   if (mover.world_x == x && mover.world_y == y && mover.world_yaw == yaw) return mover.world;
-  const double c = std::cos(yaw), s = std::sin(yaw);
-  for (std::size_t k = 0; k < mover.world.size(); ++k) {
-    place(mover.local[k], x, y, c, s, &mover.world[k]);
-  }
+  placeAll(mover.local, x, y, yaw, &mover.world);
   mover.world_x = x;
   mover.world_y = y;
   mover.world_yaw = yaw;

@@ -43,15 +43,6 @@ double approachSpeed(const FleetState& f, int i) {
   return f.activated[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
 }
 
-Footprint circleOf(const Fleet& f, int i, double radius) {
-  Footprint circle;
-  circle.kind = Footprint::Kind::kCircle;
-  circle.x = f.x[i];
-  circle.y = f.y[i];
-  circle.hx = radius;
-  return circle;
-}
-
 /// The robot with its load as one upright box, in world.
 Footprint boxOf(const Fleet& f, int i) {
   const Robot& r = f.robots[i];
@@ -62,7 +53,7 @@ Footprint boxOf(const Fleet& f, int i) {
   own.s = std::sin(f.yaw[i]);
   own.hx = halfLength(r);
   own.hy = halfWidth(r);
-  own.z_max = f.unit[i] < 0 ? r.height + f.tower[i] : 1e9;
+  own.z_max = heightOf(f, i);
   return own;
 }
 
@@ -138,7 +129,7 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (i == robot) return false;
     const bool still = standsStill(f, i);
     const double reach = kNear + (still ? 0 : approachSpeed(f, i)) * time;
-    const Footprint circle = circleOf(f, i, radius);
+    const Footprint circle = circleAt(f.x[i], f.y[i], radius);
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
@@ -164,10 +155,7 @@ bool isClearFor(const WorldState& world, int i, double time) {
 
 /// The circle that holds all of them.
 Footprint holding(const std::vector<Footprint>& all) {
-  Footprint circle;
-  circle.kind = Footprint::Kind::kCircle;
-  circle.x = all.front().x;
-  circle.y = all.front().y;
+  Footprint circle = circleAt(all.front().x, all.front().y, 0);
   for (const Footprint& one : all) {
     const double away = std::hypot(one.x - circle.x, one.y - circle.y);
     circle.hx = std::max(circle.hx, away + radiusOf(one));

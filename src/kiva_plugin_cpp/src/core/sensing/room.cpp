@@ -24,25 +24,8 @@ bool isOfUnit(const WorldState& world, const Footprint& other) {
   return model.kind == ModelKind::kStorageUnit && world.units[model.index].carrier < 0;
 }
 
-/// From the floor on, in world [m].
-double heightOf(const WorldState& world, int robot) {
-  const FleetState& f = world.fleet;
-  return world.floor.z + (f.unit[robot] < 0 ? f.robots[robot].height + f.tower[robot] : 1e9);
-}
-
 Footprint turningCircle(const WorldState& world, int robot, double x, double y) {
-  Footprint circle;
-  circle.kind = Footprint::Kind::kCircle;
-  circle.x = x;
-  circle.y = y;
-  circle.hx = cornerRadius(world.fleet.robots[robot]);
-  return circle;
-}
-
-/// Puts what a robot and its load are made of where they are at that pose.
-void cover(const std::vector<Footprint>& local, const PlanarPose& at, std::vector<Footprint>* out) {
-  const double c = std::cos(at.yaw), s = std::sin(at.yaw);
-  for (std::size_t k = 0; k < local.size(); ++k) place(local[k], at.x, at.y, c, s, &(*out)[k]);
+  return circleAt(x, y, cornerRadius(world.fleet.robots[robot]));
 }
 
 double gapTo(const std::vector<Footprint>& all, const Footprint& other) {
@@ -68,7 +51,7 @@ std::vector<Footprint> thingsAround(const WorldState& world, int robot, double x
                                     Among among) {
   std::vector<Footprint> things;
   const Footprint circle = turningCircle(world, robot, x, y);
-  const double top = heightOf(world, robot);
+  const double top = world.floor.z + heightOf(world.fleet, robot);
   world.obstacles.near(x, y, circle.hx, [&](const Footprint& other) {
     if (other.group == robot || other.z_min >= top || gap(circle, other) > 0) return;
     const Model& model = *world.models[other.model];
@@ -92,7 +75,7 @@ Footprint lane(const WorldState& world, int robot, const PlanarPose& from, doubl
   out.x = from.x + out.c * middle;
   out.y = from.y + out.s * middle;
   out.z_min = world.floor.z;
-  out.z_max = heightOf(world, robot);
+  out.z_max = world.floor.z + heightOf(world.fleet, robot);
   return out;
 }
 
@@ -137,9 +120,9 @@ TurnRoom roomToTurn(const WorldState& world, int robot, const PlanarPose& at, Am
   if (things.empty()) return room;
   const std::vector<Footprint>& local = world.obstacles.ofMover(robot);
   std::vector<Footprint> now = local, then = local;
-  cover(local, at, &now);
+  placeAll(local, at.x, at.y, at.yaw, &now);
   const auto touchedAt = [&](double by) {
-    cover(local, {at.x, at.y, at.yaw + by}, &then);
+    placeAll(local, at.x, at.y, at.yaw + by, &then);
     return touchedBy(then, now, things);
   };
   const auto turn = [&](double step, double* end, int* touched) {

@@ -50,5 +50,9 @@ inline double halfLength(const Robot& r) { return std::max(r.half_length, r.load
 inline double halfWidth(const Robot& r) { return std::max(r.half_width, r.load_half_width); }
 /// From its centre to the farthest corner of both [m].
 inline double cornerRadius(const Robot& r) { return std::hypot(halfLength(r), halfWidth(r)); }
+/// Above the floor up to which robot `i` reaches; of a loaded one all is taken [m].
+inline double heightOf(const Fleet& f, int i) {
+  return f.unit[i] < 0 ? f.robots[i].height + f.tower[i] : 1e9;
+}
 
 }  // namespace kiva

@@ -11,7 +11,6 @@
 namespace kiva {
 namespace {
 
-constexpr double kHalfPi = M_PI / 2;
 constexpr double kCentred = 0.001;      // [m] from a point: the robot has come to it
 constexpr double kFacing = 0.002;       // [rad] off: it can drive; how it may be pushed, standing
 constexpr double kNearlyFacing = 0.02;  // [rad] off, of one that has to find out
@@ -81,7 +80,7 @@ MotionSegment nextSegment(const WorldState& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const ReleasedPath& path = task.path;
   const double yaw = world.fleet.believed(robot).yaw;
-  const double square = std::round(yaw / kHalfPi) * kHalfPi;
+  const double square = squareTo(yaw);
   const double ahead = headingOf(path[path.origin], path[path.origin + 1]);
   const double heading = headingNear(square, ahead);
   const bool faces_it = std::abs(heading - yaw) < (world.fleet.localises ? kNearlyFacing : kFacing);

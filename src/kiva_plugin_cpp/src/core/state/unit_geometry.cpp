@@ -37,10 +37,7 @@ bool standsUpright(const WorldState& world, int unit) {
 
 int unitAt(const WorldState& world, const Vector3& point) {
   int found = -1;
-  Footprint here;
-  here.kind = Footprint::Kind::kCircle;
-  here.x = point.X();
-  here.y = point.Y();
+  const Footprint here = circleAt(point.X(), point.Y(), 0);
   world.obstacles.near(point.X(), point.Y(), 0.0, [&](const Footprint& f) {
     const Model& model = *world.models[f.model];
     if (found >= 0 || !model.owner->holdsItems()) return;

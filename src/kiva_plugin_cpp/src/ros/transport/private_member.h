@@ -5,16 +5,22 @@ namespace kiva_ros {
 
 /// What roscpp offers no way to ask for. An explicit instantiation may name private members:
 ///
-///   struct Links {
-///     using Type = ros::V_ServiceClientLink ros::ServicePublication::*;
-///     friend Type memberOf(Links);
-///   };
-///   template struct PrivateMember<Links, &ros::ServicePublication::client_links_>;
+///   struct Links : PrivateMember<Links, ros::V_ServiceClientLink ros::ServicePublication::*> {};
+///   template struct Reveal<Links, &ros::ServicePublication::client_links_>;
 ///
 /// makes memberOf(Links()) point to it. Such names stand in this namespace, each once.
-template <typename Tag, typename Tag::Type member>
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wnon-template-friend"  // one function for each name is meant
+template <typename Name, typename Pointer>
 struct PrivateMember {
-  friend typename Tag::Type memberOf(Tag) { return member; }
+  using Type = Pointer;
+  friend Pointer memberOf(Name);
+};
+#pragma GCC diagnostic pop
+
+template <typename Name, typename Name::Type member>
+struct Reveal {
+  friend typename Name::Type memberOf(Name) { return member; }
 };
 
 }  // namespace kiva_ros

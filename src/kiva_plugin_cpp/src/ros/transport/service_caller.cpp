@@ -11,16 +11,12 @@
 namespace kiva_ros {
 
 // roscpp tells a service's callback nothing of the connection.
-struct ServiceLinks {
-  using Type = ros::V_ServiceClientLink ros::ServicePublication::*;
-  friend Type memberOf(ServiceLinks);
-};
-struct ServiceLinksMutex {
-  using Type = boost::mutex ros::ServicePublication::*;
-  friend Type memberOf(ServiceLinksMutex);
-};
-template struct PrivateMember<ServiceLinks, &ros::ServicePublication::client_links_>;
-template struct PrivateMember<ServiceLinksMutex, &ros::ServicePublication::client_links_mutex_>;
+struct ServiceLinks
+    : PrivateMember<ServiceLinks, ros::V_ServiceClientLink ros::ServicePublication::*> {};
+struct ServiceLinksMutex
+    : PrivateMember<ServiceLinksMutex, boost::mutex ros::ServicePublication::*> {};
+template struct Reveal<ServiceLinks, &ros::ServicePublication::client_links_>;
+template struct Reveal<ServiceLinksMutex, &ros::ServicePublication::client_links_mutex_>;
 
 ServiceCaller::ServiceCaller(const std::string& service, const ros::M_string& header) {
   const auto publication = ros::ServiceManager::instance()->lookupServicePublication(service);

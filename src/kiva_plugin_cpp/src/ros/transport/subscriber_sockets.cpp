@@ -17,61 +17,29 @@ namespace kiva_ros {
 
 using Link = ros::TransportSubscriberLink;
 
-struct TopicLinks {
-  using Type = ros::V_SubscriberLink ros::Publication::*;
-  friend Type memberOf(TopicLinks);
-};
-struct TopicLinksMutex {
-  using Type = boost::mutex ros::Publication::*;
-  friend Type memberOf(TopicLinksMutex);
-};
-struct LinkConnection {
-  using Type = ros::ConnectionPtr Link::*;
-  friend Type memberOf(LinkConnection);
-};
-struct IsHeaderWritten {
-  using Type = bool Link::*;
-  friend Type memberOf(IsHeaderWritten);
-};
-struct IsWritingMessage {
-  using Type = bool Link::*;
-  friend Type memberOf(IsWritingMessage);
-};
-struct LinkOutbox {
-  using Type = std::queue<ros::SerializedMessage> Link::*;
-  friend Type memberOf(LinkOutbox);
-};
-struct LinkOutboxMutex {
-  using Type = boost::mutex Link::*;
-  friend Type memberOf(LinkOutboxMutex);
-};
-struct OnMessageWritten {
-  using Type = void (Link::*)(const ros::ConnectionPtr&);
-  friend Type memberOf(OnMessageWritten);
-};
-struct TcpSocket {
-  using Type = int ros::TransportTCP::*;
-  friend Type memberOf(TcpSocket);
-};
-struct IsClosed {
-  using Type = bool ros::TransportTCP::*;
-  friend Type memberOf(IsClosed);
-};
-struct TcpCloseMutex {
-  using Type = boost::recursive_mutex ros::TransportTCP::*;
-  friend Type memberOf(TcpCloseMutex);
-};
-template struct PrivateMember<TopicLinks, &ros::Publication::subscriber_links_>;
-template struct PrivateMember<TopicLinksMutex, &ros::Publication::subscriber_links_mutex_>;
-template struct PrivateMember<LinkConnection, &Link::connection_>;
-template struct PrivateMember<IsHeaderWritten, &Link::header_written_>;
-template struct PrivateMember<IsWritingMessage, &Link::writing_message_>;
-template struct PrivateMember<LinkOutbox, &Link::outbox_>;
-template struct PrivateMember<LinkOutboxMutex, &Link::outbox_mutex_>;
-template struct PrivateMember<OnMessageWritten, &Link::onMessageWritten>;
-template struct PrivateMember<TcpSocket, &ros::TransportTCP::sock_>;
-template struct PrivateMember<IsClosed, &ros::TransportTCP::closed_>;
-template struct PrivateMember<TcpCloseMutex, &ros::TransportTCP::close_mutex_>;
+struct TopicLinks : PrivateMember<TopicLinks, ros::V_SubscriberLink ros::Publication::*> {};
+struct TopicLinksMutex : PrivateMember<TopicLinksMutex, boost::mutex ros::Publication::*> {};
+struct LinkConnection : PrivateMember<LinkConnection, ros::ConnectionPtr Link::*> {};
+struct IsHeaderWritten : PrivateMember<IsHeaderWritten, bool Link::*> {};
+struct IsWritingMessage : PrivateMember<IsWritingMessage, bool Link::*> {};
+struct LinkOutbox : PrivateMember<LinkOutbox, std::queue<ros::SerializedMessage> Link::*> {};
+struct LinkOutboxMutex : PrivateMember<LinkOutboxMutex, boost::mutex Link::*> {};
+struct OnMessageWritten
+    : PrivateMember<OnMessageWritten, void (Link::*)(const ros::ConnectionPtr&)> {};
+struct TcpSocket : PrivateMember<TcpSocket, int ros::TransportTCP::*> {};
+struct IsClosed : PrivateMember<IsClosed, bool ros::TransportTCP::*> {};
+struct TcpCloseMutex : PrivateMember<TcpCloseMutex, boost::recursive_mutex ros::TransportTCP::*> {};
+template struct Reveal<TopicLinks, &ros::Publication::subscriber_links_>;
+template struct Reveal<TopicLinksMutex, &ros::Publication::subscriber_links_mutex_>;
+template struct Reveal<LinkConnection, &Link::connection_>;
+template struct Reveal<IsHeaderWritten, &Link::header_written_>;
+template struct Reveal<IsWritingMessage, &Link::writing_message_>;
+template struct Reveal<LinkOutbox, &Link::outbox_>;
+template struct Reveal<LinkOutboxMutex, &Link::outbox_mutex_>;
+template struct Reveal<OnMessageWritten, &Link::onMessageWritten>;
+template struct Reveal<TcpSocket, &ros::TransportTCP::sock_>;
+template struct Reveal<IsClosed, &ros::TransportTCP::closed_>;
+template struct Reveal<TcpCloseMutex, &ros::TransportTCP::close_mutex_>;
 
 namespace {
 
