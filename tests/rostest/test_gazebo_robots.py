@@ -20,6 +20,7 @@ from warehouse_test import (
     BOX,
     Collector,
     Paused,
+    control,
     delete,
     pose,
     sim_time,
@@ -98,6 +99,32 @@ class Robot(unittest.TestCase):
             found = tf.first(lambda m: m.transforms[0].child_frame_id == "base_footprint")
         self.assertEqual(found.transforms[0].header.frame_id, "odom")
 
+    def check_checkpoint(self, *command):
+        """From a checkpoint on the way it drives on as it did, bit by bit."""
+        self.drive(*command)
+        wait_until(lambda: state("bot").pose.position.x > 0.2, "the robot on its way")
+        with Paused():
+            self.assertTrue(call("/warehouse/checkpoint", Checkpoint, "bot").success)
+            ends = []
+            for _ in range(2):
+                self.assertTrue(call("/warehouse/restore", Checkpoint, "bot").success)
+                step_until(sim_time() + 1.0)
+                ends.append(state("bot"))
+        self.assertEqual((ends[0].pose, ends[0].twist), (ends[1].pose, ends[1].twist))
+        self.assertGreater(abs(ends[0].twist.linear.x), 0.2)
+
+    def check_reset(self):
+        """A reset ends its command, and sensors go on."""
+        self.drive(0.5)
+        wait_until(lambda: state("bot").pose.position.x > 0.5, "the robot on its way")
+        with self.truth() as truth:
+            control("reset_simulation")
+            truth.first(lambda m: m.header.stamp.to_sec() < 0.5)
+            still = truth.first(lambda m: 0.5 < m.header.stamp.to_sec() < 2)
+            self.assertLess(abs(still.pose.pose.position.x), 0.05)
+            self.drive(0.5)
+            truth.first(lambda m: m.pose.pose.position.x > 0.3)
+
     def check_imu(self, topic):
         with Collector(topic, Imu) as imu:
             message = imu.next(20)[-1]
@@ -131,17 +158,10 @@ class FourWheels(Robot):
             self.assertAlmostEqual(scan.first().ranges[90], 2.6, delta=0.02)
 
     def test_goes_on_the_same_from_a_checkpoint(self):
-        self.drive(0.8, 0.5)
-        wait_until(lambda: state("bot").pose.position.x > 0.2, "the robot on its way")
-        with Paused():
-            self.assertTrue(call("/warehouse/checkpoint", Checkpoint, "bot").success)
-            ends = []
-            for _ in range(2):
-                self.assertTrue(call("/warehouse/restore", Checkpoint, "bot").success)
-                step_until(sim_time() + 1.0)
-                ends.append(state("bot"))
-        self.assertEqual((ends[0].pose, ends[0].twist), (ends[1].pose, ends[1].twist))
-        self.assertGreater(abs(ends[0].twist.linear.x), 0.2)
+        self.check_checkpoint(0.8, 0.5)
+
+    def test_stands_after_a_reset_and_drives_again(self):
+        self.check_reset()
 
 
 class Platform(Robot):
@@ -189,11 +209,19 @@ class Slider(Robot):
             with Collector("/bot/odom", Odometry) as odom:
                 odom.first(lambda m: abs(m.twist.twist.angular.z) < 0.01)
 
+    def test_goes_on_the_same_from_a_checkpoint(self):
+        self.check_checkpoint(0.5, 0.3, 0.2)
+
+    def test_stands_after_a_reset_and_drives_again(self):
+        self.check_reset()
+
     def test_the_sonar_tells_the_nearest_of_its_rays(self):
         with Collector("/bot/sonar", Range) as sonar:
-            self.assertAlmostEqual(sonar.first().range, 4.0, delta=0.01)
+            # Its lowest rays meet the floor.
+            floor = 0.15 / math.sin(0.05)
+            self.assertAlmostEqual(sonar.first().range, floor, delta=0.1)
             spawn("wall", WALL, pose(2.0))
-            message = sonar.first(lambda m: m.range < 3.9)
+            message = sonar.first(lambda m: m.range < 2)
         self.assertAlmostEqual(message.range, 1.59, delta=0.02)
         self.assertEqual(message.radiation_type, Range.INFRARED)
         self.assertEqual(message.header.frame_id, "sonar_link")
@@ -212,10 +240,10 @@ class Slider(Robot):
         self.assertAlmostEqual(lowest.z, -0.45, delta=0.02)
         with Collector("/bot/velodyne_points", PointCloud2) as clouds:
             points = list(read_points(clouds.next(2)[-1], ("x", "y", "z", "ring")))
-        ahead = [p for p in points if p[0] > 2 and abs(p[1]) < 0.03]
-        self.assertEqual(sorted({p[3] for p in ahead}), list(range(6, 16)))
+        ahead = [p for p in points if p[0] > 2.86 and abs(p[1]) < 0.03]
+        self.assertEqual(sorted({p[3] for p in ahead}), list(range(4, 16)))
         for x, _, z, ring in ahead:
-            self.assertAlmostEqual(x, 2.9, delta=0.1)
+            self.assertAlmostEqual(x, 2.9, delta=0.02)
             self.assertAlmostEqual(z, x * math.tan(math.radians(2 * ring - 15)), delta=0.06)
         self.assertTrue(all(math.hypot(*p[:3]) >= 0.9 for p in points))
 
@@ -250,8 +278,8 @@ class Waffle(Robot):
         # The wall is flat: as deep at the edge as in the middle; nearer to the ground there is floor.
         for column in (0, 80, 159):
             self.assertAlmostEqual(depth[60 * 160 + column], self.near, delta=0.03)
-        floor = 0.107 / (59 / (80 / math.tan(math.radians(30))))
-        self.assertAlmostEqual(depth[118 * 160 + 80], floor, delta=0.05)
+        floor = 0.107 * 80 / math.tan(math.radians(30)) / 40.5
+        self.assertAlmostEqual(depth[100 * 160 + 80], floor, delta=0.02)
 
     def test_the_cloud_is_in_the_optical_frame(self):
         spawn("wall", WALL, pose(1.0))
@@ -263,7 +291,7 @@ class Waffle(Robot):
         self.assertAlmostEqual(left[0], -self.near * math.tan(math.radians(30)), delta=0.03)
         self.assertAlmostEqual(right[0], -left[0], delta=0.03)
         self.assertAlmostEqual(left[2], self.near, delta=0.03)
-        self.assertAlmostEqual(points[118 * 160 + 80][1], 0.107, delta=0.02)
+        self.assertAlmostEqual(points[100 * 160 + 80][1], 0.107, delta=0.01)
         with Collector("/bot/camera/depth/camera_info", CameraInfo) as infos:
             info = infos.first()
         self.assertAlmostEqual(info.K[0], 80 / math.tan(math.radians(30)), places=2)
@@ -290,6 +318,18 @@ class Small(unittest.TestCase):
         answer = call("/gazebo/spawn_sdf_model", SpawnModel, "weight", xml, "", pose(z=0.1), "")
         self.assertTrue(answer.success, answer.status_message)
 
+    def test_a_tilted_laser_meets_the_floor(self):
+        sensor = (
+            '<sensor name="s" type="ray"><pose>0 0 0 0 0.785398 0</pose><ray><scan><horizontal>'
+            "<samples>3</samples><min_angle>-1</min_angle><max_angle>1</max_angle></horizontal>"
+            "</scan><range><min>0.01</min><max>5</max></range></ray>%s</sensor>"
+        )
+        laser = PLUGIN % ("laser", "gpu_laser", "<topicName>tilted</topicName>")
+        self.spawn(sensors=sensor % laser)
+        with Collector("/tilted", LaserScan) as scans:
+            ranges = scans.next(3)[-1].ranges
+        self.assertAlmostEqual(ranges[1], 0.1 * math.sqrt(2), delta=0.01)
+
     def test_a_force_lasts_until_the_next(self):
         force = ("push", "force", "<bodyName>link</bodyName><topicName>push</topicName>")
         self.spawn(force, ("truth", "p3d", P3D))
@@ -302,23 +342,24 @@ class Small(unittest.TestCase):
             truth.first(lambda m: m.twist.twist.linear.z < -1)
         pusher.unregister()
 
-    def told(self, name, text, act):
-        with Collector("/rosout", Log) as log:
-            wait_until(lambda: log.connections() > 1, "the world's log beside our own")
-            act()
-            found = log.first(lambda m: "'" + name + "'" in m.msg and text in m.msg)
+    def log(self):
+        log = Collector("/rosout", Log)
+        wait_until(lambda: log.connections() > 1, "the world's log beside our own")
+        return log
+
+    def told(self, log, name, text):
+        """The warning about the plugin of that name that has that text."""
+        found = log.first(lambda m: f"'{name}'" in m.msg and text in m.msg)
         self.assertEqual(found.level, Log.WARN)
         return found.msg
 
     def test_what_is_lacking_is_told_with_what_to_do(self):
         xml = (ROBOTS / "controllers.urdf").read_text()
-        spawn_it = lambda: call(  # noqa: E731
-            "/gazebo/spawn_urdf_model", SpawnModel, "weight", xml, "", pose(), ""
-        )
-        message = self.told("gazebo_ros_control", "libgazebo_ros_diff_drive.so", spawn_it)
-        self.assertIn("'weight'", message)
-        delete("weight")
-        self.told("camera_controller", "nothing is rendered here", spawn_it)
+        with self.log() as log:
+            call("/gazebo/spawn_urdf_model", SpawnModel, "weight", xml, "", pose(), "")
+            control = self.told(log, "gazebo_ros_control", "libgazebo_ros_diff_drive.so")
+            self.assertIn("'weight'", control)
+            self.told(log, "camera_controller", "nothing is rendered here")
         self.assertTrue(state("weight").success)
 
     def test_a_faulty_parameter_costs_its_plugin_and_is_told(self):
@@ -345,8 +386,9 @@ class Small(unittest.TestCase):
         for number, ((plugin, parameters), text) in enumerate(faults.items()):
             name = f"p{number}"
             with self.subTest(plugin=plugin, parameters=parameters):
-                spawn_it = lambda: self.spawn((name, plugin, parameters))  # noqa: B023, E731
-                message = self.told(name, text, spawn_it)
+                with self.log() as log:
+                    self.spawn((name, plugin, parameters))
+                    message = self.told(log, name, text)
                 self.assertIn("the plugin is left out", message)
                 self.assertTrue(state("weight").success)
                 delete("weight")
@@ -357,7 +399,9 @@ class Small(unittest.TestCase):
             "<height>20000</height></image></camera>%s</sensor>"
         )
         sensor = camera % (PLUGIN % ("eye_plugin", "depth_camera", ""))
-        message = self.told("eye_plugin", "everyNthPixel", lambda: self.spawn(sensors=sensor))
+        with self.log() as log:
+            self.spawn(sensors=sensor)
+            message = self.told(log, "eye_plugin", "everyNthPixel")
         self.assertIn("20000 x 20000", message)
 
 

@@ -28,6 +28,7 @@ HectorImu::Error HectorImu::readError(const kiva::Parameters& p, const std::stri
 
 void HectorImu::load(kiva::World& world, const std::string& model, const kiva::Parameters& p) {
   enter(world, model, p, "", "");
+  if (description().links.empty()) throw kiva::DescriptionError("'" + model + "' has no links");
   const std::string body =
       p.has("bodyName") ? link(p, "bodyName") : description().links.front().name;
   frame_ = InertialFrame(body, kiva::Pose::Zero);
