@@ -22,7 +22,12 @@ void setCovariance(const kiva::Vector3& deviation, boost::array<double, 9>* cova
 
 }  // namespace
 
-HectorImu::Error HectorImu::readError(const kiva::Parameters& p, const std::string& prefix) {
+HectorImu::Error HectorImu::readError(kiva::World& world, const kiva::Parameters& p,
+                                      const std::string& prefix) {
+  if (readAxes(p, prefix + "Drift") != kiva::Vector3::Zero) {
+    world.warn(p.where() + ": <" + prefix + "Drift> is left out: biases do not drift here");
+  }
+  skip(p, {(prefix + "DriftFrequency").c_str()});
   return {readAxes(p, prefix + "Offset"), readAxes(p, prefix + "GaussianNoise")};
 }
 
@@ -33,9 +38,9 @@ void HectorImu::load(kiva::World& world, const std::string& model, const kiva::P
       p.has("bodyName") ? link(p, "bodyName") : description().links.front().name;
   frame_ = InertialFrame(body, kiva::Pose::Zero);
   imu_.header.frame_id = p.text(p.has("frameId") ? "frameId" : "frameName", body);
-  acceleration_ = readError(p, "accel");
-  rate_ = readError(p, "rate");
-  heading_ = readError(p, "heading");
+  acceleration_ = readError(world, p, "accel");
+  rate_ = readError(world, p, "rate");
+  heading_ = readError(world, p, "heading");
   if (const double noise = p.number("gaussianNoise", 0, 0, 1e6); noise > 0) {
     acceleration_.noise = rate_.noise = kiva::Vector3::One * noise;
   }

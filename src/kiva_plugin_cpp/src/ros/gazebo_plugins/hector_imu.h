@@ -25,7 +25,8 @@ class HectorImu : public GazeboPlugin {
   struct Error {
     kiva::Vector3 offset, noise;
   };
-  static Error readError(const kiva::Parameters& parameters, const std::string& prefix);
+  static Error readError(kiva::World& world, const kiva::Parameters& parameters,
+                         const std::string& prefix);
   kiva::Vector3 disturbed(const kiva::World& world, const kiva::Vector3& vector, const Error& error,
                           std::uint64_t index) const;
 
