@@ -74,8 +74,8 @@ void DepthCamera::readImage(const kiva::SensorDescription& from, const kiva::Par
   farthest_ = farthest(p, std::min(far_clip, kMostDepth));
 }
 
-/// Fills `info_` with the pinhole that the rays go through: of what its focal length and its centre
-/// would be in Gazebo, a parameter can't change the image here.
+/// Rays through the middles of pixels, and `info_` for these: <Cx>, <Cy> and <focalLength>, which
+/// change only what Gazebo says of its camera, are not taken, so that image and cloud agree.
 void DepthCamera::setRays() {
   const double x = 0.5 * (width_ - 1), y = 0.5 * (height_ - 1);
   directions_.clear();
