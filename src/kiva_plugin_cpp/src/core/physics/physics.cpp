@@ -466,10 +466,13 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
     }
   }
   if (description.is_static) return out;
+  const btVector3 none(0, 0, 0);
+  out.feedback.assign(description.joints.size(), {none, none, none, none});
   for (const Joint& joint : description.joints) {
     const JointEnds ends{bodyOf(description, out, joint.parent),
                          bodyOf(description, out, joint.child)};
     out.joints.push_back(makeJoint(joint, ends, toBullet(pose)));
+    out.joints.back()->setJointFeedback(&out.feedback[out.joints.size() - 1]);
     mark(*out.joints.back(), model, static_cast<int>(out.joints.size()));
   }
   return out;

@@ -66,6 +66,7 @@ struct ModelBodies {
   std::vector<LinkBody> links;     ///< One a link, in the description's order.
   std::vector<LinkBody> surfaces;  ///< The links' unbounded planes and static meshes.
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  std::vector<btJointFeedback> feedback;  ///< What each joint did in the last step.
 };
 
 /// Two models that touch; the point, the normal and the speed are those of the hardest contact.
