@@ -21,6 +21,7 @@
 #include "core/control/reports.h"
 #include "core/control/tipping.h"
 #include "core/control/walking.h"
+#include "core/models/floors.h"
 #include "core/models/items.h"
 #include "core/models/models.h"
 #include "core/models/ordinary_models.h"
@@ -109,6 +110,7 @@ void forEachUserPlugin(WorldState& world, Call call) {
 
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
+  findFloorParts(world);
   haltCrashed(world);
   wearOut(world);
   useEnergy(world);
