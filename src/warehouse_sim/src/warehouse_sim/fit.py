@@ -24,7 +24,6 @@ from warehouse_fleet.stations import PICK, REPLENISH, STEPS, Station, lane_mask
 from warehouse_fleet.street_graph import without_dead_ends
 from warehouse_sim import hall, rooms
 from warehouse_sim import items as shelves
-from warehouse_sim.cells import Cells
 from warehouse_sim.layout import (
     BELT,
     BLOCK_DEPTH,
@@ -37,10 +36,11 @@ from warehouse_sim.layout import (
     chance,
     places_for,
 )
-from warehouse_sim.request import Request, RequestError, proportioned
+from warehouse_sim.request import RequestError, proportioned
 
 ROW, COLUMN = BLOCK_DEPTH + 1, BLOCK_LENGTH + 1  # from street to street
 SHIFTS = tuple(np.ndindex(COLUMN, ROW))
+WIDE = 3000  # free cells, of which few shifts of the pattern are as good as all
 ENOUGH = 0.5  # of the storage units that would fit without lanes: so many are enough with lanes
 
 
@@ -53,7 +53,7 @@ def fit(request, cells, seed=SEED, at=None):
     """
     ground = _Ground(cells, rooms.choose(cells, at))
     most = 0
-    for sites in (_with_lanes, _with_bays, _with_dead_ends):
+    for sites in (_with_lanes, _with_bays, _with_picking_alone, _with_dead_ends):
         for site in sites(ground, request.belts):
             layout = _laid_out(ground, site, request, seed)
             if layout:
@@ -77,8 +77,10 @@ def fit_largest(cells, seed=SEED, at=None):
 
 def _largest(ground, seed):
     found = None
+    if ground.free.sum() > WIDE:
+        ground.shifts = SHIFTS[::5]
     picks = proportioned(int(ground.free.sum()) // 2).belts
-    for sites in (_with_bays, _with_lanes):
+    for sites in (_with_picking_alone, _with_bays, _with_lanes):
         least = found[0].shelves * ENOUGH if found else 0
         for count in sorted({picks, -(-picks // 2), -(-picks // 4), 1}, reverse=True):
             best = _best(sites(ground, count), ground, seed, least)
@@ -127,6 +129,7 @@ class _Ground:
         self.low = np.array([part.start for part in box])
         self.free = region.mask[box]
         self.middle = np.array(region.middle) - self.low
+        self.shifts = SHIFTS
 
     def world(self, points):
         """Grid points in world [m]."""
@@ -170,7 +173,7 @@ def _stations_for(picks):
 def _with_lanes(ground, picks):
     """Sites whose stations have lanes with queues."""
     wanted = picks + _stations_for(picks)
-    for shift in SHIFTS if picks else ():
+    for shift in ground.shifts if picks else ():
         is_street = _streets_of(ground, shift)
         lanes = _Lanes(is_street & ground.free, ground, shift)
         lanes.place(wanted)
@@ -193,29 +196,38 @@ def _lane(i, j):
 
 
 def _with_bays(ground, picks):
-    """Sites whose stations are bays; of large floors only those in the regular pattern."""
+    """Sites whose stations are bays."""
+    return _sites_with_bays(ground, picks, _stations_for(picks))
+
+
+def _with_picking_alone(ground, picks):
+    """Sites with bays to pick at, and none to replenish."""
+    return _sites_with_bays(ground, picks, 0)
+
+
+def _sites_with_bays(ground, picks, replenishments):
+    """Of small halls those carved to their shape, of others those in the regular pattern."""
     if not picks:
         return
-    patterns = [_streets_of(ground, shift) for shift in SHIFTS]
-    for spare in sorted({_stations_for(picks), 0}, reverse=True):
-        halls = list(hall.carve(ground.free, picks, spare, patterns))
-        if not halls:
-            halls = [hall.regular(ground.free, picks, spare, p, ground.middle) for p in patterns]
-        for one in halls:
-            if one:
-                belts = [(cell, heading) for cell, heading in one.bays if heading is not None]
-                yield _Site(
-                    one.streets,
-                    ground.nearest(np.argwhere(one.places)),
-                    [cell for cell, _ in belts],
-                    [heading for _, heading in belts],
-                    [[cell] for cell, _ in one.bays],
-                )
+    counts, patterns = (picks, replenishments), [_streets_of(ground, s) for s in ground.shifts]
+    if ground.free.sum() <= hall.MOST_CELLS:
+        halls = hall.carve(ground.free, *counts, patterns)
+    else:
+        halls = (hall.regular(ground.free, *counts, p, ground.middle) for p in patterns)
+    for one in filter(None, halls):
+        belts = [(cell, heading) for cell, heading in one.bays if heading is not None]
+        yield _Site(
+            one.streets,
+            ground.nearest(np.argwhere(one.places)),
+            [cell for cell, _ in belts],
+            [heading for _, heading in belts],
+            [[cell] for cell, _ in one.bays],
+        )
 
 
 def _with_dead_ends(ground, belts):
     """Sites without stations: people who command a few robots can do with dead ends."""
-    for shift in SHIFTS:
+    for shift in ground.shifts:
         is_street = _streets_of(ground, shift)
         streets = _largest_part(is_street & ground.free)
         room = ~is_street & ground.free

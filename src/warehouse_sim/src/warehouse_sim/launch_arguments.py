@@ -14,7 +14,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from warehouse_sim import world_file
-from warehouse_sim.request import PRESETS
+from warehouse_sim.request import FIT, PRESETS
 from warehouse_sim.viewer import token
 
 MOST_PORT, MOST_THREADS, MOST_CHECKPOINTS = 65535, 256, 100_000
@@ -168,7 +168,8 @@ def point(text):
 ARGUMENTS = {
     "world": _world,
     "replay": _file("a recording"),
-    "size": _one_of("none", *PRESETS),
+    "size": _one_of("none", *PRESETS, FIT),
+    "at": _point,
     "rviz": _flag,
     "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as it goes)"),
     "seed": _whole(MOST_WHOLE),
