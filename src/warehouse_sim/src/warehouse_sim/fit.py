@@ -52,8 +52,10 @@ def fit(request, cells, seed=SEED, at=None):
     no plan. Raises RequestError if there are too few cells.
     """
     ground = _Ground(cells, rooms.choose(cells, at))
-    most = 0
-    for sites in (_with_lanes, _with_bays, _with_picking_alone, _with_dead_ends):
+    most, tried = 0, (_with_lanes, _with_bays, _with_picking_alone, _with_dead_ends)
+    if request.robots + request.shelves > ground.free.sum():
+        tried = tried[-1:]  # it can't fit, and only the figures of the refusal are wanted
+    for sites in tried:
         for site in sites(ground, request.belts):
             layout = _laid_out(ground, site, request, seed)
             if layout:
