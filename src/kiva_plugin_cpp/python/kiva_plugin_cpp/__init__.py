@@ -223,7 +223,8 @@ class World(_core.World):
         from warehouse_sim import models
 
         world = cls(**options)
-        world.delete(models.FLOOR)
+        if laid.has_own_floor:
+            world.delete(models.FLOOR)
         text = models.document(models.of_layout(laid))
         world.spawn(_ours(text) if own_models else text)
         world.events()

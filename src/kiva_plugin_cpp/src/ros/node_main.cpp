@@ -127,6 +127,11 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
       simulation.restoreHere(w, checkpoint);
     });
     replayer->onInput([&inputs](const rosbag::MessageInstance& m) { inputs.replay(m); });
+    replayer->onEnd([stays = settings.replay_stays] {
+      ROS_INFO("The recording was reproduced; %s",
+               stays ? "what stands there now may be looked at, and Ctrl-C ends it" : "it ends");
+      if (!stays) asked_to_stop = 1;
+    });
     simulation.add(*replayer);
   }
   simulation.add(inputs);

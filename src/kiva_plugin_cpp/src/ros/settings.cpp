@@ -78,9 +78,9 @@ double fleetRate(const ros::NodeHandle& node, double fallback) {
   return out;
 }
 
-bool flag(const ros::NodeHandle& node, const std::string& name) {
+bool flag(const ros::NodeHandle& node, const std::string& name, bool fallback = false) {
   XmlRpc::XmlRpcValue value;
-  if (!node.getParam(name, value)) return false;
+  if (!node.getParam(name, value)) return fallback;
   if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) {
     refuse(node, name, value, "true or false");
   }
@@ -211,6 +211,7 @@ Settings readSettings(const ros::NodeHandle& node) {
       1e6 * number(node, "checkpoint_limit", 1000, 0, "a number of megabytes, 0 or more,"));
   out.record = pathOf(node, "record");
   out.replay = pathOf(node, "replay");
+  out.replay_stays = flag(node, "replay_stays", true);
   const std::string rate = "a rate above 0 in Hz, or 0 (every step)";
   out.rates.clock = number(node, "pub_clock_frequency", out.rates.clock, 0, rate);
   out.rates.model_states = number(node, "model_states_frequency", out.rates.model_states, 0, rate);
