@@ -5,10 +5,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ratesOf } from '../../../src/warehouse_sim/web/js/chart.js';
 import { coloursOf, topOf } from '../../../src/warehouse_sim/web/js/heat.js';
+import { lateness } from '../../../src/warehouse_sim/web/js/order_row.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_sim/web/js/where.js';
-
-globalThis.matchMedia ??= () => ({ matches: false });
-const { lateness } = await import('../../../src/warehouse_sim/web/js/order_list.js');
 
 test('rates are of the time that an interval really had', () => {
   const told = { interval: 60, begin: 90, end: 200 };

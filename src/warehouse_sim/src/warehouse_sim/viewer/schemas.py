@@ -224,7 +224,12 @@ class Robot(BaseModel):
     name: str
     id: int
     status: Literal["IDLE", "BUSY", "BLOCKED"] = Field(
-        description="BLOCKED: its last command ended so, and none was accepted since"
+        description="whether it takes a command; BLOCKED: its last one ended so, and none was "
+        "accepted since"
+    )
+    activity: Literal["IDLE", "BUSY", "BLOCKED", "WAITING"] = Field(
+        description="what the page calls it: its status, or WAITING if it carries a storage unit "
+        "and has no command"
     )
     state: str
     last_end: Literal["", "DONE", "BLOCKED"] = Field(
