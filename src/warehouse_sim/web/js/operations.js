@@ -10,7 +10,7 @@ import { $, make, on } from './dom.js';
 import { OrderList } from './order_list.js';
 import { piecesOf } from './order_row.js';
 import { confirmed } from './question.js';
-import { Stations } from './stations.js';
+import { Stations, waitingOf } from './stations.js';
 import { spaced } from './words.js';
 import { WorkScreen } from './work_screen.js';
 
@@ -60,6 +60,7 @@ class Page {
       stations: ({ stations }) => {
         this.stations.take(stations);
         this.screen.take(stations);
+        this.alarms.set('stations', stations.filter(waitingOf).map((one) => `${one.name} ${waitingOf(one)}`));
       },
       kpis: ({ kpis }) => {
         this.kpis = kpis;
@@ -82,7 +83,9 @@ class Page {
 
   showLink(state) {
     $('link').dataset.state = state;
-    $('link').textContent = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
+    const text = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
+    $('link').textContent = text;
+    this.screen.showLink(state === 'live' ? '' : text);
   }
 
   /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why

@@ -127,6 +127,19 @@ class NewWarehouse(_Body):
     shelves: Int32 = 0
 
 
+class Counts(BaseModel):
+    robots: int
+    shelves: int
+    items: int
+
+
+class Sizes(BaseModel):
+    """What can be asked for: presets by name, and the most of each kind."""
+
+    presets: dict[str, Counts]
+    limits: Counts
+
+
 class NewRobot(_Body):
     x: Number = Field(description="[m], of a grid point")
     y: Number = Field(description="[m], of a grid point")

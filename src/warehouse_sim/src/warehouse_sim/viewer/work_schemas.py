@@ -84,7 +84,9 @@ class Pick(BaseModel):
     item: str
     order_id: int
     reference: str
-    sequence: int = Field(description="another one for each thing to be done, and what is left of it")
+    sequence: int = Field(
+        description="another one for each thing to be done, and what is left of it"
+    )
 
 
 class Station(BaseModel):
