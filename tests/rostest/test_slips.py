@@ -5,11 +5,29 @@
 import rospy
 import rostest
 from node_test import wait_until
-from page_test import ask
+from page_test import address, ask
+from selenium.webdriver.common.keys import Keys
 from work_page import TASK, WorkPageTest, pieces, station, submit
 
 ORDERS = 30
 ROWS = "[...document.querySelectorAll('.order-rows .order')].map((row) => [row.children[0].textContent, row.offsetTop])"
+HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
+SIZES = ((1440, 900), (1024, 768), (390, 844))  # of windows [px]
+PANELS = ("bar", "list-panel", "fleet-panel", "log-panel", "heat-panel", "pace")
+# Pairs of panels that cover each other, and buttons that something else covers.
+COVERED = """(() => {
+  const boxes = %s.map((id) => [id, document.getElementById(id)])
+    .filter(([, box]) => box.checkVisibility()).map(([id, box]) => [id, box.getBoundingClientRect()]);
+  const meet = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  const pairs = boxes.flatMap(([id, a], i) => boxes.slice(i + 1)
+    .filter(([, b]) => meet(a, b)).map(([other]) => `${id} and ${other}`));
+  const hidden = [...document.querySelectorAll('#bar button')].filter((button) => {
+    if (!button.checkVisibility()) return false;
+    const { left, top, width, height } = button.getBoundingClientRect();
+    return !button.contains(document.elementFromPoint(left + width / 2, top + height / 2));
+  }).map((button) => button.id);
+  return [...pairs, ...hidden];
+})()""" % list(PANELS)
 
 
 class SlipsTest(WorkPageTest):
@@ -77,12 +95,10 @@ class SlipsTest(WorkPageTest):
             ask(f"/orders/{order['order_id']}", method="DELETE")
 
     def test_2_a_double_tap_confirms_one_pick(self):
-        """Two pieces of one order from one unit, or two units: the second tap belongs to neither."""
+        """Nor does a tap confirm what was drawn only a moment ago."""
         self.press("pick1", 2)
         self.press("pick1", 1)  # at once: neither undoes the other
-        self.page.until(
-            "document.querySelector('[data-station=pick1] button:nth-of-type(2)').textContent === 'By itself'"
-        )
+        self.page.until(f"{HAND}.textContent === 'By itself'")
         numbers = [submit(f"tap-{i}", "sku-4", 1) for i in range(3)]
         self.page.read("(location.hash = '#pick1')")
         self.wait_for(
@@ -151,9 +167,8 @@ class SlipsTest(WorkPageTest):
     def test_5_a_station_that_waits_for_a_person_says_so(self):
         card = "document.querySelector('[data-station=pick1]').textContent"
         self.wait_for(f"{card}.includes('waits for a person, 1 min')")
-        self.page.until(
-            "document.getElementById('alarms').textContent.includes('pick1 waits for a person, 1 min')"
-        )
+        alarms = "document.getElementById('alarms')"
+        self.page.until(f"{alarms}.textContent.includes('pick1 waits for a person, 1 min')")
         self.press("pick1", 2)
         self.page.until("document.getElementById('alarms').hidden")
         self.page.until(f"!{card}.includes('person')")
@@ -169,14 +184,43 @@ class SlipsTest(WorkPageTest):
         self.page.until(
             "document.getElementById('found').textContent === 'the server does not answer'"
         )
-        self.page.read(
-            "(window.fetch = () => Promise.resolve(new Response('oops', {status: 500, statusText: 'Internal Server Error'})))"
-        )
+        broken = "new Response('oops', {status: 500, statusText: 'Internal Server Error'})"
+        self.page.read(f"(window.fetch = () => Promise.resolve({broken}))")
         self.press("pick2", 2)
         self.page.until("document.getElementById('answer').textContent.includes('500')")
         self.page.read("(location.hash = '#pick2')")
         self.click("#screen .buttons button")
         self.page.until("document.getElementById('told').textContent.includes('500')")
+
+    def test_7_no_panel_of_the_floor_covers_another(self):
+        page = self.page
+        self.addCleanup(page.be_desktop)
+        for width, height in SIZES:
+            page.be_phone(width, height)
+            page.open(address())
+            page.until("page.fleet?.runs && page.stage.frames > 2 && page.bar.live")
+            page.read("page.showPace(400)")  # as where a processor draws
+            for _ in range(2):  # without the heat map, and with it
+                page.until(f"{COVERED}.length === 0 || {COVERED}.join()")
+                self.assertEqual(page.read(COVERED), [], (width, height))
+                page.read("document.getElementById('heat').click()")
+                page.until("!document.getElementById('heat-panel').hidden")
+
+    def test_8_a_search_that_is_given_up_finds_all_again(self):
+        page = self.page
+        page.be_desktop()
+        page.open(address())
+        page.until("page.list?.rows.length === 4")
+        page.type("kiva2", "search")
+        page.until("page.list.rows.length === 1")
+        page.type(Keys.ESCAPE)
+        page.until("document.getElementById('search').value === '' && page.list.rows.length === 4")
+        page.open(f"{address()}operations")
+        page.until("page.orders?.total > 3")
+        page.type("slip-2", "search")
+        page.until("page.orders.total === 1")
+        page.type(Keys.ESCAPE)
+        page.until("document.getElementById('search').value === '' && page.orders.total > 3")
 
 
 if __name__ == "__main__":

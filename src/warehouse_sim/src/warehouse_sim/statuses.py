@@ -4,7 +4,7 @@
 import numpy as np
 
 IDLE, BLOCKED = 0, 2  # as KivaStatus says it
-WAITING = 3  # beside them: it carries a storage unit, and has no command
+HOLDING = 3  # beside them: it carries a storage unit, and has no command
 ENDED_BLOCKED = 3  # as Event does
 
 
@@ -20,10 +20,10 @@ def shown_status(fleet):
 
 
 def activity(fleet):
-    """What each robot in a FleetState does, (n,) uint8: its shown_status(), or WAITING.
+    """What each robot in a FleetState does, (n,) uint8: its shown_status(), or HOLDING.
 
     A robot that carries a storage unit is at work, even while it takes a command as an idle one does.
     """
     out = shown_status(fleet)
-    out[(out == IDLE) & (np.asarray(fleet.shelf_id) != 0)] = WAITING
+    out[(out == IDLE) & (np.asarray(fleet.shelf_id) != 0)] = HOLDING
     return out

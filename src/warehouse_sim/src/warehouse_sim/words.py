@@ -17,7 +17,7 @@ def _constants(kind, prefix=""):
 
 EVENT = _constants(Event)
 STATUS = _constants(KivaStatus, "STATUS_")
-ACTIVITY = STATUS | {statuses.WAITING: "WAITING"}
+ACTIVITY = STATUS | {statuses.HOLDING: "HOLDING"}
 STATE = _constants(KivaStatus, "STATE_")
 TRANSPORT = _constants(TransportEvent)
 MODE = _constants(SetRobotModeRequest)

@@ -6,7 +6,7 @@ import { $, make } from './dom.js';
 
 const WIDTH = 600, HEIGHT = 150, MOST = 60; // [px], intervals
 const PARTIAL = 15; // of an interval that goes on less has no rate yet [s]
-const TICKS = 5; // of an axis, at most
+const TICKS = 5, FEW = 2; // of an axis, at most; of a low one
 
 /** {from, length, rate} of each interval: seconds from the first one on, and pieces an hour. */
 export function ratesOf({ interval, begin, end }, counts) {
@@ -19,24 +19,24 @@ export function ratesOf({ interval, begin, end }, counts) {
 }
 
 /** Round numbers from 0 up to `top`, for an axis. */
-export function ticksOf(top) {
-  const power = 10 ** Math.floor(Math.log10(top / TICKS));
-  const step = [1, 2, 5, 10].map((n) => n * power).find((n) => top / n <= TICKS);
+export function ticksOf(top, most = TICKS) {
+  const power = 10 ** Math.floor(Math.log10(top / most));
+  const step = [1, 2, 5, 10].map((n) => n * power).find((n) => top / n <= most);
   return Array.from({ length: Math.floor(top / step + 1e-9) + 1 }, (_, i) => i * step);
 }
 
 /** `throughput` as the server tells it, and the upper bound of what is picked [1/h]. */
 export function draw(throughput, bound) {
   const span = MOST * throughput.interval;
-  plot('picked', ratesOf(throughput, throughput.items_picked), span, bound);
-  plot('stored', ratesOf(throughput, throughput.pieces_stored), span);
+  plot('picked', ratesOf(throughput, throughput.items_picked), span, TICKS, bound);
+  plot('stored', ratesOf(throughput, throughput.pieces_stored), span, FEW);
 }
 
 /** Bars, their axis, and a line at the bound if there is one. */
-function plot(name, rates, span, bound = 0) {
+function plot(name, rates, span, most, bound = 0) {
   const top = 1.15 * Math.max(bound, 1, ...rates.map(({ rate }) => rate));
   const last = rates.at(-1) ? rates.at(-1).from + rates.at(-1).length : 0;
-  const ticks = ticksOf(top);
+  const ticks = ticksOf(top, most);
   const x = (time) => (WIDTH * (1 - (last - time) / span)).toFixed(1);
   const y = (rate) => (HEIGHT * (1 - rate / top)).toFixed(1);
   const across = (className, rate) => `<line class="${className}" x1="0" x2="${WIDTH}" y1="${y(rate)}" y2="${y(rate)}"/>`;

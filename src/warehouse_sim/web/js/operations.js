@@ -30,7 +30,7 @@ const FIGURES = [
   ['collisions', 'collisions', count],
 ];
 // Of the palette of Okabe and Ito (2008), light to dark within what belongs together.
-const WORK = { fetching: '#56b4e9', ready: '#a6d8f5', lifting: '#0072b2', bringing: '#009e73', waiting: '#f0e442', storing: '#66c2a5',
+const WORK_COLOURS = { fetching: '#56b4e9', ready: '#a6d8f5', lifting: '#0072b2', bringing: '#009e73', waiting: '#f0e442', storing: '#66c2a5',
   dropping: '#005c8f', idle: '#9aa4b1', manual: '#cc79a7', out_of_service: '#d55e00' };
 
 function count(value) {
@@ -132,7 +132,7 @@ class Page {
     $('time').textContent = clock(fleet.time);
     const { manual, out_of_service } = fleet.robots;
     const doing = { ...fleet.work, manual, out_of_service };
-    const shown = Object.entries(WORK).filter(([name]) => doing[name]);
+    const shown = Object.entries(WORK_COLOURS).filter(([name]) => doing[name]);
     $('robots').replaceChildren(...shown.map(([name, colour]) => {
       const bar = make('div', { title: `${doing[name]} ${spaced(name)}` });
       Object.assign(bar.style, { flex: doing[name], background: colour });

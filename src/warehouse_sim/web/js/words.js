@@ -2,9 +2,9 @@
 // The words for what the server tells in numbers and names: the same on every page, and those of the
 // API and of the events (words.py); a test compares them.
 
-/** What a robot does at a glance, by number: `waiting` carries a storage unit and has no command,
+/** What a robot does at a glance, by number: `holding` carries a storage unit and has no command,
  *  `blocked` ended its last command before an obstacle, and has no other one yet. */
-export const ACTIVITY = ['idle', 'busy', 'blocked', 'waiting'];
+export const ACTIVITY = ['idle', 'busy', 'blocked', 'holding'];
 /** More closely, by number. */
 export const STATE = ['stands', 'drives along x', 'drives along y', 'turns', 'lifts', 'blocked', 'waits for its turn'];
 /** What is broken, by bit. */

@@ -240,8 +240,8 @@ class Robot(BaseModel):
         description="whether it takes a command; BLOCKED: its last one ended so, and none was "
         "accepted since"
     )
-    activity: Literal["IDLE", "BUSY", "BLOCKED", "WAITING"] = Field(
-        description="what the page calls it: its status, or WAITING if it carries a storage unit "
+    activity: Literal["IDLE", "BUSY", "BLOCKED", "HOLDING"] = Field(
+        description="what the page calls it: its status, or HOLDING if it carries a storage unit "
         "and has no command"
     )
     state: str
