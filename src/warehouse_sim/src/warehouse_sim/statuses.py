@@ -22,7 +22,7 @@ def shown_status(fleet):
 def activity(fleet):
     """What each robot in a FleetState does, (n,) uint8: its shown_status(), or HOLDING.
 
-    A robot that carries a storage unit is at work, even while it takes a command as an idle one does.
+    A robot that carries a storage unit is at work, even while it would take a command.
     """
     out = shown_status(fleet)
     out[(out == IDLE) & (np.asarray(fleet.shelf_id) != 0)] = HOLDING

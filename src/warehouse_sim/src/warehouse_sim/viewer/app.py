@@ -122,7 +122,8 @@ class Viewer:
             await serve(socket)
         finally:
             self._sockets -= 1
-            with suppress(RuntimeError):
+            # TypeError: websockets' of a page that went before it had come.
+            with suppress(RuntimeError, TypeError):
                 await socket.close()
 
     def _add_files(self, app):

@@ -16,7 +16,8 @@ STYLE = """
 :root { color-scheme: dark light; font: 16px/1.5 system-ui, sans-serif; }
 body { max-width: 26rem; margin: 12vh auto; padding: 0 1rem; }
 label { display: block; font-weight: 600; }
-input { width: 100%; box-sizing: border-box; font: inherit; min-height: 44px; padding: 4px 10px; margin: .3rem 0 .8rem; }
+input { width: 100%; box-sizing: border-box; font: inherit; min-height: 44px; }
+input { padding: 4px 10px; margin: .3rem 0 .8rem; }
 button { font: inherit; min-height: 44px; padding: 4px 24px; }
 [role="alert"] { border-left: 4px solid #d55e00; padding-left: .6rem; }
 """
@@ -31,8 +32,8 @@ if (given) {
 PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Kiva warehouse: token</title>
 <meta name="viewport" content="width=device-width, initial-scale=1"><style>{style}</style></head>
-<body><main><h1>Kiva warehouse</h1><p>This page is for those who have its token. The terminal in which
-the warehouse was started tells it, or in which file it lies.</p>{wrong}
+<body><main><h1>Kiva warehouse</h1><p>This page is for those who have its token. The terminal in
+which the warehouse was started tells it, or in which file it lies.</p>{wrong}
 <form method="post" action="{path}"><label for="token">Token</label>
 <input id="token" name="token" type="password" autocomplete="current-password" required autofocus>
 <input name="to" type="hidden" value="{to}"><button>Come in</button></form></main>

@@ -124,8 +124,8 @@ class Short(Line):
 
 
 class PickReport(schemas._Body):
-    """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the bin
-    is empty; DAMAGED: so many are."""
+    """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
+    bin is empty; DAMAGED: so many are."""
 
     order_id: conint(ge=0, le=2**53, strict=True) = 0
     item: Sku
