@@ -13,13 +13,13 @@ ORDERS = 30
 ROWS = """[...document.querySelectorAll('.order-rows .order')]
   .map((row) => [row.children[0].textContent, row.offsetTop])"""
 MIDDLE = """(({x, y, width, height}) => [x + width / 2, y + height / 2])(
-  %s.querySelector('button').getBoundingClientRect())"""
+  ROW.querySelector('button').getBoundingClientRect())"""
 HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
 SIZES = ((1440, 900), (1024, 768), (390, 844))  # of windows [px]
-PANELS = ("bar", "list-panel", "fleet-panel", "log-panel", "heat-panel", "pace")
+PANELS = ["bar", "list-panel", "fleet-panel", "log-panel", "heat-panel", "pace"]
 # Pairs of panels that cover each other, and buttons that something else covers.
 COVERED = """(() => {
-  const boxes = %s.map((id) => [id, document.getElementById(id)])
+  const boxes = PANELS.map((id) => [id, document.getElementById(id)])
     .filter(([, box]) => box.checkVisibility())
     .map(([id, box]) => [id, box.getBoundingClientRect()]);
   const meet = (a, b) => (
@@ -32,7 +32,7 @@ COVERED = """(() => {
     return !button.contains(document.elementFromPoint(left + width / 2, top + height / 2));
   }).map((button) => button.id);
   return [...pairs, ...hidden];
-})()""" % list(PANELS)
+})()""".replace("PANELS", str(PANELS))
 
 
 class SlipsTest(WorkPageTest):
@@ -52,13 +52,13 @@ class SlipsTest(WorkPageTest):
         self.page.read("document.getElementById('news').click()")
         self.page.until(f"{self.row('slip-4')} && {self.row('slip-0')}")
         before = self.page.read(ROWS)
-        button = self.page.read(MIDDLE % self.row("slip-2"))
+        button = self.page.read(MIDDLE.replace("ROW", self.row("slip-2")))
         for i in range(ORDERS):
             submit(f"late-{i}", "sku-3", 1)
         self.page.until(f"document.getElementById('news').textContent === '{ORDERS} new: show'")
         self.assertEqual(self.page.read(ROWS), before)
         self.page.read("document.getElementById('orders').scrollIntoView({block: 'center'})")
-        button = self.page.read(MIDDLE % self.row("slip-2"))
+        button = self.page.read(MIDDLE.replace("ROW", self.row("slip-2")))
         self.page.click_at(*button)
         self.page.until("document.getElementById('question').open")
         self.assertEqual(self.page.text("question-title"), "Cancel slip-2?")

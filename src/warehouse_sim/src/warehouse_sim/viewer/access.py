@@ -167,9 +167,12 @@ async def _refuse(scope, send, refusal):
 
 async def _ask(scope, send, to=None, wrong=False):
     """The page that asks for the token, and leads to what was asked for."""
-    policy = (b"content-security-policy", token_page.CONTENT)
+    own = {
+        b"content-security-policy": token_page.CONTENT,
+        b"referrer-policy": b"same-origin",  # else a browser posts the form as of no origin
+    }
     headers = [(b"content-type", b"text/html; charset=utf-8"), (b"cache-control", b"no-store")]
-    headers += [policy if name == policy[0] else (name, value) for name, value in HEADERS]
+    headers += (dict(HEADERS) | own).items()
     body = token_page.text(scope["path"] if to is None else to, wrong)
     await send({"type": "http.response.start", "status": 401, "headers": headers})
     await send({"type": "http.response.body", "body": b"" if scope["method"] == "HEAD" else body})
