@@ -3,6 +3,7 @@
 
 import contextlib
 import threading
+import time
 from time import monotonic as clock
 from types import SimpleNamespace
 
@@ -19,6 +20,7 @@ from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
+from warehouse_fleet.operations.tasks import Outcome, Report
 from warehouse_fleet.people import PeopleLog
 from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
@@ -231,6 +233,8 @@ class OperationsNode:
             ("set_station", srv.SetStation, self._set_station),
             ("confirm_pick", srv.ConfirmPick, self._confirm),
             ("report_short", srv.ReportShort, self._short),
+            ("report_pick", srv.ReportPick, self._report),
+            ("undo_write_off", srv.UndoWriteOff, self._undo_write_off),
             ("find_orders", srv.FindOrders, self._find_orders),
             ("find_stock", srv.FindStock, self._find_stock),
         ):
@@ -252,6 +256,8 @@ class OperationsNode:
             self._site, self._coordinator, database=self._database, now=now, **self._chosen
         )
         self._shift.on_order_event = self._tell
+        # What a page was shown by an earlier run has other numbers [ms, wall].
+        self._shift.tasks.number_from(time.time_ns() // 10**6)
         self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
         self._warehouse.begin(heat)
         self._keep_heat(SLICES)  # by the times of this run
@@ -310,7 +316,7 @@ class OperationsNode:
         self._tell_changes(now)
         if now >= self._next_stations:
             self._next_stations = now + STATIONS_PERIOD
-            self._stations.publish(self._stations_message(now))
+            self._tell_stations()
         if now >= self._next_kpis:
             self._next_kpis = now + KPIS_PERIOD
             self._kpis.publish(self._kpis_message(now))
@@ -347,6 +353,21 @@ class OperationsNode:
         arguments = request.station, request.sku, request.quantity, request.damaged
         return srv.ReportShortResponse(*self._do(self._shift.report_short, *arguments))
 
+    def _report(self, request):
+        if request.outcome not in Outcome.__members__.values():
+            text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
+            return srv.ReportPickResponse(False, text, 0)
+        fields = request.station, request.order_id, request.item, request.sequence
+        report = Report(*fields, request.quantity, Outcome(request.outcome))
+        answer = self._do(self._shift.tasks.report, report)
+        self._tell_stations()
+        return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)
+
+    def _undo_write_off(self, request):
+        done = self._do(self._shift.tasks.undo, request.station, request.sequence)
+        self._tell_stations()
+        return srv.UndoWriteOffResponse(*done)
+
     def _find_orders(self, request):
         total, found = queries.find_orders(
             self._database.engine,
@@ -366,7 +387,7 @@ class OperationsNode:
         return srv.FindStockResponse(total, pieces, [_place(one) for one in found])
 
     def _do(self, act, *arguments):
-        """Does it and keeps it; success and message."""
+        """Does it and keeps it; returns what it does."""
         with self._lock:
             answer = act(*arguments)
             self._shift.journal.commit(self._shift)
@@ -415,11 +436,16 @@ class OperationsNode:
         size = plan.spacing, plan.passable.shape[1]
         return msg.HeatMap(_header(now), heat.seconds(now), x, y, *size, *heat.maps())
 
+    def _tell_stations(self):
+        """At once where a person waits for what comes next, even if time stands still."""
+        with self._lock:
+            self._stations.publish(self._stations_message(self._shift.now))
+
     def _stations_message(self, now):
         message = msg.StationStates()
         message.header.stamp = rospy.Time.from_sec(now)
         elapsed = max(now - self._shift.began, 1e-9)
-        message.stations = [_station_state(one, elapsed) for one in self._shift.stations]
+        message.stations = [_station_state(one, now, elapsed) for one in self._shift.stations]
         return message
 
     def _figures(self):
@@ -506,7 +532,7 @@ def _queued(topic, kind):
     return rospy.Publisher(topic, kind, queue_size=10000)
 
 
-def _station_state(station, elapsed):
+def _station_state(station, now, elapsed):
     here = station.here
     return msg.StationState(
         name=station.name,
@@ -520,6 +546,7 @@ def _station_state(station, elapsed):
         picks=_picks(here) if here else [],
         pieces=station.pieces,
         busy_fraction=station.busy_s / elapsed,
+        waiting=station.waiting(now),
     )
 
 
@@ -531,9 +558,10 @@ def _picks(visit):
             pick.bin.item,
             pick.line.order.order_id,
             pick.line.order.reference,
+            pick.sequence,
         )
         for pick in visit.picks
     ] + [
-        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "")
+        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "", bundle.sequence)
         for bundle in visit.puts
     ]

@@ -4,3 +4,5 @@
   const light = matchMedia('(prefers-color-scheme: light)').matches;
   document.documentElement.dataset.theme = localStorage.getItem('theme') || (light ? 'light' : 'dark');
 }
+// An address with the token, by one who is in already: it should not stay there.
+if (location.hash.startsWith('#token=')) history.replaceState(null, '', location.pathname);

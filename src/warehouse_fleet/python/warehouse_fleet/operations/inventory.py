@@ -21,6 +21,7 @@ class Reason(StrEnum):
     DAMAGED = "damaged"
     FELL = "fell"  # they lie on the floor, with their bin,
     PICKED_UP = "picked up"  # or are back
+    UNDONE = "undone"  # they were written off by mistake
 
 
 class StockError(ValueError):

@@ -110,3 +110,4 @@ class Bundle:
     quantity: int
     created: float = 0.0
     bin: object = field(default=None, repr=False)  # the Bin that it goes to, once chosen
+    sequence: int = 0  # of the task for a person, then

@@ -24,6 +24,7 @@ from warehouse_fleet.operations.orders import Backlog, Order, OrderEventKind, Or
 from warehouse_fleet.operations.picking import Picking
 from warehouse_fleet.operations.replenishing import PERIOD, Replenishing
 from warehouse_fleet.operations.stations import Mode, Visit, WorkStation
+from warehouse_fleet.operations.tasks import Tasks
 from warehouse_fleet.transports import ENDS, Kind
 
 UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
@@ -97,6 +98,7 @@ class Shift:
         self.picking = Picking(self, of_kind["PICK"])
         self.replenishing = Replenishing(self, of_kind["REPLENISH"])
         self.fallen = Fallen(self)
+        self.tasks = Tasks(self)
         self.on_order_event = None  # called with (order, kind, sku, quantity, station, unit, text)
         self.hooks = _Hooks(self)
         self.at(now, self._look_after_stock, None)
@@ -258,6 +260,10 @@ class Shift:
         """The WorkStation of that name; KeyError."""
         return self._stations[name]
 
+    def find_station(self, name):
+        """The WorkStation of that name, or None."""
+        return self._stations.get(name)
+
     @property
     def stations(self):
         """All of them."""
@@ -268,8 +274,8 @@ class Shift:
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
-        station.is_open, station.mode = bool(is_open), Mode(mode)
-        part = self._part(station)
+        station.is_open, station.mode, station.attended = bool(is_open), Mode(mode), self.now
+        part = self.part_of(station)
         self.transports.set_open(name, station.is_open)
         if not is_open:
             part.close(station)
@@ -288,7 +294,8 @@ class Shift:
             return False, f"there is no station '{name}'"
         if station.mode != Mode.MANUAL:
             return False, f"{name} works by itself"
-        return self._part(station).confirm(station, sku, quantity)
+        station.attended = self.now
+        return self.part_of(station).confirm(station, sku, quantity)
 
     def report_short(self, name, sku, lacking, damaged=False):
         """Pieces are not there, or damaged; returns success and why not."""
@@ -296,7 +303,8 @@ class Shift:
         if not station:
             return False, f"there is no station '{name}'"
         reason = Reason.DAMAGED if damaged else Reason.SHORT
-        return self._part(station).short(station, sku, lacking, reason)
+        station.attended = self.now
+        return self.part_of(station).short(station, sku, lacking, reason)
 
     def set_unit(self, unit, in_service):
         """Takes a unit out of service, or back; returns success and why not."""
@@ -310,14 +318,15 @@ class Shift:
         self.inventory.blocked.add(unit)
         self.free_units.discard(unit)
         for visit in [v for v in self._visits.values() if v.unit == unit]:
-            self._part(visit.station).drop_visit(visit)
+            self.part_of(visit.station).drop_visit(visit)
             if visit.here:
                 self.release(visit)
             elif visit.released is None:
                 self.cancel_visit(visit)
         return True, ""
 
-    def _part(self, station):
+    def part_of(self, station):
+        """The part of the shift that works there."""
         return self.picking if station.kind == "PICK" else self.replenishing
 
     # Units.
@@ -366,7 +375,7 @@ class Shift:
             visit.arrived = event.stamp
             self.journal.visit(visit)
             if visit.released is None:
-                self._part(visit.station).arrived(visit)
+                self.part_of(visit.station).arrived(visit)
             else:  # cancelled too late
                 self.transports.release(visit.transport_id)
         elif event.kind in ENDS:
@@ -374,7 +383,7 @@ class Shift:
 
     def _visit_over(self, visit, event):
         del self._visits[visit.transport_id]
-        self._part(visit.station).drop_visit(visit)
+        self.part_of(visit.station).drop_visit(visit)
         visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
         visit.released = event.stamp if visit.released is None else visit.released
         del visit.station.inbound[visit.visit_id]

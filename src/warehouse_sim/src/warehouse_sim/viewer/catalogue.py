@@ -5,19 +5,21 @@ import numpy as np
 
 from warehouse_sim import tracking
 from warehouse_sim.models import kind_and_number
-from warehouse_sim.statuses import shown_status
+from warehouse_sim.statuses import activity, shown_status
 from warehouse_sim.viewer import schemas
-from warehouse_sim.words import EVENT, STATE, STATUS, failures_of
+from warehouse_sim.words import ACTIVITY, EVENT, STATE, STATUS, failures_of
 
 
 def robots(fleet):
     """Every Robot of a FleetState."""
-    status, state, last_end = shown_status(fleet), bytes(fleet.state), bytes(fleet.last_end)
+    status, does = shown_status(fleet), activity(fleet)
+    state, last_end = bytes(fleet.state), bytes(fleet.last_end)
     return [
         schemas.Robot(
             name=f"kiva{number}",
             id=number,
             status=STATUS[status[i]],
+            activity=ACTIVITY[does[i]],
             state=STATE[state[i]],
             last_end=EVENT[last_end[i]] if last_end[i] else "",
             x=fleet.x[i],

@@ -13,6 +13,7 @@ from warehouse_sim.viewer import schemas
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 from warehouse_sim.viewer.work_schemas import (
     MODES,
+    OUTCOMES,
     STATES,
     Accepted,
     Confirmation,
@@ -20,6 +21,8 @@ from warehouse_sim.viewer.work_schemas import (
     NewOrder,
     Order,
     Orders,
+    PickReport,
+    Reported,
     SetStation,
     Short,
     Stations,
@@ -154,6 +157,23 @@ def add(out: APIRouter, work, problems):
         they should be put in, stay out."""
         fields = name, found.sku, found.quantity, found.damaged
         return {"message": (await do(work.call, "report_short", srv.ReportShort, *fields)).message}
+
+    at_pick = "/stations/{name}/picks/{sequence}"
+
+    @out.post(at_pick, response_model=Reported, responses=problems(*sent))
+    async def report_pick(done: PickReport, name: str = name, sequence: int = number):
+        """What became of a pick that the station tells of: of that one, or of none. Sent again it
+        changes nothing."""
+        which = done.order_id, done.item, sequence
+        fields = name, *which, done.quantity, OUTCOMES.index(done.outcome)
+        answer = await do(work.call, "report_pick", srv.ReportPick, *fields)
+        return {"message": answer.message, "quantity": answer.quantity}
+
+    @out.delete(at_pick, response_model=schemas.Done, responses=problems(409))
+    async def undo_write_off(name: str = name, sequence: int = number):
+        """Takes back what was written off a moment ago as SHORT or DAMAGED: it lies in its bin."""
+        answer = await do(work.call, "undo_write_off", srv.UndoWriteOff, name, sequence)
+        return {"message": answer.message}
 
     @out.get("/kpis", responses=problems())
     async def get_kpis():
