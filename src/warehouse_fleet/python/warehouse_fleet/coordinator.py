@@ -20,6 +20,7 @@ from warehouse_fleet.fleet_driver import square
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.takeover import ON_ITS_WAY, Takeover
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
 from warehouse_fleet.transports import ENDS, NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
@@ -29,6 +30,7 @@ from warehouse_msgs.msg import (
     CoordinatorState,
     Event,
     FleetFollow,
+    FleetOrders,
     FleetState,
     KivaStatus,
     Lift,
@@ -41,6 +43,7 @@ from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 from warehouse_msgs.srv import (
     CancelTransport,
     CancelTransportResponse,
+    KeepRobotMode,
     ReleaseTransport,
     ReleaseTransportResponse,
     SetRobotMode,
@@ -52,9 +55,8 @@ from warehouse_msgs.srv import (
 )
 
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
-OVERTAKEN = 1.0  # a report that is older by more comes from a world that began anew [s]
+OVERTAKEN = 1.0  # a report that is older by more comes from another world [s]
 WAITS_LONG = 10.0  # [s]
-ON_ITS_WAY = 2.0  # for which a message may still come to a robot [s]
 CONNECTING = 5.0  # wall time that listeners of this node's events get to hear it [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
@@ -70,9 +72,10 @@ STEP_NAMES = {
 
 
 class Coordinator:
-    """Follows /warehouse/fleet and answers with /warehouse/follow and /lift.
+    """Follows /warehouse/fleet and answers with /warehouse/fleet_orders.
 
-    It begins anew whenever other robots or another floor are there. `demand` "random" keeps
+    It begins again whenever other robots or another floor are there, and with each timeline of the
+    world, which a restore or a reset begins. The world keeps the modes of robots. `demand` "random" keeps
     stations busy with transports of its own, one every `exchange` seconds each.
     """
 
@@ -88,14 +91,16 @@ class Coordinator:
         self._ledger = Ledger()
         self._abandoned = []  # transports that were open when this began, until it was told
         self._refused, self._collisions = [], 0
+        self._timeline = 0  # of the world, as reports have it
+        self._takeover = None
+        self._kept = None  # the robots' modes, as the world keeps them
+        self._orders = FleetOrders()  # that are to be sent
         self._leaving = {}  # robots taken out of the fleet: since when each is idle [s], or None
         self._next_state = self._next_paths = 0.0
         self._fleet, self._news = None, threading.Event()
         self._people = People()
         publish = rospy.Publisher
-        self._follow = publish("/warehouse/follow", FleetFollow, queue_size=10)
-        self._lift = publish("/lift", Lift, queue_size=1000)
-        self._cancel = publish("/cancel", Cancel, queue_size=1000)
+        self._ordering = publish("/warehouse/fleet_orders", FleetOrders, queue_size=1000)
         self._events = publish("/warehouse/transports", TransportEventMessage, queue_size=1000)
         self._heard_by = clock.monotonic() + CONNECTING
         self._state = publish("/warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
@@ -104,6 +109,7 @@ class Coordinator:
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
         rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
         rospy.Service("/warehouse/tow", Tow, self._on_tow)
+        self._keep_mode = rospy.ServiceProxy("/gazebo/keep_robot_mode", KeepRobotMode)
         self._place = rospy.ServiceProxy("/gazebo/set_model_state", SetModelState)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
         rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
@@ -182,14 +188,36 @@ class Coordinator:
             if request.mode not in list(Mode):
                 text = f"mode is {request.mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE)"
                 return SetRobotModeResponse(False, text + " was expected")
+            if self._traffic.gone[robot]:
+                return SetRobotModeResponse(False, f"kiva{request.kiva_id} is gone")
+            if why := self._keep_one(robot, request.mode):
+                return SetRobotModeResponse(False, why)
             self._leaving.pop(robot, None)
             if request.mode != Mode.AUTOMATIC:
                 self._leaving[robot] = None
                 if not self._traffic.stands[robot]:
-                    self._cancel.publish(request.kiva_id)
+                    self._cancel(request.kiva_id)
+                    self._order()
             self._traffic.mode[robot] = request.mode
             self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
+
+    def _keep_one(self, robot, mode):
+        """Has the world keep that mode of a robot. Why it does not, or an empty text."""
+        kiva_id = int(self._traffic.kiva_ids[robot])
+        try:
+            answer = self._keep_mode(kiva_id, int(mode), self._timeline)
+        except rospy.ServiceException as error:
+            return str(error)
+        if answer.success:
+            self._kept[robot] = mode
+        return answer.message
+
+    def _keep_modes(self):
+        """Has the world keep those that have changed by themselves."""
+        changed = (self._traffic.mode != self._kept) & ~self._traffic.gone
+        for robot in np.flatnonzero(changed).tolist():
+            self._keep_one(robot, self._traffic.mode[robot])
 
     def _on_tow(self, request):
         with self._lock:
@@ -225,7 +253,7 @@ class Coordinator:
             if report.status[robot] != KivaStatus.STATUS_IDLE:
                 self._leaving[robot] = None
                 if report.state[robot] == KivaStatus.STATE_WAITING:
-                    self._cancel.publish(int(self._traffic.kiva_ids[robot]))
+                    self._cancel(int(self._traffic.kiva_ids[robot]))
             elif idle_since is None:
                 self._leaving[robot] = time
             elif time - idle_since > ON_ITS_WAY:
@@ -233,27 +261,32 @@ class Coordinator:
 
     def _step(self, fleet):
         report = SimpleNamespace(
-            **{name: _array(getattr(fleet, name)) for name in ("kiva_id", *REPORTED)}
+            **{name: _array(getattr(fleet, name)) for name in ("kiva_id", "mode", *REPORTED)}
         )
         time = fleet.stamp.to_sec()
-        if not self._is_known(report, time):
+        if not self._is_known(report, time, fleet.timeline):
             return
         traffic, transports = self._traffic, self._transports
-        report = traffic.aligned(report)
+        report = self._align(report)
         self._take_refusals()
         if self._is_new_state(time):
             self._see_units()
             # Paths that somebody gave out before end where robots can stop.
             for kiva_id in traffic.kiva_ids[traffic.inherited(report)]:
-                self._cancel.publish(int(kiva_id))
+                self._cancel(int(kiva_id))
             self._end_paths(report, time)
         traffic.observe(time, report)
+        if traffic.takes_over:
+            self._takeover.advance(time, report)
+        self._keep_modes()
         traffic.see_people(self._people)
         traffic.see_fallen(len(self._objects.fallen_item))
         if traffic.wants_map:
             self._see_map()
-        transports.advance(report)
-        self._send(traffic.releases())
+        if not traffic.takes_over:
+            transports.advance(report)
+        self._orders.follow = _follow(traffic.releases())
+        self._order()
         events = transports.take_events()
         for event in events:
             self._tell(event)
@@ -296,15 +329,18 @@ class Coordinator:
     def _is_new_state(self, time):
         return not self._next_state - STATE_PERIOD <= time < self._next_state
 
-    def _is_known(self, report, time):
-        """Whether this is the warehouse that the plan is of; looks at it anew if not."""
+    def _is_known(self, report, time, timeline):
+        """Whether this is the warehouse that the plan is of; looks at it again if not."""
         if None in (self._scenery, self._objects, self._units):
             return False
+        if self._units.timeline != timeline:
+            return False  # where units stand now is not told yet
         if not len(report.kiva_id):
             return False  # the warehouse is still to be built
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
         is_same = self._is_known_floor() and self._are_known(report.kiva_id)
+        is_same &= timeline == self._timeline
         if is_same and self._traffic is not None:
             if not self._traffic.is_stale(time):
                 return True
@@ -312,6 +348,7 @@ class Coordinator:
                 return False
         if is_same and self._alarm:
             return False
+        self._timeline = timeline
         self._begin(report, time)
         return self._traffic is not None
 
@@ -343,6 +380,7 @@ class Coordinator:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
         self._leaving.clear()
+        self._refused, self._orders = [], FleetOrders()
         try:
             grid = _map()
             if not grid.data:
@@ -363,6 +401,8 @@ class Coordinator:
             latency=LATENCY,
             lag=0.05,
         )
+        self._traffic.mode[:] = self._kept = report.mode.copy()
+        self._takeover = Takeover(self._traffic, time)
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
         self._abandoned = list(self._ledger)
@@ -385,7 +425,7 @@ class Coordinator:
     def _see_units(self):
         """Takes in where units stand."""
         objects, states = self._objects, self._units
-        if objects.revision != states.revision:
+        if objects.revision != states.revision or states.timeline != self._timeline:
             return
         self._transports.look(
             np.array(unit_ids(objects), int),
@@ -399,19 +439,33 @@ class Coordinator:
         for model in refused:
             self._traffic.refused(model)
 
-    def _send(self, releases):
-        if len(releases[0]):
-            self._follow.publish(FleetFollow(*(column.tolist() for column in releases)))
+    def _align(self, report):
+        """The report as Traffic has robots, with the modes of those that are back."""
+        was_gone = self._traffic.gone
+        report = self._traffic.aligned(report)
+        back = was_gone & ~self._traffic.gone
+        self._kept[back] = self._traffic.mode[back]
+        return report
+
+    def _order(self):
+        """Sends what is to be sent, for this timeline of the world alone."""
+        orders, self._orders = self._orders, FleetOrders()
+        if orders.follow.kiva_id or orders.lifts or orders.cancels:
+            orders.timeline = self._timeline
+            self._ordering.publish(orders)
+
+    def _cancel(self, kiva_id):
+        self._orders.cancels.append(Cancel(kiva_id))
 
     def _send_lift(self, kiva_id, shelf_id, up):
-        self._lift.publish(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+        self._orders.lifts.append(Lift(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id))
 
     def _state_message(self, time):
         traffic, transports = self._traffic, self._transports
-        state = CoordinatorState()
+        state = CoordinatorState(timeline=self._timeline)
         state.header.stamp = rospy.Time.from_sec(time)
         for name, mode in zip(("automatic", "manual", "out_of_service"), Mode):
-            setattr(state, name, int(np.count_nonzero(traffic.mode == mode)))
+            setattr(state, name, int(np.count_nonzero((traffic.mode == mode) & ~traffic.gone)))
         state.manual_kiva = self._ids_in(Mode.MANUAL)
         state.out_of_service_kiva = self._ids_in(Mode.OUT_OF_SERVICE)
         under_way = [t for t in transports if t.step != Step.OPEN]
@@ -459,7 +513,8 @@ class Coordinator:
         return state
 
     def _ids_in(self, mode):
-        return self._traffic.kiva_ids[self._traffic.mode == mode].tolist()
+        traffic = self._traffic
+        return traffic.kiva_ids[(traffic.mode == mode) & ~traffic.gone].tolist()
 
     def _ids_of(self, robots):
         ids = self._traffic.kiva_ids
@@ -510,6 +565,11 @@ def _floor_of(scenery):
 def _array(field):
     """An array of a message; those of bytes come as such."""
     return np.frombuffer(field, np.uint8) if isinstance(field, bytes) else np.asarray(field)
+
+
+def _follow(releases):
+    """A FleetFollow of what Traffic releases."""
+    return FleetFollow(*(column.tolist() for column in releases))
 
 
 def _event_message(event):
