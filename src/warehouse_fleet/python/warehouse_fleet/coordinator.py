@@ -20,10 +20,12 @@ from warehouse_fleet.fleet_driver import square
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.served_part import served_part
 from warehouse_fleet.takeover import ON_ITS_WAY, Takeover
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
 from warehouse_fleet.transports import ENDS, NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
+from warehouse_fleet.waiting import DOES, Waiting
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
@@ -36,6 +38,8 @@ from warehouse_msgs.msg import (
     Lift,
     People,
     Scenery,
+    StationState,
+    StationStates,
     UnitStates,
     WarehouseObjects,
 )
@@ -56,19 +60,9 @@ from warehouse_msgs.srv import (
 
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
 OVERTAKEN = 1.0  # a report that is older by more comes from another world [s]
-WAITS_LONG = 10.0  # [s]
 CONNECTING = 5.0  # wall time that listeners of this node's events get to hear it [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
-STEP_NAMES = {
-    Step.FETCHING: "fetching",
-    Step.READY: "ready",
-    Step.LIFTING: "lifting",
-    Step.BRINGING: "bringing",
-    Step.WAITING: "waiting",
-    Step.STORING: "storing",
-    Step.DROPPING: "dropping",
-}
 
 
 class Coordinator:
@@ -84,7 +78,8 @@ class Coordinator:
         self._planner = planner
         self._lock = threading.RLock()  # of all below, between the worker and services
         self._traffic = self._transports = self._random = None
-        self._alarm = ""
+        self._alarm = self._left_out = ""
+        self._warned = set()  # texts that are in the log already
         self._scenery = self._objects = self._units = None
         self._plan_of = None  # the Scenery that the plan was made of
         self._ids = None
@@ -119,6 +114,8 @@ class Coordinator:
         rospy.Subscriber("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
         rospy.Subscriber("/warehouse/events", Event, self._on_event, queue_size=10000)
         rospy.Subscriber("/warehouse/people", People, self._keep, "_people", queue_size=1)
+        self._by_hand = frozenset()  # stations where a person works
+        rospy.Subscriber("/warehouse/stations", StationStates, self._on_stations, queue_size=1)
         rospy.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
 
     def run(self):
@@ -139,6 +136,10 @@ class Coordinator:
         message.header = Header()
         if message != self._scenery:
             self._scenery = message
+
+    def _on_stations(self, message):
+        manual = [one.name for one in message.stations if one.mode == StationState.MANUAL]
+        self._by_hand = frozenset(manual)
 
     def _on_fleet(self, message):
         self._fleet = message
@@ -357,10 +358,11 @@ class Coordinator:
         scenery = self._scenery
         if scenery is self._plan_of:
             return True
-        if self._traffic is None or _floor_of(scenery) != _floor_of(self._plan_of):
+        if self._plan_of is None or _floor_of(scenery) != _floor_of(self._plan_of):
             return False
         self._plan_of = scenery
-        self._see_map()
+        if self._traffic is not None:
+            self._see_map()
         return True
 
     def _are_known(self, kiva_ids):
@@ -385,13 +387,11 @@ class Coordinator:
             grid = _map()
             if not grid.data:
                 return  # the floor is being built
-            plan = FloorPlan.of_messages(grid, self._scenery)
-            plan.check(obstructed=False)
+            whole = FloorPlan.of_messages(grid, self._scenery)
+            plan, left_out = served_part(whole)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
             return
-        for reason in plan.without_lane:
-            rospy.logwarn(reason)
         self._alarm = ""
         self._traffic = Traffic(
             plan,
@@ -407,7 +407,11 @@ class Coordinator:
             self._traffic.shut(int(cell), time + STAYS)
         self._abandoned = list(self._ledger)
         self._transports = Transports(plan, self._traffic, self._send_lift, last=self._ledger.last)
+        self._transports.left_out = frozenset(left_out.stations)
         self._see_units()
+        self._left_out = self._leave_out(whole, left_out, report)
+        for reason in (*plan.without_lane, self._left_out):
+            self._warn_once(reason)
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)
         rospy.loginfo(
@@ -415,9 +419,22 @@ class Coordinator:
             f" {len(self._transports.cell_of_unit)} storage units"
         )
 
+    def _leave_out(self, plan, left_out, report):
+        """Robots that stand where no loaded one comes back from are out of service. What is left
+        out, in a sentence; or an empty text."""
+        traffic = self._traffic
+        out = np.isin(plan.cell_of(report.x, report.y), left_out.cells)
+        traffic.mode[out & (traffic.mode == Mode.AUTOMATIC)] = Mode.OUT_OF_SERVICE
+        return left_out.text(plan, self._transports.out_of_reach(), traffic.kiva_ids[out].tolist())
+
+    def _warn_once(self, text):
+        if text and text not in self._warned:
+            self._warned.add(text)
+            rospy.logwarn(text)
+
     def _give_up(self, text):
         self._alarm = text
-        rospy.logerr(f"the fleet can't be coordinated: {text}")
+        self._warn_once(f"the fleet can't be coordinated: {text}")
         state = CoordinatorState(alarms=[text])
         state.header.stamp = rospy.Time.now()
         self._state.publish(state)
@@ -469,9 +486,11 @@ class Coordinator:
         state.manual_kiva = self._ids_in(Mode.MANUAL)
         state.out_of_service_kiva = self._ids_in(Mode.OUT_OF_SERVICE)
         under_way = [t for t in transports if t.step != Step.OPEN]
-        for step, name in STEP_NAMES.items():
-            setattr(state, name, sum(t.step == step for t in under_way))
-        state.idle = state.automatic - len(under_way)
+        waiting = Waiting(traffic, transports, self._by_hand)
+        doing = waiting.doing()
+        state.doing_kiva, state.doing = list(doing), list(doing.values())
+        for name in ("idle", *DOES.values()):
+            setattr(state, name, state.doing.count(name))
         state.open = sum(t.step == Step.OPEN for t in transports)
         state.under_way = len(under_way)
         totals = transports.totals
@@ -486,10 +505,9 @@ class Coordinator:
         state.executed_over_planned = totals.executed_over_planned
         state.station = list(transports.stations)
         state.queue = [transports.waiting(name) for name in state.station]
-        # Who is at work in a station waits for nobody.
-        long = np.flatnonzero((time - traffic.still_since > WAITS_LONG) & ~traffic.busy)
+        long, state.waiting_text = map(list, zip(*waiting.long())) if waiting.long() else ([], [])
         state.waiting_kiva = traffic.kiva_ids[long].tolist()
-        state.waiting_for = self._ids_of([traffic.ahead_of(robot) for robot in long.tolist()])
+        state.waiting_for = self._ids_of([traffic.ahead_of(robot) for robot in long])
         state.waiting_since = traffic.still_since[long].tolist()
         state.collisions, state.blocked = self._collisions, traffic.blocked
         state.watchdog = traffic.watchdog
@@ -503,13 +521,13 @@ class Coordinator:
             f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
             for kiva in traffic.kiva_ids[traffic.lost].tolist()
         ]
+        state.alarms += waiting.for_people()
         objects = self._objects
         state.alarms += [
             f"{objects.items[item]} lies on the floor, off {objects.storage_units[unit]}"
             for item, unit in zip(objects.fallen_item, objects.fallen_from)
         ]
-        if traffic.alarm:
-            state.alarms.append(traffic.alarm)
+        state.alarms += [text for text in (traffic.alarm, self._left_out) if text]
         return state
 
     def _ids_in(self, mode):

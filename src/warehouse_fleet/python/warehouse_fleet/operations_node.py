@@ -20,6 +20,7 @@ from warehouse_fleet.operations.database import Database
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.people import PeopleLog
+from warehouse_fleet.served_part import served_part
 from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
@@ -176,7 +177,7 @@ class Warehouse:
     def site(self):
         """The Site of it."""
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
-        plan = FloorPlan.of_messages(floor_map, self.scenery)
+        plan, _ = served_part(FloorPlan.of_messages(floor_map, self.scenery))
         robots = self.fleet
         units = unit_ids(self.objects)
         return Site(

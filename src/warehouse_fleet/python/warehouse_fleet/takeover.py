@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A coordinator that begins knows nothing of what robots were told before. Until all of that is over
-it releases nothing: so nobody drives into cells that another was released once."""
+"""A coordinator that begins knows nothing of what robots were told before. Until all of that is
+over it releases nothing: so no robot drives into cells that another was released once."""
 
 import numpy as np
 

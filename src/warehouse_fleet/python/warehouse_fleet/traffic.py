@@ -62,13 +62,13 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-    work: it stays), `mode`, `gone` (it was deleted; no mode counts), `broken` (it stands, or is not heard) and
-    `lifts_not`, by what it reports of itself, `minds` (it is slow, or waits, for people's sake).
-    `planner` is what a YAML file says of one, see warehouse_fleet.door; None: the one of the house.
-    `latency` [s] passes from a report until what is released for it has reached the robot. A plan
-    While it `takes_over` all robots are obstacles: what others told them is not over yet. A plan
-    is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever it is
-    ready: so a run does not depend on the machine.
+    work: it stays), `mode`, `gone` (it was deleted: its mode counts for nothing), `broken` (it
+    stands, or is not heard) and `lifts_not`, by what it reports of itself, `minds` (it is slow, or
+    waits, for people's sake). `planner` is what a YAML file says of one, see warehouse_fleet.door;
+    None: the one of the house. `latency` [s] passes from a report until what is released for it has
+    reached the robot. While it `takes_over` all robots are obstacles: what others told them is not
+    over yet. A plan is begun every tick on a thread of its own, and taken up `lag` seconds later,
+    whenever it is ready: so a run does not depend on the machine.
     """
 
     def __init__(

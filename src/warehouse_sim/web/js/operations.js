@@ -127,8 +127,8 @@ class Page {
       + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
     $('alarms').replaceChildren(...fleet.alarms.map((text) => make('li', { textContent: text })));
     $('alarms').hidden = fleet.alarms.length === 0;
-    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, waits_for: other, since }) => (
-      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s for ${other ? `kiva${other}` : 'nobody known'}` }))));
+    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, since, text }) => (
+      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s ${text}` }))));
   }
 
   // --- stock
