@@ -138,16 +138,16 @@ TEST_F(Checkpoint, AnyWorldBecomesTheSavedOne) {
 }
 
 TEST_F(Checkpoint, HoldsTheModesOfRobots) {
-  const int id = world_.fleet().robots[0].id;
-  world_.keepMode(id, 1);
-  const std::string saved = world_.checkpoint();
-  world_.keepMode(id, 0);
-  world_.restore(saved);
-  EXPECT_EQ(world_.fleet().mode[0], 1);
-  world_.reset(true);
-  EXPECT_EQ(world_.fleet().mode[0], 1);
-  EXPECT_THROW(world_.keepMode(id, 3), std::invalid_argument);
-  EXPECT_THROW(world_.keepMode(99999, 1), std::invalid_argument);
+  const int id = w.world.fleet().robots[0].id;
+  w.world.keepMode(id, 1);
+  const std::string saved = w.world.checkpoint();
+  w.world.keepMode(id, 0);
+  w.world.restore(saved);
+  EXPECT_EQ(w.world.fleet().mode[0], 1);
+  w.world.reset(true);
+  EXPECT_EQ(w.world.fleet().mode[0], 1);
+  EXPECT_THROW(w.world.keepMode(id, 3), std::invalid_argument);
+  EXPECT_THROW(w.world.keepMode(99999, 1), std::invalid_argument);
 }
 
 TEST_F(Checkpoint, AHundredAtRandomMoments) {

@@ -69,8 +69,8 @@ class Coordinator:
     """Follows /warehouse/fleet and answers with /warehouse/fleet_orders.
 
     It begins again whenever other robots or another floor are there, and with each timeline of the
-    world, which a restore or a reset begins. The world keeps the modes of robots. `demand` "random" keeps
-    stations busy with transports of its own, one every `exchange` seconds each.
+    world, which a restore or a reset begins. The world keeps the modes of robots. `demand`
+    "random" keeps stations busy with transports of its own, one every `exchange` seconds each.
     """
 
     def __init__(self, demand="none", exchange=20.0, seed=1, planner=None):

@@ -24,9 +24,8 @@ class LeftOut:
             return ""
         x, y = plan.point_of(self.cells[:NAMED])
         places = ", ".join(f"({a:g}, {b:g})" for a, b in zip(x, y))
-        parts = [
-            f"loaded robots can't come to {len(self.cells)} cells and back: {_some(places, self.cells)}"
-        ]
+        cells = f"{len(self.cells)} cells and back: {_some(places, self.cells)}"
+        parts = [f"loaded robots can't come to {cells}"]
         for what, names in (
             ("stations", self.stations),
             ("storage units", units),
