@@ -208,6 +208,11 @@ class World {
   /// radio; nothing of one that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
 
+  // --- who commands robots
+  /// Keeps that with the robot, as Fleet::mode. Throws std::invalid_argument if there is no such
+  /// robot or no such mode.
+  void keepMode(int kiva_id, int mode);
+
   // --- people
   /// Has somebody go that way from now on: an actor, or a static model that is no larger than a
   /// person, which is one from then on: robots keep away from people. Without waypoints they stay

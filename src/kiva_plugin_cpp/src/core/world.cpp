@@ -223,8 +223,10 @@ void World::reset(bool time_too) {
   WorldState& world = *state_;
   forgetContacts(world, -1);
   world.crashes.clear();
+  forgetMessages(world);
   putAllBack(world);
   for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
+  for (int i = 0; i < world.fleet.size(); ++i) knowWhereabouts(world, i);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
   beginFailures(world);
@@ -262,6 +264,16 @@ void World::fail(int kiva_id, Failure failure, double repair_after) {
 void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
 std::optional<RobotReport> World::lastHeard(int robot) const {
   return kiva::lastHeard(*state_, robot);
+}
+
+void World::keepMode(int kiva_id, int mode) {
+  const int robot = state_->fleet.find(kiva_id);
+  if (robot < 0) throw std::invalid_argument("there is no kiva" + std::to_string(kiva_id));
+  if (mode < 0 || mode > kMostMode) {
+    throw std::invalid_argument("mode is " + std::to_string(mode) + "; 0 to " +
+                                std::to_string(kMostMode) + " was expected");
+  }
+  state_->fleet.mode[robot] = static_cast<std::uint8_t>(mode);
 }
 
 void World::walk(const std::string& person, const Walk& walk) { kiva::walk(*state_, person, walk); }

@@ -27,6 +27,7 @@
 #include "ros/services/light_services.h"
 #include "ros/services/link_services.h"
 #include "ros/services/map_service.h"
+#include "ros/services/mode_service.h"
 #include "ros/services/people_services.h"
 #include "ros/services/performance_topic.h"
 #include "ros/services/physics_services.h"
@@ -115,6 +116,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths);
   MapService map_service(root, simulation);
   FailureService failure_service(root, simulation);
+  ModeService mode_service(node, simulation);
   PeopleServices people_services(root, simulation, settings.model_paths);
   PickUpService pick_up_service(root, simulation);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.

@@ -22,6 +22,7 @@ from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.operations.tasks import Outcome, Report
 from warehouse_fleet.people import PeopleLog
+from warehouse_fleet.served_part import served_part
 from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
@@ -167,7 +168,9 @@ class Warehouse:
     @property
     def is_known(self):
         told = self.fleet, self.objects, self.units, self.scenery
-        return None not in told and self.objects.revision == self.units.revision
+        if None in told or self.objects.revision != self.units.revision:
+            return False
+        return self.fleet.timeline == self.units.timeline
 
     def is_known_at(self, now):
         """Not from a time that is still to come, before that was gone back [s]."""
@@ -176,7 +179,7 @@ class Warehouse:
     def site(self):
         """The Site of it."""
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
-        plan = FloorPlan.of_messages(floor_map, self.scenery)
+        plan, _ = served_part(FloorPlan.of_messages(floor_map, self.scenery))
         robots = self.fleet
         units = unit_ids(self.objects)
         return Site(
@@ -245,6 +248,7 @@ class OperationsNode:
     def _begin(self):
         """A shift that goes on with what the database has."""
         engine, now = self._database.engine, rospy.get_time()
+        self._timeline = self._warehouse.fleet.timeline
         self._site = self._warehouse.site()
         self._coordinator.begin()
         self._coordinator.release_left(*stored.transports_left(engine))
@@ -273,7 +277,7 @@ class OperationsNode:
         while not rospy.is_shutdown():
             with self._lock:
                 now = rospy.get_time()
-                if now < self._shift.now:
+                if now < self._shift.now or self._warehouse.fleet.timeline != self._timeline:
                     self._begin_anew(now)
                 else:
                     self._step(now)
@@ -286,7 +290,7 @@ class OperationsNode:
     def _begin_anew(self, now):
         """The world was reset, restored or undone: stock and orders are as they are, transports are
         not."""
-        rospy.logwarn(f"simulated time went back from {self._shift.now:g} s to {now:g} s")
+        rospy.logwarn(f"the world jumped from {self._shift.now:g} s to {now:g} s")
         self._shift.journal.end(self._shift, self._figures())
         self._shift.journal.flush()
         self._wait_for_warehouse()
@@ -306,7 +310,9 @@ class OperationsNode:
 
     def _is_coordinated(self):
         state = self._coordinator.state
-        return state is not None and len(state.station)
+        if state is None or not len(state.station):
+            return False
+        return state.timeline == self._warehouse.fleet.timeline
 
     def _step(self, now):
         if now >= self._next_stations:

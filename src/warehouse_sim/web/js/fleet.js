@@ -45,9 +45,9 @@ export class FleetPanel {
     $('waiting-title').hidden = rows.length === 0;
   }
 
-  row({ robot, waits_for: other, since }) {
+  row({ robot, since, text: reason }) {
     const seconds = Math.round(this.fleet.time - since);
-    const text = `kiva${robot} for ${other ? `kiva${other}` : 'nobody known'}, ${seconds} s`;
+    const text = `kiva${robot} ${reason}, ${seconds} s`;
     return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
   }
 

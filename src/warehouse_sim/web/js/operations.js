@@ -146,8 +146,8 @@ class Page {
     const { transports } = fleet;
     $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; plans take `
       + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
-    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, waits_for: other, since }) => (
-      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s for ${other ? `kiva${other}` : 'nobody known'}` }))));
+    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, since, text }) => (
+      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s ${text}` }))));
   }
 
   // --- stock

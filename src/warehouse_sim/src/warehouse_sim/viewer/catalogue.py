@@ -35,7 +35,7 @@ def robots(fleet):
 
 def coordinator(state):
     """A CoordinatorState as schemas.Coordinator."""
-    waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since)
+    waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
     return schemas.Coordinator(
         time=state.header.stamp.to_sec(),
         robots={name: getattr(state, name) for name in schemas.RobotsByMode.__fields__},
@@ -47,7 +47,7 @@ def coordinator(state):
         plan_p99=state.plan_p99,
         executed_over_planned=state.executed_over_planned,
         queues=dict(zip(state.station, state.queue)),
-        waiting=[schemas.Waiting(robot=r, waits_for=f, since=s) for r, f, s in waiting],
+        waiting=[schemas.Waiting(robot=r, waits_for=f, since=s, text=t) for r, f, s, t in waiting],
         collisions=state.collisions,
         blocked=state.blocked,
         watchdog=state.watchdog,

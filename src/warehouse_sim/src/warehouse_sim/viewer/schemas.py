@@ -370,6 +370,7 @@ class Waiting(BaseModel):
     robot: int
     waits_for: int = Field(description="a robot; 0: nobody who is known")
     since: float = Field(description="[s], simulated")
+    text: str = Field(description="for what it waits, for a person")
 
 
 class Coordinator(BaseModel):
