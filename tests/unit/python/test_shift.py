@@ -16,7 +16,7 @@ from postgres import server
 from sqlalchemy import text
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.operations import Operations, check, queries, stored
+from warehouse_fleet.operations import Operations, check, demand, queries, stored
 from warehouse_fleet.operations.database import DatabaseError, open_engine
 from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.opening import SiteError
@@ -224,12 +224,105 @@ def test_an_order_is_picked_told_and_complete():
         ([("sku-none", 1)], "there is no SKU 'sku-none'"),
         ([("sku-1", 0)], "0 pieces of sku-1; 1 or more was expected"),
         ([], "an order has one line or more"),
+        (
+            [("sku-1", 2**31 - 1)],
+            "an order of 2147483647 pieces; all bins of the warehouse together hold 16320",
+        ),
+        (
+            [("sku-1", 1)] * 100_000,
+            "an order of 100000 lines; 1000 or fewer were expected",
+        ),
+        ([("s" * 10**6, 1)], f"there is no SKU '{'s' * 80}…'"),
     ],
 )
 def test_orders_that_can_not_be_are_refused(lines, message):
     ops = shift_on(orders="none")
     assert ops.shift.submit(lines) == (None, message)
     assert not ops.shift.orders
+
+
+@pytest.mark.parametrize(
+    "fields, message",
+    [
+        ({"reference": "x" * 201}, "the reference has 201 characters; 200 or fewer were expected"),
+        ({"reference": "a\0b"}, "the reference 'a\\x00b' has characters that can't be printed"),
+        ({"reference": "\udcff"}, "the reference '\\udcff' has characters"),
+        ({"due": float("nan")}, "due is nan; 0 (at any time) to 1e+10 s was expected"),
+        ({"due": -1.0}, "due is -1; 0"),
+        ({"due": float("inf")}, "due is inf; 0"),
+        ({"priority": 256}, "priority is 256; 0 to 255 was expected"),
+    ],
+)
+def test_orders_that_no_database_could_keep_are_refused(fields, message):
+    ops = shift_on(orders="none")
+    order, why = ops.shift.submit([("sku-1", 1)], **fields)
+    assert order is None and why.replace("\\\\", "\\").startswith(message)
+
+
+def test_orders_for_all_that_there_could_be_cost_little():
+    """Whatever is asked for, it is refilled in portions, and other orders do not suffer."""
+    ops = shift_on(orders="none")
+    skus, capacity = ops.shift.assortment.skus, ops.shift.inventory.capacity
+    ops.run(seconds=1)
+    for sku in skus[1:]:
+        assert ops.shift.submit([(sku, capacity)])[0]
+    began = time.process_time()
+    ops.run(minutes=10)
+    assert time.process_time() - began < 20
+    assert ops.shift.pieces_ordered < 200 * len(skus)
+    for order_id in list(ops.shift.orders):
+        assert ops.shift.cancel_order(order_id)[0]
+    modest, _ = ops.shift.submit([(skus[0], 1)])
+    ops.run(minutes=10)
+    assert modest.state == OrderState.COMPLETED
+
+
+def test_a_flood_of_orders_is_refused_and_keeps_steps_short():
+    ops = shift_on(orders="none")
+    skus = ops.shift.assortment.skus
+    ops.run(seconds=1)
+    lines = [(sku, 1) for sku in skus[:100]]
+    answers = [ops.shift.submit(lines) for _ in range(1100)]
+    assert [order is not None for order, _ in answers] == [True] * 1000 + [False] * 100
+    assert answers[-1][1] == "1000 orders wait already; come back when fewer do"
+    steps = []
+    for second in range(2, 30):
+        began = time.process_time()
+        ops.run(seconds=1)
+        steps.append(time.process_time() - began)
+    assert max(steps) < 3
+
+
+def test_a_database_with_an_order_that_can_not_be_opens_and_says_so(tmp_path):
+    with shift_on(tmp_path / "run.db", orders="none") as ops:
+        ops.shift.submit([("sku-1", 1), ("sku-2", 1)], reference="evil")
+        ops.shift.submit([("sku-3", 1)], reference="good")
+    with open_engine(tmp_path / "run.db").begin() as connection:
+        connection.execute(
+            text("UPDATE order_line SET quantity = 2147483647 WHERE order_id = 1 AND number = 0")
+        )
+    with shift_on(tmp_path / "run.db", orders="none") as ops:
+        assert [order.reference for order in ops.shift.orders.values()] == ["good"]
+        (notice,) = ops.shift.notices
+        assert notice.startswith("order 1 (evil) is cancelled: an order of 2147483648 pieces; all")
+        ops.run(minutes=10)
+        assert not ops.shift.orders
+    engine = open_engine(tmp_path / "run.db")
+    assert check.faults(engine) == []
+    _, ((row, _),) = queries.find_orders(engine, search="evil")
+    assert row.state == OrderState.CANCELLED
+
+
+def test_the_orders_of_a_file_come_in_parts(tmp_path, monkeypatch):
+    monkeypatch.setattr(demand, "MOST_WAITING", 5000)
+    path = tmp_path / "orders.csv"
+    rows = (f"A-{i},sku-{i % 9 + 1},1\n" for i in range(6_000))
+    path.write_text("reference,sku,quantity\n" + "".join(rows))
+    with Operations(site=site(), orders=str(path), database=tmp_path / "run.db") as ops:
+        ops.run(seconds=2)
+        assert 2000 <= len(ops.shift.orders) <= 4000
+        ops.run(minutes=2)
+        assert ops.shift.backlog.lines == 5_000 and not list(ops.shift.notices)
 
 
 def test_more_than_there_is_waits_for_new_stock_and_nothing_else_suffers():

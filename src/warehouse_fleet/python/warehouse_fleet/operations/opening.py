@@ -65,7 +65,9 @@ def open_shift(
         [one for one, _ in stock],
         floor=Whereabouts(site.plan, site.robots, site.units, travel),
         policies=policies,
-        demand=make_demand(orders, assortment, count, demand_rng, now),
+        demand=make_demand(
+            orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
+        ),
         settings=settings or site.settings,
         journal=journal,
         rng=policy_rng,

@@ -15,11 +15,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from warehouse_fleet.operations import acceptance
 from warehouse_fleet.operations.assortment import CAPACITY, Assortment
 from warehouse_fleet.operations.fallen import Fallen
 from warehouse_fleet.operations.inventory import Inventory, Reason
 from warehouse_fleet.operations.journal import Journal
 from warehouse_fleet.operations.kpis import Tally
+from warehouse_fleet.operations.notices import Notices
 from warehouse_fleet.operations.orders import Backlog, Order, OrderEventKind, OrderState
 from warehouse_fleet.operations.picking import Picking
 from warehouse_fleet.operations.replenishing import PERIOD, Replenishing
@@ -97,6 +99,7 @@ class Shift:
         self.picking = Picking(self, of_kind["PICK"])
         self.replenishing = Replenishing(self, of_kind["REPLENISH"])
         self.fallen = Fallen(self)
+        self.notices = Notices()
         self.on_order_event = None  # called with (order, kind, sku, quantity, station, unit, text)
         self.hooks = _Hooks(self)
         self.at(now, self._look_after_stock, None)
@@ -123,10 +126,14 @@ class Shift:
         self.free_units -= stored.blocked
         for order in stored.orders:
             self.orders[order.order_id] = order
+            fault = self._fault_of([(line.sku, line.quantity) for line in order.lines])
             if order.done:
                 order.completed = self.now
                 order.state = OrderState.COMPLETED
                 self.order_over(order, OrderEventKind.COMPLETED)
+            elif fault:
+                self._cancel(order, fault)
+                self.notices.add(f"order {order.order_id} ({order.reference}) is cancelled: {fault}")
             else:
                 self.backlog.add(order)
 
@@ -158,7 +165,11 @@ class Shift:
     def _orders_come(self):
         if self.demand:
             for wanted in self.demand.due(self.now, self.backlog, self._unpromised):
-                self.submit(wanted.lines, wanted.due, wanted.priority, wanted.reference)
+                order, why = self.submit(
+                    wanted.lines, wanted.due, wanted.priority, wanted.reference
+                )
+                if not order:
+                    self.notices.add(f"order {wanted.reference} is refused: {why}")
 
     def _unpromised(self, sku):
         return self.inventory.available(sku) - self.backlog.demand.get(sku, 0)
@@ -182,9 +193,11 @@ class Shift:
 
     def submit(self, lines, due=0.0, priority=0, reference=""):
         """A new order of (sku, pieces); returns it, or None and why not, as (order, message)."""
-        reason = self._refusal(lines)
+        reason = self._fault_of(lines) or acceptance.fault_of_head(reference, due, priority)
         if reason:
             return None, reason
+        if self.backlog.lines + len(lines) > acceptance.MOST_WAITING:
+            return None, f"{len(self.backlog)} orders wait already; come back when fewer do"
         merged = defaultdict(int)
         for sku, pieces in lines:
             merged[sku] += pieces
@@ -202,15 +215,8 @@ class Shift:
         text = f"waits for new stock of {', '.join(lacking)}" if lacking else ""
         return order, text
 
-    def _refusal(self, lines):
-        if not lines:
-            return "an order has one line or more"
-        for sku, pieces in lines:
-            if sku not in self._popularity_rank:
-                return f"there is no SKU '{sku}'"
-            if not 0 < pieces < 2**31:
-                return f"{pieces} pieces of {sku}; 1 or more was expected"
-        return ""
+    def _fault_of(self, lines):
+        return acceptance.fault_of_lines(lines, self._popularity_rank, self.inventory.capacity)
 
     def cancel_order(self, order_id):
         """Returns success and why not."""
@@ -223,11 +229,17 @@ class Shift:
             self.picking.cancel(order)
         else:
             self.backlog.remove(order)
+        return True, self._cancel(order)
+
+    def _cancel(self, order, reason=""):
+        """Of an order that neither the backlog nor a station has; returns what is to be said."""
         order.state = OrderState.CANCELLED
         picked = sum(line.picked for line in order.lines)
-        text = f"{picked} pieces were picked already" if picked else ""
+        text = "; ".join(
+            filter(None, (reason, f"{picked} pieces were picked already" if picked else ""))
+        )
         self.order_over(order, OrderEventKind.CANCELLED, text=text)
-        return True, text
+        return text
 
     def reopen(self, order):
         """An order whose station can't finish it waits again."""

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a person is to know of a shift and nothing else tells: what it could not take, and why."""
+
+MOST = 20
+
+
+class Notices:
+    """The last MOST different sentences, the newest last; on_add(text) hears of each."""
+
+    def __init__(self, on_add=None):
+        self._counts = {}
+        self.on_add = on_add
+
+    def __iter__(self):
+        """Sentences; those that were told more than once say how often."""
+        for text, count in self._counts.items():
+            yield text if count == 1 else f"{text} ({count} times)"
+
+    def add(self, text):
+        self._counts[text] = self._counts.pop(text, 0) + 1
+        if len(self._counts) > MOST:
+            del self._counts[next(iter(self._counts))]
+        if self.on_add:
+            self.on_add(text)
