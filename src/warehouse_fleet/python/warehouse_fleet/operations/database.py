@@ -172,7 +172,7 @@ class Database:
 class DatabaseJournal(Journal):
     """Keeps a shift in a Database."""
 
-    def __init__(self, database, *, seed, orders, policies, site, now=0.0):
+    def __init__(self, database, *, seed, orders, policies, site, layout, now=0.0):
         self._database, self._rows = database, Rows()
         with database.engine.connect() as connection:
             self._next = {
@@ -186,6 +186,8 @@ class DatabaseJournal(Journal):
                 )
             }
             self._heat_slots = set(connection.execute(select(schema.heat.c.slot)).scalars())
+            self._bins = set(connection.execute(select(schema.bin_.c.id)).scalars())
+            self._units = set(connection.execute(select(schema.unit.c.id)).scalars())
         self.run_id = self._id(schema.run)
         self._first_visit = self._next[schema.visit] - 1
         self._assignments = {}
@@ -195,6 +197,7 @@ class DatabaseJournal(Journal):
             began=_now(),
             ended=None,
             site=site,
+            layout=json.dumps(layout),
             seed=seed,
             orders=orders,
             policies=json.dumps(policies),
@@ -208,10 +211,17 @@ class DatabaseJournal(Journal):
         shares = zip(shift.assortment.skus, shift.assortment.popularity)
         for number, (sku, share) in enumerate(shares, 1):
             self._rows.insert(schema.sku, sku, number=number, popularity=float(share))
-        for unit in shift.inventory.of_unit:
-            self._rows.insert(schema.unit, unit, in_service=1)
-        for one in shift.inventory.bins.values():
-            self._rows.insert(
+        self.take_in(shift.inventory.bins.values())
+
+    def take_in(self, bins, moved=()):
+        """Writes down bins that are new, still empty, and those that are on another unit now."""
+        for unit in dict.fromkeys(one.unit for one in (*bins, *moved)):
+            if unit not in self._units:
+                self._units.add(unit)
+                self._rows.insert(schema.unit, unit, in_service=1)
+        for one in bins:
+            put = self._rows.update if one.bin_id in self._bins else self._rows.insert
+            put(
                 schema.bin_,
                 one.bin_id,
                 item=one.item,
@@ -221,6 +231,13 @@ class DatabaseJournal(Journal):
                 reserved=0,
                 capacity=one.capacity,
             )
+        for one in moved:
+            self._rows.update(schema.bin_, one.bin_id, unit=one.unit)
+
+    def gone(self, bins):
+        """Bins that are not in the warehouse any more, and were written off."""
+        for one in bins:
+            self._rows.update(schema.bin_, one.bin_id, capacity=0)
 
     def resume(self, stored):
         """What an earlier run left under way has ended: its visits, assignments and promises. The

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a person is to know of a shift and nothing else tells: what it could not take, and why."""
 
+import logging
+
 MOST = 20
+LOG = logging.getLogger(__name__)
 
 
 class Notices:
@@ -17,6 +20,8 @@ class Notices:
             yield text if count == 1 else f"{text} ({count} times)"
 
     def add(self, text):
+        if text not in self._counts:
+            LOG.warning(text)
         self._counts[text] = self._counts.pop(text, 0) + 1
         if len(self._counts) > MOST:
             del self._counts[next(iter(self._counts))]

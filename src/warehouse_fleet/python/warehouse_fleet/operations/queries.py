@@ -43,7 +43,7 @@ def _late(order, now):
 def find_stock(engine, sku="", limit=100, offset=0):
     """(how many bins, pieces in all of them, rows of bin), the fullest first."""
     bins = schema.bin_
-    query = select(bins)
+    query = select(bins).where(bins.c.capacity > 0)
     if sku:
         query = query.where(bins.c.sku == sku, bins.c.quantity > 0)
     with engine.connect() as connection:

@@ -21,10 +21,11 @@ from sqlalchemy import (
     insert,
     inspect,
     select,
+    text,
     update,
 )
 
-VERSION = 2
+VERSION = 3
 metadata = MetaData()
 
 
@@ -45,6 +46,7 @@ run = Table(
     Column("began", String(40), nullable=False),  # wall clock, ISO 8601, UTC
     Column("ended", String(40)),
     Column("site", Text, nullable=False),
+    Column("layout", Text),  # JSON: the stations with their places
     Column("seed", Integer, nullable=False),
     Column("orders", Text, nullable=False),
     Column("policies", Text, nullable=False),  # JSON
@@ -72,7 +74,7 @@ bin_ = Table(
     Column("sku", ForeignKey("sku.sku"), nullable=False),
     Column("quantity", Integer, nullable=False),
     Column("reserved", Integer, nullable=False),
-    Column("capacity", Integer, nullable=False),
+    Column("capacity", Integer, nullable=False),  # 0: it is not in the warehouse any more
     CheckConstraint("reserved >= 0 AND reserved <= quantity", name="reserved_in_stock"),
 )
 
@@ -174,7 +176,10 @@ heat = Table(
 )
 
 # From each older version to the next: a function of a connection.
-MIGRATIONS = {1: heat.create}
+MIGRATIONS = {
+    1: heat.create,
+    2: lambda connection: connection.execute(text("ALTER TABLE run ADD COLUMN layout TEXT")),
+}
 
 
 def prepare(connection, version=VERSION, migrations=None):

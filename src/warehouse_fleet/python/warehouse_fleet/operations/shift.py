@@ -30,6 +30,9 @@ from warehouse_fleet.transports import ENDS, Kind
 
 UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
 HOLD = 10.0  # for so long a unit is not asked for whose transport failed or was refused [s]
+TOO_MANY = (
+    f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"
+)
 RANKS_KEPT = 300.0  # for so long the ranking of the units by turnover is used [s]
 
 
@@ -119,8 +122,15 @@ class Shift:
             if pieces:
                 self.inventory.move(one, one.sku, pieces, Reason.INITIAL)
 
-    def resume(self, stored):
-        """Goes on with the orders of a Stored warehouse, whose bins this shift was given."""
+    def resume(self, stored, changed):
+        """Goes on with the orders of a Stored warehouse, whose bins this shift was given; what has
+        Changed since is written off and told."""
+        if told := str(changed):
+            self.notices.add(told)
+        for one in changed.gone:
+            self.fallen.forget(one)
+            self.inventory.write_off(one)
+        self.inventory.house(self.assortment.skus)
         self._order_ids = itertools.count(stored.last_order + 1)
         self.inventory.blocked |= stored.blocked
         self.free_units -= stored.blocked
@@ -197,7 +207,7 @@ class Shift:
         if reason:
             return None, reason
         if self.backlog.lines + len(lines) > acceptance.MOST_WAITING:
-            return None, f"{len(self.backlog)} orders wait already; come back when fewer do"
+            return None, TOO_MANY
         merged = defaultdict(int)
         for sku, pieces in lines:
             merged[sku] += pieces
@@ -480,7 +490,7 @@ class Shift:
             order = sorted(turnover, key=lambda u: (-turnover[u], u))
             self._ranks = {u: i / len(order) for i, u in enumerate(order)}
             self._ranked_at = self.now
-        return self._ranks[unit]
+        return self._ranks.get(unit, 1.0)
 
     def sku_to_refill(self):
         """A SKU drawn by how many of its bins have room for a bundle; None if there is none."""

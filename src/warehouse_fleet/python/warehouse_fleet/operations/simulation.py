@@ -9,9 +9,9 @@ from warehouse_fleet.operations import check, report, runs
 from warehouse_fleet.operations.building import world_of
 from warehouse_fleet.operations.database import DatabaseError
 from warehouse_fleet.operations.demand import DemandError
-from warehouse_fleet.operations.opening import SiteError
 from warehouse_fleet.operations.operations import Operations
 from warehouse_fleet.operations.policies import Policies, PolicyError
+from warehouse_fleet.operations.returning import SiteError
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse as a database has it: what a shift goes on with after it ended or was killed."""
 
+import json
 from collections import defaultdict
 from dataclasses import dataclass
 
@@ -20,9 +21,12 @@ class Stored:
 
     assortment: Assortment
     bins: list
+    former: dict  # ids of bins that are gone, by item
+    last_bin: int  # the highest id there was
     orders: list  # those that are not over; their times are those of a run that begins at `now`
     last_order: int  # the highest id there was
     blocked: set  # units out of service
+    layout: list | None  # as returning.layout_of told it to the last run; None: an older version's
 
 
 def read(engine, now=0.0):
@@ -40,8 +44,20 @@ def read(engine, now=0.0):
         last = connection.execute(select(func.max(schema.orders.c.id))).scalar() or 0
         units = connection.execute(select(schema.unit.c.id).where(schema.unit.c.in_service == 0))
         return Stored(
-            assortment, _bins(connection), _orders(connection, now), last, set(units.scalars())
+            assortment,
+            *_bins(connection),
+            _orders(connection, now),
+            last,
+            set(units.scalars()),
+            _layout(connection),
         )
+
+
+def _layout(connection):
+    run = schema.run.c
+    query = select(run.layout).where(run.layout.is_not(None)).order_by(run.id.desc()).limit(1)
+    found = connection.execute(query).scalar()
+    return None if found is None else json.loads(found)
 
 
 def transports_left(engine):
@@ -95,12 +111,17 @@ def heat(engine, now):
 
 
 def _bins(connection):
-    result, fallen = [], _fallen(connection)
+    """(bins, former, last) of a Stored."""
+    result, former, last, fallen = [], {}, 0, _fallen(connection)
     for row in connection.execute(select(schema.bin_).order_by(schema.bin_.c.id)):
+        last = row.id
+        if not row.capacity:
+            former[row.item] = row.id
+            continue
         one = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
         one.quantity, one.fallen = row.quantity, fallen.get(row.id)
         result.append(one)
-    return result
+    return result, former, last
 
 
 def _fallen(connection):
