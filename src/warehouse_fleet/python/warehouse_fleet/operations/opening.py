@@ -36,16 +36,17 @@ def open_shift(
         from warehouse_fleet.operations import stored as keeping
         from warehouse_fleet.operations.database import DatabaseJournal
 
-        stored = keeping.read(database.engine, now)
-        journal = DatabaseJournal(
-            database,
-            seed=seed,
-            orders=str(orders),
-            policies=policies.chosen,
-            site=site.name,
-            layout=layout_of(site),
-            now=now,
-        )
+        with database.reading():
+            stored = keeping.read(database.engine, now)
+            journal = DatabaseJournal(
+                database,
+                seed=seed,
+                orders=str(orders),
+                policies=policies.chosen,
+                site=site.name,
+                layout=layout_of(site),
+                now=now,
+            )
     # A run that goes on has its own chance, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
@@ -73,7 +74,8 @@ def open_shift(
         now=now,
     )
     if stored:
-        journal.resume(stored)
+        with database.reading():
+            journal.resume(stored)
         journal.take_in(changed.new, changed.moved)
         shift.resume(stored, changed)
         journal.gone(changed.gone)

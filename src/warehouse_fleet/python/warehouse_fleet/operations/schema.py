@@ -193,11 +193,27 @@ def prepare(connection, version=VERSION, migrations=None):
         metadata.create_all(connection)
         connection.execute(insert(schema_version).values(version=version))
         return
-    found = connection.execute(select(schema_version.c.version)).scalar_one()
-    if found > version:
+    found = connection.execute(select(schema_version.c.version)).scalars().all()
+    if len(found) != 1 or not isinstance(found[0], int) or found[0] < 1:
+        told = ", ".join(map(str, found)) or "none"
+        raise SchemaError(f"the schema version is {told}; 1 to {version} was expected")
+    if found[0] > version:
         raise SchemaError(
-            f"the database is of schema version {found}; this program knows {version} and older"
+            f"the database is of schema version {found[0]}; this program knows {version} and older"
         )
-    for step in range(found, version):
+    for step in range(found[0], version):
         migrations[step](connection)
         connection.execute(update(schema_version).values(version=step + 1))
+    _check_tables(connection)
+
+
+def _check_tables(connection):
+    """Raises SchemaError where one is not there, or not whole."""
+    there = inspect(connection)
+    names = set(there.get_table_names())
+    for table in metadata.sorted_tables:
+        if table.name not in names:
+            raise SchemaError(f"the table '{table.name}' is missing")
+        columns = {column["name"] for column in there.get_columns(table.name)}
+        if lacking := sorted(set(table.columns.keys()) - columns):
+            raise SchemaError(f"the table '{table.name}' has no column {', '.join(lacking)}")
