@@ -31,10 +31,13 @@ def shown(text):
     return "the database"
 
 
-def open_engine(text):
-    """An engine on a database, its tables ready; raises DatabaseError."""
+def open_engine(text, makes=True):
+    """An engine on a database, its tables ready; raises DatabaseError.
+
+    makes: whether a database without tables gets them.
+    """
     engine = make_engine(text)
-    prepare(engine, text)
+    prepare(engine, text, makes)
     return engine
 
 
@@ -52,7 +55,7 @@ def make_engine(text):
     return engine
 
 
-def prepare(engine, text):
+def prepare(engine, text, makes=True):
     """Looks whether the database is whole, and makes its tables ready; raises DatabaseError."""
     path = path_of(engine)
     try:
@@ -61,7 +64,7 @@ def prepare(engine, text):
         with engine.begin() as connection:
             if path:
                 _check_pages(connection)
-            schema.prepare(connection)
+            schema.prepare(connection, makes=makes)
     except (SQLAlchemyError, schema.SchemaError, OSError) as error:
         raise DatabaseError(f"{shown(text)}: {reason(error)}") from error
 

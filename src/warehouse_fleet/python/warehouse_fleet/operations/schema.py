@@ -182,14 +182,24 @@ MIGRATIONS = {
 }
 
 
-def prepare(connection, version=VERSION, migrations=None):
-    """Makes the tables, or brings those of an older version up to date; raises SchemaError."""
+def prepare(connection, version=VERSION, migrations=None, makes=True):
+    """Makes the tables, or brings those of an older version up to date; raises SchemaError.
+
+    makes: whether a database that has none gets them.
+    """
     migrations = MIGRATIONS if migrations is None else migrations
     tables = set(inspect(connection).get_table_names())
     if schema_version.name not in tables:
-        taken = sorted(tables & set(metadata.tables))
+        # A file is of one program; the database of a server may be shared.
+        is_file = connection.dialect.name == "sqlite"
+        taken = sorted(tables if is_file else tables & set(metadata.tables))
         if taken:
-            raise SchemaError(f"the database has tables of somebody else: {', '.join(taken)}")
+            more = f" and {len(taken) - 5} more" if taken[5:] else ""
+            raise SchemaError(
+                f"the database has tables of another program: {', '.join(taken[:5])}{more}"
+            )
+        if not makes:
+            raise SchemaError("there is no warehouse in it")
         metadata.create_all(connection)
         connection.execute(insert(schema_version).values(version=version))
         return
