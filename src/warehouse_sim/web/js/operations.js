@@ -40,6 +40,7 @@ function percent(value) {
 class Page {
   constructor() {
     this.kpis = this.throughput = null;
+    this.told = { alarms: [], notices: [] };
     this.stations = new Stations((sent) => this.act(sent));
     this.screen = new WorkScreen();
     this.orders = new OrderList((id) => this.act(remove(`/orders/${id}`)), (error) => this.say(error.message));
@@ -49,7 +50,7 @@ class Page {
       event.preventDefault();
       this.where();
     });
-    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator'], {
+    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'notices'], {
       state: (live) => this.showLink(live ? 'live' : 'away'),
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
@@ -67,6 +68,7 @@ class Page {
       },
       orders: (message) => this.orders.take(message),
       coordinator: ({ coordinator }) => this.showFleet(coordinator),
+      notices: ({ notices }) => this.showAlarms({ notices }),
     });
   }
 
@@ -125,10 +127,17 @@ class Page {
     const { transports } = fleet;
     $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; plans take `
       + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
-    $('alarms').replaceChildren(...fleet.alarms.map((text) => make('li', { textContent: text })));
-    $('alarms').hidden = fleet.alarms.length === 0;
+    this.showAlarms({ alarms: fleet.alarms });
     $('waiting').replaceChildren(...fleet.waiting.map(({ robot, waits_for: other, since }) => (
       make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s for ${other ? `kiva${other}` : 'nobody known'}` }))));
+  }
+
+  // The coordinator's alarms and the shift's notices.
+  showAlarms(told) {
+    Object.assign(this.told, told);
+    const texts = [...this.told.alarms, ...this.told.notices];
+    $('alarms').replaceChildren(...texts.map((text) => make('li', { textContent: text })));
+    $('alarms').hidden = texts.length === 0;
   }
 
   // --- stock

@@ -8,11 +8,11 @@ LOG = logging.getLogger(__name__)
 
 
 class Notices:
-    """The last MOST different sentences, the newest last; on_add(text) hears of each."""
+    """The last MOST different sentences, the newest last; on_change() is called after each change."""
 
-    def __init__(self, on_add=None):
+    def __init__(self, on_change=None):
         self._counts = {}
-        self.on_add = on_add
+        self.on_change = on_change
 
     def __iter__(self):
         """Sentences; those that were told more than once say how often."""
@@ -25,5 +25,13 @@ class Notices:
         self._counts[text] = self._counts.pop(text, 0) + 1
         if len(self._counts) > MOST:
             del self._counts[next(iter(self._counts))]
-        if self.on_add:
-            self.on_add(text)
+        self._tell()
+
+    def drop(self, text):
+        """It does not hold any more."""
+        if self._counts.pop(text, None):
+            self._tell()
+
+    def _tell(self):
+        if self.on_change:
+            self.on_change()

@@ -33,6 +33,10 @@ class SchemaError(Exception):
     """A database that can't be used; the text says why."""
 
 
+class EmptyError(SchemaError):
+    """It has no tables yet."""
+
+
 def _id(**options):
     return Column("id", Integer, primary_key=True, autoincrement=False, **options)
 
@@ -199,7 +203,7 @@ def prepare(connection, version=VERSION, migrations=None, makes=True):
                 f"the database has tables of another program: {', '.join(taken[:5])}{more}"
             )
         if not makes:
-            raise SchemaError("there is no warehouse in it")
+            raise EmptyError("there is no warehouse in it")
         metadata.create_all(connection)
         connection.execute(insert(schema_version).values(version=version))
         return

@@ -89,6 +89,7 @@ class Shift:
         self.inventory = Inventory(bins, self._moved)
         self.free_units = set(floor.units)
         self.units_per_station = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
+        self._absent = set()  # units that are not in the warehouse any more
         self._visits = {}
         self._timers, self._order = [], itertools.count()
         self._visit_ids, self._order_ids = itertools.count(1), itertools.count(1)
@@ -330,6 +331,21 @@ class Shift:
             self._unit_free(unit)
             return True, ""
         self.inventory.blocked.add(unit)
+        self._withdraw(unit)
+        return True, ""
+
+    def see_units(self, units):
+        """Which storage units there are: of others, nothing is asked until they are back."""
+        gone = self.inventory.of_unit.keys() - units
+        for unit in sorted(gone - self._absent):
+            self._withdraw(unit)
+            self.notices.add(f"storage unit {unit} is gone: its stock is not asked for")
+        back, self._absent = self._absent - gone, gone
+        for unit in sorted(back):
+            self.notices.drop(f"storage unit {unit} is gone: its stock is not asked for")
+            self._unit_free(unit)
+
+    def _withdraw(self, unit):
         self.free_units.discard(unit)
         for visit in [v for v in self._visits.values() if v.unit == unit]:
             self._part(visit.station).drop_visit(visit)
@@ -337,7 +353,6 @@ class Shift:
                 self.release(visit)
             elif visit.released is None:
                 self.cancel_visit(visit)
-        return True, ""
 
     def _part(self, station):
         return self.picking if station.kind == "PICK" else self.replenishing
@@ -410,7 +425,7 @@ class Shift:
 
     def _unit_free(self, unit):
         away = any(visit.unit == unit for visit in self._visits.values())
-        if unit not in self.inventory.blocked and not away:
+        if unit not in self.inventory.blocked | self._absent and not away:
             self.free_units.add(unit)
             self.picking.unit_free(unit)
             self.replenishing.unit_free()
