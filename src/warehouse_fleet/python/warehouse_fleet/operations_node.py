@@ -219,6 +219,7 @@ class OperationsNode:
     def __init__(self, database, orders="fill", policies=None, seed=1):
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
+        self._warned = set()
         self._notices = _publisher("/warehouse/notices", msg.Notices)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
         self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
@@ -288,6 +289,9 @@ class OperationsNode:
             return shift
 
     def _tell_notices(self):
+        for text in set(self._shift.notices) - self._warned:
+            rospy.logwarn(text)
+        self._warned = set(self._shift.notices)
         self._notices.publish(msg.Notices(_header(self._shift.now), list(self._shift.notices)))
 
     def run(self):

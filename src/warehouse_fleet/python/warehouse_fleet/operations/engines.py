@@ -45,6 +45,10 @@ def make_engine(text):
     """An engine that has not looked at its database yet; raises DatabaseError."""
     try:
         url = make_url(url_of(text))
+    except (SQLAlchemyError, ValueError) as error:
+        kind = str(text).partition("://")[0]
+        raise DatabaseError(f"{kind}://…: is no URL of a database") from error
+    try:
         is_file = url.get_backend_name() == "sqlite"
         options = {} if is_file else {"connect_args": {"application_name": holder()[:63]}}
         engine = create_engine(url, future=True, **options)
