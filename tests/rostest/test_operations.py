@@ -6,12 +6,12 @@ import unittest
 
 import rospy
 import rostest
-from gazebo_msgs.srv import DeleteModel
 from node_test import Listener, call, kill, latched, pid, wait_until
 from page_test import ask
 from sqlalchemy import func, select, update
 from std_srvs.srv import Empty
 
+from gazebo_msgs.srv import DeleteModel
 from warehouse_fleet.operations import check, schema
 from warehouse_fleet.operations.database import open_engine
 from warehouse_msgs.msg import (

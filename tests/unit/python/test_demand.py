@@ -137,7 +137,17 @@ def test_files_that_are_too_large(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text", ["fill:99999999999", "poisson:1e12", "fill:0", "fill:x", "poisson:-1", "poisson:inf", "full", "x.txt"]
+    "text",
+    [
+        "fill:99999999999",
+        "poisson:1e12",
+        "fill:0",
+        "fill:x",
+        "poisson:-1",
+        "poisson:inf",
+        "full",
+        "x.txt",
+    ],
 )
 def test_what_is_no_demand_is_told(assortment, text):
     with pytest.raises(DemandError, match=f"orders are '{text}'"):

@@ -21,7 +21,7 @@ def fault_of_lines(lines, skus, capacity):
     for sku, pieces in lines:
         if sku not in skus:
             return f"there is no SKU '{shown(sku)}'"
-        if not 0 < pieces:
+        if not pieces > 0:
             return f"{pieces} pieces of {sku}; 1 or more was expected"
     return fault_of_pieces(sum(pieces for _, pieces in lines), capacity)
 

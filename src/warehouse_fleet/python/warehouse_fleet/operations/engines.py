@@ -151,6 +151,4 @@ def _server_lock(engine, name):
     ).first()
     connection.close()
     told = f"{by[0] or 'another program'}, since {by[1]:%Y-%m-%d %H:%M:%S}" if by else "another one"
-    raise DatabaseError(
-        f"{name}: is in use by {told}; end that first, or choose another database"
-    )
+    raise DatabaseError(f"{name}: is in use by {told}; end that first, or choose another database")

@@ -8,7 +8,7 @@ LOG = logging.getLogger(__name__)
 
 
 class Notices:
-    """The last MOST different sentences, the newest last; on_change() is called after each change."""
+    """The last MOST different sentences, the newest last; on_change() is called after a change."""
 
     def __init__(self, on_change=None):
         self._counts = {}

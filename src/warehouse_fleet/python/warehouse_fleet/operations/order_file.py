@@ -8,8 +8,8 @@ The first line has names of columns, each further one is an order line:
     A-17,sku-9,1,0,1800,0
 
 Rows of one reference are one order. `at` [s of the shift] is when it comes (0), `due` when it is to
-be complete (0: at any time), `priority` 0 to 255; these three may be left out. Fields end at commas,
-semicolons or tabs; the text is UTF-8, with a byte order mark or without.
+be complete (0: at any time), `priority` 0 to 255; these three may be left out. Fields end at
+commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
 """
 
 import codecs

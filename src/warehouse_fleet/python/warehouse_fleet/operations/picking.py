@@ -21,7 +21,10 @@ class Picking:
         self.shift, self.stations = shift, stations
         self._to_assign, self._to_fetch = dict.fromkeys(stations), {}
         self._is_to_look, self._next_look = False, -math.inf
-        self._effort, self._put_off = EFFORT, {}  # what is left of a step; stations that wait for it
+        self._effort, self._put_off = (
+            EFFORT,
+            {},
+        )  # what is left of a step; stations that wait for it
         self._missing = defaultdict(dict)  # lines without a unit, with their station, by SKU
 
     # What makes work.

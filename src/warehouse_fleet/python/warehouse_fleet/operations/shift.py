@@ -30,9 +30,7 @@ from warehouse_fleet.transports import ENDS, Kind
 
 UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
 HOLD = 10.0  # for so long a unit is not asked for whose transport failed or was refused [s]
-TOO_MANY = (
-    f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"
-)
+TOO_MANY = f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"
 RANKS_KEPT = 300.0  # for so long the ranking of the units by turnover is used [s]
 
 
@@ -144,7 +142,9 @@ class Shift:
                 self.order_over(order, OrderEventKind.COMPLETED)
             elif fault:
                 self._cancel(order, fault)
-                self.notices.add(f"order {order.order_id} ({order.reference}) is cancelled: {fault}")
+                self.notices.add(
+                    f"order {order.order_id} ({order.reference}) is cancelled: {fault}"
+                )
             else:
                 self.backlog.add(order)
 

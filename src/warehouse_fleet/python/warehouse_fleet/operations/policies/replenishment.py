@@ -36,8 +36,8 @@ class Threshold:
             yield sku, quantity
 
     def _shortages(self, view):
-        for sku, pieces in sorted(view.shortages().items()):
-            pieces = min(pieces, AHEAD - view.replenishing.ordered_of.get(sku, 0))
+        for sku, lacking in sorted(view.shortages().items()):
+            pieces = min(lacking, AHEAD - view.replenishing.ordered_of.get(sku, 0))
             whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
             wanted = whole if view.inventory.roomy[sku] else pieces
             for begun in range(0, wanted, BUNDLE_MOST):
