@@ -3,8 +3,8 @@
 
 import contextlib
 import threading
-import time
 from time import monotonic as clock
+from time import sleep, time_ns
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,6 +18,7 @@ from warehouse_fleet.floor_heat import SLICES, FloorHeat
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
+from warehouse_fleet.operations.demand import DemandError
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.operations.tasks import Outcome, Report
@@ -27,6 +28,8 @@ from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
+BUILDING = "/warehouse/building"  # is set while half a warehouse stands
+FAREWELL = 1.0  # for so long the last notice is offered to those who listen [s, wall]
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 SHOWN = 60  # intervals of the throughput: an hour
@@ -220,6 +223,8 @@ class OperationsNode:
     def __init__(self, database, orders="fill", policies=None, seed=1):
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
+        self._warned = set()
+        self._notices = _publisher("/warehouse/notices", msg.Notices)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
         self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
         self._heat = _publisher("/warehouse/heat", msg.HeatMap)
@@ -251,17 +256,19 @@ class OperationsNode:
         self._timeline = self._warehouse.fleet.timeline
         self._site = self._warehouse.site()
         self._coordinator.begin()
-        self._coordinator.release_left(*stored.transports_left(engine))
         heat = FloorHeat(self._site.plan, now)
-        heat.restore(stored.heat(engine, now))
         since = max(0.0, (now // kpis.INTERVAL + 1 - SHOWN) * kpis.INTERVAL)
-        self._before = stored.throughput(engine, now, since)
-        self._shift = open_shift(
-            self._site, self._coordinator, database=self._database, now=now, **self._chosen
-        )
+        with self._database.reading():
+            left = stored.transports_left(engine)
+            heat.restore(stored.heat(engine, now))
+            self._before = stored.throughput(engine, now, since)
+        self._coordinator.release_left(*left)
+        self._shift = self._open_shift(now)
         self._shift.on_order_event = self._tell
         # What a page was shown by an earlier run has other numbers [ms, wall].
-        self._shift.tasks.number_from(time.time_ns() // 10**6)
+        self._shift.tasks.number_from(time_ns() // 10**6)
+        self._shift.notices.on_change = self._tell_notices
+        self._tell_notices()
         self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
         self._warehouse.begin(heat)
         self._keep_heat(SLICES)  # by the times of this run
@@ -271,6 +278,30 @@ class OperationsNode:
             f"{len(self._site.units)} storage units, {len(self._site.items)} bins, "
             f"{len(self._shift.orders)} orders to go on with"
         )
+
+    def _open_shift(self, now):
+        """A Shift; without the orders of a file that this warehouse can't take."""
+
+        def begin(orders):
+            chosen = self._chosen | {"orders": orders}
+            return open_shift(
+                self._site, self._coordinator, database=self._database, now=now, **chosen
+            )
+
+        try:
+            return begin(self._chosen["orders"])
+        except DemandError as error:
+            shift = begin("none")
+            first, *more = str(error).splitlines()
+            told = f"{first} (and {len(more)} more)" if more else first
+            shift.notices.add(f"no orders come from the file: {told}")
+            return shift
+
+    def _tell_notices(self):
+        for text in set(self._shift.notices) - self._warned:
+            rospy.logwarn(text)
+        self._warned = set(self._shift.notices)
+        self._notices.publish(msg.Notices(_header(self._shift.now), list(self._shift.notices)))
 
     def run(self):
         """Until ROS shuts down."""
@@ -303,7 +334,11 @@ class OperationsNode:
             self._database.close()
 
     def _wait_for_warehouse(self):
-        while not (self._warehouse.is_known_at(rospy.get_time()) and self._is_coordinated()):
+        while not (
+            self._warehouse.is_known_at(rospy.get_time())
+            and self._is_coordinated()
+            and not rospy.has_param(BUILDING)
+        ):
             if rospy.is_shutdown():
                 raise rospy.ROSInterruptException("shut down before there was a warehouse")
             _pause()
@@ -317,6 +352,8 @@ class OperationsNode:
     def _step(self, now):
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
+            if self._warehouse.is_known:
+                self._shift.see_units(set(unit_ids(self._warehouse.objects)))
         self._shift.fallen.see(self._warehouse.fallen_items)
         self._shift.advance(now)
         self._tell_changes(now)
@@ -487,6 +524,13 @@ class OperationsNode:
         )
         message.header.stamp = rospy.Time.from_sec(now)
         return message
+
+
+def tell_end(error):
+    """Why there is no shift, to those who listen to notices."""
+    notices = _publisher("/warehouse/notices", msg.Notices)
+    notices.publish(msg.Notices(notices=[f"no shift runs: {error}"]))
+    sleep(FAREWELL)
 
 
 def _pause():

@@ -54,7 +54,7 @@ class Page {
       event.preventDefault();
       this.where();
     });
-    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator'], {
+    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'notices'], {
       state: (live) => this.showLink(live ? 'live' : 'away'),
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
@@ -73,6 +73,7 @@ class Page {
       },
       orders: (message) => this.orders.take(message),
       coordinator: ({ coordinator }) => this.showFleet(coordinator),
+      notices: ({ notices }) => this.alarms.set('orders', notices),
     });
   }
 

@@ -11,6 +11,8 @@ from warehouse_fleet.operations.tasks import Answer, Outcome
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
+LATER = 0.1  # after which stations choose on that did not come to it [s]
+EFFORT = 200_000  # lines of orders that are looked at in a step, at most: about 0.1 s of work
 
 
 class Picking:
@@ -20,6 +22,10 @@ class Picking:
         self.shift, self.stations = shift, stations
         self._to_assign, self._to_fetch = dict.fromkeys(stations), {}
         self._is_to_look, self._next_look = False, -math.inf
+        self._effort, self._put_off = (
+            EFFORT,
+            {},
+        )  # what is left of a step; stations that wait for it
         self._missing = defaultdict(dict)  # lines without a unit, with their station, by SKU
 
     # What makes work.
@@ -63,16 +69,30 @@ class Picking:
             stations, self._to_fetch = self._to_fetch, {}
             for station in stations:
                 self._fetch(station)
+        self._effort = EFFORT
 
     # Orders.
 
     def _assign(self, station):
         while station.is_open and station.free_slots > 0 and len(self.shift.backlog):
+            if self._effort <= 0:
+                self._assign_later(station)
+                return
+            self._effort -= self.shift.backlog.lines
             order = self.shift.policies.orders.choose(station, self.shift)
             if order is None:
                 return
             self.shift.backlog.remove(order)
             self._take_on(station, order)
+
+    def _assign_later(self, station):
+        if not self._put_off:
+            self.shift.at(self.shift.now + LATER, self._assign_put_off, None)
+        self._put_off[station] = None
+
+    def _assign_put_off(self, _):
+        self._to_assign.update(self._put_off)
+        self._put_off = {}
 
     def _take_on(self, station, order):
         order.state, order.station, order.assigned = (

@@ -14,6 +14,7 @@ grid:                         # each key is an axis
   orders: [fill, "poisson:300"]
 """
 
+import contextlib
 import itertools
 import re
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
@@ -22,6 +23,7 @@ from pathlib import Path
 
 import yaml
 
+from warehouse_fleet.locks import FileLock, InUseError
 from warehouse_fleet.operations import runs
 from warehouse_fleet.operations.policies import ROLES
 from warehouse_fleet.operations.simulation import ERRORS, Description, simulate, with_settings
@@ -86,9 +88,24 @@ def run_all(sweep, processes=None, executor=None, on_done=None):
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
     called after each.
     """
+    with _alone(sweep.folder):
+        return _run_all(sweep, executor or ProcessPoolExecutor(processes), on_done)
+
+
+@contextlib.contextmanager
+def _alone(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with FileLock(folder):
+            yield
+    except InUseError as error:
+        raise SweepError(str(error)) from error
+
+
+def _run_all(sweep, executor, on_done):
     complete, left = sweep.done()
     failures = []
-    with executor or ProcessPoolExecutor(processes) as pool:
+    with executor as pool:
         pending = {pool.submit(_one, *job): job for job in left}
         while pending:
             finished, _ = wait(pending, return_when=FIRST_COMPLETED)

@@ -19,6 +19,7 @@ from warehouse_sim.viewer.work_schemas import (
     Confirmation,
     Heat,
     NewOrder,
+    Notices,
     Order,
     Orders,
     PickReport,
@@ -185,6 +186,11 @@ def add(out: APIRouter, work, problems):
         """The last hour, a minute a row."""
         return await do(work.latest, "throughput")
 
+    @out.get("/notices", response_model=Notices, responses=problems())
+    async def get_notices():
+        """What the shift could not take, and why; why there is none."""
+        return {"notices": await do(work.latest, "notices")}
+
     @out.get("/heat", response_model=Heat, responses=problems())
     async def get_heat():
         """Traffic and waiting over the floor."""
@@ -216,5 +222,16 @@ def stations(told):
     return [plain(one) | {"mode": MODES[one.mode]} for one in told.stations]
 
 
+def notices(told):
+    """Its sentences."""
+    return list(told.notices)
+
+
 # How what a shift tells is shown.
-SHOWN = {"stations": stations, "kpis": plain, "throughput": plain, "heat": plain}
+SHOWN = {
+    "stations": stations,
+    "kpis": plain,
+    "throughput": plain,
+    "heat": plain,
+    "notices": notices,
+}

@@ -150,6 +150,10 @@ class Throughput(BaseModel):
     orders_completed: list[int]
 
 
+class Notices(BaseModel):
+    notices: list[str]
+
+
 class Heat(BaseModel):
     """Where robots drive and wait, by cell, row after row from the smallest y on."""
 
