@@ -55,9 +55,9 @@ const std::string kNowhere =
 const std::map<std::string, std::string> kErrors = {
     {"empty", ": the XML is ill-formed: empty document"},
     {"no_version", ": expected <sdf version=\"…\"> as the root element, found no version"},
-    {"no_world", ": expected a <world> in <sdf>"},
+    {"no_world", ": expected a <world> in <sdf>, or a URDF <robot>"},
     {"root", ": expected <sdf version=\"…\"> as the root element, found <warehouse>"},
-    {"two_models", ": expected a <world> in <sdf>"},
+    {"two_models", ": expected a <world> in <sdf>, or a URDF <robot>"},
     {"two_worlds", ":3: expected one <world>, found several"},
     {"version", ": SDF version 3.3 is unknown; expected 1.0 to 1.9"},
     {"xml", ":6: the XML is ill-formed: mismatched element (XMLElement name=link)"},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "kiva_plugin_cpp/look.h"
 #include "warehouse.h"
 
 namespace kiva::test {
@@ -159,6 +160,33 @@ TEST(Halls, WithHillsAreClosedThere) {
   hall.expectFree({{8, 0}, {15, 7}, {-8, 0}});
   hall.expectWarnings(
       {"collision 'collision', geometry/heightmap", "visual 'visual'", "actor 'walker'"});
+}
+
+TEST(Halls, MayComeAsUrdfWithTheirFloor) {
+  Hall hall("hall.urdf");
+  EXPECT_EQ(hall.names(), Strings{"hall"});
+  EXPECT_TRUE(hall.description.models.at(0).description->is_static);
+  EXPECT_EQ(hall.map.columns, 29);
+  hall.expectTaken({{-5, 11}, {4, 2}});
+  hall.expectFree({{0, 0}, {-10, -8}});
+  for (int i = 0; i < 100; ++i) hall.world.step();
+  EXPECT_EQ(hall.world.state("hall")->pose, Pose::Zero);
+}
+
+TEST(Halls, OfMeshesLookAsTheyAreFromAbove) {
+  const Hall hall("hospital/worlds/hospital.world");
+  const Look look = lookOf(*hall.world.description("walls_01"));
+  const auto covers = [&](double x, double y) {
+    for (std::size_t i = 0; i < look.shape_kind.size(); ++i) {
+      const double* const at = &look.shape_pose[7 * i];
+      const double* const size = &look.shape_size[3 * i];
+      if (std::abs(x - at[0]) <= size[0] / 2 && std::abs(y - at[1]) <= size[1] / 2) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(covers(0, 9.9) && covers(-11.9, 0) && covers(11.9, 5));
+  EXPECT_FALSE(covers(0, 0) || covers(11.9, 0) || covers(5, 5));
+  EXPECT_LT(look.shape_kind.size(), 40u);
 }
 
 }  // namespace

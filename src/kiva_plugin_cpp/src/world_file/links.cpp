@@ -30,7 +30,9 @@ void addCollision(const sdf::Link& from, const sdf::Collision& part, const Scope
 }
 
 void addVisual(const sdf::Visual& from, const Origin& origin, Link* link, sdf::Errors* warnings) {
-  const auto shape = readShape(from.Element(), origin, MeshUse::kSeen);
+  // Pictures show what touches in place of a mesh; where nothing does, they need the mesh itself.
+  const MeshUse use = link->collisions.empty() ? MeshUse::kTouched : MeshUse::kSeen;
+  const auto shape = readShape(from.Element(), origin, use);
   if (!shape) return;
   Visual visual;
   visual.name = from.Name();

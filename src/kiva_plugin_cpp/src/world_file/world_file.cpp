@@ -20,6 +20,7 @@
 #include "world_file/preparation.h"
 #include "world_file/sensors.h"
 #include "world_file/stand_in.h"
+#include "world_file/urdf.h"
 
 namespace kiva {
 namespace {
@@ -287,10 +288,17 @@ WorldDescription loadWorld(const std::string& path, const ModelPaths& model_path
 
 WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
                             const std::string& where, std::vector<std::string>* warnings) {
-  ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
-    return std::make_shared<const ParsedText>(parseRest(rest, model_paths, where));
-  });
-  if (!parsed.is_world) throw DescriptionError(where + ": expected a <world> in <sdf>");
+  const bool is_urdf = isUrdf(xml);
+  const std::string text = is_urdf ? withInertias(xml) : xml;
+  ParsedText parsed =
+      Reading(model_paths, where, warnings).read(text, [&](const std::string& rest) {
+        return std::make_shared<const ParsedText>(parseRest(rest, model_paths, where));
+      });
+  if (is_urdf) {
+    for (ModelInstance& model : parsed.world.models) letStand(&model);
+  } else if (!parsed.is_world) {
+    throw DescriptionError(where + ": expected a <world> in <sdf>, or a URDF <robot>");
+  }
   return std::move(parsed.world);
 }
 
