@@ -80,6 +80,12 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
            world.name().c_str(), settings.world_file.c_str(), world.fleet().size(),
            world.storageUnits().size(), world.items().size(), world.stepSize(),
            rtf > 0 ? ("real-time factor " + std::to_string(rtf)).c_str() : "as fast as it goes");
+  const kiva::Floor& floor = world.floor();
+  if (floor.min_x < floor.max_x) return;
+  ROS_WARN(
+      "%s has no floor: nothing in it that stands still is level within 10 cm of z = 0, so that "
+      "no cell is free; add a model of a plane or a box there",
+      settings.world_file.c_str());
 }
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {

@@ -191,12 +191,9 @@ Settings readSettings(const ros::NodeHandle& node) {
   out.world_file = findWorld(world, split(text(node, "world_paths", worlds)));
   const std::string models = worlds.empty() ? "" : worlds + "/models";
   const Paths ours = split(text(node, "model_paths", models));
-  Paths theirs = split(environment("GAZEBO_MODEL_PATH"));
-  for (const auto& path : kiva::exportedModelPaths(environment("ROS_PACKAGE_PATH"))) {
-    theirs.push_back(path);
-  }
+  const Paths theirs = kiva::environmentModelPaths();
   out.model_paths = joined(ours, theirs);
-  out.world_model_paths = joined(theirs, ours);
+  out.world_model_paths = joined(joined(theirs, kiva::modelPathsAround(out.world_file)), ours);
   out.rtf = optionalNumber(node, "rtf", 0, "a factor above 0, or 0 (as fast as it goes),");
   const std::string whole = "a whole number, 0 or more,";
   out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));

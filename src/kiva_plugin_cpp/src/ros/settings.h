@@ -19,8 +19,9 @@ namespace kiva_ros {
 ///                            .sdf; empty: an empty floor
 ///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
 ///   ~model_paths             folders of models, a:b; default: the same package's. Those that
-///                            GAZEBO_MODEL_PATH lists, and those that packages export to Gazebo,
-///                            are searched before them for a world, after them for requests
+///                            GAZEBO_MODEL_PATH lists, those that packages export to Gazebo,
+///                            those of GAZEBO_RESOURCE_PATH and those around a world file are
+///                            searched before them for a world, after them for requests
 ///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; not set: what
 ///                            the world file says
 ///   ~seed                    of everything random, default 1

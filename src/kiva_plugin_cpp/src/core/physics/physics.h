@@ -27,10 +27,13 @@ enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4
 /// Third user index of a body that was put somewhere, with a velocity, since the last step.
 constexpr int kPlaced = 1;
 
+/// Bullet's tree of the triangles of a mesh: all that stand in the world with that mesh share it.
+struct TriangleTree;
+
 /// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
 /// friction a body.
 struct BodyPart {
-  std::unique_ptr<btTriangleMesh> triangles;  ///< Of a static mesh: what its shape is made of.
+  std::shared_ptr<const TriangleTree> triangles;  ///< Of a static mesh: what its shape looks up.
   std::unique_ptr<btCollisionShape> shape;
   int model = -1;
   double friction = 1;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <tuple>
 
 #include "core/geometry/footprint.h"
@@ -75,17 +76,63 @@ void widen(LevelSurface* surface, const Outline& outline) {
 }
 
 /// `mesh` with its low triangles, or all the others; null if there are none.
-std::shared_ptr<const Mesh> halfOf(const Mesh& mesh, const Pose& pose, const Floor& floor,
-                                   bool low) {
-  auto half = std::make_shared<Mesh>(mesh);
-  half->triangles.clear();
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle t = cornersOf(mesh, static_cast<int>(i), pose);
+std::shared_ptr<const Mesh> halfOf(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
+                                   const Floor& floor, bool low) {
+  std::vector<std::array<int, 3>> triangles;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+    const Triangle t = cornersOf(*mesh, static_cast<int>(i), pose);
     const double top = std::max({t[0].Z(), t[1].Z(), t[2].Z()});
-    if (isLow(floor, top) == low) half->triangles.push_back(mesh.triangles[i]);
+    if (isLow(floor, top) == low) triangles.push_back(mesh->triangles[i]);
   }
-  return half->triangles.empty() ? nullptr : half;
+  if (triangles.empty()) return nullptr;
+  if (triangles.size() == mesh->triangles.size()) return mesh;
+  return std::make_shared<const Mesh>(
+      Mesh{mesh->vertices, std::move(triangles), mesh->min, mesh->max});
 }
+
+/// The same, found once for all that stand in one way at one height over the floor with a mesh.
+class Halves {
+ public:
+  std::shared_ptr<const Mesh> of(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
+                                 const Floor& floor, bool low) {
+    const Vector3 up = pose.Rot().RotateVectorReverse(Vector3::UnitZ);
+    const Key key{mesh.get(), low, {up.X(), up.Y(), up.Z(), pose.Z() - floor.z}};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = known_.find(key);
+    if (found != known_.end() && found->second.whole.lock() == mesh) {
+      const auto half = found->second.half.lock();
+      if (half || found->second.is_none) return half;
+    }
+    const auto half = halfOf(mesh, pose, floor, low);
+    forget();
+    known_[key] = {mesh, half, !half};
+    return half;
+  }
+
+ private:
+  struct Key {
+    const Mesh* mesh;
+    bool low;
+    std::array<double, 4> place;  // the world's vertical seen from the mesh, its height
+    bool operator<(const Key& o) const {
+      return std::tie(mesh, low, place) < std::tie(o.mesh, o.low, o.place);
+    }
+  };
+  struct Entry {
+    std::weak_ptr<const Mesh> whole, half;
+    bool is_none = false;
+  };
+
+  /// What has no mesh any more.
+  void forget() {
+    for (auto at = known_.begin(); at != known_.end();) {
+      at = at->second.whole.expired() ? known_.erase(at) : std::next(at);
+    }
+  }
+
+  std::mutex mutex_;
+  std::map<Key, Entry> known_;
+};
 
 /// The part of a collision that is low, or the other one; nothing if there is none.
 std::optional<Collision> partOf(const Collision& whole, const Pose& link, const Floor& floor,
@@ -98,7 +145,8 @@ std::optional<Collision> partOf(const Collision& whole, const Pose& link, const 
     return low ? std::nullopt : std::optional(whole);
   }
   Collision part = whole;
-  part.shape.mesh = halfOf(*whole.shape.mesh, pose, floor, low);
+  static Halves halves;
+  part.shape.mesh = halves.of(whole.shape.mesh, pose, floor, low);
   return part.shape.mesh ? std::optional(part) : std::nullopt;
 }
 
