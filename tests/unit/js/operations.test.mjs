@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ratesOf } from '../../../src/warehouse_sim/web/js/chart.js';
+import { ratesOf, stepOf } from '../../../src/warehouse_sim/web/js/chart.js';
 import { coloursOf, topOf } from '../../../src/warehouse_sim/web/js/heat.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_sim/web/js/where.js';
 
@@ -17,6 +17,11 @@ test('rates are of the time that an interval really had', () => {
     { from: 0, length: 30, rate: 120 }, { from: 30, length: 60, rate: 180 }, { from: 90, length: 20, rate: 360 }]);
   // One that has hardly begun says nothing yet.
   assert.equal(ratesOf({ ...told, end: 185 }, [1, 3, 2]).length, 2);
+});
+
+test('an axis has one to four marks above zero, at round numbers', () => {
+  for (const [top, step] of [[1.2, 0.5], [3, 1], [12, 5], [830, 500], [1700, 500], [24000, 10000]]) assert.equal(stepOf(top), step);
+  for (let top = 1; top < 1e6; top *= 1.3) assert.ok(stepOf(top) < 0.8 * top && [1, 2, 3, 4].includes(Math.floor(top / stepOf(top))), top);
 });
 
 test('an order is late past its due time, until it is complete, and for ever if it was then', () => {

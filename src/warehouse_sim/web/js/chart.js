@@ -4,6 +4,7 @@
 import { $ } from './dom.js';
 
 const WIDTH = 600, HEIGHT = 150, MOST = 60; // [px], intervals
+const ROOM = 0.8; // of the height: labels above have none
 const PARTIAL = 15; // of an interval that goes on less has no rate yet [s]
 
 /** {from, length, rate} of each interval: seconds from the first one on, and pieces an hour. */
@@ -16,21 +17,33 @@ export function ratesOf({ interval, begin, end }, counts) {
   }).filter(({ rate }) => rate !== null);
 }
 
-/** `throughput` as the server tells it, and the upper bound [1/h]. */
+/** The smallest of 1, 2, 5, 10, 20, … of which `top` holds at most four: the step between the marks of an axis. */
+export function stepOf(top) {
+  const power = 10 ** Math.floor(Math.log10(top / 4));
+  return power * [1, 2, 5, 10].find((factor) => factor * power * 4 >= top);
+}
+
+/** `throughput` as the server tells it, and the upper bound of picking [1/h]. What is put in has a chart of its own: the bound says nothing of it. */
 export function draw(throughput, bound) {
-  const picked = ratesOf(throughput, throughput.items_picked);
-  const stored = ratesOf(throughput, throughput.pieces_stored);
-  const top = 1.15 * Math.max(bound, 1, ...picked.map(({ rate }) => rate), ...stored.map(({ rate }) => rate));
-  const span = MOST * throughput.interval;
-  const last = picked.at(-1) ? picked.at(-1).from + picked.at(-1).length : 0;
+  const length = MOST * throughput.interval;
+  bars('chart', ratesOf(throughput, throughput.items_picked), length, bound);
+  bars('chart-stored', ratesOf(throughput, throughput.pieces_stored), length, 0);
+  $('chart-begin').textContent = '1 hour ago';
+}
+
+/** Rates as bars over the last `span` seconds, with an axis, and a line at the bound if there is one. */
+function bars(name, rates, span, bound) {
+  const top = 1.2 * Math.max(bound, 1, ...rates.map(({ rate }) => rate));
+  const last = rates.at(-1) ? rates.at(-1).from + rates.at(-1).length : 0;
   const x = (time) => (WIDTH * (1 - (last - time) / span)).toFixed(1);
   const y = (rate) => (HEIGHT * (1 - rate / top)).toFixed(1);
-  const bars = picked.map(({ from, length, rate }) => (
-    `<rect x="${x(from)}" y="${y(rate)}" width="${(0.85 * WIDTH * length / span).toFixed(1)}" height="${(HEIGHT * rate / top).toFixed(1)}"/>`));
-  const line = stored.map(({ from, length, rate }) => `${x(from + length / 2)},${y(rate)}`);
-  $('chart').innerHTML = `${bars.join('')}<polyline points="${line.join(' ')}"/>
-    <line x1="0" x2="${WIDTH}" y1="${y(bound)}" y2="${y(bound)}"/>`;
-  $('chart-bound').textContent = `upper bound ${Math.round(bound).toLocaleString('en')}`;
-  $('chart-bound').style.top = `${100 * (1 - bound / top)}%`;
-  $('chart-begin').textContent = '1 hour ago';
+  const across = (rate, kind) => `<line class="${kind}" x1="0" x2="${WIDTH}" y1="${y(rate)}" y2="${y(rate)}"/>`;
+  const marks = Array.from({ length: Math.floor(ROOM * top / stepOf(top)) + 1 }, (_, i) => i * stepOf(top));
+  $(name).innerHTML = marks.map((mark) => across(mark, 'mark')).join('') + rates.map(({ from, length, rate }) => (
+    `<rect x="${x(from)}" y="${y(rate)}" width="${(0.85 * WIDTH * length / span).toFixed(1)}" height="${(HEIGHT * rate / top).toFixed(1)}"/>`
+  )).join('') + (bound ? across(bound, 'bound') : '');
+  const label = (rate, kind, text = rate.toLocaleString('en')) => (
+    `<span class="${kind} dim" style="top: ${(100 * (1 - rate / top)).toFixed(1)}%">${text}</span>`);
+  $(`${name}-marks`).innerHTML = marks.map((mark) => label(mark, 'mark')).join('')
+    + (bound ? label(bound, 'bound', `upper bound of picking ${Math.round(bound).toLocaleString('en')}`) : '');
 }
