@@ -42,8 +42,12 @@ function bars(name, rates, span, bound) {
   $(name).innerHTML = marks.map((mark) => across(mark, 'mark')).join('') + rates.map(({ from, length, rate }) => (
     `<rect x="${x(from)}" y="${y(rate)}" width="${(0.85 * WIDTH * length / span).toFixed(1)}" height="${(HEIGHT * rate / top).toFixed(1)}"/>`
   )).join('') + (bound ? across(bound, 'bound') : '');
-  const label = (rate, kind, text = rate.toLocaleString('en')) => (
-    `<span class="${kind} dim" style="top: ${(100 * (1 - rate / top)).toFixed(1)}%">${text}</span>`);
-  $(`${name}-marks`).innerHTML = marks.map((mark) => label(mark, 'mark')).join('')
-    + (bound ? label(bound, 'bound', `upper bound of picking ${Math.round(bound).toLocaleString('en')}`) : '');
+  $(`${name}-marks`).replaceChildren(...marks.map((mark) => label(mark, top, 'mark', mark.toLocaleString('en'))),
+    ...bound ? [label(bound, top, 'bound', `upper bound of picking ${Math.round(bound).toLocaleString('en')}`)] : []);
+}
+
+function label(rate, top, kind, text) {
+  const span = Object.assign(document.createElement('span'), { className: `${kind} dim`, textContent: text });
+  span.style.top = `${100 * (1 - rate / top)}%`;
+  return span;
 }

@@ -58,7 +58,7 @@ COMPARED = (
 )
 INTERVALS = "Means of the runs with 95 % confidence intervals."
 NO_INTERVALS = (
-    "Where there is one run alone nothing tells how much of a difference is chance: simulate it with"
+    "Where there is one run alone nothing tells how much of a difference is chance: simulate with"
     " several seeds."
 )
 QUEUES = (

@@ -15,6 +15,7 @@ from warehouse_fleet.operations.policies import Policies, PolicyError
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
 
+MOST_SEED = 2**63 - 1
 # What a wrong description can raise.
 ERRORS = (
     DatabaseError,
