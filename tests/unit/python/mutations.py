@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Damaged copies of a text file: bytes, tokens and lines; the same generator gives the same ones."""
+"""Damaged copies of a text: bytes, tokens and lines; the same generator gives the same ones."""
 
 import re
 

@@ -137,8 +137,7 @@ def _check(path, key, value):
 def _points(path, grid):
     if not isinstance(grid, dict) or not all(isinstance(v, list) and v for v in grid.values()):
         raise SweepError(f"{path}: grid: a list of values for each key was expected")
-    for key, values in grid.items():
-        key = str(key)
+    for key, values in zip(map(str, grid), grid.values()):
         for value in values:
             _check(path, key, value)
         role = key.removeprefix("policies.")
