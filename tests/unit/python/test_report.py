@@ -218,7 +218,7 @@ def test_a_sweep_on_a_local_ray_cluster_is_the_same(tmp_path, instance):
         ("grid: {policies.orders: random}", "a list of values for each key was expected"),
         ("grid: {policies.orders: [best]}", "there is no 'best'"),
         ("seeds: none", "seeds is 'none'"),
-        ("minutes: long", "could not convert string to float"),
+        ("minutes: long", "minutes is 'long'; a number above 0 was expected"),
         ("[", "sweep.yaml"),
     ],
 )
