@@ -178,8 +178,9 @@ def _realism(given):
     import yaml
 
     try:
-        sections = yaml.safe_load(file.read_text())
-    except yaml.YAMLError as error:
+        sections = yaml.safe_load(file.read_text(encoding="utf-8"))
+    # ValueError: what is no text, or a date that there is not.
+    except (yaml.YAMLError, ValueError, OverflowError, RecursionError) as error:
         raise DescriptionError(f"{file}: {error}") from None
     if sections is not None and not isinstance(sections, dict):
         raise DescriptionError(f"{file}: sections with their numbers were expected")

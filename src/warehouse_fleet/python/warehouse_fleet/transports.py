@@ -297,6 +297,15 @@ class Transports:
     def __iter__(self):
         return iter(self._transports.values())
 
+    def assigned(self):
+        """Those that a robot does."""
+        return self._of_robot.values()
+
+    def in_lane(self, transport):
+        """Whether its robot is in the lane of the station that it goes to."""
+        station = self.stations.get(transport.station)
+        return station is not None and self.traffic.cell[transport.robot] in station.queue
+
     def __contains__(self, transport_id):
         return transport_id in self._transports
 

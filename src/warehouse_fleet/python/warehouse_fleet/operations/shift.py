@@ -399,7 +399,6 @@ class Shift:
         self._digest(
             "transport", event.transport_id, int(event.kind), event.kiva_id, event.shelf_id
         )
-        self.tally.transport(event)
         if event.kind == Kind.CANCELLED:
             visit.outcome = "cancelled"
             if visit.lifted is None:

@@ -16,6 +16,7 @@ from warehouse_fleet.operations.returning import SiteError
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
 
+MOST_SEED = 2**63 - 1
 # What a wrong description can raise.
 ERRORS = (
     DatabaseError,
