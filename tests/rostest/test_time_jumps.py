@@ -126,7 +126,7 @@ class Shift(unittest.TestCase):
         robot = self.any_of(self.gone)
         fleet = self.report()
         far = 0.0
-        while far < 2.5:  # where nobody drives up to
+        while far < 2.5:  # away from all robots
             x = self.random.randint(round(min(fleet.x)), round(max(fleet.x)))
             y = self.random.randint(round(min(fleet.y)), round(max(fleet.y)))
             far = np.hypot(np.subtract(fleet.x, x), np.subtract(fleet.y, y)).min()

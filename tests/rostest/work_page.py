@@ -37,7 +37,7 @@ class WorkPageTest(PageTest):
         self.page.read("(location.hash = '')")  # no station's screen
 
     def click(self, selector):
-        """In one go: what is looked for first may have been drawn anew when it is clicked."""
+        """In one go: an element may have been drawn again between search and click."""
         element = f"document.querySelector({json.dumps(selector)})"
         self.page.until(f"{element}?.checkVisibility() && !{element}.disabled")
         self.page.read(f"{element}.click()")

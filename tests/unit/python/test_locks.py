@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One program at a time works on a database or a folder; whoever dies holds nothing."""
+"""One program at a time works on a database or a folder; a program that dies holds nothing."""
 
 import multiprocessing
 import os

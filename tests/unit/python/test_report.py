@@ -296,7 +296,7 @@ def test_the_time_of_ideal_and_simulated_robots_is_counted_alike(tmp_path, insta
     simulated, ideal = shares
     assert list(simulated) == list(ideal)
     assert simulated["queue"] > 0.1 and simulated["lift"] > 0.01
-    # Three robots are in nobody's way.
+    # Three robots do not hinder each other.
     assert simulated == pytest.approx(ideal, abs=0.06)
 
 

@@ -76,7 +76,7 @@ def test_a_floor_without_aisles_is_refused():
 
 
 class Parked:
-    """What Transports asks of a Traffic that nobody is in."""
+    """The part of Traffic that Transports asks, without robots."""
 
     def __init__(self, plan):
         self.plan, self.time = plan, 0.0

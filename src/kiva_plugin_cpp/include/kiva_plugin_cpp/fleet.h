@@ -159,7 +159,7 @@ struct Fleet {
   /// What its protective field allows, for the sake of people near [m/s]: 0 = it stands, +inf =
   /// nobody is near.
   Column<double> allowed_speed;
-  /// Who commands it, as in warehouse_msgs/SetRobotMode: kept for whoever coordinates the fleet.
+  /// Its mode, as in warehouse_msgs/SetRobotMode: kept for the program that coordinates the fleet.
   /// The world goes by none of it.
   Column<std::uint8_t> mode;
   Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain where somebody is.

@@ -21,8 +21,8 @@ class InUseError(Exception):
 class FileLock:
     """Held for as long as this process lives or until release(); raises InUseError, OSError.
 
-    It is the kernel's lock (flock) on a file of its own, which is no sign of anything where nobody
-    holds it. path: what is locked; the lock file is beside it, or in it if it is a folder.
+    It is the kernel's lock (flock) on a file of its own; that file alone, without a lock on it,
+    means nothing. path: what is locked; the lock file is beside it, or in it if it is a folder.
     """
 
     def __init__(self, path):

@@ -106,7 +106,7 @@ def _root(path, tag):
         raise InstanceError(f"{path}: {error.strerror}") from error
     except ElementTree.ParseError as error:
         raise InstanceError(f"{path}:{error.position[0]}: {error}") from error
-    except (LookupError, ValueError) as error:  # an encoding that nobody knows
+    except (LookupError, ValueError) as error:  # an unknown encoding
         raise InstanceError(f"{path}:1: {error}") from error
     if root.tag != tag:
         raise InstanceError(f"{path}: <{root.tag}>; <{tag}> was expected")

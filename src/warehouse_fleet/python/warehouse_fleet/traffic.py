@@ -154,8 +154,8 @@ class Traffic:
         return time < self.time
 
     def aligned(self, report):
-        """The report with an element for each of `kiva_ids`. Robots that are gone stand nowhere,
-        and nobody commands them until they are back, in the mode that is reported then."""
+        """Returns the report with an element for each of `kiva_ids`. Robots that are gone stand
+        nowhere and are OUT_OF_SERVICE; those that come back are in the mode that they report."""
         ids = np.asarray(report.kiva_id)
         if np.array_equal(ids, self.kiva_ids):
             gone = np.zeros(len(ids), bool)
@@ -174,7 +174,7 @@ class Traffic:
         out = SimpleNamespace(kiva_id=self.kiva_ids)
         for name in (*REPORTED, "mode"):
             if not hasattr(report, name):
-                continue  # nobody keeps modes
+                continue  # a world in this process keeps no modes
             values = np.asarray(getattr(report, name))
             column = np.zeros(len(gone), values.dtype)
             column[~gone] = values[at]

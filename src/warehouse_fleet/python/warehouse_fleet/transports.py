@@ -132,7 +132,7 @@ class Transports:
         self.park = lambda robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
-        self.left_out = frozenset()  # names of stations that the floor has and nobody comes to
+        self.left_out = frozenset()  # names of stations on the floor that no robot can reach
         self.totals = Totals()
         self.cell_of_unit = {}  # NOWHERE: not in a cell, or carried
         self._unit_in = {}  # those that stand, by cell

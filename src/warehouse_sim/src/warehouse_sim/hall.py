@@ -7,7 +7,7 @@ at first, then cell after cell becomes a storage place, as long as what is left 
 without dead ends and passes every place and every bay.
 
     │ u u │       u  place, b  bay, ==  belt
-    │ u u b ==    The streets around are two-way; whoever meets another goes another way round.
+    │ u u b ==    The streets around are two-way; a robot that meets another goes another way round.
     └─────┘
 """
 

@@ -12,7 +12,7 @@ export class Alarms {
   set(source, texts) {
     this.texts.set(source, texts);
     const all = [...this.texts.values()].flat();
-    if (String(all) === this.shown) return; // a screen reader reads what is drawn anew
+    if (String(all) === this.shown) return; // a screen reader reads what is drawn again
     this.shown = String(all);
     $('alarms').replaceChildren(...all.map((text) => make('li', { textContent: text })));
     $('alarms').hidden = all.length === 0;

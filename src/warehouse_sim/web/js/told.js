@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line that tells what became of something, and offers for a while to take it back. What is drawn
-// anew around it leaves it alone.
+// A line that tells what became of something, and offers for a while to take it back. It
+// stays when what is around it is drawn again.
 
 import { make } from './dom.js';
 

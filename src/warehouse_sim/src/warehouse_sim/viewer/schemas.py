@@ -147,7 +147,7 @@ class NewRobot(_Body):
 
 
 class NewWalk(_Body):
-    """Has somebody walk from place to place, and come to the first one if nobody is called so."""
+    """Has a person walk from place to place; one of a new name comes to the first place."""
 
     name: Name = Field("", description="who; empty: a new person")
     x: conlist(Number, max_items=1000) = Field(description="[m], of each place")
