@@ -48,13 +48,12 @@ class InsertWorld(unittest.TestCase):
         for name in ("kiva1", "kiva5", "kiva10", "storage_unit25", "person1"):
             self.assertIn(name, standing())
 
-    def test_but_what_is_missing(self):
+    def test_with_a_box_in_place_of_what_is_missing(self):
         folder = rospkg.RosPack().get_path("warehouse_tests")
         code, text = run("insert_world", folder + "/worlds/invalid_include_missing.sdf")
         self.assertEqual(code, 0, text)
-        self.assertIn("added 1 model ", text)
-        self.assertIn("left out, see the engine's warnings: nowhere", text)
-        self.assertIn("other", standing())
+        self.assertIn("added 2 models ", text)
+        self.assertLessEqual({"nowhere", "other"}, set(standing()))
 
     def test_no_such_world(self):
         code, text = run("insert_world", "mars")

@@ -424,7 +424,9 @@ class Coordinator:
         out, in a sentence; or an empty text."""
         traffic = self._traffic
         out = np.isin(plan.cell_of(report.x, report.y), left_out.cells)
-        traffic.mode[out & (traffic.mode == Mode.AUTOMATIC)] = Mode.OUT_OF_SERVICE
+        # The world keeps their modes as they are: another floor may reach them.
+        shut = out & (traffic.mode == Mode.AUTOMATIC)
+        traffic.mode[shut] = self._kept[shut] = Mode.OUT_OF_SERVICE
         return left_out.text(plan, self._transports.out_of_reach(), traffic.kiva_ids[out].tolist())
 
     def _warn_once(self, text):
