@@ -8,9 +8,10 @@ import rospy
 import rostest
 from node_test import Listener, call, kill, latched, pid, wait_until
 from page_test import ask
-from sqlalchemy import func, select
+from sqlalchemy import func, select, update
 from std_srvs.srv import Empty
 
+from gazebo_msgs.srv import DeleteModel
 from warehouse_fleet.operations import check, schema
 from warehouse_fleet.operations.database import open_engine
 from warehouse_msgs.msg import (
@@ -24,6 +25,7 @@ from warehouse_msgs.msg import (
 from warehouse_msgs.srv import (
     CancelOrder,
     ConfirmPick,
+    FindOrders,
     ReportShort,
     SetStation,
     SetStationRequest,
@@ -64,6 +66,10 @@ def picked(engine):
         return -connection.execute(
             select(func.sum(move.quantity)).where(move.reason == "pick")
         ).scalar()
+
+
+def notices():
+    return " | ".join(ask("/notices")[1].get("notices", ()))
 
 
 def set_station(name, is_open, mode):
@@ -188,6 +194,28 @@ class Operations(unittest.TestCase):
         throughput = latched("/warehouse/throughput", Throughput)
         self.assertLessEqual(throughput.end, rospy.get_time())
         engine = open_engine(rospy.get_param("~database"))
+        self.assertEqual(check.faults(engine), [])
+
+    def test_7_what_it_can_not_take_is_refused_or_told_and_it_goes_on(self):
+        wanted = {"reference": "evil", "lines": [{"sku": "sku-1", "quantity": 2**31 - 1}]}
+        status, answer = ask("/orders", wanted)
+        self.assertEqual(status, 409, answer)
+        self.assertIn("pieces; all bins of the warehouse together hold", str(answer))
+        found = call("/warehouse/find_orders", FindOrders, 2**64 - 1, "", -1, False, 1, 0)
+        self.assertEqual(found.total, 0)
+        self.assertEqual(ask("/notices")[1], {"notices": []})
+        good = submit(*((f"sku-{i}", 1) for i in range(1, 20)))
+        engine = open_engine(rospy.get_param("~database"))
+        with engine.begin() as connection:
+            poisoned = schema.order_line.c.order_id == good.order_id
+            connection.execute(update(schema.order_line).where(poisoned).values(quantity=2**31 - 1))
+        self.assertTrue(call("/gazebo/delete_model", DeleteModel, "storage_unit7").success)
+        wait_until(lambda: "storage unit 7 is gone" in notices(), "it sees that a unit is gone")
+        kill("/operations")
+        wait_until(lambda: "storage unit 7 are gone:" in notices(), "it comes back", LONG)
+        self.assertIn(f"order {good.order_id} (order-{good.order_id}) is cancelled:", notices())
+        order = submit(("sku-2", 1))
+        self.wait_for(order.order_id, OrderEvent.COMPLETED)
         self.assertEqual(check.faults(engine), [])
 
     def is_complete(self, order_id):

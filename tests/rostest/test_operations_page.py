@@ -9,61 +9,25 @@ import rospy
 import rostest
 import websockets
 from node_test import wait_until
-from page_test import PageTest, address, ask, fetch
+from page_test import address, ask, fetch
 from prometheus_client.parser import text_string_to_metric_families
 from sqlalchemy import insert
+from work_page import CARD, LONG, TASK, WorkPageTest, pieces, station, submit
 
 from warehouse_fleet.operations import schema
 from warehouse_fleet.operations.database import open_engine
 
-LONG = 120.0  # for what robots do [s, wall]
 MANY = 10_000  # orders
 FIRST = 10**6  # their ids
 
 ROW = """[...document.querySelectorAll('.order-rows .order')]
   .map((row) => row.textContent).find((text) => text.startsWith('{}'))"""
-TASK = "document.querySelector('#screen .task')?.textContent"
 LIT = "document.querySelector('#screen .shelf .lit')"
 HAND = "document.querySelector('[data-station=pick1] button:nth-of-type(2)')"
-CARD = "[data-station={}] {}"
 
 
-def submit(reference, sku, quantity):
-    wanted = {"reference": reference, "lines": [{"sku": sku, "quantity": quantity}]}
-    status, answer = ask("/orders", wanted)
-    assert status == 201, answer
-    return answer["order_id"]
-
-
-def pieces(sku):
-    """On each storage unit that holds some, by its number."""
-    out = {}
-    for place in ask(f"/stock?sku={sku}")[1]["places"]:
-        out[place["shelf_id"]] = out.get(place["shelf_id"], 0) + place["quantity"]
-    return out
-
-
-class OperationsPage(PageTest):
+class OperationsPage(WorkPageTest):
     """In this order: what one test leaves the next one finds."""
-
-    path, ready = "operations", "page.kpis && document.querySelectorAll('.station').length === 3"
-
-    def setUp(self):
-        self.page.read("(location.hash = '')")  # no station's screen
-
-    def click(self, selector):
-        """In one go: what is looked for first may have been drawn anew when it is clicked."""
-        element = f"document.querySelector({json.dumps(selector)})"
-        self.page.until(f"{element}?.checkVisibility() && !{element}.disabled")
-        self.page.read(f"{element}.click()")
-
-    def press(self, name, button):
-        """A button of a station's card: 1 opens or closes it, 2 is for by hand or by itself."""
-        self.click(CARD.format(name, f"button:nth-of-type({button})"))
-
-    def wait_for(self, expression):
-        """Until something comes true that robots do."""
-        wait_until(lambda: self.page.read(f"page && ({expression})"), expression, LONG)
 
     def test_1_an_order_is_followed_to_its_end(self):
         seen = asyncio.run(self.follow("page-1"))
@@ -72,7 +36,7 @@ class OperationsPage(PageTest):
         self.assertIn("ARRIVED", {transport["state"] for transport in seen["transports"]})
         self.assertTrue(seen["stations"])
         self.page.until(f"({ROW.format('page-1')})?.includes('done')")
-        self.page.until("document.querySelectorAll('#chart rect').length > 0")
+        self.page.until("document.querySelectorAll('#chart-picked rect').length > 0")
         self.page.until("document.getElementById('robots-legend').textContent.length > 0")
 
     async def follow(self, reference):
@@ -103,6 +67,7 @@ class OperationsPage(PageTest):
         self.click("#screen .confirm")
         self.page.until(f"{TASK} === 'Take 1 × sku-4'")
         self.click("#screen .short")
+        self.click("#screen .sure")
         left = f"!document.querySelector('#screen h1').textContent.endsWith(' {unit}')"
         self.page.until(left)  # the unit: it has no more
         self.click("#screen header .button")
@@ -120,6 +85,7 @@ class OperationsPage(PageTest):
         pick = before[1][0]
         self.assertEqual(self.page.read(TASK), f"Put in {pick['quantity']} × {pick['sku']}")
         self.click("#screen .damaged")  # of a bundle, all that the counter says
+        self.click("#screen .sure")
         wait_until(lambda: self.replenishing() != before, "nothing is to be put in of it")
         after = self.replenishing()
         self.assertTrue(after[0] != before[0] or after[1] == before[1][1:], (before, after))
@@ -128,7 +94,7 @@ class OperationsPage(PageTest):
 
     def replenishing(self):
         """The unit that is there, and what is to be put into it."""
-        told = {one["name"]: one for one in ask("/stations")[1]["stations"]}["replenish1"]
+        told = station("replenish1")
         return told["shelf_id"], told["picks"]
 
     def test_4_ten_thousand_orders_are_no_burden(self):

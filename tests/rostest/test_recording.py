@@ -92,6 +92,19 @@ class Recording(unittest.TestCase):
         self.assertGreater(int(steps), 5000)
         self.assertGreater(int(hashes), 5)
 
+    def test_it_ends_by_itself_where_nothing_shows_it(self):
+        with Node(rtf=0, replay=self.bag, replay_stays=False) as node:
+            code, said = node.end()
+        self.assertEqual(code, 0, said)
+        self.assertRegex(said, r"replayed \d+ steps, and all \d+ hashes are equal")
+        self.assertIn("The recording was reproduced; it ends", said)
+
+    def test_else_it_says_what_goes_on(self):
+        with Node(rtf=0, replay=self.bag) as node:
+            node.says("The recording was reproduced; what stands there now may be looked at")
+            node.send(signal.SIGINT)
+            self.assertEqual(node.end()[0], 0)
+
     def test_another_command_is_found_with_its_step(self):
         def other(topic, message):
             if topic == "/movx" and message.distance == -1:

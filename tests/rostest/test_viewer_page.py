@@ -296,6 +296,17 @@ class ViewerPage(PageTest):
         self.build("small")
         self.page.until(STANDS.format(robots=ROBOTS, units=UNITS, items=ITEMS))
 
+    def test_the_dialog_says_why_a_warehouse_can_not_be_built(self):
+        self.build("my own", robots=3, shelves=0, items=20)
+        told = "document.getElementById('plan-answer').textContent"
+        self.page.until(f"{told} === '20 items, but no shelves to lay them on'")
+        self.assertTrue(self.page.read("document.getElementById('builder').open"))
+        self.assertIn("at most 5,000", self.page.text("counts"))
+        Select(self.page.driver.find_element("id", "size")).select_by_visible_text("medium")
+        self.page.until("document.getElementById('own-shelves').value === '160'")
+        self.page.driver.find_element("css selector", "#plan .answers button").click()
+        self.page.until("!document.getElementById('builder').open")
+
     def build(self, size, **counts):
         self.page.click_on("build")
         Select(self.page.driver.find_element("id", "size")).select_by_visible_text(size)

@@ -10,7 +10,7 @@ from roslib.packages import find_node
 
 PARAMETERS = ("world", "rtf", "seed", "drive", "pub_clock_frequency", "model_states_frequency")
 PARAMETERS += ("lockstep", "autosave", "record", "replay", "checkpoint_folder", "checkpoint_limit")
-PARAMETERS += ("fleet_rate",)
+PARAMETERS += ("fleet_rate", "replay_stays")
 
 
 class Node:

@@ -137,6 +137,19 @@ TEST_F(Checkpoint, AnyWorldBecomesTheSavedOne) {
   }
 }
 
+TEST_F(Checkpoint, HoldsTheModesOfRobots) {
+  const int id = w.world.fleet().robots[0].id;
+  w.world.keepMode(id, 1);
+  const std::string saved = w.world.checkpoint();
+  w.world.keepMode(id, 0);
+  w.world.restore(saved);
+  EXPECT_EQ(w.world.fleet().mode[0], 1);
+  w.world.reset(true);
+  EXPECT_EQ(w.world.fleet().mode[0], 1);
+  EXPECT_THROW(w.world.keepMode(id, 3), std::invalid_argument);
+  EXPECT_THROW(w.world.keepMode(99999, 1), std::invalid_argument);
+}
+
 TEST_F(Checkpoint, AHundredAtRandomMoments) {
   std::mt19937 random(7);
   for (int round = 0; round < 100; ++round) {

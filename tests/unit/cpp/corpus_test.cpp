@@ -34,7 +34,7 @@ const std::map<std::string, Expected> kWorlds = {
      {{"ground_plane", "walker", "standing", "somewhere", "box"},
       {"actor 'walker'", "actor 'standing'", "actor 'somewhere'"}}},
     {"faults",
-     {{"hill", "ice", "broken", "wrapped", "twice", "box"},
+     {{"hill", "ice", "broken", "ill_formed", "wrapped", "twice", "box"},
       {"collision 'terrain', geometry/heightmap", "visual 'terrain', geometry/heightmap",
        "ode/mu: this mu is left out", "ode/mu2: this mu2 is left out", "it is called 'c_2' here",
        "collision 'void': this collision is left out: expected a <uri>", "visual 'void'",
@@ -45,12 +45,14 @@ const std::map<std::string, Expected> kWorlds = {
     {"joints",
      {{"chain"}, {"joint 'j_universal'", "'j_revolute2'", "joint 'j_screw'", "joint 'j_gearbox'"}}},
     {"materials", {{"painted"}, {}}},
-    {"meshes", {{"whole", "part", "centred", "scaled", "absent"}, {"holds no submesh 'arm'"}}},
+    {"meshes",
+     {{"whole", "part", "centred", "scaled", "absent"},
+      {"holds no submesh 'arm'", "model 'absent': none of its collisions can be had"}}},
     {"model_in_model", {{"cart"}, {}}},
     {"nested_includes",
-     {{"ground_plane", "shelf", "box"},
-      {"'model://nowhere_to_be_found'", "model 'gone': this model is left out",
-       "their_shelf/model.sdf:8", "their_shelf/model.sdf:14", "'https://fuel.example.org"}}},
+     {{"ground_plane", "shelf", "gone", "Forklift", "box"},
+      {"'model://nowhere_to_be_found'", "their_shelf/model.sdf:8", "their_shelf/model.sdf:14",
+       "'https://fuel.example.org"}}},
     {"population",
      {{"can_clone_0", "can_clone_1", "can_clone_2", "can_clone_3", "can_clone_4", "can_clone_5",
        "person_clone_0", "person_clone_1", "person_clone_2"},
@@ -117,7 +119,7 @@ TEST(CorpusDetails, ActorsStandAtTheirFirstWaypointsAsPeople) {
 
 TEST(CorpusDetails, FaultsCostNothingElse) {
   const WorldDescription world = load("faults");
-  EXPECT_EQ(model(world, "hill").links[0].collisions.size(), 1u);
+  EXPECT_EQ(model(world, "hill").links[0].collisions.size(), 2u);
   const auto& ice = model(world, "ice").links[0].collisions;
   ASSERT_EQ(ice.size(), 2u);
   EXPECT_EQ(ice[0].friction, 1);
@@ -230,7 +232,7 @@ TEST(CorpusDetails, RobotsOfUrdfComeWithWhatRosAddsToThem) {
   EXPECT_EQ(arm.plugins.size(), 1u);
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_PRED2(contains, warnings[0], "provide_feedback");  // gazebo's, not SDF's
-  EXPECT_PRED2(contains, warnings[1], "there is no mesh");
+  EXPECT_PRED2(contains, warnings[1], "there is no file");
 }
 
 TEST(ModelPaths, OfPackagesAreFoundByWhatTheyExport) {

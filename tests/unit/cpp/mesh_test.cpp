@@ -84,24 +84,33 @@ TEST(Meshes, AreFoundInModelsPackagesAndBesideTheirWorld) {
   EXPECT_EQ(beside.models.at(0).description->links[0].collisions.size(), 1u);
 }
 
+const std::string kBox = "; a box of 1 m by 1 m stands in for it, where nothing drives";
+
 std::vector<std::string> warningsOf(const std::string& geometry) {
   std::vector<std::string> warnings;
   const auto models = parseModels(model(geometry), {}, "text", &warnings);
-  EXPECT_TRUE(models.at(0).description->links[0].collisions.empty());
+  const auto& collisions = models.at(0).description->links[0].collisions;
+  EXPECT_EQ(collisions.size(), 1u);
+  EXPECT_EQ(collisions.at(0).shape.size, Vector3(1, 1, 3));
   return warnings;
 }
 
-TEST(Meshes, ThatCantBeHadCostTheirCollisionAndAWarning) {
+TEST(Meshes, ThatCantBeHadAreABoxAndAWarning) {
   const std::string at =
       "text:1: model 'm', link 'l', collision 'c', geometry/mesh: this collision is left out: ";
   EXPECT_EQ(warningsOf(mesh("model://nowhere/m.dae")),
-            std::vector<std::string>{at + "there is no mesh 'model://nowhere/m.dae'"});
+            std::vector<std::string>{at +
+                                     "there is no file 'model://nowhere/m.dae' in the model "
+                                     "paths, which are empty" +
+                                     kBox});
   EXPECT_EQ(warningsOf(mesh(fileUri("room.obj"), "<submesh><name>roof</name></submesh>")),
-            std::vector<std::string>{at + "mesh " + kMeshes + "room.obj: holds no submesh 'roof'"});
+            std::vector<std::string>{at + "mesh " + kMeshes + "room.obj: holds no submesh 'roof'" +
+                                     kBox});
   EXPECT_EQ(warningsOf(mesh("file://" + std::string(TESTS_DIR) + "/package.xml")),
             std::vector<std::string>{at + "mesh " + std::string(TESTS_DIR) +
                                      "/package.xml: meshes of the format '.xml' are not "
-                                     "supported; expected .dae, .obj or .stl"});
+                                     "supported; expected .dae, .obj or .stl" +
+                                     kBox});
   const fs::path broken =
       fs::temp_directory_path() / ("broken" + std::to_string(getpid()) + ".dae");
   std::ofstream(broken) << "<COLLADA><broken>";

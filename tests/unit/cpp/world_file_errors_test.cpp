@@ -55,14 +55,16 @@ const std::string kNowhere =
 const std::map<std::string, std::string> kErrors = {
     {"empty", ": the XML is ill-formed: empty document"},
     {"no_version", ": expected <sdf version=\"…\"> as the root element, found no version"},
-    {"no_world", ": expected a <world> in <sdf>"},
+    {"no_world", ": expected a <world> in <sdf>, or a URDF <robot>"},
     {"root", ": expected <sdf version=\"…\"> as the root element, found <warehouse>"},
-    {"two_models", ": expected a <world> in <sdf>"},
+    {"two_models", ": expected a <world> in <sdf>, or a URDF <robot>"},
     {"two_worlds", ":3: expected one <world>, found several"},
     {"version", ": SDF version 3.3 is unknown; expected 1.0 to 1.9"},
     {"xml", ":6: the XML is ill-formed: mismatched element (XMLElement name=link)"},
 };
 
+const std::string kCube =
+    ":5: world 'w', model 'm': none of its collisions can be had; a cube of 1 m stands in for them";
 const std::string kKilogram = "; this link has 1 kg and 1 kg m² instead";
 const std::string kNoCollision = ": this collision is left out: ";
 const std::string kNoJoint = ": this joint is left out: ";
@@ -78,8 +80,8 @@ struct Loss {
 const std::map<std::string, Loss> kWarnings = {
     {"box_size",
      {1,
-      {":9:" + kGeometry + "/box/size" + kNoCollision +
-       "expected lengths above 0 m, found 1 0 1"}}},
+      {":9:" + kGeometry + "/box/size" + kNoCollision + "expected lengths above 0 m, found 1 0 1",
+       kCube}}},
     {"duplicate_collision",
      {1, {":10:" + kLink + ", collision 'c': this name is taken; it is called 'c_2' here"}}},
     {"duplicate_include",
@@ -106,15 +108,16 @@ const std::map<std::string, Loss> kWarnings = {
        ", collision 'c', surface/friction/bullet/friction: this friction is left out: The value "
        "[-1] is less than the minimum allowed value of [0] for key [friction]"}}},
     {"geometry_empty",
-     {1, {":8:" + kGeometry + kNoCollision + "expected a shape: " + kShapes.substr(9)}}},
+     {1, {":8:" + kGeometry + kNoCollision + "expected a shape: " + kShapes.substr(9), kCube}}},
     {"geometry_missing",
      {1,
-      {":7:" + kLink + ", collision 'c'" + kNoCollision + "expected <geometry> in <collision>"}}},
+      {":7:" + kLink + ", collision 'c'" + kNoCollision + "expected <geometry> in <collision>",
+       kCube}}},
     {"geometry_unknown",
      {1,
       {":9:" + kGeometry +
            "/prism: XML Element[prism], child of element[geometry], not defined in SDF",
-       ":8:" + kGeometry + kNoCollision + "<prism> is not supported; " + kShapes}}},
+       ":8:" + kGeometry + kNoCollision + "<prism> is not supported; " + kShapes, kCube}}},
     {"gravity",
      {0,
       {":5: world 'w', gravity: this gravity is left out: '0 0 down' is no value for <gravity>; "
@@ -126,8 +129,10 @@ const std::map<std::string, Loss> kWarnings = {
     {"heightmap",
      {1,
       {":9:" + kGeometry + "/heightmap" + kNoCollision + "<heightmap> is not supported; " +
-       kShapes}}},
-    {"include_missing", {1, {":5: include" + kNowhere}}},
+       kShapes + "; the box around it stands in for it"}}},
+    {"include_missing",
+     {2,
+      {":5: include" + kNowhere + "; a box of 1 m by 1 m stands in for it, where nothing drives"}}},
     {"include_name",
      {0, {":6: world 'w', include/uri: this include is left out: expected a text in <name>"}}},
     {"include_pose",
@@ -177,7 +182,10 @@ const std::map<std::string, Loss> kWarnings = {
       {":8:" + kLink + ", inertial/mass: expected a mass above 0 kg, 1e9 at most, found 0" +
        kKilogram}}},
     {"mesh",
-     {1, {":9:" + kGeometry + "/mesh" + kNoCollision + "there is no mesh 'model://m/m.dae'"}}},
+     {1,
+      {":9:" + kGeometry + "/mesh" + kNoCollision + "there is no file 'model://m/m.dae' in " +
+           kModels + ", " + kBrokenModels,
+       kCube}}},
     {"nested_include_missing", {1, {":8: world 'w', model 'm', include/uri" + kNowhere}}},
     {"no_link", {1, {kNoModel}}},
     {"no_name",
@@ -188,11 +196,12 @@ const std::map<std::string, Loss> kWarnings = {
     {"plane_normal",
      {1,
       {":9:" + kGeometry + "/plane/normal" + kNoCollision +
-       "expected a normal that points somewhere"}}},
+           "expected a normal that points somewhere",
+       kCube}}},
     {"plane_size",
      {1,
-      {":9:" + kGeometry + "/plane/size" + kNoCollision +
-       "expected lengths above 0 m, found 1 0"}}},
+      {":9:" + kGeometry + "/plane/size" + kNoCollision + "expected lengths above 0 m, found 1 0",
+       kCube}}},
     {"plugin_filename",
      {0,
       {":5: world 'w', plugin 'p': this plugin is left out: Required attribute[filename] in "
@@ -200,7 +209,8 @@ const std::map<std::string, Loss> kWarnings = {
     {"polyline",
      {1,
       {":9:" + kGeometry + "/polyline" + kNoCollision +
-       "expected three <point>s or more that span an area"}}},
+           "expected three <point>s or more that span an area",
+       kCube}}},
     {"population",
      {1,
       {":5: world 'w', population 'p': this population is left out: the distribution 'heap' is "
@@ -214,7 +224,8 @@ const std::map<std::string, Loss> kWarnings = {
            "have 6 values, but 3 were found instead in '1 2 3'",
        kNoModel}}},
     {"radius_missing",
-     {1, {":9:" + kGeometry + "/cylinder" + kNoCollision + "expected <radius> in <cylinder>"}}},
+     {1,
+      {":9:" + kGeometry + "/cylinder" + kNoCollision + "expected <radius> in <cylinder>", kCube}}},
     {"real_time_factor",
      {0,
       {":5: world 'w', physics 'p': this physics is left out: expected a real_time_factor of 0 or "
@@ -243,8 +254,8 @@ const std::map<std::string, Loss> kWarnings = {
        "'1 1' is no value for <size>; expected three numbers"}}},
     {"sphere_radius",
      {1,
-      {":9:" + kGeometry + "/sphere/radius" + kNoCollision +
-       "expected lengths above 0 m, found -1"}}},
+      {":9:" + kGeometry + "/sphere/radius" + kNoCollision + "expected lengths above 0 m, found -1",
+       kCube}}},
     {"static",
      {1,
       {":6: world 'w', model 'm', static: this static is left out: Invalid boolean value; expected "
@@ -265,8 +276,9 @@ const std::map<std::string, Loss> kWarnings = {
     {"visual_mesh",
      {1,
       {":8:" + kLink +
-       ", visual 'v', geometry/mesh: this visual is left out: there is no mesh "
-       "'model://m/m.dae'"}}},
+       ", visual 'v', geometry/mesh: this visual is left out: there is no file 'model://m/m.dae' "
+       "in " +
+       kModels + ", " + kBrokenModels}}},
 };
 
 std::string pathOf(const std::string& rule) {

@@ -3,12 +3,11 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ratesOf } from '../../../src/warehouse_sim/web/js/chart.js';
+import { ratesOf, ticksOf } from '../../../src/warehouse_sim/web/js/chart.js';
 import { coloursOf, topOf } from '../../../src/warehouse_sim/web/js/heat.js';
+import { lateness } from '../../../src/warehouse_sim/web/js/order_row.js';
+import { waitingOf } from '../../../src/warehouse_sim/web/js/stations.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_sim/web/js/where.js';
-
-globalThis.matchMedia ??= () => ({ matches: false });
-const { lateness } = await import('../../../src/warehouse_sim/web/js/order_list.js');
 
 test('rates are of the time that an interval really had', () => {
   const told = { interval: 60, begin: 90, end: 200 };
@@ -17,6 +16,18 @@ test('rates are of the time that an interval really had', () => {
     { from: 0, length: 30, rate: 120 }, { from: 30, length: 60, rate: 180 }, { from: 90, length: 20, rate: 360 }]);
   // One that has hardly begun says nothing yet.
   assert.equal(ratesOf({ ...told, end: 185 }, [1, 3, 2]).length, 2);
+});
+
+test('an axis has a few round numbers', () => {
+  assert.deepEqual(ticksOf(828), [0, 200, 400, 600, 800]);
+  assert.deepEqual(ticksOf(1000), [0, 200, 400, 600, 800, 1000]);
+  assert.deepEqual(ticksOf(400), [0, 100, 200, 300, 400]);
+  assert.deepEqual(ticksOf(1.15), [0, 0.5, 1]);
+});
+
+test('a station that a person leaves alone says so, by the minute', () => {
+  assert.equal(waitingOf({ waiting: 59 }), '');
+  assert.equal(waitingOf({ waiting: 1219 }), 'waits for a person, 20 min');
 });
 
 test('an order is late past its due time, until it is complete, and for ever if it was then', () => {

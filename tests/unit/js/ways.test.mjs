@@ -70,5 +70,5 @@ test('the panel counts what is there', () => {
   assert.equal(facts['at work'], '3 fetching');
   assert.equal(facts.done, '40 delivered, 35 stored, 2 failed');
   assert.equal(facts.planning, '1.0 ms, p99 3.5 ms');
-  assert.equal(facts.trouble, 'none');
+  assert.equal(facts['so far'], 'nothing');
 });

@@ -7,14 +7,8 @@ import numpy as np
 import pytest
 
 from warehouse_fleet.operations.assortment import Assortment
-from warehouse_fleet.operations.demand import (
-    Customers,
-    DemandError,
-    Poisson,
-    Wanted,
-    make_demand,
-    read_csv,
-)
+from warehouse_fleet.operations.demand import Customers, Poisson, make_demand
+from warehouse_fleet.operations.order_file import DemandError, Wanted, read_csv
 
 GOOD = "reference,sku,quantity,at,due,priority\n"
 
@@ -85,7 +79,76 @@ def test_wrong_rows_are_told_with_their_line(tmp_path, text, message):
     assert f"{path}{message}" in str(error.value)
 
 
-@pytest.mark.parametrize("text", ["fill:0", "fill:x", "poisson:-1", "poisson:inf", "full", "x.txt"])
+COLUMNS, ROWS = "reference;sku;quantity;at\r\n", "Müller;sku-1;2;1,5\r\n;;;\r\n"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        (COLUMNS + ROWS).encode("utf-8-sig"),
+        ('"Reference";"SKU";Quantity;At\r\n' + ROWS).encode(),
+        (COLUMNS + ROWS).replace(",", ".").replace(";", "\t").encode(),
+        (COLUMNS + ROWS).replace(",", ".").replace(";", ",").encode("utf-8-sig"),
+    ],
+)
+def test_files_as_spreadsheets_write_them(tmp_path, data):
+    path = tmp_path / "orders.csv"
+    path.write_bytes(data)
+    assert read_csv(path) == [Wanted((("sku-1", 2),), 1.5, 0.0, 0, "Müller")]
+
+
+@pytest.mark.parametrize(
+    "data, message",
+    [
+        ((COLUMNS + ROWS).encode("utf-16"), ": is in UTF-16, or no text; save it as CSV in UTF-8"),
+        ((COLUMNS + ROWS).encode("utf-16-be"), ": is in UTF-16, or no text"),
+        ((COLUMNS + ROWS).encode("cp1252"), ":2: byte 0xfc is not UTF-8; save it as CSV in UTF-8"),
+        (b"", ":1: there is no column reference, sku, quantity; the first line has to name"),
+        (b"a;b\n", "those in it are: a, b"),
+        (b"sku,sku,reference,quantity\n", ":1: there are two columns sku"),
+        (GOOD.encode() + b"A,sku-1,2147483647,,,\nA,sku-1,2147483647,,,\n", ":2: A: an order of"),
+        (GOOD.encode() + b"x" * 201 + b",sku-1,1,,,\n", ":2: the reference has 201 characters"),
+        (GOOD.encode() + b"A\1B,sku-1,1,,,\n", "can't be printed"),
+        (GOOD.encode() + b"A,sku-1,1,nan,,\n", ":2: at is 'nan'; a number from 0"),
+        (GOOD.encode() + b"A,sku-1," + b"9" * 9999 + b",,,\n", ":2: quantity is '999"),
+        (GOOD.encode() + b"A," + b"s" * 200_000 + b",1,,,\n", ":1: field larger than"),
+    ],
+)
+def test_files_that_are_none_of_orders(tmp_path, data, message):
+    path = tmp_path / "orders.csv"
+    path.write_bytes(data)
+    with pytest.raises(DemandError) as error:
+        read_csv(path, capacity=1000)
+    assert message in str(error.value) and len(str(error.value)) < 400
+
+
+def test_files_that_are_too_large(tmp_path):
+    path = tmp_path / "orders.csv"
+    with path.open("w") as file:
+        file.write(GOOD)
+        file.truncate(100 * 2**20)
+    with pytest.raises(DemandError, match="has 100 MB; 64 MB or less were expected"):
+        read_csv(path)
+    path.write_text(GOOD + "".join(f"A,sku-{i},1,,,\n" for i in range(100_000)))
+    with pytest.raises(DemandError, match=":1002: A has more than 1000 lines"):
+        read_csv(path)
+    with pytest.raises(DemandError, match=f"{tmp_path}: is no file"):
+        read_csv(tmp_path)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "fill:99999999999",
+        "poisson:1e12",
+        "fill:0",
+        "fill:x",
+        "poisson:-1",
+        "poisson:inf",
+        "full",
+        "x.txt",
+    ],
+)
 def test_what_is_no_demand_is_told(assortment, text):
     with pytest.raises(DemandError, match=f"orders are '{text}'"):
         make_demand(text, assortment, (1, 1), np.random.default_rng(1))

@@ -47,6 +47,17 @@ def test_stock_is_found(engine):
     assert find_stock(engine)[0] == len(site().items)
 
 
+@pytest.mark.parametrize("number", [2**63, 2**64 - 1])
+def test_what_no_database_holds_is_not_found(engine, number):
+    assert find_orders(engine, order_id=number) == (0, [])
+    assert find_orders(engine, limit=number, offset=number) == (3, [])
+    assert len(find_orders(engine, limit=number)[1]) == 3
+    assert find_stock(engine, limit=number, offset=number)[2] == []
+    for text in ("\udcff", "a\0b"):
+        assert find_orders(engine, search=text) == (0, [])
+        assert find_stock(engine, text) == (0, 0, [])
+
+
 def test_many_orders_are_no_burden(tmp_path):
     """1,000 orders at once cost the shift little, and 10,000 in the list are searched at once."""
     with Operations(site=site(), database=tmp_path / "run.db", orders="none") as ops:

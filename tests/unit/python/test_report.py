@@ -14,7 +14,7 @@ import pytest
 from instance_file import write_instance
 
 from warehouse_fleet.kinematics import Kinematics
-from warehouse_fleet.operations import Settings, comparison, report, runs, sweep
+from warehouse_fleet.operations import Settings, comparison, plots, report, runs, sweep
 from warehouse_fleet.operations.kpis import upper_bound
 from warehouse_fleet.operations.simulation import Description, simulate
 
@@ -96,6 +96,13 @@ def test_simulate_check_and_report(tmp_path, instance):
     compared = node("report", out, tmp_path / "again", "--out", tmp_path / "both.html")
     assert compared.returncode == 0 and (tmp_path / "both.html").exists()
     assert node("report", tmp_path / "nothing").stderr.startswith("report: ")
+
+    # Without --out none of what is there is written over.
+    for name in ("comparison.html", "comparison-2.html"):
+        compared = node("report", out, tmp_path / "again", cwd=tmp_path)
+        assert compared.stdout.splitlines()[-1] == name, compared.stderr
+        assert "<svg" in (tmp_path / name).read_text()
+    assert (out / "report.html").read_text() == page
 
 
 def test_the_days_troubles_are_told_with_what_each_cost(tmp_path, instance):
@@ -211,7 +218,7 @@ def test_a_sweep_on_a_local_ray_cluster_is_the_same(tmp_path, instance):
         ("grid: {policies.orders: random}", "a list of values for each key was expected"),
         ("grid: {policies.orders: [best]}", "there is no 'best'"),
         ("seeds: none", "seeds is 'none'"),
-        ("minutes: long", "could not convert string to float"),
+        ("minutes: long", "minutes is 'long'; a number above 0 was expected"),
         ("[", "sweep.yaml"),
     ],
 )
@@ -238,7 +245,70 @@ def test_intervals_and_differences_are_students():
     assert found.p_value == pytest.approx(0.0198, abs=1e-3) and found.significant
     assert comparison.difference(*comparison.grouped([a[0], b[0]]), "item_score") is None
     lines = list(report.verdicts(comparison.grouped([a[0], b[0]])))
-    assert lines == ["orders: b: +10.0 % pieces an hour against orders: a"]
+    assert lines == [
+        "orders: b: +10.0 % pieces an hour against orders: a (too few runs to tell it from chance)"
+    ]
+
+
+def ticks(svg, count):
+    """The numbers at a picture's first `count` ticks."""
+    texts = re.findall(r"<text[^>]*>([^<]*)</text>", svg)
+    return [float(text.replace("−", "-")) for text in texts[:count]]
+
+
+def test_axes_of_figures_side_by_side_begin_at_zero():
+    runs_of_two = [
+        fake(label, seed, value + seed / 10)
+        for label, value in (("a", 1426.2), ("b", 1426.7))
+        for seed in range(3)
+    ]
+    groups = comparison.grouped(runs_of_two)
+    first, second, *_ = ticks(plots.comparison(groups, "item_throughput_per_hour", "pieces"), 3)
+    assert first == 0 and second >= 100
+    # One run of each, and a figure that is zero in all.
+    groups = comparison.grouped(runs_of_two[::3])
+    assert ticks(plots.comparison(groups, "pile_on", "pile-on"), 1) == [0]
+
+
+def test_throughput_begins_with_the_shift():
+    picked = [0] * 5 + [20] * 55  # pieces a minute
+    run = fake("a", 1, 1100.0)
+    run.data["intervals"] = {"seconds": 60.0, "picked": picked}
+    hourly, minutes = plots._in_blocks(comparison.grouped([run])[0])
+    assert minutes.tolist() == list(range(0, 65, 5))
+    assert hourly.tolist() == [[0.0] + [1200.0] * 11]
+    # The last block is shorter, and a shift may have no whole minute.
+    run.data["intervals"]["picked"] = [10] * 25
+    hourly, minutes = plots._in_blocks(comparison.grouped([run])[0])
+    assert minutes.tolist() == [0, 3, 6, 9, 12, 15, 18, 21, 24, 25] and (hourly == 600).all()
+    run.data["intervals"]["picked"] = []
+    assert "<svg" in plots.throughput(comparison.grouped([run]))
+
+
+def test_the_time_of_ideal_and_simulated_robots_is_counted_alike(tmp_path, instance):
+    shares = []
+    for physics in (True, False):
+        described = Description(instance=str(instance), seconds=600, physics=physics)
+        run, _ = simulate(described, tmp_path / str(physics))
+        whole = run.kpis["robots"] * run.kpis["simulated_s"]
+        assert sum(run.data["robots"].values()) == pytest.approx(whole)
+        shares.append({name: value / whole for name, value in run.data["robots"].items()})
+    simulated, ideal = shares
+    assert list(simulated) == list(ideal)
+    assert simulated["queue"] > 0.1 and simulated["lift"] > 0.01
+    # Three robots do not hinder each other.
+    assert simulated == pytest.approx(ideal, abs=0.06)
+
+
+def test_what_ideal_robots_have_none_of_is_no_figure_of_theirs():
+    ideal, simulated = fake("a", 1, 1.0), fake("b", 1, 1.0)
+    ideal.data["config"]["physics"] = False
+    simulated.data["config"]["physics"] = True
+    for run in (ideal, simulated):
+        run.kpis["order_turnover_s"] = run.kpis["order_throughput_s"] = {"median": 60, "p95": 90}
+        run.kpis["plan_ms"] = {"p99": 1.5}
+    row = next(line for line in report.table([ideal, simulated]).splitlines() if "Collis" in line)
+    assert row.split() == ["Collisions", "–", "0"]
 
 
 def test_ideal_and_simulated_robots_are_told_apart():

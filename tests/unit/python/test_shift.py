@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,11 +17,11 @@ from postgres import server
 from sqlalchemy import text
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.operations import Operations, check, queries, stored
+from warehouse_fleet.operations import Operations, check, demand, queries, stored
 from warehouse_fleet.operations.database import DatabaseError, open_engine
 from warehouse_fleet.operations.inventory import Reason
-from warehouse_fleet.operations.opening import SiteError
 from warehouse_fleet.operations.orders import OrderEventKind, OrderState
+from warehouse_fleet.operations.returning import SiteError
 from warehouse_fleet.operations.stations import Mode
 
 PICK, REPLENISH = "pick1", "replenish3"
@@ -191,8 +192,102 @@ def test_what_was_done_is_known_to_the_next_run(tmp_path):
 def test_a_database_of_another_warehouse_is_refused(tmp_path):
     with shift_on(tmp_path / "run.db"):
         pass
-    with pytest.raises(SiteError, match="is of another warehouse: item"):
-        Operations(site=site(bins=4), physics=False, database=tmp_path / "run.db")
+    with pytest.raises(SiteError, match=r"is of another warehouse: the station pick1 at \("):
+        Operations(site=site(blocks=3), database=tmp_path / "run.db")
+    with pytest.raises(SiteError, match=r"of its \d+ bins, \d+ are not here and \d+ are on other"):
+        Operations(site=site(bins=4), database=tmp_path / "run.db")
+
+
+def without(there, gone):
+    """A Site in which storage units are gone."""
+    units = {unit: cell for unit, cell in there.units.items() if unit not in gone}
+    return replace(there, units=units, items=[(i, u) for i, u in there.items if u not in gone])
+
+
+def stock(engine):
+    with engine.connect() as connection:
+        return connection.execute(text("SELECT SUM(quantity) FROM bin")).scalar()
+
+
+@pytest.mark.parametrize("layout_is_known", [True, False])
+def test_storage_units_that_are_gone_are_written_off_and_new_ones_taken_in(
+    tmp_path, layout_is_known
+):
+    path, whole = tmp_path / "run.db", site()
+    with Operations(site=whole, database=path, orders="fill:40") as ops:
+        ops.run(minutes=7)
+        lost = sum(one.quantity for unit in (3, 8) for one in ops.shift.inventory.of_unit[unit])
+    engine = open_engine(path)
+    if not layout_is_known:
+        with engine.begin() as connection:
+            connection.execute(text("UPDATE run SET layout = NULL"))
+    pieces = stock(engine)
+    with Operations(site=without(whole, {3, 8}), database=path, orders="none") as ops:
+        (notice,) = ops.shift.notices
+        assert notice == (f"10 bins of storage units 3, 8 are gone: {lost} pieces are written off")
+        assert ops.shift.inventory.total == pieces - lost
+        assert ops.shift.inventory.capacity == 24 * (len(whole.items) - 10)
+        ops.run(minutes=30)
+    assert check.faults(engine) == []
+    gone = text("SELECT -SUM(quantity) FROM move WHERE reason = 'gone'")
+    with engine.connect() as connection:
+        assert connection.execute(gone).scalar() == lost
+    with Operations(site=without(whole, {3, 8}), database=path) as ops:
+        assert not list(ops.shift.notices)
+    more = {**without(whole, {3}).units, 999: whole.units[3]}
+    larger = replace(whole, units=more, items=[*without(whole, {3}).items, ("item999", 999)])
+    with Operations(site=larger, database=path, seed=2) as ops:
+        (notice,) = ops.shift.notices
+        assert notice == "6 bins of storage units 8, 999 are new, and still empty"
+        assert not any(ops.shift.inventory.of_unit[8][i].quantity for i in range(5))
+        ops.run(hours=3)
+        assert any(one.quantity for one in ops.shift.inventory.of_unit[8])
+    assert check.faults(engine) == []
+
+
+def test_a_sku_that_lost_all_its_bins_finds_another(tmp_path):
+    path, whole = tmp_path / "run.db", site()
+    with Operations(site=whole, database=path, orders="none") as ops:
+        homes = {}
+        for one in ops.shift.inventory.bins.values():
+            homes.setdefault(one.sku, set()).add(one.unit)
+    sku, units = min(homes.items(), key=lambda pair: len(pair[1]))
+    with Operations(site=without(whole, units), database=path, orders="fill:60") as ops:
+        order, _ = ops.shift.submit([(sku, 2)])
+        ops.run(hours=6)
+        assert order.state == OrderState.COMPLETED
+    assert check.faults(open_engine(path)) == []
+
+
+def test_an_item_on_another_unit_keeps_its_pieces(tmp_path):
+    path, whole = tmp_path / "run.db", site()
+    with Operations(site=whole, database=path, orders="none") as ops:
+        (one,) = [one for one in ops.shift.inventory.bins.values() if one.item == "item7"]
+        pieces = one.quantity
+    items = [(item, 11 if item == "item7" else unit) for item, unit in whole.items]
+    with Operations(site=replace(whole, items=items), database=path, orders="none") as ops:
+        (notice,) = ops.shift.notices
+        assert notice == "item7 of storage unit 11 is on another storage unit than before"
+        (one,) = [one for one in ops.shift.inventory.of_unit[11] if one.item == "item7"]
+        assert one.quantity == pieces
+    with Operations(site=replace(whole, items=items), database=path, orders="none") as ops:
+        assert not list(ops.shift.notices)
+    assert check.faults(open_engine(path)) == []
+
+
+def test_a_bin_that_is_gone_from_the_floor_is_written_off(tmp_path):
+    path, whole = tmp_path / "run.db", site()
+    with Operations(site=whole, database=path, orders="none") as ops:
+        ops.shift.fallen.see(["item7"])
+        ops.run(seconds=1)
+    items = [(item, unit) for item, unit in whole.items if item != "item7"]
+    with Operations(site=replace(whole, items=items), database=path, orders="none") as ops:
+        assert "item7 of storage unit 2 is gone: " in next(iter(ops.shift.notices))
+    engine = open_engine(path)
+    with Operations(site=whole, database=path, orders="none") as ops:
+        (one,) = [one for one in ops.shift.inventory.of_unit[2] if one.item == "item7"]
+        assert (one.quantity, one.fallen) == (0, None)
+    assert check.faults(engine) == []
 
 
 def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_path):
@@ -203,7 +298,7 @@ def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_pat
     with engine.begin() as connection:
         schema.prepare(connection, schema.VERSION + 1, steps)
         assert connection.execute(text("SELECT colour FROM unit")).all() == []
-    with pytest.raises(DatabaseError, match="schema version 3; this program knows 2"):
+    with pytest.raises(DatabaseError, match=rf"schema version {schema.VERSION + 1}"):
         open_engine(tmp_path / "run.db")
 
 
@@ -224,12 +319,105 @@ def test_an_order_is_picked_told_and_complete():
         ([("sku-none", 1)], "there is no SKU 'sku-none'"),
         ([("sku-1", 0)], "0 pieces of sku-1; 1 or more was expected"),
         ([], "an order has one line or more"),
+        (
+            [("sku-1", 2**31 - 1)],
+            "an order of 2147483647 pieces; all bins of the warehouse together hold 16320",
+        ),
+        (
+            [("sku-1", 1)] * 100_000,
+            "an order of 100000 lines; 1000 or fewer were expected",
+        ),
+        ([("s" * 10**6, 1)], f"there is no SKU '{'s' * 80}…'"),
     ],
 )
 def test_orders_that_can_not_be_are_refused(lines, message):
     ops = shift_on(orders="none")
     assert ops.shift.submit(lines) == (None, message)
     assert not ops.shift.orders
+
+
+@pytest.mark.parametrize(
+    "fields, message",
+    [
+        ({"reference": "x" * 201}, "the reference has 201 characters; 200 or fewer were expected"),
+        ({"reference": "a\0b"}, "the reference 'a\\x00b' has characters that can't be printed"),
+        ({"reference": "\udcff"}, "the reference '\\udcff' has characters"),
+        ({"due": float("nan")}, "due is nan; 0 (at any time) to 1e+10 s was expected"),
+        ({"due": -1.0}, "due is -1; 0"),
+        ({"due": float("inf")}, "due is inf; 0"),
+        ({"priority": 256}, "priority is 256; 0 to 255 was expected"),
+    ],
+)
+def test_orders_that_no_database_could_keep_are_refused(fields, message):
+    ops = shift_on(orders="none")
+    order, why = ops.shift.submit([("sku-1", 1)], **fields)
+    assert order is None and why.replace("\\\\", "\\").startswith(message)
+
+
+def test_orders_for_all_that_there_could_be_cost_little():
+    """Whatever is asked for, it is refilled in portions, and other orders do not suffer."""
+    ops = shift_on(orders="none")
+    skus, capacity = ops.shift.assortment.skus, ops.shift.inventory.capacity
+    ops.run(seconds=1)
+    for sku in skus[1:]:
+        assert ops.shift.submit([(sku, capacity)])[0]
+    began = time.process_time()
+    ops.run(minutes=10)
+    assert time.process_time() - began < 20
+    assert ops.shift.pieces_ordered < 200 * len(skus)
+    for order_id in list(ops.shift.orders):
+        assert ops.shift.cancel_order(order_id)[0]
+    modest, _ = ops.shift.submit([(skus[0], 1)])
+    ops.run(minutes=10)
+    assert modest.state == OrderState.COMPLETED
+
+
+def test_a_flood_of_orders_is_refused_and_keeps_steps_short():
+    ops = shift_on(orders="none")
+    skus = ops.shift.assortment.skus
+    ops.run(seconds=1)
+    lines = [(sku, 1) for sku in skus[:100]]
+    answers = [ops.shift.submit(lines) for _ in range(1100)]
+    assert [order is not None for order, _ in answers] == [True] * 1000 + [False] * 100
+    assert answers[-1][1] == ("orders of 100000 lines wait already; come back when there are fewer")
+    steps = []
+    for _ in range(28):
+        began = time.process_time()
+        ops.run(seconds=1)
+        steps.append(time.process_time() - began)
+    assert max(steps) < 3
+
+
+def test_a_database_with_an_order_that_can_not_be_opens_and_says_so(tmp_path):
+    with shift_on(tmp_path / "run.db", orders="none") as ops:
+        ops.shift.submit([("sku-1", 1), ("sku-2", 1)], reference="evil")
+        ops.shift.submit([("sku-3", 1)], reference="good")
+    with open_engine(tmp_path / "run.db").begin() as connection:
+        connection.execute(
+            text("UPDATE order_line SET quantity = 2147483647 WHERE order_id = 1 AND number = 0")
+        )
+    with shift_on(tmp_path / "run.db", orders="none") as ops:
+        assert [order.reference for order in ops.shift.orders.values()] == ["good"]
+        (notice,) = ops.shift.notices
+        assert notice.startswith("order 1 (evil) is cancelled: an order of 2147483648 pieces; all")
+        ops.run(minutes=10)
+        assert not ops.shift.orders
+    engine = open_engine(tmp_path / "run.db")
+    assert check.faults(engine) == []
+    _, ((row, _),) = queries.find_orders(engine, search="evil")
+    assert row.state == OrderState.CANCELLED
+
+
+def test_the_orders_of_a_file_come_in_parts(tmp_path, monkeypatch):
+    monkeypatch.setattr(demand, "MOST_WAITING", 5000)
+    path = tmp_path / "orders.csv"
+    rows = (f"A-{i},sku-{i % 9 + 1},1\n" for i in range(6_000))
+    path.write_text("reference,sku,quantity\n" + "".join(rows))
+    with Operations(site=site(), orders=str(path), database=tmp_path / "run.db") as ops:
+        ops.run(seconds=2)
+        assert 2000 <= len(ops.shift.orders) <= 4000
+        ops.run(minutes=2)
+        assert ops.shift.backlog.lines == 5_000 and not list(ops.shift.notices)
 
 
 def test_more_than_there_is_waits_for_new_stock_and_nothing_else_suffers():

@@ -2,6 +2,8 @@
 """A slow page gets the newest, not the past; commands learn what became of them."""
 
 import asyncio
+import csv
+import io
 import json
 from types import SimpleNamespace
 
@@ -210,3 +212,14 @@ def test_a_command_without_an_answer_is_pending():
     assert (outcome.kind, len(outcome.events)) == ("blocked", 2)
     assert command(others, True, timeout=0.05).kind == "accepted"
     assert command([("ACCEPTED", "kiva2")], False, timeout=0.05).kind == "pending"
+
+
+def test_names_are_no_formulas_in_a_spreadsheet():
+    journal = Journal()
+    event = {"time": 1.5, "kind": "SPAWNED", "command": "", "other": "", "text": "-2.5"}
+    names = ("=1+1", "+1+1", "-1+1", "@SUM(1)", "\t=1", "\r=1", "＝1", "kiva1", "a=1", "'=1")
+    for name in names:
+        journal.add(event | {"model": name})
+    rows = list(csv.DictReader(io.StringIO(journal.csv(), newline="")))
+    assert [row["model"] for row in rows] == [f"'{n}" for n in names[:7]] + list(names[7:])
+    assert (rows[0]["time"], rows[0]["text"], rows[0]["id"]) == ("1.5", "-2.5", "1")

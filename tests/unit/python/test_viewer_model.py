@@ -43,6 +43,8 @@ def fleet(x=(0.0, 1.0), vx=(0.0, 0.0), yaw=(0.0, 0.0), shelf=(0, 0), stamp=1.0, 
         bytes(n),
         [1.0] * n,  # charge
         list(limit),
+        bytes(n),  # mode
+        1,  # timeline
     )
 
 

@@ -241,6 +241,34 @@ def test_models_of_a_world_that_are_called_like_ours_are_no_robots(tmp_path):
     assert len(World.preset("small", model_paths=[tmp_path]).fleet.kiva_id) == 4
 
 
+def test_models_are_looked_for_where_the_node_looks(tmp_path, monkeypatch):
+    for folder in ("exported", "listed"):
+        model = tmp_path / folder / "models" / f"{folder}_box"
+        model.mkdir(parents=True)
+        (model / "model.config").write_text(
+            f'<model><name>{folder}_box</name><sdf version="1.6">model.sdf</sdf></model>'
+        )
+        (model / "model.sdf").write_text(
+            f'<sdf version="1.6"><model name="{folder}_box"><link name="l"/></model></sdf>'
+        )
+    (tmp_path / "exported" / "package.xml").write_text(
+        "<package><export><gazebo_ros gazebo_model_path='${prefix}/models'/></export></package>"
+    )
+    (tmp_path / "elsewhere").mkdir()
+    file = tmp_path / "elsewhere" / "their.world"
+    file.write_text(
+        '<sdf version="1.6"><world name="w"><include><uri>model://listed_box</uri></include>'
+        "<include><uri>model://exported_box</uri></include></world></sdf>"
+    )
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(tmp_path / "listed" / "models"))
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "exported"))
+    assert World(file).names == ["listed_box", "exported_box"]
+    world = World("empty")
+    include = "<include><uri>model://listed_box</uri><name>another</name></include>"
+    world.spawn(f'<sdf version="1.6"><world name="w">{include}</world></sdf>')
+    assert "another" in world.names
+
+
 # --- views
 
 

@@ -38,7 +38,7 @@ struct Shape {
   Vector3 normal{0, 0, 1};  ///< Plane: unit normal in its own frame.
   double plane_size[2] = {100, 100};  ///< Plane: extent along x and y of its own frame [m].
   /// Mesh: of a static model touched as it is, of another by its convex hull. Scale and unit are
-  /// applied. Null in a visual: nobody here looks at it.
+  /// applied. Null in a visual at whose link something touches: pictures show that.
   std::shared_ptr<const Mesh> mesh;
   std::string mesh_file;        ///< Mesh: the path it was read from; empty: extruded.
   Vector3 mesh_scale{1, 1, 1};  ///< Mesh: what the file's lengths were multiplied by.

@@ -159,6 +159,9 @@ struct Fleet {
   /// What its protective field allows, for the sake of people near [m/s]: 0 = it stands, +inf =
   /// nobody is near.
   Column<double> allowed_speed;
+  /// Its mode, as in warehouse_msgs/SetRobotMode: kept for the program that coordinates the fleet.
+  /// The world goes by none of it.
+  Column<std::uint8_t> mode;
   Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain where somebody is.
   std::vector<Robot> robots;
 
@@ -177,5 +180,6 @@ struct Fleet {
 };
 
 constexpr int kMaxKivaId = 1000000;
+constexpr std::uint8_t kMostMode = 2;  ///< The last of Fleet::mode's values.
 
 }  // namespace kiva

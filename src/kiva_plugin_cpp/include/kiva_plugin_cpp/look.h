@@ -13,7 +13,7 @@ namespace kiva {
 
 /// Primitives fixed to a model's links, all joints at zero. Poses are x y z [m] qx qy qz qw.
 struct Look {
-  /// Of a shape; a mesh is the box around it.
+  /// Of a shape; a mesh is boxes, where it is seen from above and as high as it is there.
   enum Kind : std::uint8_t { kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kPlane };
 
   std::vector<std::string> links;

@@ -129,6 +129,12 @@ struct JointState {
   JointSettings settings;
 };
 
+/// What a joint does to its child link, about that link's origin, in world.
+struct JointWrench {
+  Vector3 force;   ///< [N]
+  Vector3 torque;  ///< [Nm]
+};
+
 /// A point at which two collisions touch. Names are `model::link::collision`; in world.
 struct ContactPoint {
   std::string collision1, collision2;
@@ -202,6 +208,11 @@ class World {
   /// radio; nothing of one that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
 
+  // --- who commands robots
+  /// Keeps that with the robot, as Fleet::mode. Throws std::invalid_argument if there is no such
+  /// robot or no such mode.
+  void keepMode(int kiva_id, int mode);
+
   // --- people
   /// Has somebody go that way from now on: an actor, or a static model that is no larger than a
   /// person, which is one from then on: robots keep away from people. Without waypoints they stay
@@ -247,6 +258,9 @@ class World {
   /// Moves a model and everything fixed to it, at that velocity. Returns false if there is no such
   /// model; throws DescriptionError if the state is not finite or too far away.
   bool setState(const std::string& model, const EntityState& state);
+  /// Gives a model of free bodies this velocity where it is: its joints go on turning as they do.
+  /// Returns false if there is no such model; throws DescriptionError if it is not finite.
+  bool setVelocity(const std::string& model, const Twist& twist);
   /// Moves a link and everything that joints hold to it, the link at that velocity. Returns false
   /// if there is no such link; throws as setState.
   bool setLinkState(const std::string& model, const std::string& link, const EntityState& state);
@@ -261,6 +275,9 @@ class World {
   // --- joints
   /// Nothing if there is no such joint; a fixed one is always at 0.
   std::optional<JointState> joint(const std::string& model, const std::string& joint) const;
+  /// Of the last step, dampers and applied efforts left out. Nothing if there is no such joint, or
+  /// its model has no free bodies.
+  std::optional<JointWrench> jointWrench(const std::string& model, const std::string& joint) const;
   /// Returns false if there is no such joint; throws std::invalid_argument where a number is out of
   /// range, and for the joints of a robot, which its plugins drive.
   bool setJoint(const std::string& model, const std::string& joint, const JointSettings& settings);
@@ -316,6 +333,10 @@ class World {
   /// Distance [m] from a point in world, level, in the direction `yaw`, to the first body that
   /// stands on the floor; +inf = none within `range`. `but`: a model that the ray passes.
   double rayCast(const Vector3& from, double yaw, double range, const std::string& but = "") const;
+  /// Distances [m] from a point in world along unit vectors to the first collision, the floor's
+  /// among them; +inf = none within `range`. On the world's threads, about a microsecond a ray.
+  void rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
+               const std::string& but, std::vector<double>* ranges) const;
   /// Where that model touches others now, itself the first of each pair.
   std::vector<ContactPoint> contacts(const std::string& model) const;
 
@@ -335,8 +356,10 @@ class World {
   // --- what happened since the last call
   std::vector<Event> takeEvents();
   std::vector<StatusChange> takeStatusChanges();
-  /// What was left out, a plugin that nobody knows say; each once.
+  /// What was left out, a plugin that is not known say; each once.
   std::vector<std::string> takeWarnings();
+  /// For plugins: one more of these.
+  void warn(const std::string& warning);
 
   /// What clients don't see; for tests and the parts of the world itself, see src/core/state.
   friend WorldState& insideOf(World& world);

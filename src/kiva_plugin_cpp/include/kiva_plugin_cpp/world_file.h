@@ -11,12 +11,20 @@
 
 namespace kiva {
 
-/// Where `model://name` is looked up: folders that hold `name/model.config`, first match wins.
+/// Where what a world names is looked up, `model://name` for one: folders that hold
+/// `name/model.config` or the path of a mesh, first match wins.
 using ModelPaths = std::vector<std::string>;
 
 /// The folders of models that packages of ROS export to Gazebo, `<gazebo_ros gazebo_model_path=…/>`
 /// in their package.xml: of all packages below the folders of `a:b`, as ROS_PACKAGE_PATH has them.
 ModelPaths exportedModelPaths(const std::string& ros_package_path);
+
+/// All that the environment names: GAZEBO_MODEL_PATH, what packages on ROS_PACKAGE_PATH export, and
+/// the folders of GAZEBO_RESOURCE_PATH with their `models`.
+ModelPaths environmentModelPaths();
+
+/// The folder of a world file and the two above it, each with its `models`: as packages have them.
+ModelPaths modelPathsAround(const std::string& world_file);
 
 /// A world read from the file at `path`.
 /// What is faulty in it is left out, as small a part as the rest can do without, and `warnings`, if

@@ -11,12 +11,15 @@
 SI units, radians, x forward, y left, z up. One thread at a time uses a world.
 """
 
+import os
 import sys
 from enum import IntEnum
+from functools import lru_cache
 from html import escape
 from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
+_SEARCHED = ("GAZEBO_MODEL_PATH", "ROS_PACKAGE_PATH", "GAZEBO_RESOURCE_PATH")
 _built = [path.name.removeprefix("_core") for path in Path(__file__).parent.glob("_core.*.so")]
 if _built and not set(_built) & set(EXTENSION_SUFFIXES):
     # ".cpython-311-x86_64-linux-gnu.so"
@@ -135,6 +138,12 @@ def _ours(text):
     return text.replace("model://", escape(f"file://{worlds_folder()}/models/", quote=False))
 
 
+@lru_cache(maxsize=8)
+def _theirs(*_values):
+    """Folders of models that these values of the environment name: packages are searched once."""
+    return tuple(_core.environment_model_paths())
+
+
 def _find(world):
     tried = [Path(world), worlds_folder() / world, worlds_folder() / f"{world}.sdf"]
     for path in tried:
@@ -169,8 +178,9 @@ def _realism(given):
     import yaml
 
     try:
-        sections = yaml.safe_load(file.read_text())
-    except yaml.YAMLError as error:
+        sections = yaml.safe_load(file.read_text(encoding="utf-8"))
+    # ValueError: what is no text, or a date that there is not.
+    except (yaml.YAMLError, ValueError, OverflowError, RecursionError) as error:
         raise DescriptionError(f"{file}: {error}") from None
     if sections is not None and not isinstance(sections, dict):
         raise DescriptionError(f"{file}: sections with their numbers were expected")
@@ -181,8 +191,9 @@ class World(_core.World):
     """A simulated warehouse, from an SDF world file: its path, or its name in worlds/.
 
     seed: of everything random. drive: "traction" or "jointed" instead of what the robots' models
-    say. model_paths: folders in which to look for `model://` before the project's own. threads: on
-    which a large fleet is stepped and scans, with the same result however many; 1 to 256.
+    say. model_paths: folders in which to look for `model://` first; then, as the node does, those
+    of GAZEBO_MODEL_PATH, of packages on ROS_PACKAGE_PATH, of GAZEBO_RESOURCE_PATH and around the
+    file. threads: on which a large fleet is stepped and scans, with the same result; 1 to 256.
     realism: how far robots, sensors and radio differ from the ideal: a preset ("ideal", "typical",
     "bad_day"), a YAML file, or a dict of its sections; None: what the robots' models say. Of a
     preset or a file the path, of a dict the key is named where it is wrong, in a DescriptionError.
@@ -191,8 +202,14 @@ class World(_core.World):
     """
 
     def __init__(self, world="empty", *, seed=1, drive="", model_paths=(), threads=1, realism=None):
-        models = [*map(str, model_paths), str(worlds_folder() / "models")]
-        super().__init__(str(_find(world)), False, models, seed, drive, threads, *_realism(realism))
+        file, ours = str(_find(world)), str(worlds_folder() / "models")
+        given, theirs = [*map(str, model_paths)], _theirs(*map(os.environ.get, _SEARCHED))
+        # As the node has them: a world's own models come first, ours in what is spawned.
+        for_world = [*given, *theirs, *_core.model_paths_around(file), ours]
+        for_spawning = [*given, ours, *theirs]
+        super().__init__(
+            file, False, for_world, for_spawning, seed, drive, threads, *_realism(realism)
+        )
 
     @classmethod
     def preset(cls, name, **options):
@@ -223,7 +240,8 @@ class World(_core.World):
         from warehouse_sim import models
 
         world = cls(**options)
-        world.delete(models.FLOOR)
+        if laid.has_own_floor:
+            world.delete(models.FLOOR)
         text = models.document(models.of_layout(laid))
         world.spawn(_ours(text) if own_models else text)
         world.events()

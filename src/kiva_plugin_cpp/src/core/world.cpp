@@ -21,14 +21,17 @@
 #include "core/control/reports.h"
 #include "core/control/tipping.h"
 #include "core/control/walking.h"
+#include "core/models/floors.h"
 #include "core/models/items.h"
 #include "core/models/models.h"
+#include "core/models/ordinary_models.h"
 #include "core/models/user_plugins.h"
 #include "core/motion/drives.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/ground.h"
 #include "core/motion/joints.h"
 #include "core/sensing/look_ahead.h"
+#include "core/sensing/ray_scene.h"
 #include "core/sensing/scans.h"
 #include "core/state/fleet_plugin.h"
 #include "core/state/footprints.h"
@@ -47,6 +50,7 @@ constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
 constexpr double kLeastMoment = 1e-12;                // [kg m²]
 constexpr double kMostArm = 1000;                     // [m]
 constexpr int kScansTogether = 16;                    // on one thread
+constexpr int kRaysTogether = 1000;                   // on one thread
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const WorldOptions& checked(const WorldOptions& options) {
@@ -106,6 +110,7 @@ void forEachUserPlugin(WorldState& world, Call call) {
 
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
+  findFloorParts(world);
   haltCrashed(world);
   wearOut(world);
   useEnergy(world);
@@ -218,8 +223,10 @@ void World::reset(bool time_too) {
   WorldState& world = *state_;
   forgetContacts(world, -1);
   world.crashes.clear();
+  forgetMessages(world);
   putAllBack(world);
   for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
+  for (int i = 0; i < world.fleet.size(); ++i) knowWhereabouts(world, i);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
   beginFailures(world);
@@ -257,6 +264,16 @@ void World::fail(int kiva_id, Failure failure, double repair_after) {
 void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
 std::optional<RobotReport> World::lastHeard(int robot) const {
   return kiva::lastHeard(*state_, robot);
+}
+
+void World::keepMode(int kiva_id, int mode) {
+  const int robot = state_->fleet.find(kiva_id);
+  if (robot < 0) throw std::invalid_argument("there is no kiva" + std::to_string(kiva_id));
+  if (mode < 0 || mode > kMostMode) {
+    throw std::invalid_argument("mode is " + std::to_string(mode) + "; 0 to " +
+                                std::to_string(kMostMode) + " was expected");
+  }
+  state_->fleet.mode[robot] = static_cast<std::uint8_t>(mode);
 }
 
 void World::walk(const std::string& person, const Walk& walk) { kiva::walk(*state_, person, walk); }
@@ -340,6 +357,17 @@ void World::states(std::vector<EntityState>* out) const {
   }
 }
 
+bool World::setVelocity(const std::string& model, const Twist& twist) {
+  Model* found = state_->find(model);
+  if (!found || found->kind != ModelKind::kOther) return false;
+  if (!found->owner->followsBodies(*found)) return false;
+  if (!twist.linear.IsFinite() || !twist.angular.IsFinite()) {
+    throw DescriptionError("the velocity of '" + model + "' must be finite");
+  }
+  setModelTwist(*found, twist);
+  return true;
+}
+
 bool World::setLinkState(const std::string& model, const std::string& link,
                          const EntityState& state) {
   Model* found = state_->find(model);
@@ -385,6 +413,14 @@ std::optional<JointState> World::joint(const std::string& model, const std::stri
   const int index = found ? findJoint(*found, joint) : -1;
   if (index < 0) return std::nullopt;
   return jointState(*state_, *found, index);
+}
+
+std::optional<JointWrench> World::jointWrench(const std::string& model,
+                                              const std::string& joint) const {
+  const Model* found = state_->find(model);
+  const int index = found ? findJoint(*found, joint) : -1;
+  if (index < 0) return std::nullopt;
+  return kiva::jointWrench(*found, index);
 }
 
 bool World::setJoint(const std::string& model, const std::string& joint,
@@ -503,6 +539,16 @@ double World::rayCast(const Vector3& from, double yaw, double range, const std::
       .range;
 }
 
+void World::rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
+                    const std::string& but, std::vector<double>* ranges) const {
+  const RayScene scene(*state_, from, range, state_->find(but));
+  ranges->resize(directions.size());
+  const int rays = static_cast<int>(directions.size());
+  state_->workers->share(rays, kRaysTogether, [&](int begin, int end) {
+    for (int k = begin; k < end; ++k) (*ranges)[k] = scene.cast(directions[k]);
+  });
+}
+
 std::vector<ContactPoint> World::contacts(const std::string& model) const {
   const auto at = state_->slot_of_name.find(model);
   if (at == state_->slot_of_name.end()) return {};
@@ -546,6 +592,8 @@ std::vector<StatusChange> World::takeStatusChanges() {
   out.swap(state_->status_changes);
   return out;
 }
+
+void World::warn(const std::string& warning) { state_->warn(warning, warning); }
 
 std::vector<std::string> World::takeWarnings() {
   std::vector<std::string> out;

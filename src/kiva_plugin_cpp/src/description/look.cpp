@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "outline.h"
+
 namespace kiva {
 namespace {
 
@@ -51,14 +53,44 @@ void append(const Pose& pose, std::vector<double>* out) {
 }
 
 template <typename Colour>
-void addShape(int link, const Pose& pose, const Shape& shape, const Colour& colour, Look* out) {
+void addPart(int link, Look::Kind kind, const Pose& pose, const Vector3& extent,
+             const Colour& colour, Look* out) {
   out->shape_link.push_back(link);
-  out->shape_kind.push_back(kindOf(shape.kind));
+  out->shape_kind.push_back(kind);
   append(pose, &out->shape_pose);
-  const Vector3 extent = extentOf(shape);
   for (int axis = 0; axis < 3; ++axis) out->shape_size.push_back(extent[axis]);
   for (int channel = 0; channel < 4; ++channel) {
     out->shape_colour.push_back(static_cast<float>(colour[channel]));
+  }
+}
+
+/// Of a mesh the boxes that it is from above.
+template <typename Colour>
+void addShape(int index, const Link& link, const Pose& pose, const Shape& shape,
+              const Colour& colour, Look* out) {
+  if (shape.kind != Shape::Kind::kMesh) {
+    return addPart(index, kindOf(shape.kind), pose, extentOf(shape), colour, out);
+  }
+  if (!shape.mesh) return;
+  for (const OutlineBox& box : outlineOf(*shape.mesh, link.pose_in_model * pose)) {
+    const Pose in_link = link.pose_in_model.Inverse() * Pose(box.centre, Quaternion::Identity);
+    addPart(index, Look::kBox, in_link, box.size, colour, out);
+  }
+}
+
+/// A mesh that is only seen was not read: what touches at its link is about as large.
+void addVisuals(int index, const Link& link, Look* out) {
+  bool has_touching = false;
+  for (const Visual& visual : link.visuals) {
+    const bool is_unread = visual.shape.kind == Shape::Kind::kMesh && !visual.shape.mesh;
+    if (!is_unread) {
+      addShape(index, link, visual.pose_in_link, visual.shape, visual.rgba, out);
+    } else if (!has_touching) {
+      for (const Collision& c : link.collisions) {
+        addShape(index, link, c.pose_in_link, c.shape, visual.rgba, out);
+      }
+      has_touching = true;
+    }
   }
 }
 
@@ -73,10 +105,10 @@ Look lookOf(const ModelDescription& model) {
     const int index = static_cast<int>(out.links.size());
     out.links.push_back(link.name);
     append(link.pose_in_model, &out.link_pose);
-    for (const Visual& v : link.visuals) addShape(index, v.pose_in_link, v.shape, v.rgba, &out);
+    addVisuals(index, link, &out);
     if (seen) continue;
     for (const Collision& c : link.collisions) {
-      addShape(index, c.pose_in_link, c.shape, kPlain, &out);
+      addShape(index, link, c.pose_in_link, c.shape, kPlain, &out);
     }
   }
   return out;

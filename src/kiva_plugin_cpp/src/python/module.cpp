@@ -64,9 +64,9 @@ py::dict realismOf(const World& world) {
   return out;
 }
 
-HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std::string>& models,
-                 std::uint64_t seed, const std::string& drive, int threads,
-                 const std::optional<std::map<std::string, std::string>>& realism,
+HostPtr makeHost(const std::string& source, bool is_text, const ModelPaths& world_model_paths,
+                 const ModelPaths& model_paths, std::uint64_t seed, const std::string& drive,
+                 int threads, const std::optional<std::map<std::string, std::string>>& realism,
                  const std::string& realism_from) {
   WorldOptions options;
   options.seed = seed;
@@ -77,9 +77,10 @@ HostPtr makeHost(const std::string& source, bool is_text, const std::vector<std:
   HostPtr host;
   {
     py::gil_scoped_release release;
-    host = std::make_shared<Host>(is_text ? parseWorld(source, models, "<text>", &warnings)
-                                          : loadWorld(source, models, &warnings),
-                                  options, models);
+    host =
+        std::make_shared<Host>(is_text ? parseWorld(source, world_model_paths, "<text>", &warnings)
+                                       : loadWorld(source, world_model_paths, &warnings),
+                               options, model_paths);
   }
   warn(warnings);
   warn(host->world.takeWarnings());
@@ -669,9 +670,9 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
 
 void defineWorld(py::module_& m) {
   py::class_<Host, HostPtr> world(m, "World");
-  world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"), py::arg("model_paths"),
-            py::arg("seed"), py::arg("drive"), py::arg("threads"), py::arg("realism") = py::none(),
-            py::arg("realism_from") = "");
+  world.def(py::init(&makeHost), py::arg("source"), py::arg("is_text"),
+            py::arg("world_model_paths"), py::arg("model_paths"), py::arg("seed"), py::arg("drive"),
+            py::arg("threads"), py::arg("realism") = py::none(), py::arg("realism_from") = "");
   world.def("step", &step, py::arg("steps") = 1,
             R"(Advances the world by so many steps of step_size seconds.
 
@@ -846,6 +847,8 @@ PYBIND11_MODULE(_core, m) {
   py::register_exception<CheckpointError>(m, "CheckpointError", PyExc_ValueError);
   m.attr("COMMAND") = py::dtype::of<Command>();
   m.attr("EVENT") = eventType();
+  m.def("environment_model_paths", &environmentModelPaths);
+  m.def("model_paths_around", &modelPathsAround, py::arg("world_file"));
   defineFleet(m);
   defineWorld(m);
   defineWorlds(m);

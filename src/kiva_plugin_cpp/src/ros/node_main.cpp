@@ -27,6 +27,7 @@
 #include "ros/services/light_services.h"
 #include "ros/services/link_services.h"
 #include "ros/services/map_service.h"
+#include "ros/services/mode_service.h"
 #include "ros/services/people_services.h"
 #include "ros/services/performance_topic.h"
 #include "ros/services/physics_services.h"
@@ -79,6 +80,12 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
            world.name().c_str(), settings.world_file.c_str(), world.fleet().size(),
            world.storageUnits().size(), world.items().size(), world.stepSize(),
            rtf > 0 ? ("real-time factor " + std::to_string(rtf)).c_str() : "as fast as it goes");
+  const kiva::Floor& floor = world.floor();
+  if (floor.min_x < floor.max_x) return;
+  ROS_WARN(
+      "%s has no floor: nothing in it that stands still is level within 10 cm of z = 0, so that "
+      "no cell is free; add a model of a plane or a box there",
+      settings.world_file.c_str());
 }
 
 int run(ros::NodeHandle& root, ros::NodeHandle& node) {
@@ -115,6 +122,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   SpawnServices spawn_services(spawning.node(), simulation, settings.model_paths);
   MapService map_service(root, simulation);
   FailureService failure_service(root, simulation);
+  ModeService mode_service(node, simulation);
   PeopleServices people_services(root, simulation, settings.model_paths);
   PickUpService pick_up_service(root, simulation);
   // A replay takes the checkpoints that were taken when it was recorded, and no others.
@@ -127,6 +135,11 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
       simulation.restoreHere(w, checkpoint);
     });
     replayer->onInput([&inputs](const rosbag::MessageInstance& m) { inputs.replay(m); });
+    replayer->onEnd([stays = settings.replay_stays] {
+      ROS_INFO("The recording was reproduced; %s",
+               stays ? "what stands there now may be looked at, and Ctrl-C ends it" : "it ends");
+      if (!stays) asked_to_stop = 1;
+    });
     simulation.add(*replayer);
   }
   simulation.add(inputs);

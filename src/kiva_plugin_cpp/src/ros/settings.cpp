@@ -78,9 +78,9 @@ double fleetRate(const ros::NodeHandle& node, double fallback) {
   return out;
 }
 
-bool flag(const ros::NodeHandle& node, const std::string& name) {
+bool flag(const ros::NodeHandle& node, const std::string& name, bool fallback = false) {
   XmlRpc::XmlRpcValue value;
-  if (!node.getParam(name, value)) return false;
+  if (!node.getParam(name, value)) return fallback;
   if (value.getType() != XmlRpc::XmlRpcValue::TypeBoolean) {
     refuse(node, name, value, "true or false");
   }
@@ -191,12 +191,9 @@ Settings readSettings(const ros::NodeHandle& node) {
   out.world_file = findWorld(world, split(text(node, "world_paths", worlds)));
   const std::string models = worlds.empty() ? "" : worlds + "/models";
   const Paths ours = split(text(node, "model_paths", models));
-  Paths theirs = split(environment("GAZEBO_MODEL_PATH"));
-  for (const auto& path : kiva::exportedModelPaths(environment("ROS_PACKAGE_PATH"))) {
-    theirs.push_back(path);
-  }
+  const Paths theirs = kiva::environmentModelPaths();
   out.model_paths = joined(ours, theirs);
-  out.world_model_paths = joined(theirs, ours);
+  out.world_model_paths = joined(joined(theirs, kiva::modelPathsAround(out.world_file)), ours);
   out.rtf = optionalNumber(node, "rtf", 0, "a factor above 0, or 0 (as fast as it goes),");
   const std::string whole = "a whole number, 0 or more,";
   out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));
@@ -211,6 +208,7 @@ Settings readSettings(const ros::NodeHandle& node) {
       1e6 * number(node, "checkpoint_limit", 1000, 0, "a number of megabytes, 0 or more,"));
   out.record = pathOf(node, "record");
   out.replay = pathOf(node, "replay");
+  out.replay_stays = flag(node, "replay_stays", true);
   const std::string rate = "a rate above 0 in Hz, or 0 (every step)";
   out.rates.clock = number(node, "pub_clock_frequency", out.rates.clock, 0, rate);
   out.rates.model_states = number(node, "model_states_frequency", out.rates.model_states, 0, rate);

@@ -19,8 +19,9 @@ namespace kiva_ros {
 ///                            .sdf; empty: an empty floor
 ///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
 ///   ~model_paths             folders of models, a:b; default: the same package's. Those that
-///                            GAZEBO_MODEL_PATH lists, and those that packages export to Gazebo,
-///                            are searched before them for a world, after them for requests
+///                            GAZEBO_MODEL_PATH lists, those that packages export to Gazebo,
+///                            those of GAZEBO_RESOURCE_PATH and those around a world file are
+///                            searched before them for a world, after them for requests
 ///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; not set: what
 ///                            the world file says
 ///   ~seed                    of everything random, default 1
@@ -39,6 +40,9 @@ namespace kiva_ros {
 ///                            for undo, each; default 1000
 ///   ~record                  bag file to write a recording to; empty (default): none
 ///   ~replay                  recording to run again, in place of ~world; empty (default): none
+///   ~replay_stays            false: it ends, with 0, when the recording has been reproduced;
+///   default
+///                            true: what stands there then may be looked at
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
 ///   ~fleet_rate              [Hz] of simulated time, of /warehouse/fleet; default 10, at most 100
@@ -53,6 +57,7 @@ struct Settings {
   std::string checkpoint_folder;
   std::uintmax_t checkpoint_limit = 0;  ///< [bytes]
   std::string record, replay;           ///< Paths, or empty.
+  bool replay_stays = true;
   Reporter::Rates rates;
 };
 

@@ -6,6 +6,7 @@
 #include "kiva_plugin_cpp/world_file.h"
 #include "world_file/errors.h"
 #include "world_file/files.h"
+#include "world_file/model_paths.h"
 #include "world_file/xml.h"
 
 namespace kiva {
@@ -16,15 +17,6 @@ namespace fs = std::filesystem;
 constexpr int kDeepest = 4;  // folders in folders
 constexpr std::size_t kMostPackageBytes = 100'000;
 constexpr char kPrefix[] = "${prefix}";
-
-ModelPaths split(const std::string& list) {
-  ModelPaths out;
-  std::istringstream paths(list);
-  for (std::string path; std::getline(paths, path, ':');) {
-    if (!path.empty()) out.push_back(path);
-  }
-  return out;
-}
 
 bool has(const fs::path& folder, const char* file) {
   std::error_code ignored;
@@ -56,7 +48,7 @@ void addExports(const fs::path& package, ModelPaths* paths) {
   if (!exports) return;
   for (const XmlElement* gazebo = exports->FirstChildElement("gazebo_ros"); gazebo;
        gazebo = gazebo->NextSiblingElement("gazebo_ros")) {
-    for (std::string path : split(attributeOf(*gazebo, "gazebo_model_path"))) {
+    for (std::string path : splitPaths(attributeOf(*gazebo, "gazebo_model_path"))) {
       const std::size_t at = path.find(kPrefix);
       if (at != std::string::npos) path.replace(at, sizeof(kPrefix) - 1, package.string());
       paths->push_back(fs::path(path).lexically_normal().string());
@@ -74,9 +66,18 @@ void crawl(const fs::path& folder, int depth, ModelPaths* paths) {
 
 }  // namespace
 
+ModelPaths splitPaths(const std::string& list) {
+  ModelPaths out;
+  std::istringstream paths(list);
+  for (std::string path; std::getline(paths, path, ':');) {
+    if (!path.empty()) out.push_back(path);
+  }
+  return out;
+}
+
 ModelPaths exportedModelPaths(const std::string& ros_package_path) {
   ModelPaths paths;
-  for (const std::string& root : split(ros_package_path)) crawl(root, 0, &paths);
+  for (const std::string& root : splitPaths(ros_package_path)) crawl(root, 0, &paths);
   return paths;
 }
 

@@ -7,6 +7,7 @@
 #include "world_file/errors.h"
 #include "world_file/files.h"
 #include "world_file/model_paths.h"
+#include "world_file/stand_in.h"
 
 namespace kiva {
 namespace {
@@ -31,6 +32,36 @@ bool hasOldPose(const XmlElement& include) {
   return pose && pose->Attribute("frame");
 }
 
+/// A stand-in stands still: in a world, in a static model, instead of all that a model would be.
+bool mayStandIn(const XmlElement& around) {
+  if (around.Name() == std::string("world")) return true;
+  if (around.Name() != std::string("model")) return false;
+  const std::string is_static = contentOf(around.FirstChildElement("static"));
+  if (is_static == "true" || is_static == "1") return true;
+  const XmlElement* const include = around.FirstChildElement("include");
+  return !around.FirstChildElement("link") && !around.FirstChildElement("model") &&
+         !include->NextSiblingElement("include");
+}
+
+void setChild(XmlElement* element, const char* name, const std::string& text) {
+  XmlElement* child = element->FirstChildElement(name);
+  if (!child) child = element->InsertNewChildElement(name);
+  child->SetText(text.c_str());
+}
+
+/// Another model at the place and under the name of the one that an include is about.
+void nameStandIn(XmlElement* include) {
+  const std::string uri = contentOf(include->FirstChildElement("uri"));
+  if (!include->FirstChildElement("name")) setChild(include, "name", nameIn(uri));
+  setChild(include, "uri", kUnknownObstacle);
+  XmlElement* next = nullptr;
+  for (XmlElement* child = include->FirstChildElement(); child; child = next) {
+    next = child->NextSiblingElement();
+    const std::string kind = child->Name();
+    if (kind != "uri" && kind != "name" && kind != "pose") include->DeleteChild(child);
+  }
+}
+
 }  // namespace
 
 IncludeGraph::IncludeGraph(const ModelPaths& model_paths, FaultOf fault_of)
@@ -43,31 +74,39 @@ void IncludeGraph::prune(XmlDocument* document, sdf::Errors* warnings) {
     XmlElement* next = nullptr;
     for (XmlElement* include = element->FirstChildElement("include"); include; include = next) {
       next = include->NextSiblingElement("include");
-      const std::string fault = faultOfInclude(*include);
-      if (fault.empty()) continue;
+      const Fault fault = faultOfInclude(*include);
+      if (fault.what.empty()) continue;
       const XmlElement* const uri = include->FirstChildElement("uri");
-      warnings->push_back(noteAt(uri ? *uri : *include, "this include is left out: " + fault));
-      element->DeleteChild(include);
+      const bool stands_in = fault.is_of_model && mayStandIn(*element) && hasStandIn();
+      warnings->push_back(noteAt(uri ? *uri : *include, "this include is left out: " + fault.what +
+                                                            (stands_in ? kStandsIn : "")));
+      if (stands_in) {
+        nameStandIn(include);
+      } else {
+        element->DeleteChild(include);
+      }
     }
   });
 }
 
-std::string IncludeGraph::faultOfInclude(const XmlElement& include) {
+bool IncludeGraph::hasStandIn() const { return !findModel(kUnknownObstacle, model_paths_).empty(); }
+
+IncludeGraph::Fault IncludeGraph::faultOfInclude(const XmlElement& include) {
   const std::string blank = blankField(include);
-  if (!blank.empty()) return "expected a text in <" + blank + ">";
+  if (!blank.empty()) return {"expected a text in <" + blank + ">"};
   const std::string uri = contentOf(include.FirstChildElement("uri"));
   const Cost cost = follow(uri);
-  if (!cost.fault.empty()) return cost.fault;
+  if (!cost.fault.empty()) return {cost.fault, true};
   if (includes_ + cost.includes > kMostIncludes) {
-    return "with it there would be more than " + std::to_string(kMostIncludes) +
-           " includes in models";
+    return {"with it there would be more than " + std::to_string(kMostIncludes) +
+            " includes in models"};
   }
   if (bytes_ + cost.bytes > kMostBytes) {
-    return "with it there would be more than " + std::to_string(kMostBytes) + " bytes to read";
+    return {"with it there would be more than " + std::to_string(kMostBytes) + " bytes to read"};
   }
   includes_ += cost.includes;
   bytes_ += cost.bytes;
-  return "";
+  return {};
 }
 
 IncludeGraph::Cost IncludeGraph::follow(const std::string& uri) {

@@ -23,7 +23,8 @@ class IncludeGraph {
   using FaultOf = std::function<std::string(const std::string& text, const std::string& file)>;
   IncludeGraph(const ModelPaths& model_paths, FaultOf fault_of);
 
-  /// Takes out the includes in a document that lead nowhere or too far, each with a warning.
+  /// Takes out the includes in a document that lead nowhere or too far, each with a warning. What
+  /// they would have put there is unknown: a stand-in takes its place, if there is one.
   void prune(XmlDocument* document, sdf::Errors* warnings);
 
   /// Those that it has read, and where it looked for what is missing.
@@ -37,7 +38,12 @@ class IncludeGraph {
   };
   Cost follow(const std::string& uri);
   Cost read(const std::string& file);
-  std::string faultOfInclude(const XmlElement& include);
+  struct Fault {
+    std::string what;  ///< Empty: none.
+    bool is_of_model = false;
+  };
+  Fault faultOfInclude(const XmlElement& include);
+  bool hasStandIn() const;
 
   const ModelPaths& model_paths_;
   const FaultOf fault_of_;

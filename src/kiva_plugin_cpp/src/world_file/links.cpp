@@ -8,24 +8,31 @@
 #include "world_file/errors.h"
 #include "world_file/inertia.h"
 #include "world_file/shapes.h"
+#include "world_file/stand_in.h"
 
 namespace kiva {
 namespace {
 
-void addCollision(const sdf::Collision& from, const Origin& origin, Link* link,
+void addCollision(const sdf::Link& from, const sdf::Collision& part, const Scope& scope, Link* link,
                   sdf::Errors* warnings) {
-  const auto shape = readShape(from.Element(), origin, warnings);
-  if (!shape) return;
   Collision collision;
-  collision.name = from.Name();
-  collision.pose_in_link = resolved(from.SemanticPose(), from.Element());
-  collision.shape = *shape;
-  readSurface(from.Element(), &collision, warnings);
-  link->collisions.push_back(collision);
+  collision.name = part.Name();
+  collision.pose_in_link = resolved(part.SemanticPose(), part.Element());
+  readSurface(part.Element(), &collision, warnings);
+  try {
+    const auto shape = readShape(part.Element(), scope.origin, MeshUse::kTouched);
+    if (!shape) return;
+    collision.shape = *shape;
+    link->collisions.push_back(collision);
+  } catch (const SdfError& lost) {
+    addStandIn(from, collision, lost, scope.origin, scope.is_static, link, warnings);
+  }
 }
 
 void addVisual(const sdf::Visual& from, const Origin& origin, Link* link, sdf::Errors* warnings) {
-  const auto shape = readShape(from.Element(), origin, warnings);
+  // Pictures show what touches in place of a mesh; where nothing does, they need the mesh itself.
+  const MeshUse use = link->collisions.empty() ? MeshUse::kTouched : MeshUse::kSeen;
+  const auto shape = readShape(from.Element(), origin, use);
   if (!shape) return;
   Visual visual;
   visual.name = from.Name();
@@ -44,9 +51,8 @@ Link describeLink(const sdf::Link& from, const Scope& scope, sdf::Errors* warnin
   link.gravity = from.Element()->Get<bool>("gravity", true).first;
   setInertia(from.Inertial(), &link);
   for (uint64_t i = 0; i < from.CollisionCount(); ++i) {
-    buildOrLeaveOut("collision", warnings, [&] {
-      addCollision(*from.CollisionByIndex(i), scope.origin, &link, warnings);
-    });
+    buildOrLeaveOut("collision", warnings,
+                    [&] { addCollision(from, *from.CollisionByIndex(i), scope, &link, warnings); });
   }
   for (uint64_t i = 0; i < from.VisualCount(); ++i) {
     buildOrLeaveOut("visual", warnings,

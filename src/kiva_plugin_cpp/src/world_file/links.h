@@ -16,6 +16,7 @@ struct Scope {
   const Origin& origin;
   std::string prefix;  ///< `nested::`, empty for the outermost model.
   Pose pose;           ///< Of the nested model, in the outermost one.
+  bool is_static;
 };
 
 /// Throw SdfError.

@@ -8,13 +8,22 @@
 
 namespace kiva {
 
-/// The folder, or the file, that the uri of an include names: `model://name` or `model://name/file`
-/// is looked up in the paths, `file:///path` and `/path` are as they are; empty if there is none.
+/// The folder, or the file, that the uri of an include names: an absolute path, with `file://` or
+/// without; else `model://name`, `model://name/file` or a relative path, looked up in the paths.
+/// Empty if there is none.
 std::string findModel(const std::string& uri, const ModelPaths& paths);
 
-/// The file that the uri of a mesh names: `model://`, `package://`, `file://`, an absolute path, or
-/// one relative to `folder`; empty if there is none.
+/// The file that the uri of a mesh names: an absolute path; `model://` and `package://`, looked up
+/// in the paths; or a relative path, with `file://` or without, looked up in `folder`, in those
+/// above it, in the paths and in the folders that hold them. Its ending may differ in case. Empty
+/// if there is none.
 std::string findFile(const std::string& uri, const std::string& folder, const ModelPaths& paths);
+
+/// What to tell a person who asked for a file that is in none of the folders.
+std::string fileNotFound(const std::string& uri, const std::string& folder,
+                         const ModelPaths& paths);
+/// The parts of a list of folders, `a:b`.
+ModelPaths splitPaths(const std::string& list);
 
 /// What to tell a person who asked for a model that is in none of the folders.
 std::string modelNotFound(const std::string& uri, const ModelPaths& paths);

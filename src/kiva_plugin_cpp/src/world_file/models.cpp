@@ -7,6 +7,7 @@
 #include "world_file/errors.h"
 #include "world_file/links.h"
 #include "world_file/sensors.h"
+#include "world_file/stand_in.h"
 
 namespace kiva {
 namespace {
@@ -45,7 +46,8 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
     description->nested_models.push_back(name);
     const Pose pose = scope.pose * resolved(nested.SemanticPose(), nested.Element(), "__model__");
     const std::size_t first = description->links.size();
-    addModel(nested, {scope.origin, name + "::", pose}, description, warnings);
+    const bool is_static = scope.is_static || nested.Static();
+    addModel(nested, {scope.origin, name + "::", pose, is_static}, description, warnings);
     if (nested.Static() && !description->is_static) holdToWorld(first, description);
   }
 }
@@ -72,7 +74,8 @@ ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
                                sdf::Errors* warnings) {
   ModelDescription description;
   description.is_static = isStatic(model);
-  addModel(model, {origin, "", Pose::Zero}, &description, warnings);
+  addModel(model, {origin, "", Pose::Zero, description.is_static}, &description, warnings);
+  addStandIn(model, &description, warnings);
   putFirst(model.CanonicalLinkAndRelativeName().second, &description.links);
   return description;
 }

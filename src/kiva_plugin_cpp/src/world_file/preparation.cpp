@@ -28,6 +28,13 @@ std::optional<bool> parseFlag(const std::string& text) {
   return std::nullopt;
 }
 
+/// libsdformat refuses a world of such a name, and with it the whole file.
+bool isReserved(const std::string& name) {
+  const bool is_internal = name.size() >= 4 && name.compare(0, 2, "__") == 0 &&
+                           name.compare(name.size() - 2, 2, "__") == 0;
+  return name == "world" || is_internal;
+}
+
 /// One child of an include; false if it is more than we understand.
 bool setField(const std::string& field, const std::string& text, Include* include) {
   if (field == "uri") {
@@ -116,6 +123,8 @@ class Preparation {
       visitParts(root, false);
       for (XmlElement* world = root->FirstChildElement("world"); world;
            world = world->NextSiblingElement("world")) {
+        rename(world);
+        takeStates(world);
         visitParts(world, true);
       }
     }
@@ -130,15 +139,19 @@ class Preparation {
       next = part->NextSiblingElement();
       if (is(*part, "actor")) {
         addPerson(part);
-      } else if (is_world && is(*part, "state")) {
-        readState(*part);
-        around->DeleteChild(part);
       } else if (is_world && is(*part, "population")) {
         writeOut(around, part);
       } else if (is(*part, "include") || is(*part, "model")) {
         take(part, is_world);
       }
     }
+  }
+
+  void rename(XmlElement* world) {
+    const std::string name = attributeOf(*world, "name");
+    if (!isReserved(name)) return;
+    result_.world_name = name;
+    world->SetAttribute("name", (name + ".").c_str());  // not reserved, and still recognised
   }
 
   void add(Include include, const XmlElement& from) {
@@ -183,7 +196,32 @@ class Preparation {
     return copy;
   }
 
-  void readState(const XmlElement& state) {
+  /// What Gazebo saves of a world's end: where models were, those that came and went.
+  void takeStates(XmlElement* world) {
+    while (XmlElement* const state = world->FirstChildElement("state")) {
+      readPoses(*state);
+      if (XmlElement* const came = state->FirstChildElement("insertions")) {
+        while (came->FirstChild()) world->InsertEndChild(came->FirstChild());
+      }
+      if (const XmlElement* const gone = state->FirstChildElement("deletions")) {
+        for (const XmlElement* name = gone->FirstChildElement("name"); name;
+             name = name->NextSiblingElement("name")) {
+          deleteModel(contentOf(name), world);
+        }
+      }
+      world->DeleteChild(state);
+    }
+  }
+
+  static void deleteModel(const std::string& name, XmlElement* world) {
+    XmlElement* next = nullptr;
+    for (XmlElement* model = world->FirstChildElement("model"); model; model = next) {
+      next = model->NextSiblingElement("model");
+      if (attributeOf(*model, "name") == name) world->DeleteChild(model);
+    }
+  }
+
+  void readPoses(const XmlElement& state) {
     for (const XmlElement* model = state.FirstChildElement("model"); model;
          model = model->NextSiblingElement("model")) {
       const auto pose = parsePose(contentOf(model->FirstChildElement("pose")));

@@ -38,6 +38,8 @@ struct PreparedText {
   std::vector<int> order;
   static constexpr int kOfRest = -1;
   sdf::Errors warnings;
+  /// The world's name, where libsdformat keeps it for itself and was given another.
+  std::optional<std::string> world_name;
   /// Where a world's `<state>`, as Gazebo saves it, has its models; by name.
   std::map<std::string, Pose> poses;
 };

@@ -69,25 +69,20 @@ MeshRequest requestOf(const sdf::ElementPtr& mesh) {
   return request;
 }
 
-std::optional<Shape> readMeshShape(const sdf::ElementPtr& owner, const sdf::ElementPtr& mesh,
-                                   const Origin& origin, sdf::Errors* warnings) {
+Shape readMeshShape(const sdf::ElementPtr& mesh, const Origin& origin, MeshUse use) {
   const std::string uri = required(mesh, "uri")->Get<std::string>();
+  const std::string folder = folderOf(mesh, origin);
   MeshRequest request = requestOf(mesh);
-  const std::string part = "this " + owner->GetName() + " is left out: ";
-  request.file = findFile(uri, folderOf(mesh, origin), origin.model_paths);
-  if (request.file.empty()) {
-    warnings->push_back(noteAt(mesh, part + "there is no mesh '" + uri + "'"));
-    return std::nullopt;
-  }
+  request.file = findFile(uri, folder, origin.model_paths);
+  if (request.file.empty()) failAt(mesh, fileNotFound(uri, folder, origin.model_paths));
   Shape shape;
   shape.kind = Shape::Kind::kMesh;
   shape.mesh_file = request.file;
   shape.mesh_scale = request.scale;
   try {
-    if (owner->GetName() == "collision") shape.mesh = readMesh(request);
+    if (use == MeshUse::kTouched) shape.mesh = readMesh(request);
   } catch (const DescriptionError& error) {
-    warnings->push_back(noteAt(mesh, part + "mesh " + request.file + ": " + error.what()));
-    return std::nullopt;
+    failAt(mesh, "mesh " + request.file + ": " + error.what());
   }
   return shape;
 }
@@ -185,13 +180,12 @@ sdf::ElementPtr descend(sdf::ElementPtr element, std::initializer_list<const cha
 
 }  // namespace
 
-std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin,
-                               sdf::Errors* warnings) {
+std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin, MeshUse use) {
   const sdf::ElementPtr geometry = required(owner, "geometry");
   const sdf::ElementPtr element = geometry->GetFirstElement();
   if (!element) failAt(geometry, "expected a shape: " + supported());
   if (element->GetName() == "empty") return std::nullopt;
-  if (element->GetName() == "mesh") return readMeshShape(owner, element, origin, warnings);
+  if (element->GetName() == "mesh") return readMeshShape(element, origin, use);
   const auto reader =
       std::find_if(std::begin(kReaders), std::end(kReaders),
                    [&](const ShapeReader& known) { return element->GetName() == known.element; });

@@ -19,11 +19,13 @@ struct Origin {
   const ModelPaths& model_paths;
 };
 
-/// The shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`, and with a
-/// warning for a mesh that can't be had. A visual's mesh is named, not read.
-/// Throws SdfError at a size that is not positive, and at a kind we can't build.
-std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin,
-                               sdf::Errors* warnings);
+/// A mesh that is touched is read, one that is only seen is named.
+enum class MeshUse { kTouched, kSeen };
+
+/// The shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`.
+/// Throws SdfError at a mesh that can't be had, at a size that is not positive, and at a kind we
+/// can't build.
+std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin, MeshUse use);
 
 /// Friction and restitution of a `<collision>`.
 void readSurface(const sdf::ElementPtr& element, Collision* collision, sdf::Errors* warnings);

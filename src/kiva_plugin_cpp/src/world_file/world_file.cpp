@@ -19,6 +19,8 @@
 #include "world_file/parser.h"
 #include "world_file/preparation.h"
 #include "world_file/sensors.h"
+#include "world_file/stand_in.h"
+#include "world_file/urdf.h"
 
 namespace kiva {
 namespace {
@@ -138,6 +140,7 @@ class Reading {
       ParsedText parsed = *parse(prepared.rest);
       for (const sdf::Error& warning : prepared.warnings) warn(describe(warning, where_));
       for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
+      if (prepared.world_name) parsed.world.name = *prepared.world_name;
       parsed.world.models = merge(prepared, std::move(parsed.world.models));
       std::move(lights_.begin(), lights_.end(), std::back_inserter(parsed.world.lights));
       for (ModelInstance& model : parsed.world.models) {
@@ -152,6 +155,8 @@ class Reading {
 
   /// What is most likely why a text holds nothing that can stand.
   const std::string& firstWarning() const { return first_warning_; }
+  /// How many models stand in for others.
+  std::size_t standIns() const { return stand_ins_; }
 
  private:
   void warn(const std::string& text) {
@@ -200,16 +205,27 @@ class Reading {
   void addInclude(const Include& include, std::vector<ModelInstance>* models) {
     const LibraryModel* model = nullptr;
     try {
-      model = library(include);
+      model = library(include.uri);
     } catch (const DescriptionError& error) {
-      return warn(at(include) + "this include is left out: " + error.what());
+      return addStandIn(include, std::string("this include is left out: ") + error.what(), models);
     }
-    if (!model) return warn(at(include) + leftOut(include.uri, model_paths_));
+    if (!model) return addStandIn(include, leftOut(include.uri, model_paths_), models);
     if (model->light) return addLight(include, *model->light);
     if (!model->description) {
       warn(at(include) + "'" + include.uri + "' holds no model and is left out");
       return;
     }
+    add(include, instance(include, *model), models);
+  }
+
+  void addStandIn(Include include, const std::string& why, std::vector<ModelInstance>* models) {
+    const LibraryModel* const model = library(kUnknownObstacle);
+    warn(at(include) + why + (model ? kStandsIn : ""));
+    if (!model) return;
+    if (include.name.empty()) include.name = nameIn(include.uri);
+    include.is_static.reset();
+    include.walk.reset();
+    ++stand_ins_;
     add(include, instance(include, *model), models);
   }
 
@@ -220,10 +236,10 @@ class Reading {
   }
 
   /// Looked up once for each reading: five thousand shelves are one model. Null: there is none.
-  const LibraryModel* library(const Include& include) {
-    auto [found, is_new] = models_.try_emplace(include.uri);
+  const LibraryModel* library(const std::string& uri) {
+    auto [found, is_new] = models_.try_emplace(uri);
     if (!is_new) return found->second.get();
-    const std::string folder = findModel(include.uri, model_paths_);
+    const std::string folder = findModel(uri, model_paths_);
     if (folder.empty()) return nullptr;
     found->second = libraryModel(folder, model_paths_);
     for (const std::string& warning : found->second->warnings) warn(warning);
@@ -256,6 +272,7 @@ class Reading {
   const std::string& where_;
   std::vector<std::string>* warnings_;
   std::string first_warning_;
+  std::size_t stand_ins_ = 0;
   std::set<std::string> warned_;
   std::set<std::string> names_;
   std::vector<Light> lights_;  ///< Of includes.
@@ -271,10 +288,17 @@ WorldDescription loadWorld(const std::string& path, const ModelPaths& model_path
 
 WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
                             const std::string& where, std::vector<std::string>* warnings) {
-  ParsedText parsed = Reading(model_paths, where, warnings).read(xml, [&](const std::string& rest) {
-    return std::make_shared<const ParsedText>(parseRest(rest, model_paths, where));
-  });
-  if (!parsed.is_world) throw DescriptionError(where + ": expected a <world> in <sdf>");
+  const bool is_urdf = isUrdf(xml);
+  const std::string text = is_urdf ? withInertias(xml) : xml;
+  ParsedText parsed =
+      Reading(model_paths, where, warnings).read(text, [&](const std::string& rest) {
+        return std::make_shared<const ParsedText>(parseRest(rest, model_paths, where));
+      });
+  if (is_urdf) {
+    for (ModelInstance& model : parsed.world.models) letStand(&model);
+  } else if (!parsed.is_world) {
+    throw DescriptionError(where + ": expected a <world> in <sdf>, or a URDF <robot>");
+  }
   return std::move(parsed.world);
 }
 
@@ -286,7 +310,7 @@ std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths&
       reading.read(xml, [&](const std::string& rest) { return cachedRest(rest, model_paths); });
   const bool has_lights = lights && !parsed.world.lights.empty();
   if (has_lights) *lights = std::move(parsed.world.lights);
-  if (parsed.world.models.empty() && !has_lights) {
+  if (parsed.world.models.size() == reading.standIns() && !has_lights) {
     const std::string& why = reading.firstWarning();
     throw DescriptionError(why.empty() ? where + ": expected a <model> in <sdf>" : why);
   }

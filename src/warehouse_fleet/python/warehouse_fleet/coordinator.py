@@ -20,20 +20,26 @@ from warehouse_fleet.fleet_driver import square
 from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.served_part import served_part
+from warehouse_fleet.takeover import ON_ITS_WAY, Takeover
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
 from warehouse_fleet.transports import ENDS, NOWHERE, Answer, Kind, Step, TransportEvent, Transports
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
+from warehouse_fleet.waiting import DOES, Waiting
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,
     CoordinatorState,
     Event,
     FleetFollow,
+    FleetOrders,
     FleetState,
     KivaStatus,
     Lift,
     People,
     Scenery,
+    StationState,
+    StationStates,
     UnitStates,
     WarehouseObjects,
 )
@@ -41,6 +47,7 @@ from warehouse_msgs.msg import TransportEvent as TransportEventMessage
 from warehouse_msgs.srv import (
     CancelTransport,
     CancelTransportResponse,
+    KeepRobotMode,
     ReleaseTransport,
     ReleaseTransportResponse,
     SetRobotMode,
@@ -52,28 +59,18 @@ from warehouse_msgs.srv import (
 )
 
 LATENCY = 0.4  # from a report to what is released for it, over topics [s]
-OVERTAKEN = 1.0  # a report that is older by more comes from a world that began anew [s]
-WAITS_LONG = 10.0  # [s]
-ON_ITS_WAY = 2.0  # for which a message may still come to a robot [s]
+OVERTAKEN = 1.0  # a report that is older by more comes from another world [s]
 CONNECTING = 5.0  # wall time that listeners of this node's events get to hear it [s]
 STATE_PERIOD, PATHS_PERIOD = 1.0, 0.2  # [s], simulated
 NOT_YET = "the coordinator has not seen the warehouse yet"
-STEP_NAMES = {
-    Step.FETCHING: "fetching",
-    Step.READY: "ready",
-    Step.LIFTING: "lifting",
-    Step.BRINGING: "bringing",
-    Step.WAITING: "waiting",
-    Step.STORING: "storing",
-    Step.DROPPING: "dropping",
-}
 
 
 class Coordinator:
-    """Follows /warehouse/fleet and answers with /warehouse/follow and /lift.
+    """Follows /warehouse/fleet and answers with /warehouse/fleet_orders.
 
-    It begins anew whenever other robots or another floor are there. `demand` "random" keeps
-    stations busy with transports of its own, one every `exchange` seconds each.
+    It begins again whenever other robots or another floor are there, and with each timeline of the
+    world, which a restore or a reset begins. The world keeps the modes of robots. `demand`
+    "random" keeps stations busy with transports of its own, one every `exchange` seconds each.
     """
 
     def __init__(self, demand="none", exchange=20.0, seed=1, planner=None):
@@ -81,21 +78,24 @@ class Coordinator:
         self._planner = planner
         self._lock = threading.RLock()  # of all below, between the worker and services
         self._traffic = self._transports = self._random = None
-        self._alarm = ""
+        self._alarm = self._left_out = ""
+        self._warned = set()  # texts that are in the log already
         self._scenery = self._objects = self._units = None
         self._plan_of = None  # the Scenery that the plan was made of
         self._ids = None
         self._ledger = Ledger()
         self._abandoned = []  # transports that were open when this began, until it was told
         self._refused, self._collisions = [], 0
+        self._timeline = 0  # of the world, as reports have it
+        self._takeover = None
+        self._kept = None  # the robots' modes, as the world keeps them
+        self._orders = FleetOrders()  # that are to be sent
         self._leaving = {}  # robots taken out of the fleet: since when each is idle [s], or None
         self._next_state = self._next_paths = 0.0
         self._fleet, self._news = None, threading.Event()
         self._people = People()
         publish = rospy.Publisher
-        self._follow = publish("/warehouse/follow", FleetFollow, queue_size=10)
-        self._lift = publish("/lift", Lift, queue_size=1000)
-        self._cancel = publish("/cancel", Cancel, queue_size=1000)
+        self._ordering = publish("/warehouse/fleet_orders", FleetOrders, queue_size=1000)
         self._events = publish("/warehouse/transports", TransportEventMessage, queue_size=1000)
         self._heard_by = clock.monotonic() + CONNECTING
         self._state = publish("/warehouse/coordinator", CoordinatorState, latch=True, queue_size=1)
@@ -104,6 +104,7 @@ class Coordinator:
         rospy.Service("/warehouse/release_transport", ReleaseTransport, self._on_release)
         rospy.Service("/warehouse/cancel_transport", CancelTransport, self._on_cancel)
         rospy.Service("/warehouse/tow", Tow, self._on_tow)
+        self._keep_mode = rospy.ServiceProxy("/gazebo/keep_robot_mode", KeepRobotMode)
         self._place = rospy.ServiceProxy("/gazebo/set_model_state", SetModelState)
         rospy.Service("/warehouse/set_robot_mode", SetRobotMode, self._on_mode)
         rospy.Subscriber("/warehouse/scenery", Scenery, self._on_scenery, queue_size=1)
@@ -113,6 +114,8 @@ class Coordinator:
         rospy.Subscriber("/warehouse/unit_states", UnitStates, self._keep, "_units", queue_size=1)
         rospy.Subscriber("/warehouse/events", Event, self._on_event, queue_size=10000)
         rospy.Subscriber("/warehouse/people", People, self._keep, "_people", queue_size=1)
+        self._by_hand = frozenset()  # stations where a person works
+        rospy.Subscriber("/warehouse/stations", StationStates, self._on_stations, queue_size=1)
         rospy.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=1)
 
     def run(self):
@@ -133,6 +136,10 @@ class Coordinator:
         message.header = Header()
         if message != self._scenery:
             self._scenery = message
+
+    def _on_stations(self, message):
+        manual = [one.name for one in message.stations if one.mode == StationState.MANUAL]
+        self._by_hand = frozenset(manual)
 
     def _on_fleet(self, message):
         self._fleet = message
@@ -182,14 +189,36 @@ class Coordinator:
             if request.mode not in list(Mode):
                 text = f"mode is {request.mode}; 0 (AUTOMATIC), 1 (MANUAL) or 2 (OUT_OF_SERVICE)"
                 return SetRobotModeResponse(False, text + " was expected")
+            if self._traffic.gone[robot]:
+                return SetRobotModeResponse(False, f"kiva{request.kiva_id} is gone")
+            if why := self._keep_one(robot, request.mode):
+                return SetRobotModeResponse(False, why)
             self._leaving.pop(robot, None)
             if request.mode != Mode.AUTOMATIC:
                 self._leaving[robot] = None
                 if not self._traffic.stands[robot]:
-                    self._cancel.publish(request.kiva_id)
+                    self._cancel(request.kiva_id)
+                    self._order()
             self._traffic.mode[robot] = request.mode
             self._next_state = 0.0  # whoever watches sees it at once
             return SetRobotModeResponse(True, "")
+
+    def _keep_one(self, robot, mode):
+        """Has the world keep that mode of a robot. Why it does not, or an empty text."""
+        kiva_id = int(self._traffic.kiva_ids[robot])
+        try:
+            answer = self._keep_mode(kiva_id, int(mode), self._timeline)
+        except rospy.ServiceException as error:
+            return str(error)
+        if answer.success:
+            self._kept[robot] = mode
+        return answer.message
+
+    def _keep_modes(self):
+        """Has the world keep those that have changed by themselves."""
+        changed = (self._traffic.mode != self._kept) & ~self._traffic.gone
+        for robot in np.flatnonzero(changed).tolist():
+            self._keep_one(robot, self._traffic.mode[robot])
 
     def _on_tow(self, request):
         with self._lock:
@@ -225,7 +254,7 @@ class Coordinator:
             if report.status[robot] != KivaStatus.STATUS_IDLE:
                 self._leaving[robot] = None
                 if report.state[robot] == KivaStatus.STATE_WAITING:
-                    self._cancel.publish(int(self._traffic.kiva_ids[robot]))
+                    self._cancel(int(self._traffic.kiva_ids[robot]))
             elif idle_since is None:
                 self._leaving[robot] = time
             elif time - idle_since > ON_ITS_WAY:
@@ -233,27 +262,32 @@ class Coordinator:
 
     def _step(self, fleet):
         report = SimpleNamespace(
-            **{name: _array(getattr(fleet, name)) for name in ("kiva_id", *REPORTED)}
+            **{name: _array(getattr(fleet, name)) for name in ("kiva_id", "mode", *REPORTED)}
         )
         time = fleet.stamp.to_sec()
-        if not self._is_known(report, time):
+        if not self._is_known(report, time, fleet.timeline):
             return
         traffic, transports = self._traffic, self._transports
-        report = traffic.aligned(report)
+        report = self._align(report)
         self._take_refusals()
         if self._is_new_state(time):
             self._see_units()
             # Paths that somebody gave out before end where robots can stop.
             for kiva_id in traffic.kiva_ids[traffic.inherited(report)]:
-                self._cancel.publish(int(kiva_id))
+                self._cancel(int(kiva_id))
             self._end_paths(report, time)
         traffic.observe(time, report)
+        if traffic.takes_over:
+            self._takeover.advance(time, report)
+        self._keep_modes()
         traffic.see_people(self._people)
         traffic.see_fallen(len(self._objects.fallen_item))
         if traffic.wants_map:
             self._see_map()
-        transports.advance(report)
-        self._send(traffic.releases())
+        if not traffic.takes_over:
+            transports.advance(report)
+        self._orders.follow = _follow(traffic.releases())
+        self._order()
         events = transports.take_events()
         for event in events:
             self._tell(event)
@@ -296,15 +330,18 @@ class Coordinator:
     def _is_new_state(self, time):
         return not self._next_state - STATE_PERIOD <= time < self._next_state
 
-    def _is_known(self, report, time):
-        """Whether this is the warehouse that the plan is of; looks at it anew if not."""
+    def _is_known(self, report, time, timeline):
+        """Whether this is the warehouse that the plan is of; looks at it again if not."""
         if None in (self._scenery, self._objects, self._units):
             return False
+        if self._units.timeline != timeline:
+            return False  # where units stand now is not told yet
         if not len(report.kiva_id):
             return False  # the warehouse is still to be built
         if self._traffic is None and self._objects.revision != self._units.revision:
             return False  # the second message of one change is on its way
         is_same = self._is_known_floor() and self._are_known(report.kiva_id)
+        is_same &= timeline == self._timeline
         if is_same and self._traffic is not None:
             if not self._traffic.is_stale(time):
                 return True
@@ -312,6 +349,7 @@ class Coordinator:
                 return False
         if is_same and self._alarm:
             return False
+        self._timeline = timeline
         self._begin(report, time)
         return self._traffic is not None
 
@@ -320,10 +358,11 @@ class Coordinator:
         scenery = self._scenery
         if scenery is self._plan_of:
             return True
-        if self._traffic is None or _floor_of(scenery) != _floor_of(self._plan_of):
+        if self._plan_of is None or _floor_of(scenery) != _floor_of(self._plan_of):
             return False
         self._plan_of = scenery
-        self._see_map()
+        if self._traffic is not None:
+            self._see_map()
         return True
 
     def _are_known(self, kiva_ids):
@@ -343,17 +382,16 @@ class Coordinator:
             self._traffic.close()
         self._traffic = self._transports = self._random = None
         self._leaving.clear()
+        self._refused, self._orders = [], FleetOrders()
         try:
             grid = _map()
             if not grid.data:
                 return  # the floor is being built
-            plan = FloorPlan.of_messages(grid, self._scenery)
-            plan.check(obstructed=False)
+            whole = FloorPlan.of_messages(grid, self._scenery)
+            plan, left_out = served_part(whole)
         except (rospy.ServiceException, FloorError) as error:
             self._give_up(str(error))
             return
-        for reason in plan.without_lane:
-            rospy.logwarn(reason)
         self._alarm = ""
         self._traffic = Traffic(
             plan,
@@ -363,11 +401,17 @@ class Coordinator:
             latency=LATENCY,
             lag=0.05,
         )
+        self._traffic.mode[:] = self._kept = report.mode.copy()
+        self._takeover = Takeover(self._traffic, time)
         for cell in np.flatnonzero(plan.obstructed):
             self._traffic.shut(int(cell), time + STAYS)
         self._abandoned = list(self._ledger)
         self._transports = Transports(plan, self._traffic, self._send_lift, last=self._ledger.last)
+        self._transports.left_out = frozenset(left_out.stations)
         self._see_units()
+        self._left_out = self._leave_out(whole, left_out, report)
+        for reason in (*plan.without_lane, self._left_out):
+            self._warn_once(reason)
         if self._demand == "random":
             self._random = RandomTransports(self._transports, self._seed, self._exchange)
         rospy.loginfo(
@@ -375,9 +419,22 @@ class Coordinator:
             f" {len(self._transports.cell_of_unit)} storage units"
         )
 
+    def _leave_out(self, plan, left_out, report):
+        """Robots that stand where no loaded one comes back from are out of service. What is left
+        out, in a sentence; or an empty text."""
+        traffic = self._traffic
+        out = np.isin(plan.cell_of(report.x, report.y), left_out.cells)
+        traffic.mode[out & (traffic.mode == Mode.AUTOMATIC)] = Mode.OUT_OF_SERVICE
+        return left_out.text(plan, self._transports.out_of_reach(), traffic.kiva_ids[out].tolist())
+
+    def _warn_once(self, text):
+        if text and text not in self._warned:
+            self._warned.add(text)
+            rospy.logwarn(text)
+
     def _give_up(self, text):
         self._alarm = text
-        rospy.logerr(f"the fleet can't be coordinated: {text}")
+        self._warn_once(f"the fleet can't be coordinated: {text}")
         state = CoordinatorState(alarms=[text])
         state.header.stamp = rospy.Time.now()
         self._state.publish(state)
@@ -385,7 +442,7 @@ class Coordinator:
     def _see_units(self):
         """Takes in where units stand."""
         objects, states = self._objects, self._units
-        if objects.revision != states.revision:
+        if objects.revision != states.revision or states.timeline != self._timeline:
             return
         self._transports.look(
             np.array(unit_ids(objects), int),
@@ -399,25 +456,41 @@ class Coordinator:
         for model in refused:
             self._traffic.refused(model)
 
-    def _send(self, releases):
-        if len(releases[0]):
-            self._follow.publish(FleetFollow(*(column.tolist() for column in releases)))
+    def _align(self, report):
+        """The report as Traffic has robots, with the modes of those that are back."""
+        was_gone = self._traffic.gone
+        report = self._traffic.aligned(report)
+        back = was_gone & ~self._traffic.gone
+        self._kept[back] = self._traffic.mode[back]
+        return report
+
+    def _order(self):
+        """Sends what is to be sent, for this timeline of the world alone."""
+        orders, self._orders = self._orders, FleetOrders()
+        if orders.follow.kiva_id or orders.lifts or orders.cancels:
+            orders.timeline = self._timeline
+            self._ordering.publish(orders)
+
+    def _cancel(self, kiva_id):
+        self._orders.cancels.append(Cancel(kiva_id))
 
     def _send_lift(self, kiva_id, shelf_id, up):
-        self._lift.publish(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+        self._orders.lifts.append(Lift(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id))
 
     def _state_message(self, time):
         traffic, transports = self._traffic, self._transports
-        state = CoordinatorState()
+        state = CoordinatorState(timeline=self._timeline)
         state.header.stamp = rospy.Time.from_sec(time)
         for name, mode in zip(("automatic", "manual", "out_of_service"), Mode):
-            setattr(state, name, int(np.count_nonzero(traffic.mode == mode)))
+            setattr(state, name, int(np.count_nonzero((traffic.mode == mode) & ~traffic.gone)))
         state.manual_kiva = self._ids_in(Mode.MANUAL)
         state.out_of_service_kiva = self._ids_in(Mode.OUT_OF_SERVICE)
         under_way = [t for t in transports if t.step != Step.OPEN]
-        for step, name in STEP_NAMES.items():
-            setattr(state, name, sum(t.step == step for t in under_way))
-        state.idle = state.automatic - len(under_way)
+        waiting = Waiting(traffic, transports, self._by_hand)
+        doing = waiting.doing()
+        state.doing_kiva, state.doing = list(doing), list(doing.values())
+        for name in ("idle", *DOES.values()):
+            setattr(state, name, state.doing.count(name))
         state.open = sum(t.step == Step.OPEN for t in transports)
         state.under_way = len(under_way)
         totals = transports.totals
@@ -432,10 +505,9 @@ class Coordinator:
         state.executed_over_planned = totals.executed_over_planned
         state.station = list(transports.stations)
         state.queue = [transports.waiting(name) for name in state.station]
-        # Who is at work in a station waits for nobody.
-        long = np.flatnonzero((time - traffic.still_since > WAITS_LONG) & ~traffic.busy)
+        long, state.waiting_text = map(list, zip(*waiting.long())) if waiting.long() else ([], [])
         state.waiting_kiva = traffic.kiva_ids[long].tolist()
-        state.waiting_for = self._ids_of([traffic.ahead_of(robot) for robot in long.tolist()])
+        state.waiting_for = self._ids_of([traffic.ahead_of(robot) for robot in long])
         state.waiting_since = traffic.still_since[long].tolist()
         state.collisions, state.blocked = self._collisions, traffic.blocked
         state.watchdog = traffic.watchdog
@@ -449,17 +521,18 @@ class Coordinator:
             f"kiva{kiva} was pushed and does not find back: put it straight, then set it AUTOMATIC"
             for kiva in traffic.kiva_ids[traffic.lost].tolist()
         ]
+        state.alarms += waiting.for_people()
         objects = self._objects
         state.alarms += [
             f"{objects.items[item]} lies on the floor, off {objects.storage_units[unit]}"
             for item, unit in zip(objects.fallen_item, objects.fallen_from)
         ]
-        if traffic.alarm:
-            state.alarms.append(traffic.alarm)
+        state.alarms += [text for text in (traffic.alarm, self._left_out) if text]
         return state
 
     def _ids_in(self, mode):
-        return self._traffic.kiva_ids[self._traffic.mode == mode].tolist()
+        traffic = self._traffic
+        return traffic.kiva_ids[(traffic.mode == mode) & ~traffic.gone].tolist()
 
     def _ids_of(self, robots):
         ids = self._traffic.kiva_ids
@@ -510,6 +583,11 @@ def _floor_of(scenery):
 def _array(field):
     """An array of a message; those of bytes come as such."""
     return np.frombuffer(field, np.uint8) if isinstance(field, bytes) else np.asarray(field)
+
+
+def _follow(releases):
+    """A FleetFollow of what Traffic releases."""
+    return FleetFollow(*(column.tolist() for column in releases))
 
 
 def _event_message(event):

@@ -17,12 +17,11 @@ from collections import Counter, deque
 
 import numpy as np
 
+from warehouse_fleet.activities import ACTIVITIES
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.protocols import Task
 from warehouse_fleet.transports import STAY, STORE, Answer, Kind, TransportEvent
 from warehouse_fleet.travel import Travel
-
-ACTIVITIES = ("to unit", "lift", "to station", "queue", "service", "back", "idle")
 
 
 class NearestHooks:

@@ -4,6 +4,7 @@
 import contextlib
 import threading
 from time import monotonic as clock
+from time import sleep, time_ns
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,13 +18,18 @@ from warehouse_fleet.floor_heat import SLICES, FloorHeat
 from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.operations import kpis, queries, stored
 from warehouse_fleet.operations.database import Database
+from warehouse_fleet.operations.demand import DemandError
 from warehouse_fleet.operations.opening import open_shift
 from warehouse_fleet.operations.site import Site
+from warehouse_fleet.operations.tasks import Outcome, Report
 from warehouse_fleet.people import PeopleLog
+from warehouse_fleet.served_part import served_part
 from warehouse_fleet.transports import ENDS, Answer, Kind, TransportEvent
 from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_msgs import msg, srv
 
+BUILDING = "/warehouse/building"  # is set while half a warehouse stands
+FAREWELL = 1.0  # for so long the last notice is offered to those who listen [s, wall]
 CYCLE = 0.1  # between two looks at what has happened [s]
 STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 SHOWN = 60  # intervals of the throughput: an hour
@@ -165,7 +171,9 @@ class Warehouse:
     @property
     def is_known(self):
         told = self.fleet, self.objects, self.units, self.scenery
-        return None not in told and self.objects.revision == self.units.revision
+        if None in told or self.objects.revision != self.units.revision:
+            return False
+        return self.fleet.timeline == self.units.timeline
 
     def is_known_at(self, now):
         """Not from a time that is still to come, before that was gone back [s]."""
@@ -174,7 +182,7 @@ class Warehouse:
     def site(self):
         """The Site of it."""
         floor_map = rospy.ServiceProxy("/warehouse/map", GetMap)().map
-        plan = FloorPlan.of_messages(floor_map, self.scenery)
+        plan, _ = served_part(FloorPlan.of_messages(floor_map, self.scenery))
         robots = self.fleet
         units = unit_ids(self.objects)
         return Site(
@@ -215,6 +223,8 @@ class OperationsNode:
     def __init__(self, database, orders="fill", policies=None, seed=1):
         self._lock = threading.RLock()  # of the shift, between the loop and services
         self._warehouse, self._coordinator = Warehouse(), Coordinator()
+        self._warned = set()
+        self._notices = _publisher("/warehouse/notices", msg.Notices)
         self._kpis = _publisher("/warehouse/kpis", msg.Kpis)
         self._throughput = _publisher("/warehouse/throughput", msg.Throughput)
         self._heat = _publisher("/warehouse/heat", msg.HeatMap)
@@ -231,6 +241,8 @@ class OperationsNode:
             ("set_station", srv.SetStation, self._set_station),
             ("confirm_pick", srv.ConfirmPick, self._confirm),
             ("report_short", srv.ReportShort, self._short),
+            ("report_pick", srv.ReportPick, self._report),
+            ("undo_write_off", srv.UndoWriteOff, self._undo_write_off),
             ("find_orders", srv.FindOrders, self._find_orders),
             ("find_stock", srv.FindStock, self._find_stock),
         ):
@@ -241,17 +253,22 @@ class OperationsNode:
     def _begin(self):
         """A shift that goes on with what the database has."""
         engine, now = self._database.engine, rospy.get_time()
+        self._timeline = self._warehouse.fleet.timeline
         self._site = self._warehouse.site()
         self._coordinator.begin()
-        self._coordinator.release_left(*stored.transports_left(engine))
         heat = FloorHeat(self._site.plan, now)
-        heat.restore(stored.heat(engine, now))
         since = max(0.0, (now // kpis.INTERVAL + 1 - SHOWN) * kpis.INTERVAL)
-        self._before = stored.throughput(engine, now, since)
-        self._shift = open_shift(
-            self._site, self._coordinator, database=self._database, now=now, **self._chosen
-        )
+        with self._database.reading():
+            left = stored.transports_left(engine)
+            heat.restore(stored.heat(engine, now))
+            self._before = stored.throughput(engine, now, since)
+        self._coordinator.release_left(*left)
+        self._shift = self._open_shift(now)
         self._shift.on_order_event = self._tell
+        # What a page was shown by an earlier run has other numbers [ms, wall].
+        self._shift.tasks.number_from(time_ns() // 10**6)
+        self._shift.notices.on_change = self._tell_notices
+        self._tell_notices()
         self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
         self._warehouse.begin(heat)
         self._keep_heat(SLICES)  # by the times of this run
@@ -262,12 +279,36 @@ class OperationsNode:
             f"{len(self._shift.orders)} orders to go on with"
         )
 
+    def _open_shift(self, now):
+        """A Shift; without the orders of a file that this warehouse can't take."""
+
+        def begin(orders):
+            chosen = self._chosen | {"orders": orders}
+            return open_shift(
+                self._site, self._coordinator, database=self._database, now=now, **chosen
+            )
+
+        try:
+            return begin(self._chosen["orders"])
+        except DemandError as error:
+            shift = begin("none")
+            first, *more = str(error).splitlines()
+            told = f"{first} (and {len(more)} more)" if more else first
+            shift.notices.add(f"no orders come from the file: {told}")
+            return shift
+
+    def _tell_notices(self):
+        for text in set(self._shift.notices) - self._warned:
+            rospy.logwarn(text)
+        self._warned = set(self._shift.notices)
+        self._notices.publish(msg.Notices(_header(self._shift.now), list(self._shift.notices)))
+
     def run(self):
         """Until ROS shuts down."""
         while not rospy.is_shutdown():
             with self._lock:
                 now = rospy.get_time()
-                if now < self._shift.now:
+                if now < self._shift.now or self._warehouse.fleet.timeline != self._timeline:
                     self._begin_anew(now)
                 else:
                     self._step(now)
@@ -280,7 +321,7 @@ class OperationsNode:
     def _begin_anew(self, now):
         """The world was reset, restored or undone: stock and orders are as they are, transports are
         not."""
-        rospy.logwarn(f"simulated time went back from {self._shift.now:g} s to {now:g} s")
+        rospy.logwarn(f"the world jumped from {self._shift.now:g} s to {now:g} s")
         self._shift.journal.end(self._shift, self._figures())
         self._shift.journal.flush()
         self._wait_for_warehouse()
@@ -293,24 +334,32 @@ class OperationsNode:
             self._database.close()
 
     def _wait_for_warehouse(self):
-        while not (self._warehouse.is_known_at(rospy.get_time()) and self._is_coordinated()):
+        while not (
+            self._warehouse.is_known_at(rospy.get_time())
+            and self._is_coordinated()
+            and not rospy.has_param(BUILDING)
+        ):
             if rospy.is_shutdown():
                 raise rospy.ROSInterruptException("shut down before there was a warehouse")
             _pause()
 
     def _is_coordinated(self):
         state = self._coordinator.state
-        return state is not None and len(state.station)
+        if state is None or not len(state.station):
+            return False
+        return state.timeline == self._warehouse.fleet.timeline
 
     def _step(self, now):
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
+            if self._warehouse.is_known:
+                self._shift.see_units(set(unit_ids(self._warehouse.objects)))
         self._shift.fallen.see(self._warehouse.fallen_items)
         self._shift.advance(now)
         self._tell_changes(now)
         if now >= self._next_stations:
             self._next_stations = now + STATIONS_PERIOD
-            self._stations.publish(self._stations_message(now))
+            self._tell_stations()
         if now >= self._next_kpis:
             self._next_kpis = now + KPIS_PERIOD
             self._kpis.publish(self._kpis_message(now))
@@ -347,6 +396,21 @@ class OperationsNode:
         arguments = request.station, request.sku, request.quantity, request.damaged
         return srv.ReportShortResponse(*self._do(self._shift.report_short, *arguments))
 
+    def _report(self, request):
+        if request.outcome not in Outcome.__members__.values():
+            text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
+            return srv.ReportPickResponse(False, text, 0)
+        fields = request.station, request.order_id, request.item, request.sequence
+        report = Report(*fields, request.quantity, Outcome(request.outcome))
+        answer = self._do(self._shift.tasks.report, report)
+        self._tell_stations()
+        return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)
+
+    def _undo_write_off(self, request):
+        done = self._do(self._shift.tasks.undo, request.station, request.sequence)
+        self._tell_stations()
+        return srv.UndoWriteOffResponse(*done)
+
     def _find_orders(self, request):
         total, found = queries.find_orders(
             self._database.engine,
@@ -366,7 +430,7 @@ class OperationsNode:
         return srv.FindStockResponse(total, pieces, [_place(one) for one in found])
 
     def _do(self, act, *arguments):
-        """Does it and keeps it; success and message."""
+        """Does it and keeps it; returns what it does."""
         with self._lock:
             answer = act(*arguments)
             self._shift.journal.commit(self._shift)
@@ -415,11 +479,16 @@ class OperationsNode:
         size = plan.spacing, plan.passable.shape[1]
         return msg.HeatMap(_header(now), heat.seconds(now), x, y, *size, *heat.maps())
 
+    def _tell_stations(self):
+        """At once where a person waits for what comes next, even if time stands still."""
+        with self._lock:
+            self._stations.publish(self._stations_message(self._shift.now))
+
     def _stations_message(self, now):
         message = msg.StationStates()
         message.header.stamp = rospy.Time.from_sec(now)
         elapsed = max(now - self._shift.began, 1e-9)
-        message.stations = [_station_state(one, elapsed) for one in self._shift.stations]
+        message.stations = [_station_state(one, now, elapsed) for one in self._shift.stations]
         return message
 
     def _figures(self):
@@ -455,6 +524,13 @@ class OperationsNode:
         )
         message.header.stamp = rospy.Time.from_sec(now)
         return message
+
+
+def tell_end(error):
+    """Why there is no shift, to those who listen to notices."""
+    notices = _publisher("/warehouse/notices", msg.Notices)
+    notices.publish(msg.Notices(notices=[f"no shift runs: {error}"]))
+    sleep(FAREWELL)
 
 
 def _pause():
@@ -506,7 +582,7 @@ def _queued(topic, kind):
     return rospy.Publisher(topic, kind, queue_size=10000)
 
 
-def _station_state(station, elapsed):
+def _station_state(station, now, elapsed):
     here = station.here
     return msg.StationState(
         name=station.name,
@@ -520,6 +596,7 @@ def _station_state(station, elapsed):
         picks=_picks(here) if here else [],
         pieces=station.pieces,
         busy_fraction=station.busy_s / elapsed,
+        waiting=station.waiting(now),
     )
 
 
@@ -531,9 +608,10 @@ def _picks(visit):
             pick.bin.item,
             pick.line.order.order_id,
             pick.line.order.reference,
+            pick.sequence,
         )
         for pick in visit.picks
     ] + [
-        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "")
+        msg.StationPick(bundle.sku, bundle.quantity, bundle.bin.item, 0, "", bundle.sequence)
         for bundle in visit.puts
     ]

@@ -22,6 +22,8 @@ from warehouse_fleet.stations import PICK, REPLENISH, STEPS, Station
 PIECE = 5.0  # mean weight of a piece, in the unit of a pod's capacity
 BIN = 100.0  # capacity of a pod that one bin stands for
 ON_A_LINE = 0.25  # of the spacing: waypoints this far apart may still be in one row
+MOST = 1e9  # of any number in a file
+MOST_CELLS = 4_000_000  # of a floor
 
 
 class InstanceError(Exception):
@@ -104,6 +106,8 @@ def _root(path, tag):
         raise InstanceError(f"{path}: {error.strerror}") from error
     except ElementTree.ParseError as error:
         raise InstanceError(f"{path}:{error.position[0]}: {error}") from error
+    except (LookupError, ValueError) as error:  # an unknown encoding
+        raise InstanceError(f"{path}:1: {error}") from error
     if root.tag != tag:
         raise InstanceError(f"{path}: <{root.tag}>; <{tag}> was expected")
     return root
@@ -121,7 +125,7 @@ def _number(path, element, name, default=None):
         value = float(text)
     except (TypeError, ValueError):
         value = float("nan")
-    if not np.isfinite(value):
+    if not abs(value) <= MOST:
         what = f"{element.tag} {element.get('ID')}"
         raise InstanceError(f"{path}: {what}: {name} is {text!r}; a number was expected")
     return value
@@ -132,9 +136,13 @@ def _text(path, root, name, default):
     if text is None:
         return default
     try:
-        return float(text)
+        value = float(text)
     except ValueError:
-        raise InstanceError(f"{path}: {name} is '{text}'; a number was expected") from None
+        value = float("nan")
+    if not 0 <= value <= MOST:
+        name = name.rpartition("/")[2]
+        raise InstanceError(f"{path}: {name} is '{text}'; a number from 0 to {MOST:g} was expected")
+    return value
 
 
 def _id(path, element):
@@ -197,6 +205,11 @@ class _Grid:
         self.step_x, self.step_y = self.step_x or self.step_y, self.step_y or self.step_x
         self.width = max(self.columns.values()) + 1
         self.height = max(self.rows.values()) + 1
+        if self.width * self.height > MOST_CELLS:
+            raise InstanceError(
+                f"{path}: waypoints make a floor of {self.width} by {self.height} cells; "
+                f"{MOST_CELLS} cells at most were expected"
+            )
         self.cell = {n: self._cell(one.x, one.y) for n, one in waypoints.items()}
         taken = {}
         for number, cell in self.cell.items():

@@ -62,12 +62,13 @@ class Traffic:
     """Who is where, who goes where, and by which plan.
 
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-    work: it stays), `mode`, `gone` (it was deleted), `broken` (it stands, or is not heard) and
-    `lifts_not`, by what it reports of itself, `minds` (it is slow, or waits, for people's sake).
-    `planner` is what a YAML file says of one, see warehouse_fleet.door; None: the one of the house.
-    `latency` [s] passes from a report until what is released for it has reached the robot. A plan
-    is begun every tick on a thread of its own, and taken up `lag` seconds later, whenever it is
-    ready: so a run does not depend on the machine.
+    work: it stays), `mode`, `gone` (it was deleted: its mode counts for nothing), `broken` (it
+    stands, or is not heard) and `lifts_not`, by what it reports of itself, `minds` (it is slow, or
+    waits, for people's sake). `planner` is what a YAML file says of one, see warehouse_fleet.door;
+    None: the one of the house. `latency` [s] passes from a report until what is released for it has
+    reached the robot. While it `takes_over` all robots are obstacles: what others told them is not
+    over yet. A plan is begun every tick on a thread of its own, and taken up `lag` seconds later,
+    whenever it is ready: so a run does not depend on the machine.
     """
 
     def __init__(
@@ -118,6 +119,7 @@ class Traffic:
         self.lost = np.zeros(count, bool)  # and did not find back: it is OUT_OF_SERVICE since then
         self.plan_seconds = collections.deque(maxlen=10000)  # computing time of the last plans
         self.watchdog = 0  # how often a robot made no progress for STUCK
+        self.takes_over = False
         self._settled = np.zeros(count, bool)  # has been idle since this began
         self._foreign = np.zeros(count, np.uint8)  # reports in a row
         self._stuck = np.zeros(count, bool)
@@ -152,16 +154,17 @@ class Traffic:
         return time < self.time
 
     def aligned(self, report):
-        """The report with an element for each of `kiva_ids`. Robots that are gone stand nowhere,
-        and are OUT_OF_SERVICE until they are back."""
+        """Returns the report with an element for each of `kiva_ids`. Robots that are gone stand
+        nowhere and are OUT_OF_SERVICE; those that come back are in the mode that they report."""
         ids = np.asarray(report.kiva_id)
         if np.array_equal(ids, self.kiva_ids):
             gone = np.zeros(len(ids), bool)
         else:
             gone = ~np.isin(self.kiva_ids, ids)
             report = self._spread(report, ids, gone)
+        back = self.gone & ~gone
         self.mode[gone] = Mode.OUT_OF_SERVICE
-        self.mode[self.gone & ~gone] = Mode.AUTOMATIC
+        self.mode[back] = np.asarray(getattr(report, "mode", np.zeros_like(self.mode)))[back]
         self.gone = gone
         return report
 
@@ -169,7 +172,9 @@ class Traffic:
         order = np.argsort(ids)
         at = order[np.searchsorted(ids[order], self.kiva_ids[~gone])]
         out = SimpleNamespace(kiva_id=self.kiva_ids)
-        for name in REPORTED:
+        for name in (*REPORTED, "mode"):
+            if not hasattr(report, name):
+                continue  # a world in this process keeps no modes
             values = np.asarray(getattr(report, name))
             column = np.zeros(len(gone), values.dtype)
             column[~gone] = values[at]
@@ -194,7 +199,7 @@ class Traffic:
             report.path_id,
             report.reached,
             report.left,
-            self.mode == Mode.AUTOMATIC,
+            (self.mode == Mode.AUTOMATIC) & (not self.takes_over),
             self.busy,
             self.loaded,
         )
@@ -204,6 +209,7 @@ class Traffic:
         self.stalled_since = np.where(self.stalled, np.minimum(self.stalled_since, time), np.inf)
         self.astray = self._execution.astray()
         self.lost = (self.lost & (self.mode == Mode.OUT_OF_SERVICE)) | self._execution.lost()
+        self.lost &= ~self.gone
         self.mode[self.lost] = Mode.OUT_OF_SERVICE
         self.still_since = self._execution.still_since()
         self._find_foreign(report)
@@ -223,7 +229,8 @@ class Traffic:
     def _find_foreign(self, report):
         """A robot that was idle and is busy with something else is commanded by a person."""
         foreign = self._execution.foreign() & self._settled & (self.mode == Mode.AUTOMATIC)
-        self._settled |= np.asarray(report.status) == IDLE
+        if not self.takes_over:
+            self._settled |= np.asarray(report.status) == IDLE
         self._foreign = np.where(foreign, self._foreign + 1, 0).astype(np.uint8)
         self.mode[self._foreign >= FOREIGN] = Mode.MANUAL
 

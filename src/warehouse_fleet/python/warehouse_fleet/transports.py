@@ -132,6 +132,7 @@ class Transports:
         self.park = lambda robot: None
         self.stations = {station.name: station for station in plan.stations}
         self.is_open = dict.fromkeys(self.stations, True)
+        self.left_out = frozenset()  # names of stations on the floor that no robot can reach
         self.totals = Totals()
         self.cell_of_unit = {}  # NOWHERE: not in a cell, or carried
         self._unit_in = {}  # those that stand, by cell
@@ -158,6 +159,8 @@ class Transports:
         """Asks for a unit to be brought to a station, or to the cell at (x, y) [m]. An Answer."""
         if shelf_id not in self.cell_of_unit:
             return Answer(0, False, f"there is no storage unit {shelf_id}")
+        if not self._is_in_reach(self.cell_of_unit[shelf_id]):
+            return Answer(0, False, f"no robot can come to storage unit {shelf_id} and back")
         if shelf_id in self._of_unit:
             number = self._of_unit[shelf_id].number
             return Answer(0, False, f"storage unit {shelf_id} has transport {number} already")
@@ -172,6 +175,13 @@ class Transports:
         self._tell(transport, Kind.RECEIVED)
         return Answer(transport.number, True, "")
 
+    def _is_in_reach(self, cell):
+        return cell == NOWHERE or bool(self.plan.passable.flat[cell])
+
+    def out_of_reach(self):
+        """The units that no robot can come to, ascending."""
+        return sorted(u for u, cell in self.cell_of_unit.items() if not self._is_in_reach(cell))
+
     def _add(self, shelf_id, station, cell, then=STORE, priority=0):
         self._last += 1
         transport = Transport(self._last, shelf_id, station, cell, then, priority)
@@ -180,6 +190,8 @@ class Transports:
 
     def _destination(self, shelf_id, station, x, y):
         if station:
+            if station in self.left_out:
+                raise ValueError(f"no robot can come to station {station} and back")
             if station not in self.stations:
                 raise ValueError(f"there is no station {station!r}")
             if not self.is_open[station]:
@@ -285,6 +297,15 @@ class Transports:
     def __iter__(self):
         return iter(self._transports.values())
 
+    def assigned(self):
+        """Those that a robot does."""
+        return self._of_robot.values()
+
+    def in_lane(self, transport):
+        """Whether its robot is in the lane of the station that it goes to."""
+        station = self.stations.get(transport.station)
+        return station is not None and self.traffic.cell[transport.robot] in station.queue
+
     def __contains__(self, transport_id):
         return transport_id in self._transports
 
@@ -324,7 +345,7 @@ class Transports:
         """Units that were left in the streets are put away again, before all else."""
         for shelf in sorted(self._lost & self.cell_of_unit.keys()):
             cell = self.cell_of_unit[shelf]
-            if cell == NOWHERE:
+            if cell == NOWHERE or not self._is_in_reach(cell):
                 continue
             self._lost.discard(shelf)
             if self.plan.storage.flat[cell]:

@@ -51,14 +51,22 @@ class Aisles {
     return cells;
   }
 
-  /// A cell of the part of the core that most of it belongs to.
+  /// A cell of the largest strongly connected part of the core.
   Cell largestPart() {
     Cell best = core_.front();
     std::size_t most = 0;
-    std::vector<std::uint8_t> reached(floor_.size(), 0);
+    std::vector<std::uint8_t> known(floor_.size(), 0);
     for (const Cell cell : core_) {
-      if (reached[cell]) continue;
-      const std::size_t size = spread(cell, true, true, reached);
+      if (known[cell]) continue;
+      std::vector<std::uint8_t> ahead(floor_.size(), 0), back(floor_.size(), 0);
+      spread(cell, true, true, ahead);
+      spread(cell, false, true, back);
+      std::size_t size = 0;
+      for (const Cell other : core_) {
+        if (!ahead[other] || !back[other]) continue;
+        known[other] = 1;
+        ++size;
+      }
       if (size > most) {
         most = size;
         best = cell;
@@ -67,8 +75,7 @@ class Aisles {
     return best;
   }
 
-  std::size_t spread(Cell start, bool is_forward, bool core_only,
-                     std::vector<std::uint8_t>& reached) {
+  void spread(Cell start, bool is_forward, bool core_only, std::vector<std::uint8_t>& reached) {
     std::vector<Cell> queue = {start};
     reached[start] = 1;
     for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -82,7 +89,6 @@ class Aisles {
         queue.push_back(to);
       }
     }
-    return queue.size();
   }
 
   Cell step(Cell cell, int heading) const { return floor_.next(Deck::kUnder, cell, heading); }

@@ -226,6 +226,20 @@ void bindLayout(py::module_& module) {
       py::arg("floor"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("spacing") = 1.0);
 }
 
+void bindLayoutFaults(py::module_& module) {
+  module.def(
+      "layout_faults",
+      [](const Floor& floor) {
+        std::vector<std::pair<std::string, std::vector<Cell>>> faults;
+        for (const LayoutFault& fault : checkLayout(floor)) {
+          const bool is_dead_end = fault.kind == LayoutFault::Kind::kDeadEnd;
+          faults.emplace_back(is_dead_end ? "dead end" : "cut off", fault.cells);
+        }
+        return faults;
+      },
+      py::arg("floor"));
+}
+
 void bindPlanners(py::module_& module) {
   py::class_<Started>(module, "Planner")
       .def("plan", &plan, py::arg("fleet"), py::arg("seconds") = 0.0, py::arg("attempts") = -1);
@@ -253,6 +267,7 @@ PYBIND11_MODULE(_core, module) {
   bindFleet(module);
   bindValidator(module);
   bindLayout(module);
+  bindLayoutFaults(module);
   bindPlanners(module);
   bindExecution(module);
 }

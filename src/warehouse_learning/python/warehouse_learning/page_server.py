@@ -7,7 +7,7 @@ import threading
 
 import uvicorn
 from starlette.applications import Starlette
-from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from warehouse_sim import files
@@ -15,7 +15,7 @@ from warehouse_sim.viewer.access import AccessControl
 from warehouse_sim.viewer.connections import listen
 from warehouse_sim.viewer.hub import Hub
 from warehouse_sim.viewer.model import Model
-from warehouse_sim.viewer.static_files import FRESH, THREE, Files, FreshFiles
+from warehouse_sim.viewer.static_files import THREE, Files, FreshFiles
 
 HOST, TRIES = "127.0.0.1", 20
 PATIENCE = 10.0  # with a server that begins or ends [s, wall]
@@ -60,14 +60,18 @@ class PageServer:
 
     # --- over HTTP
     def _application(self):
-        web = files.share() / "web"
+        web = FreshFiles(directory=files.share() / "web")
+
+        async def page(request):
+            return await web.get_response("index.html", request.scope)
+
         routes = [
-            Route("/", lambda _: FileResponse(web / "index.html", headers=FRESH)),
+            Route("/", page),
             WebSocketRoute("/live", self._live),
             Route("/api/v1/simulation/{action}", self._steer, methods=["POST"]),
             Route("/api/v1/events", self._events),
             Route("/api/v1/events.csv", self._events_csv),
-            Mount("/web", FreshFiles(directory=web)),
+            Mount("/web", web),
             Mount("/three", Files(directory=THREE)),
             Route("/{path:path}", _refuse, methods=["GET", "POST", "PUT", "DELETE"]),
         ]

@@ -19,6 +19,7 @@ STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
 STATUS |= {"blocked": KivaStatus.STATUS_BLOCKED}
 LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]
 HEAD = 0.4  # room for the title [inches]
+FLAT, ROOM = 0.03, 9.0  # [m] above zero and [m2]: what is flatter and larger is floor
 MOST_NAMES = 60  # robots with their number beside them
 
 
@@ -156,15 +157,21 @@ def _scenery(axes, scenery):
     described = [looks.parts(look, 0) for look in scenery.looks]
     things = zip(scenery.models, scenery.model_look, poses.rows(scenery.pose))
     for name, look, pose in things:
-        if floor_markings.is_name(name):
-            continue
-        own = np.reshape([part.pose for part in described[look]], (-1, 7))
-        at = poses.compose(np.broadcast_to(pose, own.shape), own)
-        for i in np.argsort(at[:, 2]):
-            part = described[look][i]
-            extent = np.abs(part.size @ _axes_of(at[i]))[:2]
-            outline = _placed(_rectangle(extent), at[i : i + 1, :2], poses.yaw(pose[None]))
-            _add(axes, outline, facecolors=[part.colour], zorder=2)
+        if not floor_markings.is_name(name):
+            _stand(axes, described[look], pose)
+
+
+def _stand(axes, parts, pose):
+    """The footprints of the parts of one model, but for its floor, which is drawn already."""
+    own = np.reshape([part.pose for part in parts], (-1, 7))
+    at = poses.compose(np.broadcast_to(pose, own.shape), own)
+    extents = np.reshape([np.abs(p.size @ _axes_of(row)) for p, row in zip(parts, at)], (-1, 3))
+    is_flat = at[:, 2] + extents[:, 2] / 2 <= FLAT
+    is_floor = is_flat & (extents[:, 0] * extents[:, 1] >= ROOM)
+    chosen = [i for i in np.argsort(at[:, 2]) if not is_floor[i]]
+    yaw = poses.yaw(pose[None])
+    outlines = [_placed(_rectangle(extents[i, :2]), at[i : i + 1, :2], yaw)[0] for i in chosen]
+    _add(axes, outlines, facecolors=[parts[i].colour for i in chosen], zorder=2)
 
 
 def _axes_of(pose):

@@ -3,8 +3,10 @@
 
 import os
 import re
+from collections import Counter
 
 from warehouse_msgs.msg import Event
+from warehouse_sim.models import kind_and_number
 from warehouse_sim.words import EVENT
 
 _GREEN, _YELLOW, _RED, _BLUE, _DIM = 32, 33, 31, 34, 2
@@ -33,12 +35,62 @@ def word(event):
 def line(event, coloured=False):
     """Time [s, simulated], model, what happened, which command, who else took part, and why."""
     number = f"#{event.command}" if event.command else ""
-    kind = f"{word(event):<9}"
-    if coloured:
-        kind = f"\033[{COLOURS.get(event.kind, _DIM)}m{kind}\033[0m"
+    kind = _kind(event, coloured)
     model, other, text = map(_plain, (event.model, event.other, event.text))
     why = ": ".join(filter(None, (other, text)))
     return f"{event.header.stamp.to_sec():10.3f} s  {model:<14} {kind} {number:<6} {why}".rstrip()
+
+
+def _kind(event, coloured):
+    kind = f"{word(event):<9}"
+    return f"\033[{COLOURS.get(event.kind, _DIM)}m{kind}\033[0m" if coloured else kind
+
+
+SUMMED = (Event.SPAWNED, Event.DELETED)
+FEW = 3  # in a row that are told one by one
+_NOUNS = {
+    "kiva": "robot",
+    "storage_unit": "storage unit",
+    "item": "item",
+    "conveyor_belt": "conveyor belt",
+}
+
+
+class Teller:
+    """Lines of events as they come; of many models that come or go in a row, one line of all.
+
+    take() and rest() return the lines that are to be told now; rest() is for when nothing has come
+    for a while. `each`: every event is told by itself.
+    """
+
+    def __init__(self, coloured=False, each=False):
+        self._coloured, self._each, self._row = coloured, each, []
+
+    def take(self, event):
+        """The lines of what is over now that this Event has come."""
+        if self._each or event.kind not in SUMMED:
+            return [*self.rest(), line(event, self._coloured)]
+        told = self.rest() if self._row and self._row[0].kind != event.kind else []
+        self._row.append(event)
+        return told
+
+    def rest(self):
+        """The lines of what has been kept."""
+        row, self._row = self._row, []
+        if len(row) <= FEW:
+            return [line(event, self._coloured) for event in row]
+        models = f"{len(row)} models"
+        time, kind = row[-1].header.stamp.to_sec(), _kind(row[-1], self._coloured)
+        return [f"{time:10.3f} s  {models:<14} {kind} {'':<6} {_counted(row)}"]
+
+
+def _counted(row):
+    """How many of each kind, as "4 robots, 24 storage units"."""
+    nouns = (_NOUNS.get(kind_and_number(event.model)[0], "other model") for event in row)
+    counts = Counter(nouns)
+    order = [*_NOUNS.values(), "other model"]
+    found = ((counts[noun], noun) for noun in order if counts[noun])
+    return ", ".join(f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in found)
 
 
 def _plain(text):

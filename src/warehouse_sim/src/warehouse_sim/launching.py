@@ -1,42 +1,111 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is checked before a launch file starts anything: arguments, and that the master is free."""
 
-import math
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 from xmlrpc.client import ServerProxy
 
-from warehouse_sim import world_file
-from warehouse_sim.request import PRESETS
+from warehouse_sim import launch_arguments
 
 TIMEOUT = 3.0  # for a world to say that it is there [s, wall]
 ENGINE = "/gazebo"
+OURS = "$(find warehouse_sim)/"  # how a launch file names files of this package
 
 
 class LaunchError(ValueError):
     """Why nothing was started, and what helps."""
 
 
-def check_arguments(size, world, rtf, worlds):
-    """Raises LaunchError; `worlds` is the folder of the world files that go by their name."""
-    if size not in ("", "none", *PRESETS):
-        raise LaunchError(f"size:={size}: one of none, {', '.join(PRESETS)} was expected")
-    if not (math.isfinite(rtf) and rtf >= 0):
-        raise LaunchError(f"rtf:={rtf:g}: a factor above 0, or 0 (as fast as it goes) was expected")
-    if world:
-        try:
-            world_file.find(world, worlds)
-        except world_file.WorldFileError as error:
-            raise LaunchError(str(error)) from error
+class Caller:
+    """The process that reads a launch file, from its command line (a list) and its folder."""
+
+    def __init__(self, command_line, cwd, share):
+        self._share = share
+        names = [part.rpartition("/")[2] for part in command_line[:2]]
+        self.is_roslaunch = "roslaunch" in names
+        self.words = command_line[names.index("roslaunch") + 1 :] if self.is_roslaunch else []
+        self.cwd = Path(cwd)
+
+    @classmethod
+    def of_process(cls, number, share):
+        """The one of that number."""
+        process = Path(f"/proc/{number}")
+        line = (process / "cmdline").read_text(errors="replace").split("\0")
+        return cls(line, os.readlink(process / "cwd"), share)
+
+    @property
+    def typed(self):
+        """The arguments {name: text} that a person typed."""
+        pairs = (re.fullmatch(r"(?!__)([^:=]+):=(.*)", word, re.DOTALL) for word in self.words)
+        return dict(pair.groups() for pair in pairs if pair)
+
+    def launch_file(self):
+        """The one file of which the arguments are; None if that can't be told."""
+        files = [word for word in self.words if word.endswith((".launch", ".xml"))]
+        if len(files) != 1:
+            return None
+        before = self.words[: self.words.index(files[0])]
+        ours = self._share / "launch" / files[0]
+        path = ours if before[-1:] == ["warehouse_sim"] else self.cwd / files[0]
+        return path if path.is_file() else None
+
+    @property
+    def name(self):
+        """What a person launched."""
+        path = self.launch_file()
+        return path.name if path else "warehouse.launch"
+
+    def known(self):
+        """The arguments that the launch file takes; None if that can't be told."""
+        path = self.launch_file()
+        return known_arguments(path, self._share) if path else None
 
 
-def master_of(command_line, environment):
-    """The master that a roslaunch of this command line (a list) uses; None of another program.
+def known_arguments(path, share):
+    """The names of arguments of a launch file, and of those that get all of its arguments; None
+    where one of them is not to be found."""
+    try:
+        root = ElementTree.parse(path).getroot()
+    except (ElementTree.ParseError, OSError):
+        return None
+    known = {arg.get("name") for arg in root.iter("arg") if "value" not in arg.attrib}
+    for include in root.iter("include"):
+        if include.get("pass_all_args", "").lower() != "true":
+            continue
+        file = include.get("file", "").replace(OURS, f"{share}/")
+        inner = None if "$" in file else known_arguments(file, share)
+        if inner is None:
+            return None
+        known |= inner - {arg.get("name") for arg in include.iter("arg")}
+    return known
+
+
+def check_arguments(given, caller, place):
+    """Raises LaunchError with a sentence for each argument that is wrong: those that the launch
+    file hands on, {name: text}, and those that a person typed."""
+    known = caller.known()
+    texts = launch_arguments.unknown(caller.typed, known) if known is not None else []
+    # A launch file of one's own may have arguments of the same names.
+    path = caller.launch_file()
+    is_ours = path and path.resolve().is_relative_to((place.worlds.parent / "launch").resolve())
+    typed = caller.typed if is_ours else {}
+    checked = launch_arguments.ARGUMENTS.keys() & (known or ())
+    values = {**given, **{name: text for name, text in typed.items() if name in checked}}
+    texts += launch_arguments.faults(values, place)
+    if texts:
+        raise LaunchError("\n  ".join(texts))
+
+
+def master_of(caller, environment):
+    """The master that a roslaunch uses; None of another program.
 
     rostest, say, always starts one of its own.
     """
-    names = [part.rpartition("/")[2] for part in command_line[:2]]
-    if "roslaunch" not in names:
+    if not caller.is_roslaunch:
         return None
-    rest = iter(command_line[names.index("roslaunch") + 1 :])
+    rest = iter(caller.words)
     for part in rest:
         for option in ("-p", "--port"):
             if part == option:

@@ -86,6 +86,7 @@ class Layout:
     drops: np.ndarray = _none(2)  # x y, before the belt of the same index
     plan: FloorPlan = None  # streets and stations; None: nothing is marked on the floor
     has_own_floor: bool = True  # False: it stands on the floor of the world
+    where: str = ""  # on which part of that, for a person
 
 
 SEED = 1  # of the regular layout, in which numbers and items follow the rows

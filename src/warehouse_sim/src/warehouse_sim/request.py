@@ -43,6 +43,21 @@ LIMITS = {"robots": 5000, "shelves": 20000, "items": 100000}
 MAX_BELTS = 60
 
 
+# The name for as much as there is room for in a world that is given.
+FIT = "fit"
+SPARE, TIGHT = 0.15, 20  # share of places that stay empty; of fewer places none does
+
+
+def proportioned(places, most_robots=LIMITS["robots"], belts=0):
+    """The Request of a warehouse in sensible proportions that takes up to so many places for robots
+    and storage units. belts: how many there are; 0: as many as it takes."""
+    robots = min(places // 8 + 2, max(1, places // 3), most_robots, LIMITS["robots"])
+    spare = int(SPARE * places) if places >= TIGHT else 0
+    units = max(0, min(places - robots - spare, LIMITS["shelves"]))
+    items = min(4 * units, units * CAPACITY, LIMITS["items"])
+    return Request(robots, units, items, belts or _belts_for(robots, units))
+
+
 def resolve(name, robots=0, items=0, shelves=0):
     """The Request behind a preset's name (all counts 0) or explicit counts.
 

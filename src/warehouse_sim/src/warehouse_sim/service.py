@@ -11,9 +11,9 @@ from warehouse_sim import hints, identity, models, survey
 from warehouse_sim.build_transaction import BuildTransaction
 from warehouse_sim.cells import Cells
 from warehouse_sim.engine import Engine, EngineError
-from warehouse_sim.fit import fit
+from warehouse_sim.fit import fit, fit_largest
 from warehouse_sim.layout import SEED, plan
-from warehouse_sim.request import RequestError, resolve
+from warehouse_sim.request import FIT, RequestError, resolve
 from warehouse_sim.warehouse_builder import UndoneError, WarehouseBuilder
 
 GREETED = "~greeted"
@@ -23,12 +23,13 @@ class WarehouseService:
     """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
 
     In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
-    that is there, if there is one. `seed` decides what in a layout is left to chance.
+    that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
+    `seed` decides what in a layout is left to chance.
     """
 
-    def __init__(self, ros, tell, keeps_floor=False, seed=SEED):
+    def __init__(self, ros, tell, keeps_floor=False, seed=SEED, at=None):
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
-        self._keeps_floor, self._seed = keeps_floor, seed
+        self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
 
     def handle(self, request):
         """CreateWarehouse: a refused request changes nothing."""
@@ -46,9 +47,10 @@ class WarehouseService:
 
     def create(self, name, number=0, counts=(0, 0, 0)):
         """Returns what stands then. Raises RequestError, EngineError."""
-        wanted = resolve(name, *counts)
+        fits = name == FIT and not any(counts)
+        wanted = None if fits else resolve(name, *counts)
         with self._lock, Engine(self._ros) as engine:
-            layout = self._layout(wanted, engine)
+            wanted, layout = self._layout(wanted, engine)
             transaction = BuildTransaction(self._ros, engine)
             transaction.begin(name)
             try:
@@ -57,16 +59,19 @@ class WarehouseService:
                 self._finish(transaction, "", 0, layout.floor)
                 raise
             self._finish(transaction, name, number, layout.floor)
-        width, length = layout.floor.size
         title = f"{name}: " if name else ""
-        stations = "" if layout.plan or not wanted.belts else "; no room for stations with lanes"
-        return f"{title}{wanted} on a {width:g} x {length:g} m floor{stations}"
+        return f"{title}{wanted} {_where(layout)}"
 
     def _layout(self, wanted, engine):
+        """(Request, Layout); `wanted` is None where as much is wanted as fits."""
         cells = Cells.of_map(engine.map()) if self._keeps_floor else None
-        if cells and cells.taken.size:
-            return fit(wanted, cells, self._seed)
-        return plan(wanted, self._seed)
+        if cells is None or not cells.taken.size:
+            if wanted is None:
+                raise RequestError(f"size {FIT} is for a world that is given (world:=…)")
+            return wanted, plan(wanted, self._seed)
+        if wanted is None:
+            return fit_largest(cells, self._seed, self._at)
+        return wanted, fit(wanted, cells, self._seed, self._at)
 
     def _finish(self, transaction, name, number, floor):
         identity.write(self._ros, name, number)
@@ -110,3 +115,16 @@ class WarehouseService:
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
         self._tell(hints.greeting(title, hints.commands(found)))
         self._ros.set_param(GREETED, True)
+
+
+def _where(layout):
+    """On which floor, and how its stations are served if otherwise than usual."""
+    if layout.has_own_floor:
+        width, length = layout.floor.size
+        return f"on a {width:g} x {length:g} m floor"
+    if not len(layout.drops):
+        return layout.where
+    if layout.plan is None:
+        return f"{layout.where}; there is no room for stations"
+    queues = any(len(station.queue) for station in layout.plan.stations)
+    return layout.where if queues else f"{layout.where}; no room for queues before its stations"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The status of robots as a person shall see it."""
+"""What robots do, as a person shall see it."""
 
 import numpy as np
 
-BLOCKED = 2  # as KivaStatus says it
+IDLE, BLOCKED = 0, 2  # as KivaStatus says it
+HOLDING = 3  # beside them: it carries a storage unit, and has no command
 ENDED_BLOCKED = 3  # as Event does
 
 
@@ -16,3 +17,13 @@ def shown_status(fleet):
     status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
     status[np.frombuffer(bytes(fleet.last_end), np.uint8) == ENDED_BLOCKED] = BLOCKED
     return status
+
+
+def activity(fleet):
+    """What each robot in a FleetState does, (n,) uint8: its shown_status(), or HOLDING.
+
+    A robot that carries a storage unit is at work, even while it would take a command.
+    """
+    out = shown_status(fleet)
+    out[(out == IDLE) & (np.asarray(fleet.shelf_id) != 0)] = HOLDING
+    return out

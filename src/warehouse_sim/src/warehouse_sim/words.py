@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers in messages as the words that the messages define for them."""
+"""The numbers in messages as the words that the messages define for them.
+
+The pages show the same words: web/js/words.js, which a test compares with these.
+"""
 
 from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
 from warehouse_msgs.srv import SetRobotModeRequest, TransportRequest
+from warehouse_sim import statuses
 
 
 def _constants(kind, prefix=""):
@@ -13,10 +17,12 @@ def _constants(kind, prefix=""):
 
 EVENT = _constants(Event)
 STATUS = _constants(KivaStatus, "STATUS_")
+ACTIVITY = STATUS | {statuses.HOLDING: "HOLDING"}
 STATE = _constants(KivaStatus, "STATE_")
 TRANSPORT = _constants(TransportEvent)
 MODE = _constants(SetRobotModeRequest)
 THEN = _constants(TransportRequest)
+WORK = ("fetching", "ready", "lifting", "bringing", "waiting", "storing", "dropping", "idle")
 
 
 # Bits of FleetState.failures.

@@ -29,8 +29,15 @@ async function request(method, path, body) {
   }
   const told = await answer.json().catch(() => ({}));
   if (answer.ok) return told;
-  throw Object.assign(new Error(reasonOf(told.detail) || answer.statusText),
+  const failed = `the server failed: ${answer.status} ${answer.statusText}`.trim();
+  throw Object.assign(new Error(reasonOf(told.detail) || failed),
     { refused: answer.status === 409 });
+}
+
+/** A server that asks for a token shows a form for it in place of the page. */
+export async function reloadIfLockedOut() {
+  const answer = await fetch('/web/icon.svg', { method: 'HEAD' }).catch(() => null);
+  if (answer?.status === 401) location.reload();
 }
 
 /** The reason in a refusal's body: a text, or a list of what is wrong with which field. */

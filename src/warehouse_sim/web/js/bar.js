@@ -74,9 +74,9 @@ export class Bar {
     $('time').textContent = clock(stamp);
   }
 
-  showLink(live) {
+  showLink(live, reason) {
     this.live = live;
-    this.link(live ? 'live' : 'away', live ? 'live' : 'no connection; trying again');
+    this.link(live ? 'live' : 'away', live ? 'live' : `${reason}; trying again`);
     this.enable();
   }
 

@@ -2,6 +2,7 @@
 // What changes in the work of the warehouse, over the WebSocket /api/v1/changes, which comes back by
 // itself.
 
+import { reloadIfLockedOut } from './api.js';
 import { on } from './dom.js';
 
 const RETRY = 1000; // [ms]
@@ -25,6 +26,7 @@ export class Changes {
     on(this.socket, 'close', () => {
       if (this.isOver) return;
       this.handlers.state?.(false);
+      reloadIfLockedOut();
       setTimeout(() => this.open(), RETRY);
     });
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The throughput of the last hour.
+// The throughput of the last hour: what was picked, beside the upper bound that holds for it, and
+// below it, by a scale of its own, what was put in.
 
-import { $ } from './dom.js';
+import { $, make } from './dom.js';
 
 const WIDTH = 600, HEIGHT = 150, MOST = 60; // [px], intervals
 const PARTIAL = 15; // of an interval that goes on less has no rate yet [s]
+const TICKS = 5, FEW = 2; // of an axis, at most; of a low one
 
 /** {from, length, rate} of each interval: seconds from the first one on, and pieces an hour. */
 export function ratesOf({ interval, begin, end }, counts) {
@@ -16,21 +18,43 @@ export function ratesOf({ interval, begin, end }, counts) {
   }).filter(({ rate }) => rate !== null);
 }
 
-/** `throughput` as the server tells it, and the upper bound [1/h]. */
+/** Round numbers from 0 up to `top`, for an axis. */
+export function ticksOf(top, most = TICKS) {
+  const power = 10 ** Math.floor(Math.log10(top / most));
+  const step = [1, 2, 5, 10].map((n) => n * power).find((n) => top / n <= most);
+  return Array.from({ length: Math.floor(top / step + 1e-9) + 1 }, (_, i) => i * step);
+}
+
+/** `throughput` as the server tells it, and the upper bound of what is picked [1/h]. */
 export function draw(throughput, bound) {
-  const picked = ratesOf(throughput, throughput.items_picked);
-  const stored = ratesOf(throughput, throughput.pieces_stored);
-  const top = 1.15 * Math.max(bound, 1, ...picked.map(({ rate }) => rate), ...stored.map(({ rate }) => rate));
   const span = MOST * throughput.interval;
-  const last = picked.at(-1) ? picked.at(-1).from + picked.at(-1).length : 0;
+  plot('picked', ratesOf(throughput, throughput.items_picked), span, TICKS, bound);
+  plot('stored', ratesOf(throughput, throughput.pieces_stored), span, FEW);
+}
+
+/** Bars, their axis, and a line at the bound if there is one. */
+function plot(name, rates, span, most, bound = 0) {
+  const top = 1.15 * Math.max(bound, 1, ...rates.map(({ rate }) => rate));
+  const last = rates.at(-1) ? rates.at(-1).from + rates.at(-1).length : 0;
+  const ticks = ticksOf(top, most);
   const x = (time) => (WIDTH * (1 - (last - time) / span)).toFixed(1);
   const y = (rate) => (HEIGHT * (1 - rate / top)).toFixed(1);
-  const bars = picked.map(({ from, length, rate }) => (
+  const across = (className, rate) => `<line class="${className}" x1="0" x2="${WIDTH}" y1="${y(rate)}" y2="${y(rate)}"/>`;
+  const bars = rates.map(({ from, length, rate }) => (
     `<rect x="${x(from)}" y="${y(rate)}" width="${(0.85 * WIDTH * length / span).toFixed(1)}" height="${(HEIGHT * rate / top).toFixed(1)}"/>`));
-  const line = stored.map(({ from, length, rate }) => `${x(from + length / 2)},${y(rate)}`);
-  $('chart').innerHTML = `${bars.join('')}<polyline points="${line.join(' ')}"/>
-    <line x1="0" x2="${WIDTH}" y1="${y(bound)}" y2="${y(bound)}"/>`;
-  $('chart-bound').textContent = `upper bound ${Math.round(bound).toLocaleString('en')}`;
-  $('chart-bound').style.top = `${100 * (1 - bound / top)}%`;
-  $('chart-begin').textContent = '1 hour ago';
+  $(`chart-${name}`).innerHTML = ticks.map((tick) => across('tick', tick)).join('') + bars.join('')
+    + (bound ? across('bound', bound) : '');
+  $(`axis-${name}`).replaceChildren(...ticks.map((tick) => at(tick / top, tick)));
+  $(`bound-${name}`)?.replaceChildren(...bound ? [at(bound / top, `upper bound ${number(bound)}`)] : []);
+}
+
+/** A label at that part of the height. */
+function at(part, value) {
+  const out = make('span', { textContent: typeof value === 'number' ? number(value) : value });
+  out.style.top = `${100 * (1 - part)}%`;
+  return out;
+}
+
+function number(value) {
+  return value.toLocaleString('en', { maximumFractionDigits: value < 10 ? 1 : 0 });
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The WebSocket, which comes back by itself.
 
+import { reloadIfLockedOut } from './api.js';
 import { on } from './dom.js';
 import { decode } from './protocol.js';
 
 const RETRY = [500, 1000, 2000, 4000]; // [ms]
+export const FULL = 1013; // a WebSocket's close code: the server has as many pages as it takes
 const NOTABLE = 0.2; // change of a gap, as a part of it
 
 export class Connection {
-  /** handlers: {update, scan, ways, scene, status, events, paths, fleet} for what comes, state(live).
+  /** handlers: {update, scan, ways, scene, status, events, paths, fleet} for what comes, state(live, why not).
    *  `soon(act)` calls `act` when there is time for what came. */
   constructor(handlers, soon) {
     Object.assign(this, { handlers, soon });
@@ -25,7 +27,7 @@ export class Connection {
     this.socket.binaryType = 'arraybuffer';
     on(this.socket, 'open', () => this.greet());
     on(this.socket, 'message', ({ data }) => this.soon(() => this.take(data)));
-    on(this.socket, 'close', () => this.again());
+    on(this.socket, 'close', ({ code }) => this.again(code));
   }
 
   greet() {
@@ -35,8 +37,9 @@ export class Connection {
     if (this.gap) this.send({ gap: this.gap });
   }
 
-  again() {
-    this.handlers.state(false);
+  again(code) {
+    this.handlers.state(false, code === FULL ? 'too many pages are open' : 'no connection');
+    reloadIfLockedOut();
     setTimeout(() => this.open(), RETRY[Math.min(this.failures++, RETRY.length - 1)]);
   }
 

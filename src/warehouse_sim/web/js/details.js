@@ -3,7 +3,7 @@
 
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
-import { FAILURE, STATE, STATUS } from './world.js';
+import { ACTIVITY, FAILURE, STATE } from './words.js';
 
 const LIFT = { drop: 0, carry: 1 };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
@@ -63,7 +63,7 @@ export class Details {
   }
 
   refreshRobot(i) {
-    const status = STATUS[this.world.status[i]];
+    const status = ACTIVITY[this.world.status[i]];
     $('badge').className = `badge ${status}`;
     $('badge').textContent = status;
     const load = this.world.shelf[i], over = this.world.unitOver(i);

@@ -2,23 +2,21 @@
 // The fleet that a coordinator drives, at a glance; nothing where none runs.
 
 import { $, make } from './dom.js';
+import { counted, countedEvents } from './words.js';
 
 const MOST_WAITING = 50; // rows
-
-const some = (counts) => Object.entries(counts).filter(([, count]) => count > 0)
-  .map(([name, count]) => `${count} ${name.replaceAll('_', ' ')}`).join(', ') || 'none';
 
 /** What a CoordinatorState counts, as [what, text]. */
 export function factsOf({ robots, work, transports, executed_over_planned: executed, ...told }) {
   return [
-    ['robots', some(robots)],
-    ['at work', some(work)],
+    ['robots', counted(robots)],
+    ['at work', counted(work)],
     ['transports', `${transports.open} open, ${transports.under_way} under way`],
     ['done', `${transports.delivered} delivered, ${transports.stored} stored`
       + (transports.failed ? `, ${transports.failed} failed` : '')],
     ['planning', `${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
     ['driven / planned', `${executed.toFixed(2)} s/s`],
-    ['trouble', some({ collisions: told.collisions, blocked: told.blocked, watchdog: told.watchdog })],
+    ['so far', countedEvents({ COLLISION: told.collisions, BLOCKED: told.blocked, watchdog: told.watchdog })],
   ];
 }
 
@@ -47,9 +45,9 @@ export class FleetPanel {
     $('waiting-title').hidden = rows.length === 0;
   }
 
-  row({ robot, waits_for: other, since }) {
+  row({ robot, since, text: reason }) {
     const seconds = Math.round(this.fleet.time - since);
-    const text = `kiva${robot} for ${other ? `kiva${other}` : 'nobody known'}, ${seconds} s`;
+    const text = `kiva${robot} ${reason}, ${seconds} s`;
     return make('button', { textContent: text, click: () => this.select(`kiva${robot}`) });
   }
 

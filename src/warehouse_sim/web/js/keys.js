@@ -42,7 +42,7 @@ export class Keys {
     const { key, target } = event;
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
     if (target.matches(TYPED)) {
-      if (key === 'Escape') target.blur();
+      if (key === 'Escape') giveUp(target);
       return;
     }
     const isPressing = key === ' ' && target.matches('button, input'); // it presses that one
@@ -56,6 +56,15 @@ export class Keys {
     act?.();
     return Boolean(act);
   }
+}
+
+/** Leaves a field; a search that is given up finds everything again. */
+function giveUp(field) {
+  if (field.type === 'search' && field.value) {
+    field.value = '';
+    field.dispatchEvent(new Event('input'));
+  }
+  field.blur();
 }
 
 function presser(key, isHeld) {

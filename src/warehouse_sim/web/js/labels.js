@@ -3,7 +3,7 @@
 
 import { make } from './dom.js';
 import { LABEL_HEIGHT, labelled, namedStations } from './labelled.js';
-import { STATUS } from './world.js';
+import { ACTIVITY } from './words.js';
 
 export class Labels {
   /** `box` lies over the picture. */
@@ -18,7 +18,7 @@ export class Labels {
     const { robots, stations } = this.world.scene;
     const { shown, status } = this.world;
     const labels = [
-      ...names.map((i) => [`kiva${robots[i]}`, STATUS[status[i]], i]),
+      ...names.map((i) => [`kiva${robots[i]}`, ACTIVITY[status[i]], i]),
       ...numbers.map((i) => [String(robots[i]), '', i]),
     ].map(([text, kind, i]) => ({ text, kind, at: [shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT] }));
     for (const { name, x, y } of namedStations(stations, view)) {

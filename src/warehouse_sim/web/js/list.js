@@ -3,7 +3,7 @@
 
 import { $, make, on, press } from './dom.js';
 import { found, rowsOf, wanted } from './search.js';
-import { STATE, STATUS } from './world.js';
+import { ACTIVITY, STATE } from './words.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in style.css
 
@@ -84,7 +84,7 @@ export class RobotList {
   /** Counts, sorts and draws anew. */
   refresh() {
     const { status } = this.world;
-    const counts = [0, 0, 0];
+    const counts = ACTIVITY.map(() => 0);
     for (const s of status) counts[s] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
@@ -106,7 +106,7 @@ export class RobotList {
   row(i, at) {
     const { status, state, shelf } = this.world;
     const name = this.nameOf(i);
-    const kind = STATUS[status[i]];
+    const kind = ACTIVITY[status[i]];
     const load = shelf[i] ? `carries ${shelf[i]}` : status[i] === 1 ? STATE[state[i]] : '';
     const out = make('div', { className: 'row', click: () => this.select(name) },
       make('span', { className: `badge ${kind}`, textContent: kind }), name,

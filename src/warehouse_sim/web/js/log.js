@@ -2,9 +2,9 @@
 // The running log of events, and those of one model.
 
 import { $, make, on } from './dom.js';
+import { TROUBLE } from './words.js';
 
 const KEPT = 1000, SHOWN = 150, OWN = 20;
-const TROUBLE = ['REFUSED', 'BLOCKED', 'COLLISION', 'FAILED', 'LOST', 'TIPPED', 'FELL'];
 
 export class EventLog {
   /** `select(name)` is called for the model of an event that was clicked. */

@@ -55,12 +55,12 @@ class Page {
     this.paths = {};
     this.scans = new Map();
     this.openStage();
-    this.where = new Where(this.stage, this.world, (...found) => this.list.showPieces(...found));
+    this.where = new Where(this.stage, this.world, (...found) => this.list.showPieces(...found), (text) => this.tip.say(text, 'refused'));
     this.addButtons();
     this.keys = new Keys((step) => this.next(step), () => this.leave());
     setInterval(() => this.isNews && this.soon(() => this.refreshPanels()), PANELS_EVERY);
     this.connection = new Connection({
-      state: (live) => this.bar.showLink(live),
+      state: (live, reason) => this.bar.showLink(live, reason),
       scene: (scene) => this.takeScene(scene),
       update: (update) => this.takeUpdate(update),
       status: (status) => this.bar.showStatus(status),

@@ -2,12 +2,16 @@
 // The work of the warehouse: figures, robots, stations, orders, stock; and a station's screen for a
 // person. What changes comes by itself.
 
+import { Alarms } from './alarms.js';
 import { get, remove } from './api.js';
 import { Changes } from './changes.js';
 import { draw } from './chart.js';
 import { $, make, on } from './dom.js';
 import { OrderList } from './order_list.js';
-import { Stations } from './stations.js';
+import { piecesOf } from './order_row.js';
+import { confirmed } from './question.js';
+import { Stations, waitingOf } from './stations.js';
+import { spaced } from './words.js';
 import { WorkScreen } from './work_screen.js';
 
 const PLACES = 200;
@@ -26,7 +30,7 @@ const FIGURES = [
   ['collisions', 'collisions', count],
 ];
 // Of the palette of Okabe and Ito (2008), light to dark within what belongs together.
-const WORK = { fetching: '#56b4e9', ready: '#a6d8f5', lifting: '#0072b2', bringing: '#009e73', waiting: '#f0e442', storing: '#66c2a5',
+const WORK_COLOURS = { fetching: '#56b4e9', ready: '#a6d8f5', lifting: '#0072b2', bringing: '#009e73', waiting: '#f0e442', storing: '#66c2a5',
   dropping: '#005c8f', idle: '#9aa4b1', manual: '#cc79a7', out_of_service: '#d55e00' };
 
 function count(value) {
@@ -42,19 +46,21 @@ class Page {
     this.kpis = this.throughput = null;
     this.stations = new Stations((sent) => this.act(sent));
     this.screen = new WorkScreen();
-    this.orders = new OrderList((id) => this.act(remove(`/orders/${id}`)), (error) => this.say(error.message));
+    this.alarms = new Alarms();
+    this.orders = new OrderList((order) => this.cancel(order), (error) => this.say(error.message));
     on(window, 'hashchange', () => this.screen.choose(location.hash.slice(1)));
     this.screen.choose(location.hash.slice(1));
     on($('where'), 'submit', (event) => {
       event.preventDefault();
       this.where();
     });
-    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator'], {
+    this.changes = new Changes(['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'notices'], {
       state: (live) => this.showLink(live ? 'live' : 'away'),
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
         this.stations.take(stations);
         this.screen.take(stations);
+        this.alarms.set('stations', stations.filter(waitingOf).map((one) => `${one.name} ${waitingOf(one)}`));
       },
       kpis: ({ kpis }) => {
         this.kpis = kpis;
@@ -67,31 +73,46 @@ class Page {
       },
       orders: (message) => this.orders.take(message),
       coordinator: ({ coordinator }) => this.showFleet(coordinator),
+      notices: ({ notices }) => this.alarms.set('orders', notices),
     });
   }
 
   takeShift(runs) {
     this.showLink(runs ? 'live' : 'idle');
-    if (runs) this.orders.look();
+    if (runs) this.orders.begin();
   }
 
   showLink(state) {
     $('link').dataset.state = state;
-    $('link').textContent = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
+    const text = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
+    $('link').textContent = text;
+    this.screen.showLink(state === 'live' ? '' : text);
   }
 
-  /** Waits for what was asked of the server, and says so if the answer was no. */
-  async act(sent) {
+  /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why
+   *  the answer was no. */
+  async act(sent, told = () => '') {
     this.say('');
     try {
-      await sent;
+      const { message } = await sent;
+      this.say(told(message), 'done');
     } catch (error) {
       this.say(error.message);
     }
   }
 
-  say(text) {
+  /** Asks first: an order that is cancelled does not come back. */
+  async cancel(order) {
+    const { order_id: id, reference, station } = order;
+    const at = station ? ` It is at ${station}.` : '';
+    const title = `Cancel ${reference}?`;
+    if (!await confirmed(title, `Order ${id}, picked so far: ${piecesOf(order)}.${at}`, `Cancel ${reference}`, 'Keep it')) return;
+    await this.act(remove(`/orders/${id}`), (message) => [`${reference} is cancelled`, message].filter(Boolean).join('; '));
+  }
+
+  say(text, kind = 'refused') {
     Object.assign($('answer'), { hidden: !text, textContent: text });
+    $('answer').dataset.kind = kind;
   }
 
   showFigures() {
@@ -106,29 +127,28 @@ class Page {
   // --- robots
   showFleet(fleet) {
     $('fleet').textContent = fleet ? '' : 'no coordinator runs';
+    this.alarms.set('coordinator', fleet?.alarms ?? []);
     if (!fleet) return;
     this.orders.now = fleet.time;
     $('time').textContent = clock(fleet.time);
     const { manual, out_of_service } = fleet.robots;
     const doing = { ...fleet.work, manual, out_of_service };
-    const shown = Object.entries(WORK).filter(([name]) => doing[name]);
+    const shown = Object.entries(WORK_COLOURS).filter(([name]) => doing[name]);
     $('robots').replaceChildren(...shown.map(([name, colour]) => {
-      const bar = make('div', { title: `${doing[name]} ${words(name)}` });
+      const bar = make('div', { title: `${doing[name]} ${spaced(name)}` });
       Object.assign(bar.style, { flex: doing[name], background: colour });
       return bar;
     }));
     $('robots-legend').replaceChildren(...shown.map(([name, colour]) => {
       const dot = make('i');
       dot.style.background = colour;
-      return make('li', {}, dot, make('b', { textContent: doing[name] }), ` ${words(name)}`);
+      return make('li', {}, dot, make('b', { textContent: doing[name] }), ` ${spaced(name)}`);
     }));
     const { transports } = fleet;
     $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; plans take `
       + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
-    $('alarms').replaceChildren(...fleet.alarms.map((text) => make('li', { textContent: text })));
-    $('alarms').hidden = fleet.alarms.length === 0;
-    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, waits_for: other, since }) => (
-      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s for ${other ? `kiva${other}` : 'nobody known'}` }))));
+    $('waiting').replaceChildren(...fleet.waiting.map(({ robot, since, text }) => (
+      make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s ${text}` }))));
   }
 
   // --- stock
@@ -144,10 +164,6 @@ class Page {
       $('found').textContent = error.message;
     }
   }
-}
-
-function words(name) {
-  return name.replaceAll('_', ' ');
 }
 
 const pad = (n) => String(Math.floor(n)).padStart(2, '0');

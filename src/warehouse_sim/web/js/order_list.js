@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of orders, of which only the rows in sight exist and were asked for.
+// The list of orders, of which only the rows in sight exist and were asked for. Rows stand still: a
+// row keeps its place until the person asks for another list, whatever comes or goes meanwhile.
 
 import { get } from './api.js';
 import { $, make, on, press } from './dom.js';
+import { OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in operations.css
 const AROUND = 30; // rows beside those in sight that are asked for too
-const PAUSE = 1000; // between two looks at which orders there are [ms]
 const TYPING = 200; // after a key [ms]
-const NAMES = { OPEN: 'open', ASSIGNED: 'at', COMPLETED: 'done', CANCELLED: 'cancelled' };
 
 export class OrderList {
-  /** `cancel(order_id)` is called for a row's button, `fail(error)` where the server says no. */
+  /** `cancel(order)` is called for a row's button, `fail(error)` where the server says no. */
   constructor(cancel, fail) {
     Object.assign(this, { cancel, fail, filter: '', total: 0, first: 0, rows: [], now: 0 });
+    this.shown = new Map(); // OrderRows by their orders' numbers
+    this.forget();
     this.box = $('orders');
     this.inside = make('div');
     this.box.append(this.inside);
     on(this.box, 'scroll', () => this.scrolled());
     on($('find'), 'submit', (event) => event.preventDefault());
     on($('search'), 'input', () => this.lookAnew(TYPING));
+    on($('news'), 'click', () => this.lookAnew(0));
     for (const button of $('filters').children) {
       on(button, 'click', () => {
         this.filter = button.dataset.filter;
@@ -40,9 +43,20 @@ export class OrderList {
     return [first, Math.ceil(this.box.clientHeight / this.rowHeight) + 1];
   }
 
-  /** Another list is wanted. */
+  get text() {
+    return $('search').value.trim();
+  }
+
+  /** Nothing is known to have come since the list was asked for. */
+  forget() {
+    this.news = new Set(); // numbers of orders that belong into the list, and are not in it yet
+    this.missed = false; // whether others may
+    this.shift = 0; // rows by which the server's list, where new ones come first, is ahead of this one
+  }
+
+  /** Another list is wanted, from its beginning. */
   lookAnew(delay) {
-    this.box.scrollTop = 0;
+    this.isAnew = true;
     this.soon(delay);
   }
 
@@ -59,6 +73,22 @@ export class OrderList {
     this.timer = setTimeout(() => this.look(), delay);
   }
 
+  /** The server is there, perhaps again: what changed meanwhile was not told. */
+  begin() {
+    if (this.rows.length) this.take({ orders: [], missed: true });
+    else this.lookAnew(0);
+  }
+
+  /** How many orders wait to be shown. */
+  get fresh() {
+    return this.isWhole ? Math.max(this.news.size, this.shift) : this.news.size;
+  }
+
+  /** Whether it is the list of all orders: there an order stays for ever. */
+  get isWhole() {
+    return !this.filter && !this.text;
+  }
+
   async look() {
     if (this.isLooking) {
       this.isStale = true;
@@ -66,16 +96,19 @@ export class OrderList {
     }
     this.isLooking = true;
     this.isStale = false;
-    const [first, count] = this.inSight;
-    const offset = Math.max(0, first - AROUND);
+    const { isAnew } = this;
+    this.isAnew = false;
+    const [sight, count] = this.inSight;
+    const offset = isAnew ? 0 : Math.max(0, sight - AROUND + this.shift);
+    if (isAnew) this.forget();
     const query = new URLSearchParams(this.filter);
     query.set('limit', count + 2 * AROUND);
     query.set('offset', offset);
-    const text = $('search').value.trim();
-    if (text) query.set('search', text);
+    if (this.text) query.set('search', this.text);
     try {
       const { total, orders } = await get(`/orders?${query}`);
-      Object.assign(this, { total, first: offset, rows: orders });
+      if (isAnew) this.begun(total, orders);
+      else this.went(offset, orders);
       this.draw();
     } catch (error) {
       this.fail(error);
@@ -84,57 +117,64 @@ export class OrderList {
     if (this.isStale) this.soon(0);
   }
 
-  /** Orders have changed: those in sight show it at once; which belong into the list is asked for. */
+  begun(total, orders) {
+    this.box.scrollTop = 0;
+    Object.assign(this, { total, first: 0, rows: orders });
+    this.newest = Math.max(this.newest ?? 0, ...orders.map(({ order_id: id }) => id));
+  }
+
+  /** Rows from `offset` on in the server's list: one that is known already tells their place here. */
+  went(offset, orders) {
+    const places = new Map(this.rows.map(({ order_id: id }, i) => [id, this.first + i]));
+    const common = orders.findIndex(({ order_id: id }) => places.has(id));
+    if (common >= 0) this.shift = offset + common - places.get(orders[common].order_id);
+    const hidden = Math.max(0, this.shift - offset); // rows that are new: above the first one here
+    Object.assign(this, { first: Math.max(0, offset - this.shift), rows: orders.slice(hidden) });
+    if (common >= 0 && this.isWhole) this.missed = false; // the shift counts what came
+  }
+
+  /** Orders have changed: those in sight show it where they are; others wait to be asked for. */
   take({ orders, missed }) {
     const changed = new Map(orders.map((order) => [order.order_id, order]));
+    const there = new Set(this.rows.map(({ order_id: id }) => id));
     this.rows = this.rows.map((row) => changed.get(row.order_id) ?? row);
-    this.draw();
-    if (!this.isDue && (missed || orders.length)) {
-      this.isDue = true;
-      setTimeout(() => {
-        this.isDue = false;
-        this.look();
-      }, PAUSE);
+    this.missed ||= missed;
+    for (const [id, order] of changed) {
+      const isNew = id > this.newest || (this.filter && !there.has(id));
+      if (isNew && belongs(order, this.filter, this.text, this.now)) this.news.add(id);
+      else this.news.delete(id);
     }
+    if (this.isWhole) this.shift = Math.max(this.shift, this.news.size);
+    if (!this.total && (this.news.size || missed)) this.lookAnew(0); // nothing that could move
+    else if (missed) this.soon(0);
+    this.draw();
   }
 
   draw() {
     $('total').textContent = `${this.total.toLocaleString('en')} orders`;
+    $('news').hidden = !this.fresh && !this.missed;
+    $('news').textContent = this.fresh ? `${this.fresh} new: show` : 'there may be new ones: show';
     this.inside.style.height = `${this.rowHeight * this.total}px`;
     const [first, count] = this.inSight;
     const from = Math.max(first, this.first);
     const shown = this.rows.slice(from - this.first, first + count - this.first);
-    const kept = new Map([...this.inside.children].map((row) => [row.dataset.key, row]));
-    this.inside.replaceChildren(...shown.map((order, i) => {
-      const key = JSON.stringify([order, lateness(order, this.now)]);
-      const row = kept.get(key) ?? this.row(order, key); // a finger may be on its button
-      row.style.top = `${this.rowHeight * (from + i)}px`;
-      return row;
-    }));
-  }
-
-  row(order, key) {
-    const { order_id: id, reference, state, station, lines } = order;
-    const late = lateness(order, this.now);
-    const pieces = lines.map(({ sku, quantity, picked }) => `${picked}/${quantity} ${sku}`).join(', ');
-    const isOver = state === 'COMPLETED' || state === 'CANCELLED';
-    const out = make('div', { className: late.isLate ? 'order is-late' : 'order' },
-      make('span', { textContent: reference, title: reference }),
-      make('span', { textContent: [NAMES[state], station].filter(Boolean).join(' ') }),
-      make('span', { textContent: late.text, className: late.isLate ? 'late' : 'dim' }),
-      make('span', { textContent: pieces, title: pieces }),
-      make('span', {}, ...isOver ? [] : [make('button', { textContent: 'Cancel', ariaLabel: `Cancel ${reference}`, click: () => this.cancel(id) })]));
-    out.setAttribute('role', 'listitem');
-    out.dataset.key = key;
-    return out;
+    const kept = this.shown;
+    this.shown = new Map(shown.map((order) => (
+      [order.order_id, kept.get(order.order_id) ?? new OrderRow(this.cancel)])));
+    for (const [id, { element }] of kept) if (!this.shown.has(id)) element.remove();
+    shown.forEach((order, i) => {
+      const row = this.shown.get(order.order_id);
+      row.show(order, this.now, this.rowHeight * (from + i));
+      if (!row.element.isConnected) this.inside.append(row.element);
+    });
   }
 }
 
-/** {isLate, text} of an order at a time [s]. */
-export function lateness({ due, completed, state }, now) {
-  if (!due || state === 'CANCELLED') return { isLate: false, text: '' };
-  const left = due - (completed || now);
-  const minutes = `${Math.max(1, Math.round(Math.abs(left) / 60))} min`;
-  if (left < 0) return { isLate: true, text: `${minutes} late` };
-  return { isLate: false, text: completed ? 'in time' : `in ${minutes}` };
+/** Whether an order is one of those that a filter of the server's query and a text ask for. */
+export function belongs(order, filter, text, now) {
+  const wanted = new URLSearchParams(filter), state = wanted.get('state');
+  const isOver = order.state === 'COMPLETED' || order.state === 'CANCELLED';
+  if (state && order.state !== state) return false;
+  if (wanted.has('late') && (!order.due || isOver || order.due > now)) return false;
+  return !text || order.reference.includes(text) || order.lines.some(({ sku }) => sku === text);
 }

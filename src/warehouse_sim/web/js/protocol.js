@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads what viewer/protocol.py writes; the layout is described there.
 
-export const VERSION = 3;
+export const VERSION = 4;
 const UPDATE = 1, SCAN = 2, HEAD = 40, SCAN_HEAD = 32, WAYS_HEAD = 8, WAY_WORDS = 6;
 export const ROBOT_WORDS = 7, BODY_WORDS = 9; // of four bytes, a row
 

@@ -4,10 +4,11 @@
 import { $, on } from './dom.js';
 
 /** Resolves to whether the person said yes. */
-export async function confirmed(title, text, yes) {
+export async function confirmed(title, text, yes, no = 'Cancel') {
   $('question-title').textContent = title;
   $('question-text').textContent = text;
   $('question-yes').textContent = yes;
+  $('question-no').textContent = no;
   return await ask($('question')) === 'yes';
 }
 

@@ -6,8 +6,8 @@ import * as THREE from '/three/build/three.module.js';
 import { Crowd, FAR, NEAR } from './crowd.js';
 import { boundsOf, hull, materialOf, matrixOf, merge } from './looks.js';
 
-// Idle, busy, blocked; as style.css has them.
-export const STATUS_COLOURS = [0x0072b2, 0xf0e442, 0xd55e00].map((c) => new THREE.Color(c));
+// By ACTIVITY, as style.css has them.
+export const STATUS_COLOURS = [0x0072b2, 0xf0e442, 0xd55e00, 0x56b4e9].map((c) => new THREE.Color(c));
 const FRAME = { inner: 0.40, outer: 0.49 }; // half edges [cells]
 const DETAIL = 22; // [px] a metre, from which on robots are drawn in detail
 const MOVING = ['left_wheel', 'right_wheel', 'tower']; // links

@@ -2,7 +2,7 @@
 // What a person types in search of something, and what it finds.
 
 const MOST = 12; // found names shown
-const ORDER = [2, 1, 0]; // of robots, by status: blocked, busy, idle
+const ORDER = [3, 1, 0, 2]; // of robots, by ACTIVITY: blocked, busy, holding, idle
 
 /** 'Robot 3' is kiva3; 'unit 12' is within storage_unit12. */
 export function wanted(text) {

@@ -14,6 +14,16 @@ export class Sheets {
       on(button, 'click', () => this.show(button.ariaExpanded === 'true' ? null : button.dataset.sheet));
     }
     on(NARROW, 'change', changed);
+    new ResizeObserver(() => this.fitBar()).observe($('bar'));
+  }
+
+  /** Panels begin below the bar, however many rows it has. */
+  fitBar() {
+    const below = `${Math.ceil($('bar').getBoundingClientRect().bottom) + GAP}px`;
+    const { style } = document.documentElement;
+    if (style.getPropertyValue('--below') === below) return;
+    style.setProperty('--below', below);
+    this.changed();
   }
 
   /** Opens the sheet of that id, and closes the others; null: closes all. */

@@ -4,6 +4,8 @@
 import { put } from './api.js';
 import { $, make } from './dom.js';
 
+const UNATTENDED = 60; // [s], simulated
+
 export class Stations {
   /** `act(promise)` waits for what was asked of the server. */
   constructor(act) {
@@ -26,11 +28,12 @@ class Card {
     this.name = make('strong');
     this.busy = make('span', { className: 'dim', title: 'busy, of the time since the shift began' });
     this.work = make('div', { className: 'dim' });
+    this.waits = make('div', { className: 'waits-for-person', hidden: true });
     this.queue = make('div', { className: 'queue' });
     this.gate = make('button', { click: () => act(this.set(!this.station.open, this.station.mode)) });
     this.hand = make('button', { click: () => act(this.set(this.station.open, this.isByHand ? 'AUTOMATIC' : 'MANUAL')) });
     this.screen = make('a', { className: 'button', textContent: 'Screen', title: 'For a person at the station' });
-    this.element = make('div', {}, make('header', {}, this.name, this.busy), this.work, this.queue,
+    this.element = make('div', {}, make('header', {}, this.name, this.busy), this.work, this.waits, this.queue,
       make('footer', {}, this.gate, this.hand, this.screen));
   }
 
@@ -38,8 +41,16 @@ class Card {
     return this.station.mode === 'MANUAL';
   }
 
-  set(open, mode) {
-    return put(`/stations/${this.station.name}`, { open, mode });
+  /** Each button sends both: until the server has one, the other waits. */
+  async set(open, mode) {
+    for (const button of [this.gate, this.hand]) button.disabled = true;
+    try {
+      const answer = await put(`/stations/${this.station.name}`, { open, mode });
+      this.show({ ...this.station, open, mode });
+      return answer;
+    } finally {
+      for (const button of [this.gate, this.hand]) button.disabled = false;
+    }
   }
 
   show(station) {
@@ -53,12 +64,19 @@ class Card {
     this.busy.textContent = `${Math.round(100 * station.busy_fraction)} % busy`;
     const work = kind === 'PICK' ? `${orders.length} of ${slots} orders, ${pieces} pieces` : `${pieces} pieces put in`;
     this.work.textContent = open ? work : `closed; ${work}`;
+    this.waits.textContent = waitingOf(station);
+    this.waits.hidden = !this.waits.textContent;
     this.queue.replaceChildren(...unit ? [chip(unit, 'here')] : [], ...inbound.map((other) => chip(other)));
     this.queue.title = `storage units: ${unit ? `${unit} is there, ` : ''}${inbound.length} on their way`;
     this.gate.textContent = open ? 'Close' : 'Open';
     this.hand.textContent = this.isByHand ? 'By itself' : 'By hand';
     this.screen.href = `#${name}`;
   }
+}
+
+/** That a station has waited for a person for a minute or longer; '': it has not. */
+export function waitingOf({ waiting }) {
+  return waiting < UNATTENDED ? '' : `waits for a person, ${Math.floor(waiting / 60)} min`;
 }
 
 function chip(text, className = '') {

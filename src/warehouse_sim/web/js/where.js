@@ -25,9 +25,10 @@ export function piecesByUnit(places, sku) {
 }
 
 export class Where {
-  /** `show(sku, units)` is told of the pieces by unit whenever they change; no stage: nothing is lit. */
-  constructor(stage, world, show) {
-    Object.assign(this, { stage, world, show, sku: '', units: new Map(), places: new Map() });
+  /** `show(sku, units)` is told of the pieces by unit whenever they change, `fail(text)` why nothing
+   *  is known of them; no stage: nothing is lit. */
+  constructor(stage, world, show, fail) {
+    Object.assign(this, { stage, world, show, fail, sku: '', units: new Map(), places: new Map() });
     if (stage) this.lights = this.make(0);
   }
 
@@ -42,10 +43,15 @@ export class Where {
     this.changes = null;
     this.places = new Map();
     if (sku) {
-      const { places } = await get(`/stock?limit=${MOST}&sku=${encodeURIComponent(sku)}`).catch(() => ({ places: [] }));
+      const found = await get(`/stock?limit=${MOST}&sku=${encodeURIComponent(sku)}`).catch((error) => error);
       if (sku !== this.sku) return; // another one was asked for
-      this.take(places);
-      if (places.length) this.follow();
+      if (found instanceof Error) {
+        this.sku = '';
+        this.fail(`where is ${sku}? ${found.message}`);
+        return;
+      }
+      this.take(found.places);
+      if (found.places.length) this.follow();
     }
     this.isKnown = true;
     this.tell();

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person at a station has to do with the unit that is there, big enough for a finger.
+// What a person at a station has to do with the unit that is there, big enough for a finger. What is
+// sent names the pick that is shown; the buttons wait until the next one is drawn.
 
-import { get, post, put } from './api.js';
+import { get, post, put, remove } from './api.js';
 import { $, make } from './dom.js';
-import { within } from './world.js';
+import { Told } from './told.js';
+import { unitDrawing } from './unit_drawing.js';
 
-const SIDE = 0.8, TOP = 1.8; // of a storage unit [m]
-const SCALE = 250; // of its drawing [px/m]
-const SVG = 'http://www.w3.org/2000/svg';
+const SETTLES = 700; // a button that was drawn just now is not meant by a finger on its way [ms]
 
 export class WorkScreen {
   constructor() {
-    Object.assign(this, { name: '', shown: null, station: null });
+    Object.assign(this, { name: '', shown: null, station: null, link: '' });
+    this.told = new Told($('told'));
+    this.box = $('task');
   }
 
   /** The station of that name has the screen; '': none. */
@@ -19,7 +21,14 @@ export class WorkScreen {
     Object.assign(this, { name, shown: null, station: null });
     $('screen').hidden = !name;
     $('overview').hidden = Boolean(name);
-    if (name) $('screen').replaceChildren(this.head(name, 'looking …'));
+    this.told.clear();
+    if (name) this.box.replaceChildren(this.head(name, 'looking …'));
+  }
+
+  /** How the server is reached; '': well. */
+  showLink(text) {
+    this.link = text;
+    for (const span of this.box.querySelectorAll('.away')) span.textContent = text;
   }
 
   /** Takes the stations in as they are now. */
@@ -42,100 +51,116 @@ export class WorkScreen {
   }
 
   byHand(text, mode) {
-    return make('button', { textContent: text, click: () => this.send(put(`/stations/${this.name}`, { open: this.station.open, mode })) });
+    return this.button('', text, () => this.send(() => put(`/stations/${this.name}`, { open: this.station.open, mode })));
+  }
+
+  button(className, textContent, click) {
+    return make('button', { className, textContent, click });
   }
 
   head(title, text = '') {
     return make('header', {}, make('h1', { textContent: title }), make('span', { className: 'dim', textContent: text }),
+      make('span', { className: 'away', textContent: this.link }),
       make('a', { className: 'button', href: '#', textContent: 'All stations' }));
   }
 
+  /** Draws what the screen shows from now on. */
+  draw(buttons, ...parts) {
+    this.buttons = make('div', { className: 'buttons' }, ...buttons);
+    this.box.replaceChildren(...parts, this.buttons);
+    this.settle();
+  }
+
+  /** Enables the buttons that are there now, in a moment. */
+  settle() {
+    const drawn = [...this.box.querySelectorAll('button:not(:disabled)')];
+    for (const button of drawn) button.disabled = true;
+    setTimeout(() => {
+      for (const button of drawn) button.disabled = false;
+      this.enable?.();
+    }, SETTLES);
+  }
+
   say(text, ...buttons) {
-    $('screen').replaceChildren(this.head(this.name), make('div', { className: 'idle-text' }, make('p', { className: 'task', textContent: text })),
-      make('div', { className: 'buttons' }, ...buttons));
+    this.enable = null;
+    this.draw(buttons, this.head(this.name), make('div', { className: 'idle-text' }, make('p', { className: 'task', textContent: text })));
   }
 
   ask(picks) {
-    const [{ sku, quantity, item, reference }] = picks;
+    const [pick] = picks, { sku, quantity, item, reference } = pick;
     const isPicking = this.station.kind === 'PICK';
     const unit = this.station.shelf_id;
     this.count = quantity;
     const count = make('b');
-    const button = (kind, text, act) => make('button', { className: kind, textContent: text, click: () => this.send(act()) });
-    const report = (damaged, pieces) => post(`/stations/${this.name}/short`, { sku, quantity: pieces, damaged });
-    const confirm = button('confirm strong', 'Confirm', () => post(`/stations/${this.name}/confirm`, { sku, quantity: this.count }));
-    // Who finds too few has an empty bin before them, whatever the books say.
-    const short = button('short', 'Short', async () => report(false, isPicking ? await booked(sku, item) : this.count));
-    short.title = isPicking ? 'no more of them are in the bin' : 'so many did not come';
-    const damaged = button('damaged', 'Damaged', () => report(true, this.count));
+    const confirm = this.button('confirm strong', 'Confirm', () => this.report(pick, 'DONE', this.count));
+    this.enable = () => { confirm.disabled = !isPicking && this.count !== quantity; }; // a bundle goes in whole
     const set = (number) => {
       this.count = Math.max(1, Math.min(quantity, number));
       count.textContent = this.count;
-      confirm.disabled = !isPicking && this.count !== quantity; // a bundle goes in whole
     };
     set(quantity);
-    const step = (text, by, label) => make('button', { textContent: text, ariaLabel: label, click: () => set(this.count + by) });
+    const step = (text, by, ariaLabel) => make('button', { textContent: text, ariaLabel, click: () => {
+      set(this.count + by);
+      this.enable();
+    } });
+    const short = this.button('short', 'Short', () => this.sure(pick, 'SHORT', isPicking));
+    short.title = isPicking ? 'no more of them are in the bin' : 'so many did not come';
+    const damaged = this.button('damaged', 'Damaged', () => this.sure(pick, 'DAMAGED'));
     const left = picks.length > 1 ? `then ${picks.length - 1} more` : 'the last one at this unit';
-    const shelf = document.createElementNS(SVG, 'svg');
-    drawUnit(shelf, unit, item, quantity);
-    $('screen').replaceChildren(
-      this.head(`${this.name}: storage unit ${unit}`, left), shelf,
+    this.draw([confirm, short, damaged],
+      this.head(`${this.name}: storage unit ${unit}`, left), unitDrawing(unit, item, quantity),
       make('div', {}, make('p', { className: 'task', textContent: `${isPicking ? 'Take' : 'Put in'} ${quantity} × ${sku}` }),
         make('p', { textContent: reference ? `bin ${item}, for ${reference}` : `bin ${item}` }),
-        make('div', { className: 'count' }, step('−', -1, 'one piece fewer'), count, step('+', 1, 'one piece more'), 'pieces'),
-        make('p', { id: 'screen-answer', className: 'answer', hidden: true })),
-      make('div', { className: 'buttons' }, confirm, short, damaged));
+        make('div', { className: 'count' }, step('−', -1, 'one piece fewer'), count, step('+', 1, 'one piece more'), 'pieces')));
   }
 
-  /** Waits for what was asked of the server; what comes next the stations tell. */
-  async send(sent) {
-    const buttons = $('screen').querySelectorAll('button:not(:disabled)');
-    for (const button of buttons) button.disabled = true;
+  /** Asks before something is written off; `isEmpty`: whatever the books still have in the bin. */
+  async sure(pick, outcome, isEmpty = false) {
+    const { buttons, station: { kind } } = this;
+    for (const button of this.box.querySelectorAll('button')) button.disabled = true;
+    const pieces = isEmpty ? await booked(pick).catch(() => null) : this.count;
+    if (this.buttons !== buttons) return; // something else is asked for by now
+    const what = `${pieces ?? 'all'} × ${pick.sku}`;
+    const [why, verb] = kind === 'PICK'
+      ? [outcome === 'SHORT' ? `Bin ${pick.item} is empty` : 'Damaged', 'Write off'] : [outcome === 'SHORT' ? 'Not there' : 'Damaged', 'Leave out'];
+    buttons.replaceChildren(make('p', { className: 'sure-text', textContent: `${why}: ${verb.toLowerCase()} ${what}?` }),
+      this.button('back', 'Back', () => this.redraw()),
+      this.button('sure', `${verb} ${what}`, () => this.report(pick, outcome, isEmpty ? 0 : pieces)));
+    this.settle();
+  }
+
+  /** Draws what is asked for once more. */
+  redraw() {
+    this.shown = null;
+    if (this.station) this.take([this.station]);
+  }
+
+  /** Tells the server what became of a pick; a write-off can be undone for a while. */
+  report({ sku, item, order_id: order, sequence }, outcome, quantity) {
+    const path = `/stations/${this.name}/picks/${sequence}`;
+    return this.send(() => post(path, { order_id: order, item, quantity, outcome }), ({ quantity: pieces }) => {
+      if (outcome === 'DONE') return this.told.clear();
+      const what = `${pieces} × ${sku} in ${item}`;
+      return this.told.offer(`${what}: out of the books`, 'Undo', () => remove(path), `${what}: in the books again`);
+    });
+  }
+
+  /** Waits for what was asked of the server. Its buttons are dead; what comes next is drawn when the
+   *  stations tell. */
+  async send(request, done = () => this.told.clear()) {
+    const { buttons } = this;
+    for (const button of this.box.querySelectorAll('button')) button.disabled = true;
     try {
-      await sent;
+      done(await request());
     } catch (error) {
-      if ($('screen-answer')) Object.assign($('screen-answer'), { hidden: false, textContent: error.message });
+      this.told.say(error.message);
+      if (this.buttons === buttons) this.redraw();
     }
-    for (const button of buttons) button.disabled = false;
   }
 }
 
-/** Pieces in a bin, by the books. */
-async function booked(sku, item) {
+/** Pieces in a pick's bin, by the books. */
+async function booked({ sku, item }) {
   const { places } = await get(`/stock?limit=1000&sku=${encodeURIComponent(sku)}`);
-  return places.find((place) => place.item === item)?.quantity ?? 1;
-}
-
-/** The unit's front with its bins, of which one is lit. */
-async function drawUnit(svg, unit, lit, quantity) {
-  svg.setAttribute('class', 'shelf');
-  svg.setAttribute('viewBox', `${-SCALE * SIDE / 2 - 4} ${-SCALE * TOP - 4} ${SCALE * SIDE + 8} ${SCALE * TOP + 8}`);
-  svg.setAttribute('aria-label', `storage unit ${unit}, ${lit} is lit`);
-  const bins = await binsOf(unit).catch(() => []);
-  const draw = (className, x, y, width, height) => (
-    `<rect class="${className}" x="${SCALE * (x - width / 2)}" y="${-SCALE * (y + height)}" width="${SCALE * width}" height="${SCALE * height}"/>`);
-  const levels = [...new Set(bins.map(({ z }) => z))];
-  const isLit = ({ name }) => name === lit;
-  // The nearer ones last; the lit one on top.
-  const order = bins.sort((a, b) => isLit(a) - isLit(b) || a.depth - b.depth);
-  const [one] = order.filter(isLit);
-  svg.innerHTML = draw('', 0, 0, SIDE, TOP) + levels.map((z) => draw('plate', 0, z - 0.04, SIDE, 0.02)).join('')
-    + order.map((bin) => draw(isLit(bin) ? 'bin lit' : 'bin', bin.x, bin.z - 0.02, 0.16, 0.22)).join('')
-    + (one ? `<text x="${SCALE * one.x}" y="${-SCALE * (one.z + 0.09)}">${quantity}</text>` : '');
-}
-
-/** [{name, x, z, depth}] of a unit's bins, in its own frame [m], seen from its front. */
-async function binsOf(unit) {
-  const [place, { things }] = await Promise.all([
-    get(`/storage_units/${unit}`), get(`/items?limit=100&storage_unit=storage_unit${unit}`)]);
-  const frame = planarOf(place.pose);
-  const back = within([0, 0, 0, -frame[3]], [-frame[0], -frame[1], -frame[2], 0]);
-  return things.map(({ name, pose }) => {
-    const [depth, x, z] = within([...back.slice(0, 3), -frame[3]], planarOf(pose));
-    return { name, x, z: Math.round(100 * z) / 100, depth };
-  });
-}
-
-function planarOf({ x, y, z, qx, qy, qz, qw }) {
-  return [x, y, z, Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))];
+  return places.find((place) => place.item === item)?.quantity ?? null;
 }

@@ -4,9 +4,6 @@
 const SNAP = 3; // [m]; further, it was put there, it did not drive
 const REACH = 0.3; // from a robot's centre to that of a unit which it may lift [m]
 
-export const STATUS = ['idle', 'busy', 'blocked'];
-export const FAILURE = ['battery empty', 'drive', 'lift stuck', 'laser blind', 'radio lost', 'wheels slip'];
-export const STATE = ['stands', 'drives along x', 'drives along y', 'turns', 'lifts', 'blocked', 'waits for its turn'];
 
 export class World {
   constructor() {

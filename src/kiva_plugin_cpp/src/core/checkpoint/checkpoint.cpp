@@ -19,7 +19,7 @@ namespace kiva {
 namespace {
 
 constexpr char kMagic[9] = "KIVAWRLD";
-constexpr std::uint32_t kVersion = 11;
+constexpr std::uint32_t kVersion = 12;
 
 /// The models' descriptions, each once however many share it.
 struct DescriptionTable {
@@ -89,6 +89,7 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
     if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) FIELDS(*model);
   }
   FIELDS(world.fleet, world.units, world.items);
+  if (!std::is_same_v<A, Hasher>) FIELDS(within(world.fleet.mode, 0, kMostMode));
   if (world.fleet.localises) FIELDS(world.fleet.localisation);
   if (world.realism.loads.enabled) FIELDS(world.fleet.sway, world.off_shelf);
   if (!world.fleet.lag.isNone()) FIELDS(world.fleet.command_speed);

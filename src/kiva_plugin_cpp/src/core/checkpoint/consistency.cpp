@@ -310,6 +310,8 @@ void checkFleet(WorldState& world) {
   describe(columns, f);
   require(f.tasks.size() == f.robots.size(), "fleet.tasks", f.tasks.size(), "",
           "there is one for every robot");
+  require(f.mode.size() == f.robots.size(), "fleet.mode", f.mode.size(), "",
+          "as many as there are robots were expected");
   require(!world.realism.loads.enabled || f.sway.size() == f.robots.size(), "fleet.sway",
           f.sway.size(), "", "there is one for every robot");
   require(f.lag.isNone() || f.command_speed.size() == f.robots.size(), "fleet.command_speed",

@@ -257,7 +257,7 @@ void describe(A& a, FleetState& f) {
   DESCRIBED(FleetState, 29);  // what only some realism needs: with the world
   // What is broken, charges, and where points are counted next, follow from what else the world
   // holds; what people allow: with those.
-  DESCRIBED(Fleet, 26);
+  DESCRIBED(Fleet, 27);
   FIELDS(f.x, f.y, f.yaw, f.vx, f.vy, f.yaw_rate, f.wheel_speed, f.wheel_angle, f.wheel_target);
   FIELDS(f.stance, f.tower, f.unit, f.status, f.state,
          within(f.last_end, 0, static_cast<double>(lastOf(Event::Kind()))), f.path_id, f.reached,

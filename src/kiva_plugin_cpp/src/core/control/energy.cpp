@@ -58,12 +58,11 @@ double kineticEnergy(const Fleet& f, int i) {
   return ((r.mass + r.load_mass) * v2 + (r.inertia + r.load_inertia) * w * w) / 2;
 }
 
-/// What the robot's use is reckoned from the next time.
-void markUse(FleetState& f, int i) {
-  Battery& battery = f.battery[i];
-  for (int wheel = 0; wheel < 2; ++wheel) battery.wheel_angle[wheel] = f.wheel_angle[wheel][i];
-  battery.kinetic = kineticEnergy(f, i);
-  battery.tower = f.tower[i];
+/// What rolling is reckoned from the next time.
+void markWheels(FleetState& f, int i) {
+  for (int wheel = 0; wheel < 2; ++wheel) {
+    f.battery[i].wheel_angle[wheel] = f.wheel_angle[wheel][i];
+  }
 }
 
 /// Its battery as it is at the beginning.
@@ -73,13 +72,46 @@ void begin(WorldState& world, int i) {
   RandomStream random(world.options.seed, Matter::kEnergy, f.robots[i].id, 0);
   const double most = std::max(e.initial_least, e.initial_most);
   const double charge = e.initial_least + (most - e.initial_least) * random.uniform();
-  f.battery[i].energy = charge * capacityOf(e);
-  markUse(f, i);
+  Battery& battery = f.battery[i];
+  battery.energy = charge * capacityOf(e);
+  battery.kinetic = kineticEnergy(f, i);
+  battery.tower = f.tower[i];
+  markWheels(f, i);
 }
 
-/// Since the last time [J]: electronics, rolling, speeding up less what braking gives back,
-/// lifting.
-double used(const WorldState& world, int i, double seconds) {
+bool isAtRest(const FleetState& f, int i) {
+  const Battery& battery = f.battery[i];
+  return f.vx[i] == 0 && f.vy[i] == 0 && f.yaw_rate[i] == 0 && battery.kinetic == 0 &&
+         f.tower[i] == battery.tower;
+}
+
+void show(WorldState& world, int i) {
+  const double charge = world.fleet.battery[i].energy / capacityOf(world.realism.energy);
+  world.fleet.charge[i] = static_cast<float>(charge);
+}
+
+/// In one step [J]: speeding up less what braking gives back, lifting. A turn is over within a few
+/// readings of a battery, and a load is taken up within one.
+void drawForMotion(WorldState& world, int i) {
+  const EnergyRealism& e = world.realism.energy;
+  FleetState& f = world.fleet;
+  Battery& battery = f.battery[i];
+  if (battery.energy < 0) begin(world, i);
+  if (isAtRest(f, i)) return;
+  const double kinetic = kineticEnergy(f, i);
+  const double faster = kinetic - battery.kinetic;
+  const double moving = faster > 0 ? faster / e.drive_efficiency : faster * e.regeneration;
+  const double raised = std::max(0.0, f.tower[i] - battery.tower);
+  const double lifted = raised * f.robots[i].load_mass * world.gravityDown();
+  battery.kinetic = kinetic;
+  battery.tower = f.tower[i];
+  if (f.failures[i] & kEmptyBattery) return;
+  battery.energy = std::max(0.0, battery.energy - moving - lifted / e.lift_efficiency);
+  show(world, i);
+}
+
+/// Since the last time [J]: electronics, rolling.
+double drawnSteadily(const WorldState& world, int i, double seconds) {
   const EnergyRealism& e = world.realism.energy;
   const FleetState& f = world.fleet;
   const Battery& before = f.battery[i];
@@ -89,14 +121,9 @@ double used(const WorldState& world, int i, double seconds) {
     rolled += std::abs(f.wheel_angle[wheel][i] - before.wheel_angle[wheel]);
   }
   rolled *= r.drive.wheel_radius / 2;
-  const double gravity = world.gravityDown();
-  const double weight = (r.mass + r.load_mass) * gravity;
+  const double weight = (r.mass + r.load_mass) * world.gravityDown();
   const double rolling = e.rolling_resistance * weight * rolled;
-  const double faster = kineticEnergy(f, i) - before.kinetic;
-  const double moving = faster > 0 ? faster / e.drive_efficiency : faster * e.regeneration;
-  const double lifted = std::max(0.0, f.tower[i] - before.tower) * r.load_mass * gravity;
-  return e.electronics * seconds + rolling / e.drive_efficiency + moving +
-         lifted / e.lift_efficiency;
+  return e.electronics * seconds + rolling / e.drive_efficiency;
 }
 
 /// Into its battery in that time [J].
@@ -106,11 +133,6 @@ double takenUp(const WorldState& world, int i, double seconds) {
   const double charge = world.fleet.battery[i].energy / capacityOf(e);
   const double falling = (1 - charge) / std::max(1e-9, 1 - e.charge_taper);
   return e.charge_power * std::clamp(falling, kLeastCharge, 1.0) * seconds;
-}
-
-void show(WorldState& world, int i) {
-  const double charge = world.fleet.battery[i].energy / capacityOf(world.realism.energy);
-  world.fleet.charge[i] = static_cast<float>(charge);
 }
 
 void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) {
@@ -126,11 +148,10 @@ void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) 
 void reckon(WorldState& world, int i, double seconds) {
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
-  if (battery.energy < 0) begin(world, i);
   const double most = capacityOf(world.realism.energy);
-  const double energy = battery.energy - used(world, i, seconds) + takenUp(world, i, seconds);
-  battery.energy = std::clamp(energy, 0.0, most);
-  markUse(f, i);
+  const double drawn = drawnSteadily(world, i, seconds) - takenUp(world, i, seconds);
+  battery.energy = std::clamp(battery.energy - drawn, 0.0, most);
+  markWheels(f, i);
   show(world, i);
   const bool was_empty = (f.failures[i] & kEmptyBattery) != 0;
   if (!was_empty && battery.energy == 0) setEmpty(world, i, true, "its battery is empty");
@@ -143,6 +164,7 @@ void reckon(WorldState& world, int i, double seconds) {
 
 void useEnergy(WorldState& world) {
   if (!world.realism.energy.enabled) return;
+  for (int i = 0; i < world.fleet.size(); ++i) drawForMotion(world, i);
   const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.dt));
   if (world.total_steps % period != 0) return;
   findChargers(world);

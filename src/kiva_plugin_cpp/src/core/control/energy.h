@@ -8,8 +8,8 @@
 
 namespace kiva {
 
-/// Ten times a second: what was used and taken up since the last time. A robot whose battery is
-/// empty stands from then on.
+/// At each step what motion and lifting take, ten times a second what electronics and rolling take
+/// and chargers give. A robot whose battery is empty stands from then on.
 void useEnergy(WorldState& world);
 /// An empty battery becomes a full one; the robot goes on.
 void exchangeBattery(WorldState& world, int robot);

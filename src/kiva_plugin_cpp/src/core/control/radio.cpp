@@ -59,4 +59,9 @@ void receive(WorldState& world) {
   }
 }
 
+void forgetMessages(WorldState& world) {
+  world.on_air.clear();
+  world.reports_on_air.clear();
+}
+
 }  // namespace kiva

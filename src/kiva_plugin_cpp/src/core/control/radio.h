@@ -13,4 +13,10 @@ void send(WorldState& world, const Command& command, FollowPath path = {});
 /// Takes in what has come by now.
 void receive(WorldState& world);
 
+/// Nothing is under way any more, to robots or from them; they are where they are.
+void forgetMessages(WorldState& world);
+
+/// Nothing that was sent, to robots or by them, is under way any more.
+void forgetMessages(WorldState& world);
+
 }  // namespace kiva

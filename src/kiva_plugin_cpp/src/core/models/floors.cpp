@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <memory>
 #include <optional>
+#include <sstream>
 
 #include "core/contact/activation.h"
 #include "core/contact/upright.h"
@@ -13,6 +16,8 @@
 
 namespace kiva {
 namespace {
+
+constexpr double kLeastGrip = 1e-3;  // Coulomb coefficient with which a cell takes half a minute
 
 void widen(Floor* floor, const LevelSurface& surface) {
   floor->min_x = std::min(floor->min_x, surface.min_x);
@@ -28,6 +33,17 @@ void forSurfaces(const WorldState& world, Visit visit) {
     if (!model) continue;
     for (const LevelSurface& surface : model->level_surfaces) visit(surface);
   }
+}
+
+/// Whether wheels get from the floor onto it.
+bool isAtFloor(const WorldState& world, const LevelSurface& surface) {
+  return std::abs(surface.z - world.floor.z) <= kStep + 1e-9;
+}
+
+/// By which the floor's own surface is chosen among those near its height; 0 for all others.
+double extentAt(double height, const LevelSurface& surface) {
+  if (std::abs(surface.z - height) > kSameHeight) return 0;
+  return surface.is_plane ? std::numeric_limits<double>::infinity() : surface.area;
 }
 
 /// The height of the largest surface. Of two about as large, the undersides of slabs for one, the
@@ -53,6 +69,14 @@ std::optional<double> floorHeight(const WorldState& world) {
     if (found.first >= most / 2 && (!plane || found.second > *plane)) height = found.second;
   }
   return height;
+}
+
+void tellIce(WorldState& world, double friction) {
+  std::ostringstream text;
+  text << "the floor: its friction for wheels is " << friction << "; below " << kLeastGrip
+       << " robots take minutes for a cell or can't move at all. The <mu> of the floor's <surface> "
+          "and the <friction> of the robots' motion plugin tell it";
+  world.warn("floor friction", text.str());
 }
 
 /// Static models have other low parts, robots and storage units stand higher or lower.
@@ -82,20 +106,36 @@ void measureFloor(WorldState& world) {
   const auto height = floorHeight(world);
   world.floor = Floor();
   world.floor_friction = 1;
+  world.floor_parts_due = true;
   if (height) {
     world.floor = {1e300, -1e300, 1e300, -1e300, *height};
-    double nearest = kStep;
+    double most = -1;
     forSurfaces(world, [&](const LevelSurface& surface) {
-      const double step = std::abs(surface.z - *height);
-      if (step > kStep + 1e-9) return;
+      if (!isAtFloor(world, surface)) return;
       widen(&world.floor, surface);
-      if (step > nearest) return;
-      nearest = step;
+      const double area = extentAt(*height, surface);
+      if (area <= most) return;
+      most = area;
       world.floor_friction = surface.friction;
     });
   }
   letAllTip(world);
   if (world.floor.z != before) fitToFloor(world);
+}
+
+void findFloorParts(WorldState& world) {
+  if (!world.floor_parts_due) return;
+  world.floor_parts_due = false;
+  double holds = 0;  // what the best wheels grip with where the floor lets them
+  for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
+  const double usual = std::min(holds, world.floor_friction);
+  if (holds > 0 && usual < kLeastGrip) tellIce(world, usual);
+  bool is_alike = true;
+  forSurfaces(world, [&](const LevelSurface& surface) {
+    const bool differs = std::min(holds, surface.friction) != usual;
+    if (differs && isAtFloor(world, surface)) is_alike = false;
+  });
+  world.floor_parts = is_alike ? nullptr : std::make_shared<const FloorCover>(world);
 }
 
 }  // namespace kiva

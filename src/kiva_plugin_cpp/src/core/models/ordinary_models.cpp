@@ -37,6 +37,21 @@ void moveBodies(Model& model, const EntityState& to) {
   }
 }
 
+void setModelTwist(Model& model, const Twist& twist) {
+  const EntityState now = bodyState(model.bodies.links.front());
+  const btVector3 origin = toBullet(now.pose.Pos());
+  const btVector3 push = toBullet(twist.linear - now.twist.linear);
+  const btVector3 turn = toBullet(twist.angular - now.twist.angular);
+  const bool moves = twist.linear != Vector3::Zero || twist.angular != Vector3::Zero;
+  for (LinkBody& link : model.bodies.links) {
+    btRigidBody& body = *link.body;
+    const btVector3 arm = body.getWorldTransform().getOrigin() - origin;
+    body.setLinearVelocity(body.getLinearVelocity() + push + turn.cross(arm));
+    body.setAngularVelocity(body.getAngularVelocity() + turn);
+    if (moves) body.activate(true);
+  }
+}
+
 void OrdinaryModels::add(WorldState& world, Model& model) const {
   insertBodies(world, model);
   if (!model.isStatic()) {

@@ -46,6 +46,9 @@ class Floors : public OrdinaryModels {
 
 /// Puts a model's bodies there, at that velocity.
 void moveBodies(Model& model, const EntityState& to);
+/// Changes the velocity of all its bodies as that of one rigid body, until its canonical link has
+/// this one.
+void setModelTwist(Model& model, const Twist& twist);
 void setBodyState(LinkBody& link, const EntityState& to);
 
 }  // namespace kiva

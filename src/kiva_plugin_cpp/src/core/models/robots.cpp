@@ -180,6 +180,7 @@ void Robots::add(WorldState& world, Model& model) const {
   const bool jointed = robot.drive.drive == Drive::kJointed;
   setRays(world, &robot);
   world.top_speed = std::max(world.top_speed, robot.drive.speed);
+  world.floor_parts_due = true;
   adoptRealism(world, *model.description);
   setSpread(world, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);

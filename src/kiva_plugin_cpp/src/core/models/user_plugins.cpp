@@ -77,6 +77,13 @@ std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::stri
                          "' holds no class registered with IGNITION_ADD_PLUGIN(…, kiva::Plugin)");
 }
 
+/// What is left out, and why: `where` names the model as its file does, and here as it is called.
+std::string leftOut(const std::string& where, const std::string& model, std::string why) {
+  if (why.rfind(where + ": ", 0) == 0) why.erase(0, where.size() + 2);
+  const bool is_named = model.empty() || where.find("'" + model + "'") != std::string::npos;
+  return where + (is_named ? "" : " of '" + model + "'") + ": the plugin is left out: " + why;
+}
+
 /// What is misspelt is an error, but for plugins that take the parameters of others.
 void checkUnread(WorldState& world, const Plugin& plugin, const std::string& filename,
                  const Parameters& parameters) {
@@ -98,7 +105,7 @@ std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
   if (world.options.plugins) plugin = world.options.plugins(filename, sensor);
   if (!plugin) plugin = fromLibrary(filename, where, &why);
   if (!plugin) {
-    world.warn(filename, where + ": the plugin is left out: " + why);
+    world.warn(filename, leftOut(where, model, why));
     return nullptr;
   }
   try {
@@ -107,8 +114,7 @@ std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
     return plugin;
   } catch (const std::exception& error) {
     if (plugin->isStrict()) throw;
-    world.warn(model + filename + error.what(),
-               where + ": the plugin is left out: " + error.what());
+    world.warn(model + filename + error.what(), leftOut(where, model, error.what()));
     return nullptr;
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/motion/ground.h"
 #include "core/motion/jointed.h"
 
 namespace kiva {
@@ -40,9 +41,9 @@ Vehicle plannedVehicle(WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const bool is_jointed = r.drive.drive == Drive::kJointed;
   Vehicle vehicle = is_jointed ? jointedVehicle(world, robot, ground) : vehicleOf(r, ground);
+  const double expected = r.grip * std::min(r.drive.friction, knownFriction(world, robot));
   for (int wheel = 0; wheel < 2; ++wheel) {
-    const double known =
-        vehicle.friction[wheel] > 0 ? r.grip * r.drive.friction / vehicle.friction[wheel] : 1;
+    const double known = vehicle.friction[wheel] > 0 ? expected / vehicle.friction[wheel] : 1;
     vehicle.friction[wheel] *= known;
     vehicle.grip[wheel] *= known * kGripReserve;
   }

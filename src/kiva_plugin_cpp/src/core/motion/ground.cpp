@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/state/floors.h"
 #include "core/state/random_stream.h"
 
 namespace kiva {
@@ -29,19 +30,32 @@ bool isSlippery(const WorldState& world, const Cell& cell) {
   return random.chance(world.realism.floor.slippery_cells);
 }
 
+/// What the surface at (x, y) grips with as it was built.
+double builtFriction(const WorldState& world, double x, double y) {
+  const double usual = world.floor_friction;
+  return world.floor_parts ? world.floor_parts->frictionAt(x, y, usual) : usual;
+}
+
+/// The least of it in a rectangle [m].
+double leastBuiltFriction(const WorldState& world, const FloorPatch& area) {
+  const double usual = world.floor_friction;
+  return world.floor_parts ? world.floor_parts->leastFriction(area, usual) : usual;
+}
+
 /// The last of the patches there counts; a slippery cell where there is none.
 double frictionAt(const WorldState& world, double x, double y) {
   for (auto patch = world.floor_patches.rbegin(); patch != world.floor_patches.rend(); ++patch) {
     if (patch->has(x, y)) return patch->friction;
   }
   const FloorRealism& real = world.realism.floor;
-  if (!real.enabled || !isSlippery(world, cellAt(world, x, y))) return world.floor_friction;
-  return std::min(real.friction, world.floor_friction);
+  const double built = builtFriction(world, x, y);
+  if (!real.enabled || !isSlippery(world, cellAt(world, x, y))) return built;
+  return std::min(real.friction, built);
 }
 
 /// The least friction in a rectangle [m].
 double leastFriction(const WorldState& world, const FloorPatch& area) {
-  double least = world.floor_friction;
+  double least = leastBuiltFriction(world, area);
   for (const FloorPatch& patch : world.floor_patches) {
     if (patch.meets(area)) least = std::min(least, patch.friction);
   }
@@ -55,6 +69,18 @@ double leastFriction(const WorldState& world, const FloorPatch& area) {
     }
   }
   return least;
+}
+
+/// What a robot's wheels will have stood on when its reference has come to its goal.
+FloorPatch areaAhead(const WorldState& world, int robot) {
+  const FleetState& f = world.fleet;
+  const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
+  const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
+  const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
+  const double to_y = f.y[robot] + way * std::sin(f.yaw[robot]);
+  const double reach = f.robots[robot].drive.wheel_separation / 2 + kOffLine;
+  return {std::min(f.x[robot], to_x) - reach, std::max(f.x[robot], to_x) + reach,
+          std::min(f.y[robot], to_y) - reach, std::max(f.y[robot], to_y) + reach, 0};
 }
 
 }  // namespace
@@ -80,7 +106,7 @@ Ground groundOf(const WorldState& world) {
 }
 
 bool isPatchy(const WorldState& world) {
-  return !world.floor_patches.empty() || world.realism.floor.enabled;
+  return !world.floor_patches.empty() || world.realism.floor.enabled || world.floor_parts;
 }
 
 Ground groundUnder(const WorldState& world, int robot) {
@@ -97,19 +123,15 @@ Ground groundUnder(const WorldState& world, int robot) {
   return ground;
 }
 
+double knownFriction(const WorldState& world, int robot) {
+  return world.floor_parts ? leastBuiltFriction(world, areaAhead(world, robot))
+                           : world.floor_friction;
+}
+
 Ground groundAhead(const WorldState& world, int robot) {
   Ground ground = groundOf(world);
   if (!isPatchy(world)) return ground;
-  const FleetState& f = world.fleet;
-  const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
-  const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
-  const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
-  const double to_y = f.y[robot] + way * std::sin(f.yaw[robot]);
-  const double reach = f.robots[robot].drive.wheel_separation / 2 + kOffLine;
-  const double least = leastFriction(
-      world, {std::min(f.x[robot], to_x) - reach, std::max(f.x[robot], to_x) + reach,
-              std::min(f.y[robot], to_y) - reach, std::max(f.y[robot], to_y) + reach, 0});
-  ground.friction[0] = ground.friction[1] = least;
+  ground.friction[0] = ground.friction[1] = leastFriction(world, areaAhead(world, robot));
   return ground;
 }
 

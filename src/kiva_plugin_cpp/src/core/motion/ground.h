@@ -20,6 +20,9 @@ Ground groundOf(const WorldState& world);
 bool isPatchy(const WorldState& world);
 /// What the robot's wheels stand on.
 Ground groundUnder(const WorldState& world, int robot);
+/// What a robot may count on until its reference has come to its goal: the floor as it was built,
+/// which it knows; not what is slippery for a time.
+double knownFriction(const WorldState& world, int robot);
 /// The most slippery of what they will have stood on when its reference has come to its goal.
 Ground groundAhead(const WorldState& world, int robot);
 

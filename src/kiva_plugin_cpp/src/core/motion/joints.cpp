@@ -279,6 +279,18 @@ JointState jointState(const WorldState& world, const Model& model, int joint) {
   return model.joints.empty() ? out : model.joints[joint];
 }
 
+std::optional<JointWrench> jointWrench(const Model& model, int joint) {
+  const auto index = static_cast<std::size_t>(joint);
+  const int link = linkIndex(*model.description, model.description->joints[joint].child);
+  if (index >= model.bodies.feedback.size() || link < 0) return std::nullopt;
+  const LinkBody& child = model.bodies.links[link];
+  const btJointFeedback& feedback = model.bodies.feedback[index];
+  const btVector3 force = feedback.m_appliedForceBodyB;  // at the centre of mass
+  const btVector3 arm = child.body->getWorldTransform().getOrigin() - child.linkPose().getOrigin();
+  return JointWrench{fromBullet(force),
+                     fromBullet(feedback.m_appliedTorqueBodyB + arm.cross(force))};
+}
+
 void setJoint(Model& model, int joint, const JointSettings& s) {
   const std::string& name = model.description->joints[joint].name;
   const bool has_axis = model.description->joints[joint].hasAxis();

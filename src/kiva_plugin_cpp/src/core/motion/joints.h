@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/state/world_state.h"
@@ -24,6 +25,8 @@ void readJoints(WorldState& world);
 /// -1 = none.
 int findJoint(const Model& model, const std::string& joint);
 JointState jointState(const WorldState& world, const Model& model, int joint);
+/// Nothing of a model without free bodies.
+std::optional<JointWrench> jointWrench(const Model& model, int joint);
 void setJoint(Model& model, int joint, const JointSettings& settings);
 /// All or none; throws std::invalid_argument.
 void placeJoints(WorldState& world, Model& model, const std::map<std::string, double>& positions);

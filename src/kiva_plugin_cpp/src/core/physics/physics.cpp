@@ -14,6 +14,7 @@
 
 #include "core/geometry/ray.h"
 #include "core/physics/planar_contacts.h"
+#include "core/physics/triangle_tree.h"
 
 namespace kiva {
 namespace {
@@ -116,13 +117,9 @@ std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
 }
 
 /// The triangles of a mesh that stands still, as they are.
-void setTriangles(const Mesh& mesh, BodyPart* part) {
-  part->triangles = std::make_unique<btTriangleMesh>();
-  for (const Vector3& vertex : mesh.vertices) {
-    part->triangles->findOrAddVertex(toBullet(vertex), false);
-  }
-  for (const auto& [a, b, c] : mesh.triangles) part->triangles->addTriangleIndices(a, b, c);
-  part->shape = std::make_unique<btBvhTriangleMeshShape>(part->triangles.get(), true);
+void setTriangles(const std::shared_ptr<const Mesh>& mesh, BodyPart* part) {
+  part->triangles = treeOf(mesh);
+  part->shape = part->triangles->makeShape();
   part->shape->setMargin(kMargin);
 }
 
@@ -155,7 +152,7 @@ bool isSurface(const Collision& collision, bool is_static) {
 std::unique_ptr<BodyPart> makePart(const Collision& collision, int model, bool is_static = false) {
   auto part = std::make_unique<BodyPart>();
   if (collision.shape.kind == Shape::Kind::kMesh && is_static) {
-    setTriangles(*collision.shape.mesh, part.get());
+    setTriangles(collision.shape.mesh, part.get());
   } else {
     part->shape = makeShape(collision.shape);
   }
@@ -466,10 +463,13 @@ ModelBodies Physics::build(const ModelDescription& description, const Pose& pose
     }
   }
   if (description.is_static) return out;
+  const btVector3 none(0, 0, 0);
+  out.feedback.assign(description.joints.size(), {none, none, none, none});
   for (const Joint& joint : description.joints) {
     const JointEnds ends{bodyOf(description, out, joint.parent),
                          bodyOf(description, out, joint.child)};
     out.joints.push_back(makeJoint(joint, ends, toBullet(pose)));
+    out.joints.back()->setJointFeedback(&out.feedback[out.joints.size() - 1]);
     mark(*out.joints.back(), model, static_cast<int>(out.joints.size()));
   }
   return out;

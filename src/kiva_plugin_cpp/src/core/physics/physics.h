@@ -27,10 +27,13 @@ enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4
 /// Third user index of a body that was put somewhere, with a velocity, since the last step.
 constexpr int kPlaced = 1;
 
+/// Bullet's tree of the triangles of a mesh: all that stand in the world with that mesh share it.
+struct TriangleTree;
+
 /// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
 /// friction a body.
 struct BodyPart {
-  std::unique_ptr<btTriangleMesh> triangles;  ///< Of a static mesh: what its shape is made of.
+  std::shared_ptr<const TriangleTree> triangles;  ///< Of a static mesh: what its shape looks up.
   std::unique_ptr<btCollisionShape> shape;
   int model = -1;
   double friction = 1;
@@ -66,6 +69,7 @@ struct ModelBodies {
   std::vector<LinkBody> links;     ///< One a link, in the description's order.
   std::vector<LinkBody> surfaces;  ///< The links' unbounded planes and static meshes.
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
+  std::vector<btJointFeedback> feedback;  ///< What each joint did in the last step.
 };
 
 /// Two models that touch; the point, the normal and the speed are those of the hardest contact.

@@ -27,6 +27,7 @@ void forEachArray(Fleet& f, Visit visit) {
   visit(f.failures);
   visit(f.charge);
   visit(f.allowed_speed);
+  visit(f.mode);
   visit(f.curtained);
 }
 

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <mutex>
+#include <tuple>
 
 #include "core/geometry/footprint.h"
 #include "core/geometry/triangle_footprint.h"
@@ -14,6 +17,7 @@ namespace {
 constexpr double kLevel = 0.9994;    // cosine of 2°
 constexpr double kNearGround = 0.1;  // [m] from z = 0: where a floor may be
 constexpr double kRim = 1e-6;        // [m]
+constexpr double kMostRows = 4096;   // of a metre, half of them on each side of y = 0
 
 /// A convex outline, level and seen from above, counterclockwise; three corners have the last
 /// twice.
@@ -72,17 +76,63 @@ void widen(LevelSurface* surface, const Outline& outline) {
 }
 
 /// `mesh` with its low triangles, or all the others; null if there are none.
-std::shared_ptr<const Mesh> halfOf(const Mesh& mesh, const Pose& pose, const Floor& floor,
-                                   bool low) {
-  auto half = std::make_shared<Mesh>(mesh);
-  half->triangles.clear();
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Triangle t = cornersOf(mesh, static_cast<int>(i), pose);
+std::shared_ptr<const Mesh> halfOf(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
+                                   const Floor& floor, bool low) {
+  std::vector<std::array<int, 3>> triangles;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+    const Triangle t = cornersOf(*mesh, static_cast<int>(i), pose);
     const double top = std::max({t[0].Z(), t[1].Z(), t[2].Z()});
-    if (isLow(floor, top) == low) half->triangles.push_back(mesh.triangles[i]);
+    if (isLow(floor, top) == low) triangles.push_back(mesh->triangles[i]);
   }
-  return half->triangles.empty() ? nullptr : half;
+  if (triangles.empty()) return nullptr;
+  if (triangles.size() == mesh->triangles.size()) return mesh;
+  return std::make_shared<const Mesh>(
+      Mesh{mesh->vertices, std::move(triangles), mesh->min, mesh->max});
 }
+
+/// The same, found once for all that stand in one way at one height over the floor with a mesh.
+class Halves {
+ public:
+  std::shared_ptr<const Mesh> of(const std::shared_ptr<const Mesh>& mesh, const Pose& pose,
+                                 const Floor& floor, bool low) {
+    const Vector3 up = pose.Rot().RotateVectorReverse(Vector3::UnitZ);
+    const Key key{mesh.get(), low, {up.X(), up.Y(), up.Z(), pose.Z() - floor.z}};
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = known_.find(key);
+    if (found != known_.end() && found->second.whole.lock() == mesh) {
+      const auto half = found->second.half.lock();
+      if (half || found->second.is_none) return half;
+    }
+    const auto half = halfOf(mesh, pose, floor, low);
+    forget();
+    known_[key] = {mesh, half, !half};
+    return half;
+  }
+
+ private:
+  struct Key {
+    const Mesh* mesh;
+    bool low;
+    std::array<double, 4> place;  // the world's vertical seen from the mesh, its height
+    bool operator<(const Key& o) const {
+      return std::tie(mesh, low, place) < std::tie(o.mesh, o.low, o.place);
+    }
+  };
+  struct Entry {
+    std::weak_ptr<const Mesh> whole, half;
+    bool is_none = false;
+  };
+
+  /// What has no mesh any more.
+  void forget() {
+    for (auto at = known_.begin(); at != known_.end();) {
+      at = at->second.whole.expired() ? known_.erase(at) : std::next(at);
+    }
+  }
+
+  std::mutex mutex_;
+  std::map<Key, Entry> known_;
+};
 
 /// The part of a collision that is low, or the other one; nothing if there is none.
 std::optional<Collision> partOf(const Collision& whole, const Pose& link, const Floor& floor,
@@ -95,7 +145,8 @@ std::optional<Collision> partOf(const Collision& whole, const Pose& link, const 
     return low ? std::nullopt : std::optional(whole);
   }
   Collision part = whole;
-  part.shape.mesh = halfOf(*whole.shape.mesh, pose, floor, low);
+  static Halves halves;
+  part.shape.mesh = halves.of(whole.shape.mesh, pose, floor, low);
   return part.shape.mesh ? std::optional(part) : std::nullopt;
 }
 
@@ -115,7 +166,7 @@ ModelDescription partOf(const Model& model, const Floor& floor, bool low) {
 }  // namespace
 
 std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, const Pose& pose) {
-  std::map<std::pair<bool, long long>, LevelSurface> found;
+  std::map<std::tuple<bool, long long, double>, LevelSurface> found;
   for (const Link& link : description.links) {
     for (const Collision& collision : link.collisions) {
       const Pose at = pose * link.pose_in_model * collision.pose_in_link;
@@ -123,7 +174,8 @@ std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, con
         const double z = heightOf(face);
         const bool is_plane = collision.shape.kind == Shape::Kind::kPlane;
         if (!is_plane && std::abs(z) > kNearGround) return;
-        auto [entry, is_new] = found.try_emplace({is_plane, std::llround(z / kSameHeight)});
+        auto [entry, is_new] =
+            found.try_emplace({is_plane, std::llround(z / kSameHeight), collision.friction});
         LevelSurface& surface = entry->second;
         surface.is_plane = is_plane;
         surface.friction = collision.friction;
@@ -183,30 +235,97 @@ FloorCover::FloorCover(const WorldState& world) {
     if (!model || model->level_surfaces.empty()) continue;
     for (const Link& link : model->description->links) {
       for (const Collision& collision : link.collisions) {
-        const Pose at = model->pose * link.pose_in_model * collision.pose_in_link;
-        forLevelFaces(collision.shape, at, [&](const Outline& face) {
-          if (std::abs(heightOf(face) - world.floor.z) > kStep + 1e-9) return;
-          const auto [min_x, max_x] =
-              std::minmax({face[0].X(), face[1].X(), face[2].X(), face[3].X()});
-          const auto [min_y, max_y] =
-              std::minmax({face[0].Y(), face[1].Y(), face[2].Y(), face[3].Y()});
-          pieces_.push_back({face, min_x, max_x, min_y, max_y});
-        });
+        add(collision, model->pose * link.pose_in_model * collision.pose_in_link, world.floor);
       }
     }
   }
-  if (pieces_.empty()) return;
-  constexpr double kMostRows = 4096;
-  const auto row = [](double y) {
-    return static_cast<int>(std::floor(std::clamp(y, -kMostRows / 2, kMostRows / 2)));
-  };
-  first_row_ = row(-kMostRows);
+  if (!pieces_.empty()) fillRows();
+}
+
+void FloorCover::add(const Collision& collision, const Pose& pose, const Floor& floor) {
+  const std::size_t first = pieces_.size();
+  double area = 0;
+  forLevelFaces(collision.shape, pose, [&](const Outline& face) {
+    const double z = heightOf(face);
+    if (std::abs(z - floor.z) > kStep + 1e-9) return;
+    const auto [min_x, max_x] = std::minmax({face[0].X(), face[1].X(), face[2].X(), face[3].X()});
+    const auto [min_y, max_y] = std::minmax({face[0].Y(), face[1].Y(), face[2].Y(), face[3].Y()});
+    pieces_.push_back({face, min_x, max_x, min_y, max_y, z, 0, collision.friction});
+    area += areaOf(face);
+  });
+  const bool is_plane = collision.shape.kind == Shape::Kind::kPlane;
+  for (std::size_t i = first; i < pieces_.size(); ++i) {
+    pieces_[i].area = is_plane ? std::numeric_limits<double>::infinity() : area;
+  }
+}
+
+void FloorCover::fillRows() {
   rows_.resize(static_cast<std::size_t>(kMostRows) + 1);
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    for (int y = row(pieces_[i].min_y); y <= row(pieces_[i].max_y); ++y) {
-      rows_[y - first_row_].push_back(static_cast<int>(i));
+    for (int row = rowOf(pieces_[i].min_y); row <= rowOf(pieces_[i].max_y); ++row) {
+      rows_[row].push_back(static_cast<int>(i));
     }
   }
+}
+
+int FloorCover::rowOf(double y) const {
+  return static_cast<int>(std::floor(std::clamp(y, -kMostRows / 2, kMostRows / 2) + kMostRows / 2));
+}
+
+bool FloorCover::isAbove(const Piece& one, const Piece& other) {
+  if (std::abs(one.z - other.z) > kSameHeight) return one.z > other.z;
+  return one.area < other.area;
+}
+
+double FloorCover::frictionAt(double x, double y, double otherwise) const {
+  const Piece* top = nullptr;
+  if (rows_.empty() || std::abs(y) > kMostRows / 2) return otherwise;
+  for (const int i : rows_[rowOf(y)]) {
+    const Piece& piece = pieces_[i];
+    if ((!top || isAbove(piece, *top)) && isInside(piece, x, y)) top = &piece;
+  }
+  return top ? top->friction : otherwise;
+}
+
+double FloorCover::leastFriction(const FloorPatch& area, double otherwise) const {
+  double least = otherwise;
+  if (rows_.empty()) return least;
+  for (int row = rowOf(area.min_y); row <= rowOf(area.max_y); ++row) {
+    for (const int i : rows_[row]) {
+      const Piece& piece = pieces_[i];
+      if (piece.friction >= least || !meets(piece, area) || isCovered(piece, area)) continue;
+      least = piece.friction;
+    }
+  }
+  return least;
+}
+
+/// They do unless the rectangle is wholly beyond one side of the outline, or of its bounds.
+bool FloorCover::meets(const Piece& piece, const FloorPatch& area) {
+  if (!area.meets({piece.min_x, piece.max_x, piece.min_y, piece.max_y, 0})) return false;
+  for (int i = 0; i < 4; ++i) {
+    const Vector3& a = piece.corners[i];
+    const Vector3 along = piece.corners[(i + 1) % 4] - a;
+    // The corner of the rectangle that lies farthest to the left of that side, where the inside is.
+    const double x = along.Y() < 0 ? area.max_x : area.min_x;
+    const double y = along.X() > 0 ? area.max_y : area.min_y;
+    if (along.X() * (y - a.Y()) - along.Y() * (x - a.X()) < 0) return false;
+  }
+  return true;
+}
+
+/// Whether what a rectangle has of a piece lies beneath one other piece, which is convex: it does
+/// if its corners do.
+bool FloorCover::isCovered(const Piece& piece, const FloorPatch& area) const {
+  const double min_x = std::max(piece.min_x, area.min_x), max_x = std::min(piece.max_x, area.max_x);
+  const double min_y = std::max(piece.min_y, area.min_y), max_y = std::min(piece.max_y, area.max_y);
+  const auto& row = rows_[rowOf(min_y)];
+  return std::any_of(row.begin(), row.end(), [&](int i) {
+    const Piece& other = pieces_[i];
+    return isAbove(other, piece) && isInside(other, min_x, min_y) &&
+           isInside(other, max_x, min_y) && isInside(other, min_x, max_y) &&
+           isInside(other, max_x, max_y);
+  });
 }
 
 bool FloorCover::covers(double x, double y, double half) const {
@@ -216,9 +335,9 @@ bool FloorCover::covers(double x, double y, double half) const {
 }
 
 bool FloorCover::covers(double x, double y) const {
-  const int row = static_cast<int>(std::floor(y)) - first_row_;
-  if (row < 0 || row >= static_cast<int>(rows_.size())) return false;
-  return std::any_of(rows_[row].begin(), rows_[row].end(),
+  if (rows_.empty() || std::abs(y) > kMostRows / 2) return false;
+  const auto& row = rows_[rowOf(y)];
+  return std::any_of(row.begin(), row.end(),
                      [&](int piece) { return isInside(pieces_[piece], x, y); });
 }
 

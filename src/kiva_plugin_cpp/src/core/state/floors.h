@@ -32,22 +32,35 @@ inline bool isLow(const Floor& floor, double top) { return top <= floor.z + kSte
 /// Puts a storage unit that would stand in the floor on it.
 void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model);
 
-/// Whether the square around (x, y) with edges of twice `half` [m] lies on surfaces of the floor.
+/// Where the surfaces of the floor lie, and how they grip.
 class FloorCover {
  public:
   explicit FloorCover(const WorldState& world);
+  /// Whether the square around (x, y) with edges of twice `half` [m] lies on them.
   bool covers(double x, double y, double half) const;
+  /// Coulomb coefficient of the uppermost surface at (x, y); of surfaces of one height the smallest
+  /// counts, as a slab that is set into a floor. `otherwise` where there is none.
+  double frictionAt(double x, double y, double otherwise) const;
+  /// The least one of the surfaces that a rectangle meets, or `otherwise` if that is less.
+  double leastFriction(const FloorPatch& area, double otherwise) const;
 
  private:
   struct Piece {
     std::array<Vector3, 4> corners;  // of a convex outline, counterclockwise; the last may be twice
     double min_x, max_x, min_y, max_y;
+    double z, area;  // the latter of the whole surface that it is of
+    double friction;
   };
+  void add(const Collision& collision, const Pose& pose, const Floor& floor);
+  void fillRows();
+  int rowOf(double y) const;
   bool covers(double x, double y) const;
   static bool isInside(const Piece& piece, double x, double y);
+  static bool meets(const Piece& piece, const FloorPatch& area);
+  bool isCovered(const Piece& piece, const FloorPatch& area) const;
+  static bool isAbove(const Piece& one, const Piece& other);
   std::vector<Piece> pieces_;
-  std::vector<std::vector<int>> rows_;  // indices of pieces, by metre of y
-  int first_row_ = 0;
+  std::vector<std::vector<int>> rows_;  // indices of pieces, by metre of y from below
 };
 
 }  // namespace kiva

@@ -15,6 +15,8 @@ void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) 
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
       model.pose * model.description->links[geometry.link].pose_in_model * geometry.pose_in_link;
+  geometry.shape.mesh_file.clear();  // not once a triangle
+  model.geometries.reserve(model.geometries.size() + mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     geometry.triangle = static_cast<int>(i);
     geometry.corners = std::make_shared<Triangle>(cornersOf(mesh, geometry.triangle, pose));

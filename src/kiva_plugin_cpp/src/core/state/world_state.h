@@ -79,6 +79,8 @@ struct Charger {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
 };
 
+class FloorCover;
+
 /// A rectangle of the floor that grips otherwise than the rest, in world [m].
 struct FloorPatch {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;
@@ -155,7 +157,9 @@ struct WorldState {
   // Of robots without a load, by description; owned by those robots.
   std::unordered_map<const ModelDescription*, std::weak_ptr<const JointedBody>> bare_jointed;
   Floor floor;
-  double floor_friction = 1;              // Coulomb coefficient of the floor's surface
+  double floor_friction = 1;  // Coulomb coefficient of the floor's largest surface
+  std::shared_ptr<const FloorCover> floor_parts;  // null where all surfaces grip alike
+  bool floor_parts_due = true;            // floor or robots have changed since those were found
   std::vector<FloorPatch> floor_patches;  // where it is another one; later ones lie on top
 
   std::vector<std::shared_ptr<const FleetPlugin>> fleet_plugins;

@@ -70,8 +70,7 @@ void Bumper::load(kiva::World& world, const std::string& model, const kiva::Para
   schedule_ = Schedule(from.update_rate);
   frame_ = frame(p.text("frameName", "world"));
   skip(p, {"alwaysOn", "updateRate"});
-  publisher_ =
-      node().advertise<gazebo_msgs::ContactsState>(p.text("bumperTopicName", "bumper_states"), 10);
+  publisher_ = advertise<gazebo_msgs::ContactsState>(p.text("bumperTopicName", "bumper_states"));
 }
 
 void Bumper::afterStep(const kiva::World& world, double) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo_plugin.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -39,6 +40,11 @@ bool Schedule::isDue(double now) {
   return true;
 }
 
+double slower(double a, double b) {
+  if (a <= 0 || b <= 0) return std::max(a, b);
+  return std::min(a, b);
+}
+
 double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index) {
   const std::uint64_t one = mix(mix(mix(seed) ^ step) ^ index);
   return std::sqrt(-2 * std::log(uniform(one))) * std::cos(2 * M_PI * uniform(mix(one)));
@@ -73,6 +79,12 @@ std::string GazeboPlugin::frame(const std::string& name, bool prefix_by_namespac
   return prefix.empty() ? name : prefix + "/" + name;
 }
 
+std::string GazeboPlugin::required(const kiva::Parameters& parameters, const std::string& key) {
+  std::string text = parameters.text(key, "");
+  if (text.empty()) throw kiva::DescriptionError("<" + key + "> is missing or empty");
+  return text;
+}
+
 const kiva::SensorDescription& GazeboPlugin::sensor(const kiva::Parameters&,
                                                     const std::string& types) const {
   if (sensor_ && (" " + types + " ").find(" " + sensor_->type + " ") != std::string::npos) {
@@ -89,6 +101,23 @@ std::string GazeboPlugin::link(const kiva::Parameters& parameters, const std::st
   }
   throw kiva::DescriptionError("<" + key + "> is '" + name + "', which is no link of '" + model_ +
                                "'");
+}
+
+std::string GazeboPlugin::joint(const kiva::World& world, const kiva::Parameters& parameters,
+                                const std::string& key, const std::string& fallback) const {
+  std::string name = parameters.text(key, fallback);
+  const kiva::Joint* joint = description_->findJoint(name);
+  if (joint && joint->hasAxis() && world.joint(model_, name)) return name;
+  throw kiva::DescriptionError("<" + key + "> is '" + name + "', which is no joint of '" + model_ +
+                               "' that moves");
+}
+
+kiva::Vector3 GazeboPlugin::noisy(const kiva::World& world, const kiva::Vector3& vector,
+                                  double deviation, std::uint64_t index) const {
+  kiva::Vector3 out = vector;
+  if (deviation == 0) return out;
+  for (int i = 0; i < 3; ++i) out[i] += deviation * noise(seed_, world.steps(), index + i);
+  return out;
 }
 
 }  // namespace kiva_ros

@@ -37,6 +37,9 @@ class Schedule {
   double next_ = 0, last_ = 0;
 };
 
+/// The lower of two rates [Hz], 0 = every step.
+double slower(double a, double b);
+
 /// Normally distributed noise with mean 0 and deviation 1; the same for the same arguments, so that
 /// a run can be repeated from anywhere in it.
 double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index);
@@ -60,17 +63,36 @@ class GazeboPlugin : public kiva::Plugin {
   /// A frame's name behind the prefix that holds for this namespace; `prefix_by_namespace`: the
   /// namespace itself is one where the parameter tf_prefix is not set.
   std::string frame(const std::string& name, bool prefix_by_namespace = false) const;
+  /// The text of a parameter without which the plugin can do nothing. Throws DescriptionError if
+  /// it is missing or empty.
+  static std::string required(const kiva::Parameters& parameters, const std::string& key);
   /// The sensor that this plugin sits in. Throws DescriptionError if there is none of such a type.
   const kiva::SensorDescription& sensor(const kiva::Parameters& parameters,
                                         const std::string& types) const;
   /// A link's name, given with its model's or without. Throws DescriptionError if there is none.
   std::string link(const kiva::Parameters& parameters, const std::string& key) const;
+  /// A joint that moves, by the name at `key`. Throws DescriptionError if there is none.
+  std::string joint(const kiva::World& world, const kiva::Parameters& parameters,
+                    const std::string& key, const std::string& fallback) const;
+  /// `vector` with noise of that deviation; `index`, of each of its three numbers, tells what is
+  /// measured in one step apart.
+  kiva::Vector3 noisy(const kiva::World& world, const kiva::Vector3& vector, double deviation,
+                      std::uint64_t index) const;
 
   ros::NodeHandle& node() { return *node_; }
   const std::string& model() const { return model_; }
   const kiva::ModelDescription& description() const { return *description_; }
   std::uint64_t seed() const { return seed_; }
 
+  /// Throws std::runtime_error if this program publishes another type on that topic.
+  template <typename Message>
+  ros::Publisher advertise(const std::string& topic, int queue = 10) {
+    if (topic.empty()) throw kiva::DescriptionError("a topic's name is empty");
+    const ros::Publisher publisher = node_->advertise<Message>(topic, queue);
+    if (publisher) return publisher;
+    throw kiva::DescriptionError("topic '" + node_->resolveName(topic) +
+                                 "' is published with another type");
+  }
   template <typename Message>
   PluginInput<Message> subscribe(const std::string& topic) {
     return inputs_.subscribe<Message>(node(), topic);

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <sensor_msgs/Imu.h>
-#include <std_srvs/Empty.h>
 
 #include <string>
 
 #include "gazebo_plugin.h"
+#include "inertial_frame.h"
 
 namespace kiva_ros {
 
@@ -21,12 +21,9 @@ class Imu : public GazeboPlugin {
   void reset(kiva::World& world) override;
 
  private:
-  std::string link_;
-  kiva::Quaternion offset_;
+  InertialFrame frame_;
   double noise_ = 0;  ///< Standard deviation, of rates and accelerations alike.
   sensor_msgs::Imu imu_;
-  kiva::Vector3 velocity_;  ///< At the last measurement, in world [m/s].
-  double measured_ = -1;    ///< When that was [s], negative = never.
   Schedule schedule_;
   ros::Publisher publisher_;
   ros::ServiceServer calibration_;

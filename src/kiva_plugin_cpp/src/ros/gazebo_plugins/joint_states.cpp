@@ -36,7 +36,7 @@ void JointStates::load(kiva::World& world, const std::string& model, const kiva:
   }
   schedule_ = Schedule(p.number("updateRate", 100, 0, 1e6));
   skip(p, {"alwaysOn"});
-  publisher_ = node().advertise<sensor_msgs::JointState>("joint_states", 10);
+  publisher_ = advertise<sensor_msgs::JointState>("joint_states");
 }
 
 void JointStates::afterStep(const kiva::World& world, double) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "ros/messages/convert.h"
@@ -10,8 +11,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kMostRays = 100000;
-constexpr double kMostRange = 1e5;  // [m]
+constexpr double kLevel = 0.9998;  // cosine of a degree
 
 }  // namespace
 
@@ -21,46 +21,55 @@ void Laser::load(kiva::World& world, const std::string& model, const kiva::Param
   link_ = from.link;
   pose_in_link_ = from.pose_in_link;
   schedule_ = Schedule(from.update_rate);
-  const kiva::Parameters& s = from.parameters;
-  const std::string ray = s.has("lidar/range/max") ? "lidar/" : "ray/";
-  const std::string scan = ray + "scan/horizontal/";
-  rays_ = s.whole(scan + "samples", 640, 1, kMostRays);
-  least_ = s.number(scan + "min_angle", 0, -2 * M_PI, 2 * M_PI);
-  most_ = s.number(scan + "max_angle", 0, least_, least_ + 4 * M_PI);
-  noise_ = s.number(ray + "noise/stddev", 0, 0, kMostRange);
-  scan_.angle_min = static_cast<float>(least_);
-  scan_.angle_max = static_cast<float>(most_);
-  scan_.angle_increment = static_cast<float>((most_ - least_) / std::max(rays_ - 1, 1));
-  scan_.range_min = static_cast<float>(s.number(ray + "range/min", 0, 0, kMostRange));
-  scan_.range_max = static_cast<float>(
-      std::min(s.number(ray + "range/max", 0, 0, std::numeric_limits<double>::max()), kMostRange));
+  grid_ = RayGrid(from);
+  grid_.up = {};  // the first layer of several: as a plane
+  directions_ = grid_.directions();
+  scan_.angle_min = static_cast<float>(grid_.across.least);
+  scan_.angle_max = static_cast<float>(grid_.across.most);
+  scan_.angle_increment = static_cast<float>(grid_.across.gap());
+  scan_.range_min = static_cast<float>(grid_.min_range);
+  scan_.range_max = static_cast<float>(grid_.max_range);
   scan_.header.frame_id = frame(p.text("frameName", "world"), true);
-  scan_.intensities.assign(rays_, 0);
+  scan_.intensities.assign(grid_.size(), 0);
   skip(p, {"alwaysOn", "updateRate", "gaussianNoise", "hokuyoMinIntensity"});
-  publisher_ = node().advertise<sensor_msgs::LaserScan>(p.text("topicName", "/world"), 10);
+  publisher_ = advertise<sensor_msgs::LaserScan>(p.text("topicName", "/world"));
 }
 
 void Laser::afterStep(const kiva::World& world, double) {
   if (!schedule_.isDue(world.time()) || publisher_.getNumSubscribers() == 0) return;
   const auto link = world.state(model(), link_);
   if (!link) return;
-  const kiva::Pose pose = link->pose * pose_in_link_;
-  const double yaw = pose.Rot().Yaw();
-  const double gap = (most_ - least_) / std::max(rays_ - 1, 1);
   sensor_msgs::LaserScan out = scan_;
   const std::string frame_id = out.header.frame_id;
   out.header = header(world.time(), frame_id);
-  for (int ray = 0; ray < rays_; ++ray) {
-    double range = world.rayCast(pose.Pos(), yaw + least_ + gap * ray, scan_.range_max, model());
-    if (noise_ > 0 && std::isfinite(range)) {
-      range += noise_ * noise(seed(), world.steps(), ray);
+  std::uint64_t ray = 0;
+  for (double range : cast(world, link->pose * pose_in_link_)) {
+    if (grid_.noise > 0 && std::isfinite(range)) {
+      range += grid_.noise * noise(seed(), world.steps(), ray);
       range = std::clamp(range, 0.0, static_cast<double>(scan_.range_max));
     }
+    ++ray;
     const bool is_near = range < scan_.range_min;
     out.ranges.push_back(is_near ? -std::numeric_limits<float>::infinity()
                                  : static_cast<float>(range));
   }
   publish(publisher_, std::move(out));
+}
+
+/// A level sensor's rays go the quick way, which sees no floor: one that rocks with its robot by a
+/// fraction of a degree would else meet it far away.
+std::vector<double> Laser::cast(const kiva::World& world, const kiva::Pose& pose) const {
+  if (pose.Rot().ZAxis().Z() < kLevel) {
+    return castFrom(world, pose, directions_, scan_.range_max, model());
+  }
+  const double yaw = pose.Rot().Yaw();
+  std::vector<double> out;
+  out.reserve(directions_.size());
+  for (int ray = 0; ray < grid_.size(); ++ray) {
+    out.push_back(
+        world.rayCast(pose.Pos(), yaw + grid_.across.angle(ray), scan_.range_max, model()));
+  }
+  return out;
 }
 
 }  // namespace kiva_ros

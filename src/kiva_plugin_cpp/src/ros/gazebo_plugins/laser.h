@@ -4,13 +4,15 @@
 #include <sensor_msgs/LaserScan.h>
 
 #include <string>
+#include <vector>
 
 #include "gazebo_plugin.h"
+#include "ray_grid.h"
 
 namespace kiva_ros {
 
-/// libgazebo_ros_laser.so in a <sensor type="ray">: a level scan at the sensor's height, which its
-/// own model does not show up in.
+/// libgazebo_ros_laser.so in a <sensor type="ray">: a scan in the sensor's plane, which its own
+/// model does not show up in.
 class Laser : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
@@ -19,12 +21,13 @@ class Laser : public GazeboPlugin {
   void afterStep(const kiva::World& world, double dt) override;
 
  private:
+  std::vector<double> cast(const kiva::World& world, const kiva::Pose& pose) const;
+
   std::string link_;
   kiva::Pose pose_in_link_;
   sensor_msgs::LaserScan scan_;  ///< All but the ranges and the time.
-  int rays_ = 0;
-  double least_ = 0, most_ = 0;  ///< Angles [rad].
-  double noise_ = 0;             ///< Standard deviation [m].
+  RayGrid grid_;
+  std::vector<kiva::Vector3> directions_;  ///< In the sensor's frame.
   Schedule schedule_;
   ros::Publisher publisher_;
 };

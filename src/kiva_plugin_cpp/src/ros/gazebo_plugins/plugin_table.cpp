@@ -6,11 +6,29 @@
 #include <memory>
 #include <string>
 
+#include "block_laser.h"
 #include "bumper.h"
+#include "depth_camera.h"
 #include "diff_drive.h"
+#include "force.h"
+#include "ft_sensor.h"
+#include "hector_imu.h"
 #include "imu.h"
+#include "imu_sensor.h"
 #include "joint_states.h"
+#include "lacking.h"
 #include "laser.h"
+#include "p3d.h"
+#include "planar_move.h"
+#include "range.h"
+#include "skid_steer.h"
+#include "velodyne_laser.h"
+
+// To add one: a class derived from GazeboPlugin in files of its own, whose load() calls enter(),
+// reads every parameter that the plugin of gazebo_ros has (skip() those without a use here) and
+// throws kiva::DescriptionError where one is faulty, which leaves the plugin out with a warning;
+// a line below; a row in README.md. force.cpp is the smallest that acts, p3d.cpp one that measures.
+// What it remembers that decides what its model does belongs in save() and restore().
 
 namespace kiva_ros {
 namespace {
@@ -26,14 +44,32 @@ Make maker() {
 
 kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_queue,
                                 PluginInputs& inputs) {
-  const std::map<std::string, Make> table = {
+  std::map<std::string, Make> table = {
+      {"libgazebo_ros_block_laser.so", maker<BlockLaser>()},
+      {"libgazebo_ros_bumper.so", maker<Bumper>()},
+      {"libgazebo_ros_depth_camera.so", maker<DepthCamera>()},
       {"libgazebo_ros_diff_drive.so", maker<DiffDrive>()},
-      {"libgazebo_ros_laser.so", maker<Laser>()},
+      {"libgazebo_ros_force.so", maker<Force>()},
+      {"libgazebo_ros_ft_sensor.so", maker<FtSensor>()},
       {"libgazebo_ros_gpu_laser.so", maker<Laser>()},
       {"libgazebo_ros_imu.so", maker<Imu>()},
-      {"libgazebo_ros_bumper.so", maker<Bumper>()},
+      {"libgazebo_ros_imu_sensor.so", maker<ImuSensor>()},
       {"libgazebo_ros_joint_state_publisher.so", maker<JointStates>()},
+      {"libgazebo_ros_laser.so", maker<Laser>()},
+      {"libgazebo_ros_openni_kinect.so", maker<OpenniKinect>()},
+      {"libgazebo_ros_p3d.so", maker<P3d>()},
+      {"libgazebo_ros_planar_move.so", maker<PlanarMove>()},
+      {"libgazebo_ros_range.so", maker<Range>()},
+      {"libgazebo_ros_skid_steer_drive.so", maker<SkidSteer>()},
+      {"libgazebo_ros_velodyne_gpu_laser.so", maker<VelodyneLaser>()},
+      {"libgazebo_ros_velodyne_laser.so", maker<VelodyneLaser>()},
+      {"libhector_gazebo_ros_imu.so", maker<HectorImu>()},
   };
+  for (const auto& [filename, advice] : lackingPlugins()) {
+    table[filename] = [advice = advice](const PluginContext& context) {
+      return std::make_shared<Lacking>(context, advice);
+    };
+  }
   return [=, &root, &publish_queue, &inputs](const std::string& filename,
                                              const kiva::SensorDescription* sensor) {
     const auto found = table.find(filename);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -111,6 +112,15 @@ Orders fromMessage(const warehouse_msgs::FleetFollow& message) {
     y += points;
     out.emplace_back(std::move(path));
   }
+  return out;
+}
+
+Orders fromMessage(const warehouse_msgs::FleetOrders& message) {
+  Orders out;
+  for (const auto& cancel : message.cancels) out.emplace_back(fromMessage(cancel));
+  Orders paths = fromMessage(message.follow);
+  std::move(paths.begin(), paths.end(), std::back_inserter(out));
+  for (const auto& lift : message.lifts) out.emplace_back(fromMessage(lift));
   return out;
 }
 

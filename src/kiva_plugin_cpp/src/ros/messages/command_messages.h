@@ -5,6 +5,7 @@
 
 #include <warehouse_msgs/Cancel.h>
 #include <warehouse_msgs/FleetFollow.h>
+#include <warehouse_msgs/FleetOrders.h>
 #include <warehouse_msgs/FollowPath.h>
 #include <warehouse_msgs/Lift.h>
 #include <warehouse_msgs/MoveAlong.h>
@@ -25,6 +26,8 @@ kiva::Command fromMessage(const warehouse_msgs::Stop& message);
 kiva::FollowPath fromMessage(const warehouse_msgs::FollowPath& message);
 /// One for every robot; of arrays that don't agree, one that says so.
 Orders fromMessage(const warehouse_msgs::FleetFollow& message);
+/// Cancellations first, then paths, then lifts.
+Orders fromMessage(const warehouse_msgs::FleetOrders& message);
 
 warehouse_msgs::MoveTo toMoveTo(const kiva::Command& command);
 warehouse_msgs::MoveAlong toMoveAlong(const kiva::Command& command);

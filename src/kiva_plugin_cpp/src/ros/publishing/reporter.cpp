@@ -99,6 +99,11 @@ void Reporter::refused(const kiva::World& world, int kiva_id, const std::string&
   extra_events_.push_back({world.time(), kiva::Event::Kind::kRefused, robot, "", text});
 }
 
+void Reporter::beginTimeline() {
+  ++timeline_;
+  units_revision_ = kNever;  // where they stand is told again, as it is in the new one
+}
+
 void Reporter::restored(const kiva::World& world, const std::vector<std::string>& before) {
   using Kind = kiva::Event::Kind;
   const std::vector<std::string> now = world.modelNames();
@@ -257,7 +262,9 @@ void Reporter::updateSubscribedRobots() {
 }
 
 void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
-  if (subscribers_.hasSubscribers(SubscriberCounts::Topic::kFleet)) out->fleet = fleetState(world);
+  if (!subscribers_.hasSubscribers(SubscriberCounts::Topic::kFleet)) return;
+  out->fleet = fleetState(world);
+  out->fleet->timeline = timeline_;
 }
 
 void Reporter::addPeople(const kiva::World& world, Snapshot* out) {
@@ -329,6 +336,7 @@ void Reporter::addObjects(const kiva::World& world, Snapshot* out, bool at_once)
   // Together, since the second is read by the order of the first.
   if (models) out->objects = warehouseObjects(world);
   out->units = unitStates(world);
+  out->units->timeline = timeline_;
   objects_revision_ = world.modelsRevision();
   units_revision_ = world.unitsRevision();
   objects_sent_ = now;

@@ -41,6 +41,10 @@ class Reporter {
   void afterRequests(kiva::World& world, bool paused, bool moved);
   /// A command that the world never got.
   void refused(const kiva::World& world, int kiva_id, const std::string& text);
+  /// The world is reset, or another one than before: what was decided upon holds no more.
+  void beginTimeline();
+  /// Counts those, from 1.
+  std::uint32_t timeline() const { return timeline_; }
   /// The world is another one than before, whose models were these.
   void restored(const kiva::World& world, const std::vector<std::string>& before);
   /// Calls `done`, on another thread, when all that was reported so far is with the sockets.
@@ -77,6 +81,7 @@ class Reporter {
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_, heartbeat_every_,
       hash_every_;  // steps
 
+  std::uint32_t timeline_ = 1;
   bool somebody_there_ = false;              ///< When people were told last.
   std::uint64_t clock_sent_steps_ = kNever;  ///< Of the last reliable clock.
   WallClock::time_point clock_sent_;

@@ -148,6 +148,7 @@ warehouse_msgs::FleetState fleetState(const kiva::World& world) {
   out.last_end.assign(f.last_end.begin(), f.last_end.end());
   out.failures.assign(f.failures.begin(), f.failures.end());
   out.charge.assign(f.charge.begin(), f.charge.end());
+  out.mode.assign(f.mode.begin(), f.mode.end());
   const bool has_limits = world.realism().loads.enabled;
   for (int i = 0; i < f.size(); ++i) {
     if (has_limits) out.load_limit.push_back(static_cast<float>(world.loadLimit(i)));

@@ -74,6 +74,7 @@ bool Replayer::beforeStep(kiva::World& world) {
   ended_ = true;
   ROS_INFO("%s: replayed %lu steps, and all %lu hashes are equal", path_.c_str(),
            static_cast<unsigned long>(step_), static_cast<unsigned long>(hashes_));
+  end_();
   return false;
 }
 

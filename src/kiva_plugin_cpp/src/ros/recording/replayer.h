@@ -32,6 +32,9 @@ class Replayer : public StepHook {
     replay_ = std::move(replay);
   }
 
+  /// What follows once it has ended, and was the same all along.
+  void onEnd(std::function<void()> end) { end_ = std::move(end); }
+
   /// False when the recording has ended.
   bool beforeStep(kiva::World& world) override;
   /// Throws std::runtime_error, which names the step, where the world goes another way.
@@ -45,6 +48,7 @@ class Replayer : public StepHook {
 
   std::function<void(kiva::World&, const std::string&)> restore_;
   std::function<void(const rosbag::MessageInstance&)> replay_;
+  std::function<void()> end_ = [] {};
   const std::string path_;
   rosbag::Bag bag_;
   std::unique_ptr<rosbag::View> view_;

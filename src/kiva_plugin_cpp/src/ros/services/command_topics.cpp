@@ -22,6 +22,13 @@ CommandTopics::CommandTopics(ros::NodeHandle& root, SimulationThread& simulation
     subscribers_.push_back(root.subscribe<Message>(topic, kUnlimited, post, ros::VoidConstPtr(),
                                                    ros::TransportHints().tcpNoDelay()));
   });
+  const boost::function<void(const boost::shared_ptr<const warehouse_msgs::FleetOrders>&)> post =
+      [&simulation](const boost::shared_ptr<const warehouse_msgs::FleetOrders>& message) {
+        simulation.command(fromMessage(*message), message->timeline);
+      };
+  subscribers_.push_back(root.subscribe<warehouse_msgs::FleetOrders>(
+      "/warehouse/fleet_orders", kUnlimited, post, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay()));
 }
 
 }  // namespace kiva_ros

@@ -66,6 +66,13 @@ void SimulationThread::command(Orders orders) {
   post([this, orders = std::move(orders)](kiva::World&) { takeOrders(orders); });
 }
 
+void SimulationThread::command(Orders orders, std::uint32_t timeline) {
+  post([this, orders = std::move(orders), timeline](kiva::World&) {
+    if (timeline == reporter_.timeline()) return takeOrders(orders);
+    refuse(orders, "it was asked before the world was reset or restored");
+  });
+}
+
 void SimulationThread::takeOrders(const Orders& orders) {
   for (const Order& order : orders) {
     const std::size_t waiting = held_commands_.size();
@@ -88,8 +95,12 @@ void SimulationThread::postCommands() {
   held_commands_.clear();
 }
 
+void SimulationThread::refuse(const Orders& orders, const std::string& why) {
+  for (const Order& order : orders) reporter_.refused(world_, robotOf(order), why);
+}
+
 void SimulationThread::refuseCommands(const std::string& why) {
-  for (const Order& order : held_commands_) reporter_.refused(world_, robotOf(order), why);
+  refuse(held_commands_, why);
   held_commands_.clear();
 }
 
@@ -125,6 +136,7 @@ void SimulationThread::restoreHere(kiva::World& world, const std::string& checkp
   const std::vector<std::string> before = world.modelNames();
   world.restore(checkpoint);
   moved_ = changed_ = true;
+  reporter_.beginTimeline();
   reporter_.restored(world, before);
   refuseCommands("the world went back to a checkpoint before its next step");
   retime(world.stepSize(), target_factor_);  // it may have another step
@@ -134,6 +146,7 @@ void SimulationThread::reset(bool time_too) {
   move([this, time_too](kiva::World& world) {
     for (StepHook* hook : hooks_) hook->beforeReset(world);
     world.reset(time_too);
+    reporter_.beginTimeline();
     refuseCommands("the world was reset before its next step");
   });
 }

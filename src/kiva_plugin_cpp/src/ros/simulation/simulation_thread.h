@@ -55,6 +55,8 @@ class SimulationThread {
   /// know.
   template <typename Request>
   auto change(Request request);
+  /// From the step thread: counts how often the world was reset or restored, from 1.
+  std::uint32_t timeline() const { return reporter_.timeline(); }
   /// From the step thread: the world is being changed.
   void noteChange() { changed_ = true; }
 
@@ -63,6 +65,8 @@ class SimulationThread {
   /// connections has none of its own. Refused by an event where too many wait already, and where a
   /// reset or a restore comes before that step.
   void command(Orders orders);
+  /// The same for what was decided upon in that timeline of the world: refused in any other.
+  void command(Orders orders, std::uint32_t timeline);
 
   struct Stepped {
     double time = 0;          ///< Simulated [s].
@@ -112,6 +116,7 @@ class SimulationThread {
   bool stepOnce(bool reliable);  ///< False if a hook wants no further step.
   void takeOrders(const Orders& orders);
   void postCommands();
+  void refuse(const Orders& orders, const std::string& why);
   void refuseCommands(const std::string& why);
   void measure(int steps);
   void refuseRequests();

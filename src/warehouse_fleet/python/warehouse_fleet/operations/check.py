@@ -85,7 +85,7 @@ def summary(engine):
     queries = {
         "pieces": "SELECT COALESCE(SUM(quantity), 0) FROM bin",
         "reserved": "SELECT COALESCE(SUM(reserved), 0) FROM bin",
-        "bins": "SELECT COUNT(*) FROM bin",
+        "bins": "SELECT COUNT(*) FROM bin WHERE capacity > 0",
         "moves": "SELECT COUNT(*) FROM move",
         "orders": "SELECT COUNT(*) FROM orders",
         "completed": "SELECT COUNT(*) FROM orders WHERE state = 2",

@@ -5,18 +5,29 @@ What a shift does between two commits of its journal gets into the database toge
 and in order. The thread writes as many of them in one transaction as are there.
 """
 
+import contextlib
 import json
 import queue
 import threading
 from collections import defaultdict
 from datetime import UTC, datetime
 
-from sqlalchemy import bindparam, create_engine, event, func, insert, select, update
-from sqlalchemy.exc import SQLAlchemyError
+from sqlalchemy import bindparam, func, insert, select, update
 
 from warehouse_fleet.operations import schema
+from warehouse_fleet.operations.engines import (
+    DatabaseError,
+    lock,
+    make_engine,
+    open_engine,
+    prepare,
+    reason,
+    shown,
+)
 from warehouse_fleet.operations.journal import Journal
 from warehouse_fleet.operations.orders import OrderState
+
+__all__ = ["Database", "DatabaseError", "DatabaseJournal", "open_engine"]
 
 WAITING = 20_000  # commits at most that are not written yet; beyond, the shift waits
 TABLES = (  # in the order in which rows may refer to each other
@@ -32,41 +43,6 @@ TABLES = (  # in the order in which rows may refer to each other
     schema.event,
     schema.heat,
 )
-
-
-class DatabaseError(Exception):
-    """The database can't be opened or written; the text says why."""
-
-
-def url_of(text):
-    """A URL as it is; anything else is the path of an SQLite file."""
-    return text if "://" in str(text) else f"sqlite:///{text}"
-
-
-def open_engine(text):
-    """An engine on a database, its tables ready; raises DatabaseError."""
-    try:
-        engine = create_engine(url_of(text), future=True)
-        if engine.dialect.name == "sqlite":
-            event.listen(engine, "connect", _sqlite)
-        with engine.begin() as connection:
-            schema.prepare(connection)
-    except (SQLAlchemyError, schema.SchemaError, ImportError, KeyError) as error:
-        raise DatabaseError(f"{text}: {_reason(error)}") from error
-    return engine
-
-
-def _sqlite(connection, _record):
-    cursor = connection.cursor()
-    cursor.execute("PRAGMA journal_mode=WAL")
-    cursor.execute("PRAGMA synchronous=NORMAL")  # nothing is lost when a program is killed
-    cursor.execute("PRAGMA foreign_keys=ON")
-    cursor.execute("PRAGMA busy_timeout=30000")
-    cursor.close()
-
-
-def _reason(error):
-    return str(getattr(error, "orig", None) or error).strip()
 
 
 class Rows:
@@ -117,10 +93,16 @@ def _named(names, key):
 
 
 class Database:
-    """Takes Rows from any thread and writes them in order on its own."""
+    """Takes Rows from any thread and writes them in order on its own; no other program may, for as
+    long. url: see engines.url_of. Raises DatabaseError."""
 
     def __init__(self, url):
-        self.url, self.engine = url, open_engine(url)
+        self.url, self.engine = shown(url), make_engine(url)
+        self._lock = contextlib.ExitStack()
+        with self._lock as unless_ready:
+            unless_ready.enter_context(lock(self.engine, url))
+            prepare(self.engine, url)
+            self._lock = unless_ready.pop_all()
         self._queue = queue.Queue(WAITING)
         self._error = None
         self._thread = threading.Thread(target=self._write, name="database", daemon=True)
@@ -141,12 +123,26 @@ class Database:
         if self._thread.is_alive():
             self._queue.put(None)
             self._thread.join()
+        self._lock.close()
         self.engine.dispose()
         self._check()
 
     def _check(self):
         if self._error:
-            raise DatabaseError(f"{self.url}: {_reason(self._error)}") from self._error
+            raise DatabaseError(f"{self.url}: {reason(self._error)}") from self._error
+
+    @contextlib.contextmanager
+    def reading(self):
+        """Raises DatabaseError where what it holds can't be understood."""
+        try:
+            yield
+        except DatabaseError:
+            raise
+        except Exception as error:  # there may be anything in a file that was damaged
+            raise DatabaseError(
+                f"{self.url}: what it holds can't be read: {reason(error)}; go on with another "
+                "database, or with a copy of this one from before"
+            ) from error
 
     def _write(self):
         ended = False
@@ -163,7 +159,7 @@ class Database:
                 if rows and not self._error:
                     with self.engine.begin() as connection:
                         rows.write(connection)
-            except SQLAlchemyError as error:
+            except Exception as error:  # told to those who put or flush
                 self._error = error
             for _ in taken:
                 self._queue.task_done()
@@ -172,7 +168,7 @@ class Database:
 class DatabaseJournal(Journal):
     """Keeps a shift in a Database."""
 
-    def __init__(self, database, *, seed, orders, policies, site, now=0.0):
+    def __init__(self, database, *, seed, orders, policies, site, layout, now=0.0):
         self._database, self._rows = database, Rows()
         with database.engine.connect() as connection:
             self._next = {
@@ -186,6 +182,8 @@ class DatabaseJournal(Journal):
                 )
             }
             self._heat_slots = set(connection.execute(select(schema.heat.c.slot)).scalars())
+            self._bins = set(connection.execute(select(schema.bin_.c.id)).scalars())
+            self._units = set(connection.execute(select(schema.unit.c.id)).scalars())
         self.run_id = self._id(schema.run)
         self._first_visit = self._next[schema.visit] - 1
         self._assignments = {}
@@ -195,6 +193,7 @@ class DatabaseJournal(Journal):
             began=_now(),
             ended=None,
             site=site,
+            layout=json.dumps(layout),
             seed=seed,
             orders=orders,
             policies=json.dumps(policies),
@@ -208,10 +207,17 @@ class DatabaseJournal(Journal):
         shares = zip(shift.assortment.skus, shift.assortment.popularity)
         for number, (sku, share) in enumerate(shares, 1):
             self._rows.insert(schema.sku, sku, number=number, popularity=float(share))
-        for unit in shift.inventory.of_unit:
-            self._rows.insert(schema.unit, unit, in_service=1)
-        for one in shift.inventory.bins.values():
-            self._rows.insert(
+        self.take_in(shift.inventory.bins.values())
+
+    def take_in(self, bins, moved=()):
+        """Writes down bins that are new, still empty, and those that are on another unit now."""
+        for unit in dict.fromkeys(one.unit for one in (*bins, *moved)):
+            if unit not in self._units:
+                self._units.add(unit)
+                self._rows.insert(schema.unit, unit, in_service=1)
+        for one in bins:
+            put = self._rows.update if one.bin_id in self._bins else self._rows.insert
+            put(
                 schema.bin_,
                 one.bin_id,
                 item=one.item,
@@ -221,6 +227,13 @@ class DatabaseJournal(Journal):
                 reserved=0,
                 capacity=one.capacity,
             )
+        for one in moved:
+            self._rows.update(schema.bin_, one.bin_id, unit=one.unit)
+
+    def gone(self, bins):
+        """Bins that are not in the warehouse any more, and were written off."""
+        for one in bins:
+            self._rows.update(schema.bin_, one.bin_id, capacity=0)
 
     def resume(self, stored):
         """What an earlier run left under way has ended: its visits, assignments and promises. The

@@ -1,23 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file, or `none`.
-
-A CSV file has a first line with names of columns and then an order line a row:
-
-    reference,sku,quantity,at,due,priority
-    A-17,sku-3,2,0,1800,0
-    A-17,sku-9,1,0,1800,0
-
-Rows of one reference are one order. `at` [s of the shift] is when it comes (0), `due` when it is to
-be complete (0: at any time), `priority` 0 to 255; these three may be left out.
-"""
-
-import csv
-from dataclasses import dataclass
-from pathlib import Path
+"""Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
+order_file), or `none`."""
 
 import numpy as np
 
+from warehouse_fleet.operations.acceptance import MOST_WAITING
 from warehouse_fleet.operations.inventory import ROOMY
+from warehouse_fleet.operations.order_file import DemandError, Wanted, read_csv
 
 FILL = 200  # orders that wait at any time
 POISSON = 160.0  # orders a picking station and hour
@@ -26,21 +15,8 @@ LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
 DUE_SOON, DUE_SOON_SHARE, DUE_LATER = 30 * 60.0, 0.2, 2 * 3600.0
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
-
-
-class DemandError(ValueError):
-    """What was asked for can't be had: the text names what, or the file and line."""
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """An order before it is one."""
-
-    lines: tuple  # of (sku, pieces)
-    at: float = 0.0
-    due: float = 0.0
-    priority: int = 0
-    reference: str = ""
+MOST_FILL, MOST_PER_HOUR = 10_000, 1e6
+AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, until the next [s]
 
 
 class Customers:
@@ -117,112 +93,59 @@ class Poisson:
 
 
 class FromFile:
-    """The orders of a CSV file."""
+    """The orders of a CSV file: each at its time, or a little later where many come at once or
+    wait already."""
 
     bundles_per_hour = 0.0
 
     def __init__(self, wanted):
         self._wanted = sorted(wanted, key=lambda one: one.at)[::-1]
+        self._more_at = 0.0
 
     def next_time(self):
-        return self._wanted[-1].at if self._wanted else float("inf")
+        return max(self._wanted[-1].at, self._more_at) if self._wanted else float("inf")
 
     def due(self, now, backlog, in_stock):
-        while self.next_time() <= now:
+        for _ in range(AT_ONCE):
+            if self.next_time() > now:
+                return
+            if backlog.lines + len(self._wanted[-1].lines) > MOST_WAITING:
+                break
             yield self._wanted.pop()
+        self._more_at = now + PAUSE
 
 
-def make_demand(text, assortment, stations, rng, now=0.0):
+def make_demand(text, assortment, stations, rng, now=0.0, capacity=float("inf")):
     """What the orders' text of operations.launch and simulate means; raises DemandError.
 
-    stations: (picking, replenishing), how many. now: when it begins [s].
+    assortment: None: any SKU may be asked for. stations: (picking, replenishing), how many. now:
+    when it begins [s]. capacity: pieces that all bins can hold.
     """
     customers = Customers(assortment, rng)
     name, _, value = str(text).partition(":")
     if text == "none":
         return FromFile([])
     if name == "fill":
-        return Fill(customers, int(_number(text, value, FILL, whole=True)))
+        return Fill(customers, int(_number(text, value, FILL, MOST_FILL, whole=True)))
     if name == "poisson":
-        per_hour = _number(text, value, POISSON * stations[0])
+        per_hour = _number(text, value, POISSON * stations[0], MOST_PER_HOUR)
         return Poisson(customers, per_hour, BUNDLES * stations[1], rng, now)
     if str(text).endswith(".csv"):
-        return FromFile(read_csv(text, set(assortment.skus)))
+        return FromFile(read_csv(text, set(assortment.skus) if assortment else None, capacity))
     raise DemandError(
         f"orders are '{text}'; fill, fill:N, poisson:PER_HOUR, FILE.csv or none was expected"
     )
 
 
-def _number(text, value, default, whole=False):
+def _number(text, value, default, most, whole=False):
     if not value:
         return default
     try:
         number = int(value) if whole else float(value)
     except ValueError:
         number = 0
-    if not 0 < number < float("inf"):
-        raise DemandError(f"orders are '{text}'; a number above 0 was expected after the colon")
+    if not 0 < number <= most:
+        raise DemandError(
+            f"orders are '{text}'; a number above 0, up to {most:g}, was expected after the colon"
+        )
     return number
-
-
-def read_csv(path, skus=None):
-    """The Wanted of a file; raises DemandError that names each wrong row's line.
-
-    skus: those that are known; None: any.
-    """
-    rows, wrong = {}, []
-    try:
-        with Path(path).open(newline="", encoding="utf-8") as file:
-            reader = csv.DictReader(file)
-            lacking = [
-                c for c in ("reference", "sku", "quantity") if c not in (reader.fieldnames or ())
-            ]
-            if lacking:
-                raise DemandError(f"{path}:1: there is no column {', '.join(lacking)}")
-            for row in reader:
-                try:
-                    _add(rows, row, skus)
-                except ValueError as error:
-                    wrong.append(f"{path}:{reader.line_num}: {error}")
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise DemandError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
-    if wrong:
-        raise DemandError("\n".join(wrong[:20]))
-    return [
-        Wanted(tuple(lines.items()), *rest, reference) for reference, (lines, rest) in rows.items()
-    ]
-
-
-def _add(rows, row, skus):
-    if None in row:
-        raise ValueError("there are more fields than columns")
-    reference = (row["reference"] or "").strip()
-    if not reference:
-        raise ValueError("reference is empty")
-    sku = (row["sku"] or "").strip()
-    if not sku or (skus is not None and sku not in skus):
-        raise ValueError(f"sku '{sku}' is unknown")
-    quantity = _field(row, "quantity", int, 1, 2**31)
-    rest = (
-        _field(row, "at", float, 0, 1e9),
-        _field(row, "due", float, 0, 1e9),
-        _field(row, "priority", int, 0, 255),
-    )
-    lines, first = rows.setdefault(reference, ({}, rest))
-    if rest != first:
-        raise ValueError(f"at, due or priority differ from the first row of {reference}")
-    lines[sku] = lines.get(sku, 0) + quantity
-
-
-def _field(row, name, kind, least, most):
-    text = (row.get(name) or "").strip()
-    if not text and name != "quantity":
-        return kind(0)
-    try:
-        value = kind(text)
-    except ValueError:
-        value = None
-    if value is None or not least <= value <= most:
-        what = "a whole number" if kind is int else "a number"
-        raise ValueError(f"{name} is '{text}'; {what} from {least} to {most:g} was expected")
-    return value

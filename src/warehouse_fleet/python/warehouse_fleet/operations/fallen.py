@@ -21,6 +21,11 @@ class Fallen:
             self._is_back(self._bins[item])
         self._items = items
 
+    def forget(self, one):
+        """A bin is not in the warehouse any more."""
+        del self._bins[one.item]
+        self._items.discard(one.item)
+
     def _falls(self, one):
         dropped = self.shift.picking.drop_bin(one)
         self.shift.replenishing.drop_bin(one)

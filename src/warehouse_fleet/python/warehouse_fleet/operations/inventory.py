@@ -21,6 +21,8 @@ class Reason(StrEnum):
     DAMAGED = "damaged"
     FELL = "fell"  # they lie on the floor, with their bin,
     PICKED_UP = "picked up"  # or are back
+    UNDONE = "undone"  # they were written off by mistake
+    GONE = "gone"  # with their bin, which is not in the warehouse any more
 
 
 class StockError(ValueError):
@@ -69,6 +71,7 @@ class Inventory:
         self.capacity = self.total = self.expected = 0
         self.empty = {}  # bins without anything, by id
         self._kept_for = Counter(one.sku for one in bins)  # bins by the SKU they have or had last
+        self._heirs = {}  # SKUs without a bin, by the bin that is theirs once it is empty
         self.roomy = defaultdict(int)  # bins with room for a bundle of any size, by SKU
         self._roomy = set()
         self._available = defaultdict(int)
@@ -106,6 +109,8 @@ class Inventory:
 
         The last bin of a SKU is kept for it: else it could never be refilled.
         """
+        if one.bin_id in self._heirs:
+            return one.empty and self._heirs[one.bin_id] == sku
         may_move_in = one.empty and self._kept_for[one.sku] > 1
         return one.room >= quantity and (one.sku == sku or may_move_in)
 
@@ -172,6 +177,39 @@ class Inventory:
             self.move(one, one.sku, pieces, Reason.PICKED_UP)
         self._measure(one)
 
+    def house(self, skus):
+        """Those that have lost all their bins get one each of a SKU that has more: the emptiest,
+        which is not refilled before it is empty."""
+        for sku in (one for one in skus if not self._kept_for[one]):
+            bins = (b for b in self.bins.values() if b.bin_id not in self._heirs)
+            bins = [one for one in bins if self._kept_for[one.sku] > 1 and one.fallen is None]
+            if not bins:
+                return
+            one = min(bins, key=lambda one: (one.quantity + one.expected, one.bin_id))
+            if one.empty:
+                self._rename(one, sku)
+                self.changed.add(one)
+            else:
+                self._keep_for(one, sku)
+                self._heirs[one.bin_id] = sku
+
+    def write_off(self, one):
+        """A bin is gone with its pieces, of which nothing is promised or expected any more."""
+        if one.fallen is not None:
+            self.pick_up(one)
+        if one.quantity:
+            self.move(one, one.sku, -one.quantity, Reason.GONE)
+        self.capacity -= one.capacity
+        self._kept_for[one.sku] -= 1
+        if one.bin_id in self._roomy:
+            self._roomy.discard(one.bin_id)
+            self.roomy[one.sku] -= 1
+        self.empty.pop(one.bin_id, None)
+        del self.bins[one.bin_id]
+        self.of_unit[one.unit].remove(one)
+        if not self.of_unit[one.unit]:
+            del self.of_unit[one.unit]
+
     def _expect(self, one, sku, quantity):
         one.expected += quantity
         self.expected += quantity
@@ -189,10 +227,13 @@ class Inventory:
         if one.sku != sku and one.bin_id in self._roomy:
             self._roomy.discard(one.bin_id)
             self.roomy[one.sku] -= 1
-        if one.sku != sku:
-            self._kept_for[one.sku] -= 1
-            self._kept_for[sku] += 1
+        if one.sku != sku and not self._heirs.pop(one.bin_id, ""):
+            self._keep_for(one, sku)
         one.sku = sku
+
+    def _keep_for(self, one, sku):
+        self._kept_for[one.sku] -= 1
+        self._kept_for[sku] += 1
 
     def _measure(self, one):
         if one.empty:

@@ -6,8 +6,6 @@ from collections import defaultdict
 
 import numpy as np
 
-from warehouse_fleet.transports import Kind
-
 INTERVAL = 60.0  # of the series [s]
 
 
@@ -21,8 +19,6 @@ class Tally:
         self.turnover_s, self.throughput_s = [], []
         self.picked_in, self.stored_in = defaultdict(int), defaultdict(int)  # by INTERVAL
         self.completed_in = defaultdict(int)
-        self.robot_seconds = defaultdict(float)  # by what a transport's robot did
-        self._since = {}
 
     def picked(self, now, pieces, line):
         self.items_picked += pieces
@@ -41,29 +37,10 @@ class Tally:
         self.throughput_s.append(order.completed - order.assigned)
         self.completed_in[int(order.completed // INTERVAL)] += 1
 
-    def transport(self, event):
-        """Where the time of robots with a transport goes."""
-        began, activity = self._since.get(event.transport_id, (event.stamp, None))
-        if activity:
-            self.robot_seconds[activity] += event.stamp - began
-        following = _ACTIVITIES.get(event.kind)
-        if following:
-            self._since[event.transport_id] = event.stamp, following
-        elif event.kind != Kind.RECEIVED:
-            self._since.pop(event.transport_id, None)
-
     def visited(self, visit):
         if visit.arrived is not None:
             self.trips += 1
             self.pick_visits += visit.station.kind == "PICK"
-
-
-_ACTIVITIES = {
-    Kind.ASSIGNED: "to unit",
-    Kind.LIFTED: "to station",
-    Kind.ARRIVED: "service",
-    Kind.RELEASED: "back",
-}
 
 
 def upper_bound(pile_on, settings, kinematics, spacing=1.0):

@@ -6,12 +6,9 @@ import numpy as np
 from warehouse_fleet.operations.assortment import stocked
 from warehouse_fleet.operations.demand import make_demand
 from warehouse_fleet.operations.policies import Policies
+from warehouse_fleet.operations.returning import changes, layout_of
 from warehouse_fleet.operations.shift import Shift
 from warehouse_fleet.operations.whereabouts import Whereabouts
-
-
-class SiteError(ValueError):
-    """The database is of another warehouse."""
 
 
 def open_shift(
@@ -39,22 +36,25 @@ def open_shift(
         from warehouse_fleet.operations import stored as keeping
         from warehouse_fleet.operations.database import DatabaseJournal
 
-        stored = keeping.read(database.engine, now)
-        journal = DatabaseJournal(
-            database,
-            seed=seed,
-            orders=str(orders),
-            policies=policies.chosen,
-            site=site.name,
-            now=now,
-        )
+        with database.reading():
+            stored = keeping.read(database.engine, now)
+            journal = DatabaseJournal(
+                database,
+                seed=seed,
+                orders=str(orders),
+                policies=policies.chosen,
+                site=site.name,
+                layout=layout_of(site),
+                now=now,
+            )
     # A run that goes on has its own chance, or the same orders would come again.
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
     stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
     if stored:
-        assortment, stock = stored.assortment, [(one, 0) for one in stored.bins]
-        _check_site(site, stored.bins, database.url)
+        changed = changes(site, stored, database.url)
+        assortment = stored.assortment
+        stock = [(one, 0) for one in (*stored.bins, *changed.new)]
     else:
         assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
     kinds = [station.kind for station in site.plan.stations]
@@ -65,27 +65,22 @@ def open_shift(
         [one for one, _ in stock],
         floor=Whereabouts(site.plan, site.robots, site.units, travel),
         policies=policies,
-        demand=make_demand(orders, assortment, count, demand_rng, now),
+        demand=make_demand(
+            orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
+        ),
         settings=settings or site.settings,
         journal=journal,
         rng=policy_rng,
         now=now,
     )
     if stored:
-        journal.resume(stored)
-        shift.resume(stored)
+        with database.reading():
+            journal.resume(stored)
+        journal.take_in(changed.new, changed.moved)
+        shift.resume(stored, changed)
+        journal.gone(changed.gone)
     else:
         if journal:
             journal.begin(shift)
         shift.begin(stock)
     return shift
-
-
-def _check_site(site, bins, url):
-    here, there = set(site.items), {(one.item, one.unit) for one in bins}
-    if here != there:
-        item, unit = min(here ^ there, key=str)
-        where = "the warehouse" if (item, unit) in here else "the database"
-        raise SiteError(
-            f"{url} is of another warehouse: {item} on storage unit {unit} is only in {where}"
-        )

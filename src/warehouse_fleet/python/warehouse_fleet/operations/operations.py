@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A shift and its fleet in one object."""
 
+import contextlib
 import math
 import time as clock
 
@@ -44,16 +45,20 @@ class Operations:
             from warehouse_fleet.operations.database import Database
 
             self.database = Database(database)
-        self.shift = open_shift(
-            self.site,
-            self.fleet.transports,
-            orders=orders,
-            seed=seed,
-            policies=policies,
-            database=self.database,
-            settings=settings,
-            travel=self.fleet.travel,
-        )
+        with contextlib.ExitStack() as unless_open:
+            if self.database:
+                unless_open.callback(self.database.close)
+            self.shift = open_shift(
+                self.site,
+                self.fleet.transports,
+                orders=orders,
+                seed=seed,
+                policies=policies,
+                database=self.database,
+                settings=settings,
+                travel=self.fleet.travel,
+            )
+            unless_open.pop_all()
         self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
 

@@ -73,6 +73,7 @@ class Backlog:
 
     def __init__(self):
         self.orders = {}
+        self.lines = 0  # of all of them
         self.demand = defaultdict(int)  # pieces by SKU
         self._by_sku = defaultdict(dict)
 
@@ -84,6 +85,7 @@ class Backlog:
 
     def add(self, order):
         self.orders[order.order_id] = order
+        self.lines += len(order.lines)
         for line in order.lines:
             if line.open:
                 self.demand[line.sku] += line.open
@@ -91,6 +93,7 @@ class Backlog:
 
     def remove(self, order):
         del self.orders[order.order_id]
+        self.lines -= len(order.lines)
         for line in order.lines:
             if line.open:
                 self.demand[line.sku] -= line.open
@@ -110,3 +113,4 @@ class Bundle:
     quantity: int
     created: float = 0.0
     bin: object = field(default=None, repr=False)  # the Bin that it goes to, once chosen
+    sequence: int = 0  # of the task for a person, then

@@ -2,14 +2,17 @@
 """Picking: orders to stations, units for their lines, and piece by piece into the totes."""
 
 import math
-from collections import defaultdict
+from collections import defaultdict, deque
 
 from warehouse_fleet.operations.inventory import Reason
 from warehouse_fleet.operations.orders import OrderEventKind, OrderState
 from warehouse_fleet.operations.stations import Mode, Pick
+from warehouse_fleet.operations.tasks import Answer, Outcome
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
+LATER = 0.1  # after which stations choose on that did not come to it [s]
+EFFORT = 200_000  # lines of orders that are looked at in a step, at most: about 0.1 s of work
 
 
 class Picking:
@@ -19,6 +22,10 @@ class Picking:
         self.shift, self.stations = shift, stations
         self._to_assign, self._to_fetch = dict.fromkeys(stations), {}
         self._is_to_look, self._next_look = False, -math.inf
+        self._effort, self._put_off = (
+            EFFORT,
+            {},
+        )  # what is left of a step; stations that wait for it
         self._missing = defaultdict(dict)  # lines without a unit, with their station, by SKU
 
     # What makes work.
@@ -62,16 +69,30 @@ class Picking:
             stations, self._to_fetch = self._to_fetch, {}
             for station in stations:
                 self._fetch(station)
+        self._effort = EFFORT
 
     # Orders.
 
     def _assign(self, station):
         while station.is_open and station.free_slots > 0 and len(self.shift.backlog):
+            if self._effort <= 0:
+                self._assign_later(station)
+                return
+            self._effort -= self.shift.backlog.lines
             order = self.shift.policies.orders.choose(station, self.shift)
             if order is None:
                 return
             self.shift.backlog.remove(order)
             self._take_on(station, order)
+
+    def _assign_later(self, station):
+        if not self._put_off:
+            self.shift.at(self.shift.now + LATER, self._assign_put_off, None)
+        self._put_off[station] = None
+
+    def _assign_put_off(self, _):
+        self._to_assign.update(self._put_off)
+        self._put_off = {}
 
     def _take_on(self, station, order):
         order.state, order.station, order.assigned = (
@@ -100,7 +121,7 @@ class Picking:
     def _reserve(self, visit, line, one, pieces):
         self.shift.inventory.reserve(one, pieces)
         line.allotted += pieces
-        visit.picks.append(Pick(line, one, pieces))
+        visit.picks.append(Pick(line, one, pieces, self.shift.tasks.number()))
 
     def _note(self, station, line):
         """Keeps the lines for which units are to be fetched up to date."""
@@ -238,7 +259,9 @@ class Picking:
         pick.quantity -= pieces
         line.allotted -= pieces
         line.picked += pieces
-        if not pick.quantity:
+        if pick.quantity:
+            pick.sequence = self.shift.tasks.number()  # what is left is another task
+        else:
             visit.picks.remove(pick)
         visit.pieces += pieces
         station.pieces += pieces
@@ -290,21 +313,82 @@ class Picking:
         one = picks[0].bin
         if not 0 < lacking <= one.quantity:
             return False, f"{one.quantity} of {sku} are in {one.item} by the books"
-        self.drop_bin(one)
-        self.shift.inventory.move(one, sku, -lacking, reason, station=station)
-        for pick in picks:
-            self.shift.tell_order(
-                pick.line.order,
-                OrderEventKind.SHORT,
-                sku,
-                lacking,
-                station.name,
-                visit.unit,
-                reason.value,
-            )
-            self._allot(station, pick.line)
-        self._leave_if_done(station)
+        self._write_off(visit, one, lacking, reason)
         return True, ""
+
+    def _write_off(self, visit, one, lacking, reason):
+        """Pieces of a bin go out of the books; returns the lines that were to be served from it."""
+        station, tell, sku = visit.station, self.shift.tell_order, one.sku
+        lines = [line for _, line in self.drop_bin(one)]
+        self.shift.inventory.move(one, sku, -lacking, reason, station=station)
+        for line in lines:
+            told = sku, lacking, station.name, visit.unit, reason.value
+            tell(line.order, OrderEventKind.SHORT, *told)
+            self._allot(station, line)
+        self._leave_if_done(station)
+        return lines
+
+    def task(self, station, report):
+        """The Pick of the unit that is there which a tasks.Report names, or None."""
+        visit = station.here
+        named = report.order_id, report.item, report.sequence
+        picks = visit.picks if visit else ()
+        is_it = lambda p: (p.line.order.order_id, p.bin.item, p.sequence) == named  # noqa: E731
+        return next(filter(is_it, picks), None)
+
+    def asks(self, station):
+        """What a person is asked for now."""
+        visit = station.here
+        if not visit or not visit.picks:
+            return f"{station.name} asks for nothing now"
+        pick = visit.picks[0]
+        what = f"{pick.quantity} of {pick.line.sku} in {pick.bin.item}"
+        return f"{station.name} asks for {what} for {pick.line.order.reference} now"
+
+    def report(self, station, pick, report):
+        """Carries out what a person says of a Pick; returns a tasks.Answer."""
+        visit, one, sku = station.here, pick.bin, pick.line.sku
+        if report.outcome == Outcome.DONE:
+            if not 0 < report.quantity <= pick.quantity:
+                return Answer(False, f"{pick.quantity} of {sku} were expected at most")
+            self.take(visit, pick, report.quantity)
+            self._complete(station)
+            self._leave_if_done(station)
+            return Answer(True, "", report.quantity)
+        is_empty = report.outcome == Outcome.SHORT and not report.quantity
+        lacking = one.quantity if is_empty else report.quantity
+        if not 0 < lacking <= one.quantity:
+            return Answer(False, f"{one.quantity} of {sku} are in {one.item} by the books")
+        reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
+        lines = self._write_off(visit, one, lacking, reason)
+        undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
+        return Answer(True, f"{lacking} of {sku} in {one.item} are written off", lacking, undo)
+
+    def _put_back(self, station, one, pieces, lines):
+        """What was written off is in its bin after all, and serves the same lines if the unit is
+        still there. Returns why that can't be, or ""."""
+        sku, quantity = pieces
+        if one.room < quantity or not (one.empty or one.sku == sku):
+            return f"{one.item} has no room for {quantity} of {sku} any more"
+        self.shift.inventory.move(one, sku, quantity, Reason.UNDONE, station=station)
+        visit = station.here
+        if visit and visit.unit == one.unit:
+            for line in lines:
+                if line.order.order_id in station.orders:
+                    self._take_from_others(station, line)
+                    self._allot(station, line)
+            visit.picks = deque(sorted(visit.picks, key=lambda pick: pick.bin is not one))
+        elif one.unit in self.shift.free_units:
+            self.unit_free(one.unit)
+        return ""
+
+    def _take_from_others(self, station, line):
+        """Units on their way need not serve a line; those with nothing else to do need not come."""
+        for visit in [visit for visit in station.coming if not visit.here]:
+            for pick in [pick for pick in visit.picks if pick.line is line]:
+                self._drop(visit, pick)
+                if not visit.picks:
+                    self.shift.cancel_visit(visit)
 
     def _asked(self, station, sku):
         visit = station.here

@@ -19,31 +19,44 @@ ACTIVITY_COLOURS = {
     "back": "#9a9ac9",
     "idle": "#d8d8d8",
 }
+BLOCKS = 12  # of the shift, at most: shorter ones show little but chance
 _ids = count()
 mpl.rcParams.update({"font.size": 9, "svg.hashsalt": "report", "svg.fonttype": "none"})
 
 
 def throughput(groups):
-    """Pieces an hour over the time of the shift, the mean of each group's runs."""
+    """Pieces an hour over the whole shift: means over BLOCKS parts of it, and with several runs the
+    least and the most of them."""
     figure, axes = _figure(7.5, 2.8)
-    for colour, group in zip(_colours(), groups):
-        rows = [run.data["intervals"]["picked"] for run in group.runs]
-        seconds = group.runs[0].data["intervals"]["seconds"]
-        length = min(map(len, rows))
-        if not length:
+    bounds = [group.estimate("item_upper_bound_per_hour").mean for group in groups]
+    top, end = max(bounds), 0.0
+    for colour, group, bound in zip(_colours(), groups, bounds):
+        hourly, minutes = _in_blocks(group)
+        axes.axhline(bound, color=colour if len(groups) > 1 else "#999", ls="--", lw=1)
+        if not hourly.size:
             continue
-        hourly = np.array([row[:length] for row in rows]) * 3600 / seconds
-        width = max(1, min(10, length // 6))
-        smooth = np.array([np.convolve(row, np.ones(width) / width, "valid") for row in hourly])
-        minutes = (np.arange(smooth.shape[1]) + width) * seconds / 60
-        axes.plot(minutes, smooth.mean(0), color=colour, label=group.label)
-        if len(rows) > 1:
-            axes.fill_between(minutes, smooth.min(0), smooth.max(0), color=colour, alpha=0.15, lw=0)
-    bound = groups[0].estimate("item_upper_bound_per_hour").mean
-    axes.axhline(bound, color="#999", ls="--", lw=1)
-    axes.text(0, bound, " upper bound", va="bottom", color="#777")
-    axes.set(xlabel="time of the shift [min]", ylabel="pieces an hour", ylim=(0, bound * 1.15))
+        axes.stairs(hourly.mean(0), minutes, baseline=None, color=colour, label=group.label)
+        if len(hourly) > 1:
+            low, high = hourly.min(0), hourly.max(0)
+            axes.stairs(high, minutes, baseline=low, fill=True, color=colour, alpha=0.15, lw=0)
+        top, end = max(top, hourly.max()), max(end, minutes[-1])
+    axes.text(0, max(bounds), " upper bound of picking", va="bottom", color="#777")
+    axes.set(xlabel="time of the shift [min]", ylabel="pieces an hour")
+    axes.set(xlim=(0, end or 1), ylim=(0, top * 1.15 or 1))
     return _svg(figure, axes, len(groups) > 1)
+
+
+def _in_blocks(group):
+    """(runs, blocks) pieces an hour, and (blocks + 1,) where blocks begin and end [min]."""
+    rows = [run.data["intervals"]["picked"] for run in group.runs]
+    interval = group.runs[0].data["intervals"]["seconds"]
+    length = min(map(len, rows))
+    if not length:
+        return np.zeros((len(rows), 0)), np.zeros(1)
+    begins = np.arange(0, length, -(-length // BLOCKS))
+    lengths = np.diff(begins, append=length)
+    pieces = np.array([np.add.reduceat(row[:length], begins) for row in rows])
+    return pieces / lengths * 3600 / interval, np.append(begins, length) * interval / 60
 
 
 def stations(group):
@@ -103,7 +116,8 @@ def heat_map(values, title):
 
 
 def comparison(groups, kpi, label):
-    """One figure of all groups, with confidence intervals."""
+    """One figure of all groups, from zero on, with confidence intervals where there are several
+    runs: a difference looks as large as it is."""
     figure, axes = _figure(3.7, 0.8 + 0.3 * len(groups))
     found = [group.estimate(kpi) for group in groups]
     half = [0 if np.isnan(one.half) else one.half for one in found]
@@ -112,7 +126,8 @@ def comparison(groups, kpi, label):
         [one.mean for one in found], rows, xerr=half, fmt="o", color=COLOURS[0], capsize=3
     )
     axes.set_yticks(rows, [group.label for group in groups])
-    axes.set(xlabel=label, ylim=(len(groups) - 0.5, -0.5))
+    top = max(one.mean + more for one, more in zip(found, half))
+    axes.set(xlabel=label, xlim=(0, 1.08 * top or 1), ylim=(len(groups) - 0.5, -0.5))
     axes.grid(axis="x", color="#eee")
     return _svg(figure, axes, False)
 

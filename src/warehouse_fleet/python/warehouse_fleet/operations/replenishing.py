@@ -6,6 +6,7 @@ from itertools import islice
 
 from warehouse_fleet.operations.orders import Bundle
 from warehouse_fleet.operations.stations import Mode
+from warehouse_fleet.operations.tasks import Answer, Outcome
 
 PERIOD = 10.0  # between two looks at what is to be ordered [s]
 RETRY = 1.0  # after the fleet refused a unit [s]
@@ -95,7 +96,7 @@ class Replenishing:
     def _place(self, bundle, one, visit):
         del self.bundles[bundle.bundle_id]
         self._ordered(bundle.sku, -bundle.quantity)
-        bundle.bin = one
+        bundle.bin, bundle.sequence = one, self.shift.tasks.number()
         self.shift.inventory.expect(one, bundle.sku, bundle.quantity)
         visit.puts.append(bundle)
 
@@ -154,12 +155,62 @@ class Replenishing:
         there = bundle.quantity if bundle else 0
         if not 0 < lacking <= there:
             return False, f"{there} of {sku} are to be put in at {station.name} now"
-        self.shift.inventory.unexpect(bundle.bin, sku, lacking)
+        self._shorten(visit, bundle, lacking)
+        return True, ""
+
+    def _shorten(self, visit, bundle, lacking):
+        """So many pieces of a bundle stay out."""
+        self.shift.inventory.unexpect(bundle.bin, bundle.sku, lacking)
         bundle.quantity -= lacking
+        bundle.sequence = self.shift.tasks.number()  # what is left is another task
         if not bundle.quantity:
             visit.puts.remove(bundle)
-        self._leave_if_done(station)
-        return True, ""
+        self._leave_if_done(visit.station)
+
+    def task(self, station, report):
+        """The Bundle for the unit that is there which a tasks.Report names, or None."""
+        visit, named = station.here, (0, report.item, report.sequence)
+        puts = visit.puts if visit and not report.order_id else ()
+        return next((b for b in puts if (0, b.bin.item, b.sequence) == named), None)
+
+    def asks(self, station):
+        """What a person is asked for now."""
+        visit = station.here
+        if not visit or not visit.puts:
+            return f"{station.name} asks for nothing now"
+        bundle = visit.puts[0]
+        return (
+            f"{station.name} asks for {bundle.quantity} of {bundle.sku} into {bundle.bin.item} now"
+        )
+
+    def report(self, station, bundle, report):
+        """Carries out what a person says of a Bundle; returns a tasks.Answer."""
+        visit, there = station.here, bundle.quantity
+        if report.outcome == Outcome.DONE:
+            if report.quantity != there:
+                return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
+            self.put(visit, bundle)
+            self._leave_if_done(station)
+            return Answer(True, "", there)
+        lacking = report.quantity
+        if not 0 < lacking <= there:
+            return Answer(False, f"{there} of {bundle.sku} are to be put in")
+        self._shorten(visit, bundle, lacking)
+        undo = lambda: self._lengthen(visit, bundle, lacking)  # noqa: E731
+        return Answer(True, f"{lacking} of {bundle.sku} are not put in", lacking, undo)
+
+    def _lengthen(self, visit, bundle, pieces):
+        """Pieces that stayed out are put in after all: with their bundle, or as another one."""
+        is_there = visit.here and (bundle in visit.puts or not bundle.quantity)
+        if is_there and self.shift.inventory.takes(bundle.bin, bundle.sku, pieces):
+            self.shift.inventory.expect(bundle.bin, bundle.sku, pieces)
+            if not bundle.quantity:
+                visit.puts.appendleft(bundle)
+            bundle.quantity += pieces
+            bundle.sequence = self.shift.tasks.number()
+        else:
+            self.order(bundle.sku, pieces)
+        return ""
 
     def _asked(self, station, sku):
         visit = station.here

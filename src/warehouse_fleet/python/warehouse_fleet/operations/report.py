@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """report.html: one page, its pictures inside, about one run or several side by side."""
 
+import itertools
 from html import escape
 from pathlib import Path
 
 import numpy as np
 
 from warehouse_fleet.operations import comparison, plots
+from warehouse_fleet.operations.runs import REPORT
 
 # What of kpis.json the table tells: name, words, unit, factor, digits.
 ROWS = (
@@ -30,6 +32,8 @@ ROWS = (
     ("executed_over_planned", "Driven time over planned time", "", 1, 3),
     ("real_time_factor", "Faster than real time", "times", 1, 1),
 )
+# Ideal robots have none of it, by definition: no figures to compare.
+OF_TRAFFIC = {"collisions", "blocked", "watchdog", "plan_ms.p99", "executed_over_planned"}
 TROUBLES = (
     ("availability", "Availability: robot hours at work", "%", 100, 2),
     ("mtbf_h", "Robot hours between failures (MTBF)", "h", 1, 1),
@@ -52,6 +56,15 @@ COMPARED = (
     ("pile_on", "pieces a unit at a station"),
     ("distance_per_item_m", "metres driven for a piece"),
 )
+INTERVALS = "Means of the runs with 95 % confidence intervals."
+NO_INTERVALS = (
+    "Where there is one run alone nothing tells how much of a difference is chance: simulate with"
+    " several seeds."
+)
+QUEUES = (
+    "Counted alike for simulated and ideal robots. Queue: the wait for a station, in its lane or"
+    " beneath the unit until the lane has room."
+)
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 960px; margin: 2em auto; }
 h1 { font-size: 1.6em } h2 { font-size: 1.15em; margin-top: 2em; border-top: 1px solid #ddd;
@@ -69,14 +82,15 @@ def page(runs):
     groups = comparison.grouped(runs)
     first = groups[0]
     parts = [_head(runs, groups), _headline(first) if len(groups) == 1 else _verdicts(groups)]
-    parts += [_section("Throughput over the shift", plots.throughput(groups))]
+    note = "Bands reach from the least to the most of the runs." if _several(groups) else ""
+    parts += [_section("Throughput over the shift", plots.throughput(groups), note)]
     parts += [_section("Figures", _table(groups))]
     if len(groups) > 1:
         pictures = [plots.comparison(groups, kpi, label) for kpi, label in COMPARED]
-        note = "Means of the runs with 95 % confidence intervals." if _several(groups) else ""
+        note = INTERVALS if all(len(group.runs) > 1 for group in groups) else NO_INTERVALS
         parts += [_section("Side by side", _row(pictures), note)]
     parts += [_section("Orders: how long they take", plots.turnover(groups))]
-    parts += [_section("Where the robots' time goes", plots.robots(groups))]
+    parts += [_section("Where the robots' time goes", plots.robots(groups), QUEUES)]
     for group in groups[:4]:
         name = f": {group.label}" if len(groups) > 1 else ""
         parts += [_section(f"Stations{escape(name)}", plots.stations(group))]
@@ -99,13 +113,24 @@ def write(path, runs):
     return Path(path)
 
 
+def default_path(folders):
+    """Where a report about folders goes: into the one, or into a new file of its own in the working
+    directory, for each of several has a report already."""
+    if len(folders) == 1:
+        return Path(folders[0], REPORT)
+    names = itertools.chain(
+        ["comparison.html"], map("comparison-{}.html".format, itertools.count(2))
+    )
+    return next(path for path in map(Path, names) if not path.exists())
+
+
 def table(runs):
     """The figures as text for a terminal."""
     groups = comparison.grouped(runs)
     width = max(len(words) for _, words, *_ in ROWS) + 2
     lines = [" " * width + "".join(f"{group.label[:26]:>28}" for group in groups)]
     for kpi, words, unit, factor, digits in ROWS:
-        cells = [_number(group.estimate(kpi), factor, digits, unit) for group in groups]
+        cells = [_cell(group, kpi, factor, digits, unit) for group in groups]
         lines.append(f"{words:<{width}}" + "".join(f"{cell:>28}" for cell in cells))
     return "\n".join([*lines, *(f"\n{text}" for text in verdicts(groups))])
 
@@ -120,7 +145,10 @@ def verdicts(groups):
                 / max(groups[0].estimate("item_throughput_per_hour").mean, 1e-9)
                 - 1
             )
-            yield f"{group.label}: {100 * ratio:+.1f} % pieces an hour against {groups[0].label}"
+            yield (
+                f"{group.label}: {100 * ratio:+.1f} % pieces an hour against {groups[0].label} "
+                "(too few runs to tell it from chance)"
+            )
             continue
         sure = "significant" if found.significant else "not significant"
         yield (
@@ -131,16 +159,25 @@ def verdicts(groups):
 
 
 def _head(runs, groups):
-    config = runs[0].config
-    hours = runs[0].kpis["simulated_s"] / 3600
-    robots = "simulated robots" if config.get("physics") else "ideal robots"
-    what = f"{config.get('site', '')}, {hours:.2g} h, orders {config.get('orders', '')}, {robots}"
     count = f"{len(runs)} runs, {len(groups)} configurations" if len(runs) > 1 else ""
     return (
         f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
         f"<title>Shift report</title><style>{STYLE}</style></head><body>"
-        f"<h1>Shift report</h1><p>{escape(what)}. {count}</p>"
+        f"<h1>Shift report</h1><p>{escape(', '.join(_common(runs)))}. {count}</p>"
     )
+
+
+def _common(runs):
+    """What holds for all of the runs: words."""
+    told = [list(_what(run)) for run in runs]
+    return [words for words in told[0] if all(words in one for one in told)]
+
+
+def _what(run):
+    yield run.config.get("site", "")
+    yield f"{run.kpis['simulated_s'] / 3600:.2g} h"
+    yield f"orders {run.config.get('orders', '')}"
+    yield "simulated robots" if run.config.get("physics") else "ideal robots"
 
 
 def _headline(group):
@@ -167,7 +204,7 @@ def _table(groups):
     head = "".join(f"<th>{escape(group.label)}</th>" for group in groups)
     rows = []
     for kpi, words, unit, factor, digits in ROWS:
-        cells = (_number(group.estimate(kpi), factor, digits, unit) for group in groups)
+        cells = (_cell(group, kpi, factor, digits, unit) for group in groups)
         rows.append(f"<tr><td>{words}</td>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
     header = f"<tr><th></th>{head}</tr>" if len(groups) > 1 else ""
     return f"<table>{header}{''.join(rows)}</table>"
@@ -207,6 +244,12 @@ def _each_trouble(run):
         yield "charge", "", "", f"{charging_h:.2f}", f"{charging_h * an_hour:.0f}"
     for words, count in (run.data.get("mishaps") or {}).items():
         yield words, count, "", "", ""
+
+
+def _cell(group, kpi, *shown):
+    if kpi in OF_TRAFFIC and not group.runs[0].config.get("physics", True):
+        return "–"
+    return _number(group.estimate(kpi), *shown)
 
 
 def _number(estimate, factor, digits, unit):

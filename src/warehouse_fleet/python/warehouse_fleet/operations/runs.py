@@ -9,7 +9,6 @@ lateness.
 """
 
 import json
-from collections import defaultdict
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -89,7 +88,7 @@ def describe(ops, config, seed):
         "stations": [_station(station, shift) for station in shift.stations],
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
-        "robots": _robots(ops),
+        "robots": ops.fleet.activities(),
         "traffic": _map(ops.fleet, "traffic"),
         "waiting": _map(ops.fleet, "waiting_map"),
         "failures": log.by_kind() if log else [],
@@ -106,15 +105,6 @@ def _station(station, shift):
         "pieces": station.pieces,
         "visits": station.visits,
     }
-
-
-def _robots(ops):
-    """Robot-seconds by activity; a fleet that can't tell them gets those of its transports."""
-    if hasattr(ops.fleet, "activities"):
-        return ops.fleet.activities()
-    seconds = defaultdict(float, ops.shift.tally.robot_seconds)
-    seconds["idle"] = ops.fleet.robots * ops.shift.now - sum(seconds.values())
-    return dict(seconds)
 
 
 def _map(fleet, name):

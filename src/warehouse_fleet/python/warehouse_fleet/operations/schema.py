@@ -21,15 +21,20 @@ from sqlalchemy import (
     insert,
     inspect,
     select,
+    text,
     update,
 )
 
-VERSION = 2
+VERSION = 3
 metadata = MetaData()
 
 
 class SchemaError(Exception):
     """A database that can't be used; the text says why."""
+
+
+class EmptyError(SchemaError):
+    """It has no tables yet."""
 
 
 def _id(**options):
@@ -45,6 +50,7 @@ run = Table(
     Column("began", String(40), nullable=False),  # wall clock, ISO 8601, UTC
     Column("ended", String(40)),
     Column("site", Text, nullable=False),
+    Column("layout", Text),  # JSON: the stations with their places
     Column("seed", Integer, nullable=False),
     Column("orders", Text, nullable=False),
     Column("policies", Text, nullable=False),  # JSON
@@ -72,7 +78,7 @@ bin_ = Table(
     Column("sku", ForeignKey("sku.sku"), nullable=False),
     Column("quantity", Integer, nullable=False),
     Column("reserved", Integer, nullable=False),
-    Column("capacity", Integer, nullable=False),
+    Column("capacity", Integer, nullable=False),  # 0: it is not in the warehouse any more
     CheckConstraint("reserved >= 0 AND reserved <= quantity", name="reserved_in_stock"),
 )
 
@@ -174,25 +180,54 @@ heat = Table(
 )
 
 # From each older version to the next: a function of a connection.
-MIGRATIONS = {1: heat.create}
+MIGRATIONS = {
+    1: heat.create,
+    2: lambda connection: connection.execute(text("ALTER TABLE run ADD COLUMN layout TEXT")),
+}
 
 
-def prepare(connection, version=VERSION, migrations=None):
-    """Makes the tables, or brings those of an older version up to date; raises SchemaError."""
+def prepare(connection, version=VERSION, migrations=None, makes=True):
+    """Makes the tables, or brings those of an older version up to date; raises SchemaError.
+
+    makes: whether a database that has none gets them.
+    """
     migrations = MIGRATIONS if migrations is None else migrations
     tables = set(inspect(connection).get_table_names())
     if schema_version.name not in tables:
-        taken = sorted(tables & set(metadata.tables))
+        # A file is of one program; the database of a server may be shared.
+        is_file = connection.dialect.name == "sqlite"
+        taken = sorted(tables if is_file else tables & set(metadata.tables))
         if taken:
-            raise SchemaError(f"the database has tables of somebody else: {', '.join(taken)}")
+            more = f" and {len(taken) - 5} more" if taken[5:] else ""
+            raise SchemaError(
+                f"the database has tables of another program: {', '.join(taken[:5])}{more}"
+            )
+        if not makes:
+            raise EmptyError("there is no warehouse in it")
         metadata.create_all(connection)
         connection.execute(insert(schema_version).values(version=version))
         return
-    found = connection.execute(select(schema_version.c.version)).scalar_one()
-    if found > version:
+    found = connection.execute(select(schema_version.c.version)).scalars().all()
+    if len(found) != 1 or not isinstance(found[0], int) or found[0] < 1:
+        told = ", ".join(map(str, found)) or "none"
+        raise SchemaError(f"the schema version is {told}; 1 to {version} was expected")
+    if found[0] > version:
         raise SchemaError(
-            f"the database is of schema version {found}; this program knows {version} and older"
+            f"the database is of schema version {found[0]}; this program knows {version} and older"
         )
-    for step in range(found, version):
+    for step in range(found[0], version):
         migrations[step](connection)
         connection.execute(update(schema_version).values(version=step + 1))
+    _check_tables(connection)
+
+
+def _check_tables(connection):
+    """Raises SchemaError where one is not there, or not whole."""
+    there = inspect(connection)
+    names = set(there.get_table_names())
+    for table in metadata.sorted_tables:
+        if table.name not in names:
+            raise SchemaError(f"the table '{table.name}' is missing")
+        columns = {column["name"] for column in there.get_columns(table.name)}
+        if lacking := sorted(set(table.columns.keys()) - columns):
+            raise SchemaError(f"the table '{table.name}' has no column {', '.join(lacking)}")

@@ -15,19 +15,23 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from warehouse_fleet.operations import acceptance
 from warehouse_fleet.operations.assortment import CAPACITY, Assortment
 from warehouse_fleet.operations.fallen import Fallen
 from warehouse_fleet.operations.inventory import Inventory, Reason
 from warehouse_fleet.operations.journal import Journal
 from warehouse_fleet.operations.kpis import Tally
+from warehouse_fleet.operations.notices import Notices
 from warehouse_fleet.operations.orders import Backlog, Order, OrderEventKind, OrderState
 from warehouse_fleet.operations.picking import Picking
 from warehouse_fleet.operations.replenishing import PERIOD, Replenishing
 from warehouse_fleet.operations.stations import Mode, Visit, WorkStation
+from warehouse_fleet.operations.tasks import Tasks
 from warehouse_fleet.transports import ENDS, Kind
 
 UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
 HOLD = 10.0  # for so long a unit is not asked for whose transport failed or was refused [s]
+TOO_MANY = f"orders of {acceptance.MOST_WAITING} lines wait already; come back when there are fewer"
 RANKS_KEPT = 300.0  # for so long the ranking of the units by turnover is used [s]
 
 
@@ -84,6 +88,7 @@ class Shift:
         self.inventory = Inventory(bins, self._moved)
         self.free_units = set(floor.units)
         self.units_per_station = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
+        self._absent = set()  # units that are not in the warehouse any more
         self._visits = {}
         self._timers, self._order = [], itertools.count()
         self._visit_ids, self._order_ids = itertools.count(1), itertools.count(1)
@@ -97,6 +102,8 @@ class Shift:
         self.picking = Picking(self, of_kind["PICK"])
         self.replenishing = Replenishing(self, of_kind["REPLENISH"])
         self.fallen = Fallen(self)
+        self.tasks = Tasks(self)
+        self.notices = Notices()
         self.on_order_event = None  # called with (order, kind, sku, quantity, station, unit, text)
         self.hooks = _Hooks(self)
         self.at(now, self._look_after_stock, None)
@@ -116,17 +123,30 @@ class Shift:
             if pieces:
                 self.inventory.move(one, one.sku, pieces, Reason.INITIAL)
 
-    def resume(self, stored):
-        """Goes on with the orders of a Stored warehouse, whose bins this shift was given."""
+    def resume(self, stored, changed):
+        """Goes on with the orders of a Stored warehouse, whose bins this shift was given; what has
+        Changed since is written off and told."""
+        if told := str(changed):
+            self.notices.add(told)
+        for one in changed.gone:
+            self.fallen.forget(one)
+            self.inventory.write_off(one)
+        self.inventory.house(self.assortment.skus)
         self._order_ids = itertools.count(stored.last_order + 1)
         self.inventory.blocked |= stored.blocked
         self.free_units -= stored.blocked
         for order in stored.orders:
             self.orders[order.order_id] = order
+            fault = self._fault_of([(line.sku, line.quantity) for line in order.lines])
             if order.done:
                 order.completed = self.now
                 order.state = OrderState.COMPLETED
                 self.order_over(order, OrderEventKind.COMPLETED)
+            elif fault:
+                self._cancel(order, fault)
+                self.notices.add(
+                    f"order {order.order_id} ({order.reference}) is cancelled: {fault}"
+                )
             else:
                 self.backlog.add(order)
 
@@ -158,7 +178,11 @@ class Shift:
     def _orders_come(self):
         if self.demand:
             for wanted in self.demand.due(self.now, self.backlog, self._unpromised):
-                self.submit(wanted.lines, wanted.due, wanted.priority, wanted.reference)
+                order, why = self.submit(
+                    wanted.lines, wanted.due, wanted.priority, wanted.reference
+                )
+                if not order:
+                    self.notices.add(f"order {wanted.reference} is refused: {why}")
 
     def _unpromised(self, sku):
         return self.inventory.available(sku) - self.backlog.demand.get(sku, 0)
@@ -182,9 +206,11 @@ class Shift:
 
     def submit(self, lines, due=0.0, priority=0, reference=""):
         """A new order of (sku, pieces); returns it, or None and why not, as (order, message)."""
-        reason = self._refusal(lines)
+        reason = self._fault_of(lines) or acceptance.fault_of_head(reference, due, priority)
         if reason:
             return None, reason
+        if self.backlog.lines + len(lines) > acceptance.MOST_WAITING:
+            return None, TOO_MANY
         merged = defaultdict(int)
         for sku, pieces in lines:
             merged[sku] += pieces
@@ -202,15 +228,8 @@ class Shift:
         text = f"waits for new stock of {', '.join(lacking)}" if lacking else ""
         return order, text
 
-    def _refusal(self, lines):
-        if not lines:
-            return "an order has one line or more"
-        for sku, pieces in lines:
-            if sku not in self._popularity_rank:
-                return f"there is no SKU '{sku}'"
-            if not 0 < pieces < 2**31:
-                return f"{pieces} pieces of {sku}; 1 or more was expected"
-        return ""
+    def _fault_of(self, lines):
+        return acceptance.fault_of_lines(lines, self._popularity_rank, self.inventory.capacity)
 
     def cancel_order(self, order_id):
         """Returns success and why not."""
@@ -223,11 +242,17 @@ class Shift:
             self.picking.cancel(order)
         else:
             self.backlog.remove(order)
+        return True, self._cancel(order)
+
+    def _cancel(self, order, reason=""):
+        """Of an order that neither the backlog nor a station has; returns what is to be said."""
         order.state = OrderState.CANCELLED
         picked = sum(line.picked for line in order.lines)
-        text = f"{picked} pieces were picked already" if picked else ""
+        text = "; ".join(
+            filter(None, (reason, f"{picked} pieces were picked already" if picked else ""))
+        )
         self.order_over(order, OrderEventKind.CANCELLED, text=text)
-        return True, text
+        return text
 
     def reopen(self, order):
         """An order whose station can't finish it waits again."""
@@ -258,6 +283,10 @@ class Shift:
         """The WorkStation of that name; KeyError."""
         return self._stations[name]
 
+    def find_station(self, name):
+        """The WorkStation of that name, or None."""
+        return self._stations.get(name)
+
     @property
     def stations(self):
         """All of them."""
@@ -268,8 +297,8 @@ class Shift:
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
-        station.is_open, station.mode = bool(is_open), Mode(mode)
-        part = self._part(station)
+        station.is_open, station.mode, station.attended = bool(is_open), Mode(mode), self.now
+        part = self.part_of(station)
         self.transports.set_open(name, station.is_open)
         if not is_open:
             part.close(station)
@@ -288,7 +317,8 @@ class Shift:
             return False, f"there is no station '{name}'"
         if station.mode != Mode.MANUAL:
             return False, f"{name} works by itself"
-        return self._part(station).confirm(station, sku, quantity)
+        station.attended = self.now
+        return self.part_of(station).confirm(station, sku, quantity)
 
     def report_short(self, name, sku, lacking, damaged=False):
         """Pieces are not there, or damaged; returns success and why not."""
@@ -296,7 +326,8 @@ class Shift:
         if not station:
             return False, f"there is no station '{name}'"
         reason = Reason.DAMAGED if damaged else Reason.SHORT
-        return self._part(station).short(station, sku, lacking, reason)
+        station.attended = self.now
+        return self.part_of(station).short(station, sku, lacking, reason)
 
     def set_unit(self, unit, in_service):
         """Takes a unit out of service, or back; returns success and why not."""
@@ -308,16 +339,31 @@ class Shift:
             self._unit_free(unit)
             return True, ""
         self.inventory.blocked.add(unit)
+        self._withdraw(unit)
+        return True, ""
+
+    def see_units(self, units):
+        """Which storage units there are: of others, nothing is asked until they are back."""
+        gone = self.inventory.of_unit.keys() - units
+        for unit in sorted(gone - self._absent):
+            self._withdraw(unit)
+            self.notices.add(f"storage unit {unit} is gone: its stock is not asked for")
+        back, self._absent = self._absent - gone, gone
+        for unit in sorted(back):
+            self.notices.drop(f"storage unit {unit} is gone: its stock is not asked for")
+            self._unit_free(unit)
+
+    def _withdraw(self, unit):
         self.free_units.discard(unit)
         for visit in [v for v in self._visits.values() if v.unit == unit]:
-            self._part(visit.station).drop_visit(visit)
+            self.part_of(visit.station).drop_visit(visit)
             if visit.here:
                 self.release(visit)
             elif visit.released is None:
                 self.cancel_visit(visit)
-        return True, ""
 
-    def _part(self, station):
+    def part_of(self, station):
+        """The part of the shift that works there."""
         return self.picking if station.kind == "PICK" else self.replenishing
 
     # Units.
@@ -353,7 +399,6 @@ class Shift:
         self._digest(
             "transport", event.transport_id, int(event.kind), event.kiva_id, event.shelf_id
         )
-        self.tally.transport(event)
         if event.kind == Kind.CANCELLED:
             visit.outcome = "cancelled"
             if visit.lifted is None:
@@ -366,7 +411,7 @@ class Shift:
             visit.arrived = event.stamp
             self.journal.visit(visit)
             if visit.released is None:
-                self._part(visit.station).arrived(visit)
+                self.part_of(visit.station).arrived(visit)
             else:  # cancelled too late
                 self.transports.release(visit.transport_id)
         elif event.kind in ENDS:
@@ -374,7 +419,7 @@ class Shift:
 
     def _visit_over(self, visit, event):
         del self._visits[visit.transport_id]
-        self._part(visit.station).drop_visit(visit)
+        self.part_of(visit.station).drop_visit(visit)
         visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
         visit.released = event.stamp if visit.released is None else visit.released
         del visit.station.inbound[visit.visit_id]
@@ -388,7 +433,7 @@ class Shift:
 
     def _unit_free(self, unit):
         away = any(visit.unit == unit for visit in self._visits.values())
-        if unit not in self.inventory.blocked and not away:
+        if unit not in self.inventory.blocked | self._absent and not away:
             self.free_units.add(unit)
             self.picking.unit_free(unit)
             self.replenishing.unit_free()
@@ -468,7 +513,7 @@ class Shift:
             order = sorted(turnover, key=lambda u: (-turnover[u], u))
             self._ranks = {u: i / len(order) for i, u in enumerate(order)}
             self._ranked_at = self.now
-        return self._ranks[unit]
+        return self._ranks.get(unit, 1.0)
 
     def sku_to_refill(self):
         """A SKU drawn by how many of its bins have room for a bundle; None if there is none."""

@@ -5,20 +5,23 @@ import contextlib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from warehouse_fleet.locks import FileLock, InUseError
 from warehouse_fleet.operations import check, report, runs
 from warehouse_fleet.operations.building import world_of
 from warehouse_fleet.operations.database import DatabaseError
 from warehouse_fleet.operations.demand import DemandError
-from warehouse_fleet.operations.opening import SiteError
 from warehouse_fleet.operations.operations import Operations
 from warehouse_fleet.operations.policies import Policies, PolicyError
+from warehouse_fleet.operations.returning import SiteError
 from warehouse_fleet.operations.site import Site
 from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
 
+MOST_SEED = 2**63 - 1
 # What a wrong description can raise.
 ERRORS = (
     DatabaseError,
     DemandError,
+    InUseError,
     InstanceError,
     PolicyError,
     SiteError,
@@ -96,11 +99,24 @@ def simulate(description, folder, database=None, progress=None):
     database: None: a new one in the folder.
     """
     folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    if database is None:
-        database = folder / runs.DATABASE
+    with contextlib.ExitStack() as held:
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            held.enter_context(FileLock(folder))
+        except OSError as error:
+            raise runs.RunError(f"{folder}: {error.strerror}") from error
+        return _simulate(description, folder, database or _new_database(folder), progress)
+
+
+def _new_database(folder):
+    path = folder / runs.DATABASE
+    with FileLock(path):
         for suffix in ("", "-wal", "-shm"):
-            Path(f"{database}{suffix}").unlink(missing_ok=True)
+            Path(f"{path}{suffix}").unlink(missing_ok=True)
+    return path
+
+
+def _simulate(description, folder, database, progress):
     with open_operations(description, str(database)) as ops:
         ops.run(seconds=description.seconds, progress=progress)
         if progress:
@@ -108,7 +124,8 @@ def simulate(description, folder, database=None, progress=None):
         engine = ops.database.engine
         ops.shift.journal.commit(ops.shift)
         ops.database.flush()
-        faults = check.faults(engine)
+        with ops.database.reading():
+            faults = check.faults(engine)
         run = runs.write(folder, ops, description.config, description.seed)
         stuck = ops.fleet.stuck
     report.write(folder / runs.REPORT, [run])

@@ -20,6 +20,7 @@ class Pick:
     line: object
     bin: object
     quantity: int
+    sequence: int = 0  # of the task for a person
 
 
 @dataclass(eq=False)
@@ -59,6 +60,7 @@ class WorkStation:
         self.inbound = {}  # visits that are not over, by id, in the order of asking
         self.at_work = False  # on a piece or a bundle
         self.busy_s = 0.0
+        self.attended = 0.0  # when a person last did something here [s]
         self.missing = {}  # lines with pieces for which no unit comes, by (order, line)
         self.pieces = self.visits = 0  # done here
 
@@ -75,6 +77,13 @@ class WorkStation:
     def coming(self):
         """Visits that have not been released."""
         return [visit for visit in self.inbound.values() if visit.released is None]
+
+    def waiting(self, now):
+        """For how long a person has been waited for [s]; 0 where none is."""
+        visit = self.here
+        if self.mode != Mode.MANUAL or not visit or not (visit.picks or visit.puts):
+            return 0.0
+        return max(0.0, now - max(visit.arrived, self.attended))
 
     def stock_here(self):
         """Pieces nobody is promised, by SKU, on the unit that is here."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse as a database has it: what a shift goes on with after it ended or was killed."""
 
+import json
 from collections import defaultdict
 from dataclasses import dataclass
 
@@ -20,9 +21,12 @@ class Stored:
 
     assortment: Assortment
     bins: list
+    former: dict  # ids of bins that are gone, by item
+    last_bin: int  # the highest id there was
     orders: list  # those that are not over; their times are those of a run that begins at `now`
     last_order: int  # the highest id there was
     blocked: set  # units out of service
+    layout: list | None  # as returning.layout_of told it to the last run; None: an older version's
 
 
 def read(engine, now=0.0):
@@ -31,7 +35,7 @@ def read(engine, now=0.0):
     now: the simulated time at which the next run begins [s].
     """
     with engine.connect() as connection:
-        skus = connection.execute(select(schema.sku).order_by(schema.sku.c.number)).all()
+        skus = _rows(connection, schema.sku, select(schema.sku).order_by(schema.sku.c.number))
         if not skus:
             return None
         assortment = Assortment(
@@ -40,8 +44,20 @@ def read(engine, now=0.0):
         last = connection.execute(select(func.max(schema.orders.c.id))).scalar() or 0
         units = connection.execute(select(schema.unit.c.id).where(schema.unit.c.in_service == 0))
         return Stored(
-            assortment, _bins(connection), _orders(connection, now), last, set(units.scalars())
+            assortment,
+            *_bins(connection, assortment.skus),
+            _orders(connection, now),
+            last,
+            set(units.scalars()),
+            _layout(connection),
         )
+
+
+def _layout(connection):
+    run = schema.run.c
+    query = select(run.layout).where(run.layout.is_not(None)).order_by(run.id.desc()).limit(1)
+    found = connection.execute(query).scalar()
+    return None if found is None else json.loads(found)
 
 
 def transports_left(engine):
@@ -94,13 +110,35 @@ def heat(engine, now):
     return [(began, maps) for began, maps in kept if began >= 0]
 
 
-def _bins(connection):
-    result, fallen = [], _fallen(connection)
-    for row in connection.execute(select(schema.bin_).order_by(schema.bin_.c.id)):
+def _rows(connection, table, query):
+    """Those of a query on a table; raises ValueError for what is not of a column's type, as SQLite
+    lets it be."""
+    rows = connection.execute(query).all()
+    kinds = [(column.name, column.type.python_type, column.nullable) for column in table.c]
+    for row in rows:
+        for name, kind, nullable in kinds:
+            value = getattr(row, name)
+            fits = isinstance(value, (int, float) if kind is float else kind)
+            if not (fits or (nullable and value is None)):
+                raise ValueError(f"{value!r:.80} is the {name} of a row of table '{table.name}'")
+    return rows
+
+
+def _bins(connection, skus):
+    """(bins, former, last) of a Stored."""
+    skus = set(skus)
+    result, former, last, fallen = [], {}, 0, _fallen(connection)
+    for row in _rows(connection, schema.bin_, select(schema.bin_).order_by(schema.bin_.c.id)):
+        last = row.id
+        if row.sku not in skus or not 0 <= row.quantity <= row.capacity:
+            raise ValueError(f"bin {row.id} holds {row.quantity} pieces of {row.sku}")
+        if not row.capacity:
+            former[row.item] = row.id
+            continue
         one = Bin(row.id, row.item, row.unit, row.capacity, row.sku)
         one.quantity, one.fallen = row.quantity, fallen.get(row.id)
         result.append(one)
-    return result
+    return result, former, last
 
 
 def _fallen(connection):
@@ -116,10 +154,10 @@ def _orders(connection, now):
     table, lines = schema.orders, {}
     is_open = table.c.state.in_((int(OrderState.OPEN), int(OrderState.ASSIGNED)))
     query = select(schema.order_line).join(table).where(is_open)
-    for row in connection.execute(query.order_by(schema.order_line.c.number)):
+    for row in _rows(connection, schema.order_line, query.order_by(schema.order_line.c.number)):
         lines.setdefault(row.order_id, []).append(row)
     result = []
-    for row in connection.execute(select(table).where(is_open).order_by(table.c.id)):
+    for row in _rows(connection, table, select(table).where(is_open).order_by(table.c.id)):
         asked = [(line.sku, line.quantity) for line in lines[row.id]]
         by = later[row.run]
         due = row.due + by if row.due else 0.0

@@ -14,19 +14,37 @@ grid:                         # each key is an axis
   orders: [fill, "poisson:300"]
 """
 
+import contextlib
 import itertools
 import re
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
-import yaml
-
+from warehouse_fleet.locks import FileLock, InUseError
 from warehouse_fleet.operations import runs
 from warehouse_fleet.operations.policies import ROLES
-from warehouse_fleet.operations.simulation import ERRORS, Description, simulate, with_settings
+from warehouse_fleet.operations.simulation import (
+    ERRORS,
+    MOST_SEED,
+    Description,
+    simulate,
+    with_settings,
+)
+from warehouse_fleet.yaml_file import read_yaml
 
-KEYS = {"out", "size", "instance", "settings", "minutes", "physics", "seeds", "orders", "policies"}
+KINDS = {
+    "out": (str, "the name of a folder"),
+    "size": (str, "the name of a preset"),
+    "instance": (str, "a file"),
+    "settings": (str, "a file"),
+    "minutes": ((int, float), "a number above 0"),
+    "physics": (bool, "true or false"),
+    "orders": (str, "fill, fill:N, poisson:PER_HOUR, FILE.csv or none"),
+    "policies": ((dict, type(None)), "roles with a policy each"),
+}
+KEYS = {*KINDS, "seeds"}
+MOST_SEEDS, MOST_MINUTES = 10_000, 1e7
 
 
 class SweepError(Exception):
@@ -58,17 +76,13 @@ class Sweep:
 def read(path):
     """The Sweep of a YAML file; raises SweepError."""
     path = Path(path)
-    try:
-        data = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise SweepError(f"{path}: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise SweepError(f"{path}: {error}") from error
+    data = read_yaml(path, SweepError)
     if not isinstance(data, dict):
         raise SweepError(f"{path}: keys with values were expected")
     for key in data:
         if key not in KEYS | {"grid"}:
             raise SweepError(f"{path}: '{key}' is unknown; {', '.join(sorted(KEYS))} or grid")
+        _check(path, key, data[key])
     folder = path.parent / data.get("out", path.stem)
     jobs = []
     for point in _points(path, data.get("grid") or {}):
@@ -86,9 +100,24 @@ def run_all(sweep, processes=None, executor=None, on_done=None):
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
     called after each.
     """
+    with _alone(sweep.folder):
+        return _run_all(sweep, executor or ProcessPoolExecutor(processes), on_done)
+
+
+@contextlib.contextmanager
+def _alone(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with FileLock(folder):
+            yield
+    except InUseError as error:
+        raise SweepError(str(error)) from error
+
+
+def _run_all(sweep, executor, on_done):
     complete, left = sweep.done()
     failures = []
-    with executor or ProcessPoolExecutor(processes) as pool:
+    with executor as pool:
         pending = {pool.submit(_one, *job): job for job in left}
         while pending:
             finished, _ = wait(pending, return_when=FIRST_COMPLETED)
@@ -111,10 +140,23 @@ def _one(description, folder):
     return faults
 
 
+def _check(path, key, value):
+    kind, expected = KINDS.get(key, (object, ""))
+    is_other = isinstance(value, bool) and kind is not bool and kind is not object
+    if (
+        is_other
+        or not isinstance(value, kind)
+        or (key == "minutes" and not 0 < value < MOST_MINUTES)
+    ):
+        raise SweepError(f"{path}: {key} is {value!r}; {expected} was expected")
+
+
 def _points(path, grid):
     if not isinstance(grid, dict) or not all(isinstance(v, list) and v for v in grid.values()):
         raise SweepError(f"{path}: grid: a list of values for each key was expected")
-    for key in grid:
+    for key, values in zip(map(str, grid), grid.values()):
+        for value in values:
+            _check(path, key, value)
         role = key.removeprefix("policies.")
         known = key in KEYS - {"out", "seeds", "policies"} or (role != key and role in ROLES)
         if not known:
@@ -144,10 +186,18 @@ def _description(path, data, point):
 
 
 def _seeds(path, seeds):
-    result = list(range(1, seeds + 1)) if isinstance(seeds, int) else seeds
-    if not isinstance(result, list) or not result or not all(isinstance(s, int) for s in result):
-        raise SweepError(f"{path}: seeds is {seeds!r}; a number above 0 or a list was expected")
-    return result
+    counted = isinstance(seeds, int) and 0 < seeds <= MOST_SEEDS
+    result = range(1, seeds + 1) if counted else seeds
+    if not isinstance(result, (list, range)) or not all(map(_is_seed, result)) or not result:
+        raise SweepError(
+            f"{path}: seeds is {seeds!r}; how many, 1 to {MOST_SEEDS}, or a list of whole numbers "
+            f"from 0 to {MOST_SEED} was expected"
+        )
+    return list(result)
+
+
+def _is_seed(value):
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST_SEED
 
 
 def _word(value):

@@ -5,6 +5,7 @@ from collections import Counter
 
 import numpy as np
 
+from warehouse_fleet.activities import ActivityLog
 from warehouse_fleet.fleet_driver import UPDATE, FleetDriver
 from warehouse_fleet.protocols import Task
 from warehouse_fleet.travel import Travel
@@ -25,6 +26,7 @@ class WorldFleet:
         )
         self.transports = self._driver.transports
         self._cells = self._driver.traffic.cell
+        self._activities = ActivityLog(self.robots)
         self._traffic, self._waiting = np.zeros((2, site.plan.passable.size))
 
     def set_hooks(self, hooks):
@@ -68,12 +70,14 @@ class WorldFleet:
             self._see()
 
     def _see(self):
-        """Where loaded robots come through, and where robots wait."""
+        """Where loaded robots come through, where robots wait, and what they do."""
         traffic = self._driver.traffic
         cells, inside = traffic.cell, traffic.cell >= 0
         came = inside & traffic.loaded & (cells != self._cells)
         np.add.at(self._traffic, cells[came], 1)
-        np.add.at(self._waiting, cells[inside & (traffic.still_since < traffic.time)], UPDATE)
+        standing = inside & (traffic.still_since < traffic.time)
+        np.add.at(self._waiting, cells[standing], UPDATE)
+        self._activities.observe(UPDATE, self.transports, standing)
         self._cells = cells
 
     def traffic(self):
@@ -83,6 +87,10 @@ class WorldFleet:
     def waiting_map(self):
         """Robot-seconds spent in each cell by those who stood on their way, (h, w)."""
         return self._waiting.reshape(self.plan.shape)
+
+    def activities(self):
+        """Robot-seconds spent on each of activities.ACTIVITIES up to now."""
+        return dict(self._activities.seconds)
 
     def close(self):
         """Ends the planner's thread."""

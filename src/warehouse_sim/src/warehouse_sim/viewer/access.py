@@ -8,6 +8,8 @@ import time
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
+from warehouse_sim.viewer import token_page
+
 MOST_BODY = 64 * 1024  # [bytes]
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
@@ -56,8 +58,8 @@ class AccessControl:
     """ASGI middleware. With a token everybody needs it; without, only this machine's names serve.
 
     The latter keeps a foreign page from reaching the server under a name of its own that leads to
-    127.0.0.1. A browser gives the token once, as ?token=…, and a cookie from then on; programs send
-    `Authorization: Bearer …`.
+    127.0.0.1. A browser gives the token once, in a form (token_page) or as ?token=…, and a cookie
+    from then on; programs send `Authorization: Bearer …`.
     """
 
     def __init__(self, app, token="", rate=100):
@@ -71,12 +73,15 @@ class AccessControl:
         try:
             self._check(scope, headers)
         except Refusal as refusal:
-            await _refuse(scope, send, refusal)
+            asks_person = refusal.status == 401 and token_page.wanted(scope, headers)
+            await (_ask(scope, send) if asks_person else _refuse(scope, send, refusal))
             return
         if scope["type"] == "websocket":
             await self._app(scope, receive, send)
+        elif self._is_form(scope):
+            await self._take_form(scope, receive, send)
         elif self._brings_token(scope):
-            await _keep_token(scope, send, self._token)
+            await _keep_token(send, self._token)
         else:
             await _limited(self._app, scope, receive, send)
 
@@ -87,7 +92,24 @@ class AccessControl:
         if int(headers.get("content-length", "0") or 0) > MOST_BODY:
             raise Refusal(413, f"the body is larger than {MOST_BODY} bytes")
         self._check_origin(headers)
-        self._check_token(scope, headers)
+        if not self._is_form(scope):
+            self._check_token(scope, headers)
+
+    def _is_form(self, scope):
+        """Whether a person sends the token."""
+        posts = scope["type"] == "http" and scope["method"] == "POST"
+        return self._token and posts and scope["path"] == token_page.PATH
+
+    async def _take_form(self, scope, receive, send):
+        body, more = b"", True
+        while more and len(body) <= token_page.MOST_FORM:
+            message = await receive()
+            body, more = body + message.get("body", b""), message.get("more_body", False)
+        given, to = token_page.parse(body[: token_page.MOST_FORM])
+        if hmac.compare_digest(given.encode(), self._token.encode()):
+            await _keep_token(send, self._token, to)
+        else:
+            await _ask(scope, send, to, wrong=True)
 
     def _check_origin(self, headers):
         host = headers.get("host", "")
@@ -143,10 +165,23 @@ async def _refuse(scope, send, refusal):
     await send({"type": "http.response.body", "body": body})
 
 
-async def _keep_token(scope, send, token):
+async def _ask(scope, send, to=None, wrong=False):
+    """The page that asks for the token, and leads to what was asked for."""
+    own = {
+        b"content-security-policy": token_page.CONTENT,
+        b"referrer-policy": b"same-origin",  # else a browser posts the form as of no origin
+    }
+    headers = [(b"content-type", b"text/html; charset=utf-8"), (b"cache-control", b"no-store")]
+    headers += (dict(HEADERS) | own).items()
+    body = token_page.text(scope["path"] if to is None else to, wrong)
+    await send({"type": "http.response.start", "status": 401, "headers": headers})
+    await send({"type": "http.response.body", "body": b"" if scope["method"] == "HEAD" else body})
+
+
+async def _keep_token(send, token, to="/"):
     cookie = SimpleCookie({COOKIE: token})
     cookie[COOKIE].update({"httponly": True, "samesite": "Strict", "path": "/"})
-    headers = [(b"location", b"/"), (b"set-cookie", cookie[COOKIE].OutputString().encode())]
+    headers = [(b"location", to.encode()), (b"set-cookie", cookie[COOKIE].OutputString().encode())]
     await send({"type": "http.response.start", "status": 303, "headers": headers})
     await send({"type": "http.response.body", "body": b""})
 

@@ -12,6 +12,7 @@ from pydantic.error_wrappers import ErrorWrapper
 from pydantic.errors import StrError
 from starlette.routing import Match
 
+from warehouse_sim.request import LIMITS, PRESETS
 from warehouse_sim.viewer import catalogue, schemas, work
 from warehouse_sim.viewer.coordination import NONE_RUNS
 from warehouse_sim.viewer.journal import KEPT
@@ -195,6 +196,12 @@ def _add_warehouse(out, backend):
             "lacks": {action: lack for action, lack in lacks.items() if lack},
             **await backend.do("state"),
         }
+
+    @out.get("/warehouse/sizes", response_model=schemas.Sizes, responses=_problems())
+    async def get_sizes():
+        """Presets, and the limits of counts of one's own."""
+        presets = {name: vars(counts) for name, counts in PRESETS.items()}
+        return {"presets": presets, "limits": LIMITS}
 
     @out.post("/warehouse", response_model=schemas.Done, responses=_problems(*SENT))
     async def create_warehouse(wanted: schemas.NewWarehouse):

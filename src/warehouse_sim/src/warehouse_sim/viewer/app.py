@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import uvicorn
 from fastapi import FastAPI, Request, WebSocket
-from fastapi.responses import FileResponse, Response
+from fastapi.responses import Response
 
 from warehouse_sim.viewer import api, catalogue, changes, metrics, sockets, stream
 from warehouse_sim.viewer.access import AccessControl
@@ -22,7 +22,7 @@ from warehouse_sim.viewer.journal import Journal
 from warehouse_sim.viewer.model import Model
 from warehouse_sim.viewer.shift_feed import ShiftFeed
 from warehouse_sim.viewer.simulation import Simulation
-from warehouse_sim.viewer.static_files import FRESH, THREE, Files, FreshFiles
+from warehouse_sim.viewer.static_files import THREE, Files, FreshFiles
 from warehouse_sim.viewer.transport_book import TransportBook
 from warehouse_sim.viewer.work import Work
 
@@ -122,12 +122,18 @@ class Viewer:
             await serve(socket)
         finally:
             self._sockets -= 1
-            with suppress(RuntimeError):
+            # TypeError: websockets' of a page that went before it had come.
+            with suppress(RuntimeError, TypeError):
                 await socket.close()
 
     def _add_files(self, app):
+        web = FreshFiles(directory=self._web)
+
         def page(name):
-            return lambda: FileResponse(f"{self._web}/{name}", headers=FRESH)
+            async def get(request: Request):
+                return await web.get_response(name, request.scope)
+
+            return get
 
         @app.get("/metrics", response_class=Response, responses=METRICS)
         async def get_metrics(request: Request):
@@ -141,7 +147,7 @@ class Viewer:
         app.get("/operations", include_in_schema=False)(page("operations.html"))
         app.get("/docs", include_in_schema=False)(page("docs.html"))
         app.mount("/three", Files(directory=THREE, check_dir=False))
-        app.mount("/web", FreshFiles(directory=self._web))
+        app.mount("/web", web)
 
 
 def _bounded(rate):

@@ -5,19 +5,21 @@ import numpy as np
 
 from warehouse_sim import tracking
 from warehouse_sim.models import kind_and_number
-from warehouse_sim.statuses import shown_status
+from warehouse_sim.statuses import activity, shown_status
 from warehouse_sim.viewer import schemas
-from warehouse_sim.words import EVENT, STATE, STATUS, failures_of
+from warehouse_sim.words import ACTIVITY, EVENT, STATE, STATUS, failures_of
 
 
 def robots(fleet):
     """Every Robot of a FleetState."""
-    status, state, last_end = shown_status(fleet), bytes(fleet.state), bytes(fleet.last_end)
+    status, does = shown_status(fleet), activity(fleet)
+    state, last_end = bytes(fleet.state), bytes(fleet.last_end)
     return [
         schemas.Robot(
             name=f"kiva{number}",
             id=number,
             status=STATUS[status[i]],
+            activity=ACTIVITY[does[i]],
             state=STATE[state[i]],
             last_end=EVENT[last_end[i]] if last_end[i] else "",
             x=fleet.x[i],
@@ -33,7 +35,7 @@ def robots(fleet):
 
 def coordinator(state):
     """A CoordinatorState as schemas.Coordinator."""
-    waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since)
+    waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
     return schemas.Coordinator(
         time=state.header.stamp.to_sec(),
         robots={name: getattr(state, name) for name in schemas.RobotsByMode.__fields__},
@@ -45,7 +47,7 @@ def coordinator(state):
         plan_p99=state.plan_p99,
         executed_over_planned=state.executed_over_planned,
         queues=dict(zip(state.station, state.queue)),
-        waiting=[schemas.Waiting(robot=r, waits_for=f, since=s) for r, f, s in waiting],
+        waiting=[schemas.Waiting(robot=r, waits_for=f, since=s, text=t) for r, f, s, t in waiting],
         collisions=state.collisions,
         blocked=state.blocked,
         watchdog=state.watchdog,

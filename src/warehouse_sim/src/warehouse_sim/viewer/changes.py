@@ -4,7 +4,7 @@
     /api/v1/changes?of=orders,stations&rate=2     messages of a kind a second at most, 0.1 … 10
 
 First comes {"type": "shift", "runs": true}, and again whenever that changes. Stations, kpis,
-throughput, coordinator and heat come whole: as they are now, then as often as they change.
+throughput, coordinator, notices and heat come whole: as they are now, then as often as they change.
 
     {"type": "stations", "stations": [{"name": "pick1", "shelf_id": 12, …}, …]}
     {"type": "kpis", "kpis": {"items_picked": 123, …}}
@@ -78,6 +78,11 @@ class CoordinatorNow(BaseModel):
     coordinator: schemas.Coordinator | None
 
 
+class NoticesNow(BaseModel):
+    type: Literal["notices"]
+    notices: list[str]
+
+
 class HeatNow(BaseModel):
     type: Literal["heat"]
     heat: work_schemas.Heat
@@ -93,6 +98,7 @@ MESSAGES = (
     ThroughputNow,
     CoordinatorNow,
     HeatNow,
+    NoticesNow,
 )
 
 
@@ -136,7 +142,7 @@ class _Reader:
                 await self._send_coordinator()
             elif topic in ROWS:
                 await self._send_rows(topic)
-            elif runs:
+            elif runs or topic == "notices":
                 await self._send_whole(topic)
 
     async def _send_rows(self, topic):

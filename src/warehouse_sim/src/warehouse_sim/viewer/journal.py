@@ -3,10 +3,13 @@
 
 import csv
 import io
+import re
 import threading
 from collections import deque
 
 KEPT = 2000
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
+NUMBER = re.compile(r"[+-]?\d+(\.\d*)?\Z")
 COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
 
 
@@ -41,5 +44,12 @@ class Journal:
         text = io.StringIO()
         table = csv.DictWriter(text, COLUMNS)
         table.writeheader()
-        table.writerows(self.since(0))
+        table.writerows({name: _cell(e[name]) for name in COLUMNS} for e in self.since(0))
         return text.getvalue()
+
+
+def _cell(value):
+    """What no spreadsheet takes for a formula: names and texts are of anybody (OWASP, CSV
+    injection). Numbers stay numbers."""
+    is_formula = isinstance(value, str) and value.startswith(FORMULA) and not NUMBER.match(value)
+    return f"'{value}" if is_formula else value

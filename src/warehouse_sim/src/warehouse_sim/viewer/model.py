@@ -8,7 +8,7 @@ import numpy as np
 
 from warehouse_fleet import floor_markings
 from warehouse_sim import painted, poses
-from warehouse_sim.statuses import shown_status
+from warehouse_sim.statuses import activity
 from warehouse_sim.viewer import protocol
 from warehouse_sim.viewer.table import Table
 
@@ -83,7 +83,7 @@ class Model:
             y=fleet.y,
             yaw=fleet.yaw,
             shelf=fleet.shelf_id,
-            status=shown_status(fleet),
+            status=activity(fleet),
             state=np.frombuffer(bytes(fleet.state), np.uint8),
             charge=np.rint(100 * np.asarray(fleet.charge)),
             failures=np.frombuffer(bytes(fleet.failures), np.uint8),

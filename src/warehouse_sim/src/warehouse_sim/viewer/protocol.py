@@ -25,11 +25,12 @@ import struct
 
 import numpy as np
 
-VERSION = 3
+VERSION = 4
 UPDATE, SCAN, WAYS = 1, 2, 3
 
-# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status and state as in
-# KivaStatus; charge in percent; failures as in FleetState, and its load_limit; 0 = none.
+# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status as
+# statuses.activity() has it, state as in KivaStatus; charge in percent; failures as in FleetState,
+# and its load_limit; 0 = none.
 ROBOT = np.dtype(
     [
         ("index", "<u4"),

@@ -127,6 +127,19 @@ class NewWarehouse(_Body):
     shelves: Int32 = 0
 
 
+class Counts(BaseModel):
+    robots: int
+    shelves: int
+    items: int
+
+
+class Sizes(BaseModel):
+    """What can be asked for: presets by name, and the most of each kind."""
+
+    presets: dict[str, Counts]
+    limits: Counts
+
+
 class NewRobot(_Body):
     x: Number = Field(description="[m], of a grid point")
     y: Number = Field(description="[m], of a grid point")
@@ -134,7 +147,7 @@ class NewRobot(_Body):
 
 
 class NewWalk(_Body):
-    """Has somebody walk from place to place, and come to the first one if nobody is called so."""
+    """Has a person walk from place to place; one of a new name comes to the first place."""
 
     name: Name = Field("", description="who; empty: a new person")
     x: conlist(Number, max_items=1000) = Field(description="[m], of each place")
@@ -224,7 +237,12 @@ class Robot(BaseModel):
     name: str
     id: int
     status: Literal["IDLE", "BUSY", "BLOCKED"] = Field(
-        description="BLOCKED: its last command ended so, and none was accepted since"
+        description="whether it takes a command; BLOCKED: its last one ended so, and none was "
+        "accepted since"
+    )
+    activity: Literal["IDLE", "BUSY", "BLOCKED", "HOLDING"] = Field(
+        description="what the page calls it: its status, or HOLDING if it carries a storage unit "
+        "and has no command"
     )
     state: str
     last_end: Literal["", "DONE", "BLOCKED"] = Field(
@@ -352,6 +370,7 @@ class Waiting(BaseModel):
     robot: int
     waits_for: int = Field(description="a robot; 0: nobody who is known")
     since: float = Field(description="[s], simulated")
+    text: str = Field(description="for what it waits, for a person")
 
 
 class Coordinator(BaseModel):

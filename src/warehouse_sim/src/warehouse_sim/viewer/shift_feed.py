@@ -1,9 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a shift of operations tells, heard all the time: it is little."""
 
-from warehouse_msgs.msg import HeatMap, Kpis, OrderStatuses, StationStates, StockPlaces, Throughput
+from warehouse_msgs.msg import (
+    HeatMap,
+    Kpis,
+    Notices,
+    OrderStatuses,
+    StationStates,
+    StockPlaces,
+    Throughput,
+)
 
-WHOLE = {"stations": StationStates, "kpis": Kpis, "throughput": Throughput, "heat": HeatMap}
+WHOLE = {
+    "stations": StationStates,
+    "kpis": Kpis,
+    "throughput": Throughput,
+    "heat": HeatMap,
+    "notices": Notices,
+}
 
 
 class ShiftFeed:
@@ -28,7 +42,8 @@ class ShiftFeed:
         return self._subscribers["stations"].get_num_connections() > 0
 
     def __getitem__(self, name):
-        return self._messages.get(name) if self.runs else None
+        is_told = self.runs or name == "notices"  # such as why there is no shift
+        return self._messages.get(name) if is_told else None
 
     def _keep(self, message, name):
         self._messages[name] = message

@@ -13,13 +13,17 @@ from warehouse_sim.viewer import schemas
 from warehouse_sim.viewer.simulation import AwayError, RefusedError
 from warehouse_sim.viewer.work_schemas import (
     MODES,
+    OUTCOMES,
     STATES,
     Accepted,
     Confirmation,
     Heat,
     NewOrder,
+    Notices,
     Order,
     Orders,
+    PickReport,
+    Reported,
     SetStation,
     Short,
     Stations,
@@ -155,6 +159,23 @@ def add(out: APIRouter, work, problems):
         fields = name, found.sku, found.quantity, found.damaged
         return {"message": (await do(work.call, "report_short", srv.ReportShort, *fields)).message}
 
+    at_pick = "/stations/{name}/picks/{sequence}"
+
+    @out.post(at_pick, response_model=Reported, responses=problems(*sent))
+    async def report_pick(done: PickReport, name: str = name, sequence: int = number):
+        """What became of a pick that the station tells of: of that one, or of none. Sent again it
+        changes nothing."""
+        which = done.order_id, done.item, sequence
+        fields = name, *which, done.quantity, OUTCOMES.index(done.outcome)
+        answer = await do(work.call, "report_pick", srv.ReportPick, *fields)
+        return {"message": answer.message, "quantity": answer.quantity}
+
+    @out.delete(at_pick, response_model=schemas.Done, responses=problems(409))
+    async def undo_write_off(name: str = name, sequence: int = number):
+        """Takes back what was written off a moment ago as SHORT or DAMAGED: it lies in its bin."""
+        answer = await do(work.call, "undo_write_off", srv.UndoWriteOff, name, sequence)
+        return {"message": answer.message}
+
     @out.get("/kpis", responses=problems())
     async def get_kpis():
         """The figures of the shift so far, named as in kpis.json."""
@@ -164,6 +185,11 @@ def add(out: APIRouter, work, problems):
     async def get_throughput():
         """The last hour, a minute a row."""
         return await do(work.latest, "throughput")
+
+    @out.get("/notices", response_model=Notices, responses=problems())
+    async def get_notices():
+        """What the shift could not take, and why; why there is none."""
+        return {"notices": await do(work.latest, "notices")}
 
     @out.get("/heat", response_model=Heat, responses=problems())
     async def get_heat():
@@ -196,5 +222,16 @@ def stations(told):
     return [plain(one) | {"mode": MODES[one.mode]} for one in told.stations]
 
 
+def notices(told):
+    """Its sentences."""
+    return list(told.notices)
+
+
 # How what a shift tells is shown.
-SHOWN = {"stations": stations, "kpis": plain, "throughput": plain, "heat": plain}
+SHOWN = {
+    "stations": stations,
+    "kpis": plain,
+    "throughput": plain,
+    "heat": plain,
+    "notices": notices,
+}

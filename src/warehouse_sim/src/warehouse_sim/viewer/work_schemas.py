@@ -9,6 +9,7 @@ from warehouse_sim.viewer import schemas
 
 STATES = ("OPEN", "ASSIGNED", "COMPLETED", "CANCELLED")
 MODES = ("AUTOMATIC", "MANUAL")
+OUTCOMES = ("DONE", "SHORT", "DAMAGED")
 
 Sku = constr(min_length=1, max_length=80, regex=r"^[ -~]+$", strict=True)
 Pieces = conint(ge=1, le=schemas.INT32, strict=True)
@@ -83,6 +84,9 @@ class Pick(BaseModel):
     item: str
     order_id: int
     reference: str
+    sequence: int = Field(
+        description="another one for each thing to be done, and what is left of it"
+    )
 
 
 class Station(BaseModel):
@@ -97,6 +101,7 @@ class Station(BaseModel):
     picks: list[Pick]
     pieces: int
     busy_fraction: float
+    waiting: float = Field(description="for so long a person has been waited for [s]; 0: none is")
 
 
 class Stations(BaseModel):
@@ -118,6 +123,21 @@ class Short(Line):
     damaged: StrictBool = False
 
 
+class PickReport(schemas._Body):
+    """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
+    bin is empty; DAMAGED: so many are."""
+
+    order_id: conint(ge=0, le=2**53, strict=True) = 0
+    item: Sku
+    quantity: conint(ge=0, le=schemas.INT32, strict=True)
+    outcome: Literal[OUTCOMES] = "DONE"
+
+
+class Reported(BaseModel):
+    message: str
+    quantity: int = Field(description="pieces taken, put in or written off")
+
+
 class Throughput(BaseModel):
     """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
     whole multiples of their length; the last one goes on."""
@@ -128,6 +148,10 @@ class Throughput(BaseModel):
     items_picked: list[int]
     pieces_stored: list[int]
     orders_completed: list[int]
+
+
+class Notices(BaseModel):
+    notices: list[str]
 
 
 class Heat(BaseModel):

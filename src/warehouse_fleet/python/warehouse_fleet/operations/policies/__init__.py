@@ -12,8 +12,6 @@ its constructor takes the options. `view` is the Shift: its documented attribute
 import importlib
 from typing import Protocol
 
-import yaml
-
 from warehouse_fleet import charging
 from warehouse_fleet.operations.policies import (
     bins,
@@ -24,6 +22,7 @@ from warehouse_fleet.operations.policies import (
     storage,
     unit_choice,
 )
+from warehouse_fleet.yaml_file import read_yaml
 
 
 class OrderAssignment(Protocol):
@@ -133,13 +132,7 @@ class Policies:
     @classmethod
     def read(cls, path):
         """Those of a YAML file; raises PolicyError."""
-        try:
-            with open(path, encoding="utf-8") as file:
-                return cls(yaml.safe_load(file), str(path))
-        except (OSError, UnicodeDecodeError) as error:
-            raise PolicyError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
-        except yaml.YAMLError as error:
-            raise PolicyError(f"{path}: {error}") from error
+        return cls(read_yaml(path, PolicyError), str(path))
 
 
 def _make(role, what, source):
@@ -166,5 +159,5 @@ def _own(role, name, source):
         )
     try:
         return getattr(importlib.import_module(module), attribute)
-    except (ImportError, AttributeError) as error:
+    except (ImportError, AttributeError, ValueError, SyntaxError) as error:
         raise PolicyError(f"{source}: {role}: {name}: {error}") from error

@@ -3,11 +3,14 @@
 
 from warehouse_fleet.operations.demand import BUNDLE_LEAST, BUNDLE_MOST
 
+AHEAD = 10 * BUNDLE_MOST  # pieces of a SKU at the door, at most, when orders lack more than that
+
 
 class Threshold:
     """Refills from when the stock falls below `begin` until it reaches `stop`, shares of its room.
 
-    What orders lack comes at once. waiting: bundles that wait at the stations' door at most.
+    What orders lack comes at once, however much in portions: the next when the first is in its
+    bins. waiting: bundles that wait at the stations' door at most.
     """
 
     def __init__(self, begin=0.65, stop=0.85, waiting=200):
@@ -33,7 +36,8 @@ class Threshold:
             yield sku, quantity
 
     def _shortages(self, view):
-        for sku, pieces in sorted(view.shortages().items()):
+        for sku, lacking in sorted(view.shortages().items()):
+            pieces = min(lacking, AHEAD - view.replenishing.ordered_of.get(sku, 0))
             whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
             wanted = whole if view.inventory.roomy[sku] else pieces
             for begun in range(0, wanted, BUNDLE_MOST):

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "kiva_plugin_cpp/description.h"
+
+namespace kiva {
+
+/// Bullet's tree of the triangles of a mesh, which takes long to grow: all that stand in a world
+/// with that mesh share it.
+struct TriangleTree {
+  explicit TriangleTree(std::shared_ptr<const Mesh> of);
+
+  /// A shape on it, which must not outlive it.
+  std::unique_ptr<btBvhTriangleMeshShape> makeShape() const;
+
+ private:
+  std::shared_ptr<const Mesh> mesh_;  ///< For whose sake no other mesh has its address.
+  std::unique_ptr<btTriangleMesh> triangles_;
+  std::unique_ptr<btBvhTriangleMeshShape> first_;  ///< Owns the tree.
+};
+
+/// The tree of that mesh. Thread-safe.
+std::shared_ptr<const TriangleTree> treeOf(const std::shared_ptr<const Mesh>& mesh);
+
+}  // namespace kiva

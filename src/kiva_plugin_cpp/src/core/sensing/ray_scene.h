@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What rays in any direction meet: a depth camera's, say. Level rays of lasers have a quicker way,
+// by way of Obstacles, which sees no floor.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/footprint.h"
+#include "core/geometry/solid.h"
+#include "core/state/world_state.h"
+
+namespace kiva {
+
+/// The collisions of all models within reach of one point, as they are now. Good for as long as
+/// nothing moves.
+class RayScene {
+ public:
+  /// `but`: a model that rays pass, with its load; null = none.
+  RayScene(const WorldState& world, const Vector3& from, double range, const Model* but);
+
+  /// Distance [m] along that unit vector to the first surface; +inf = none within range.
+  double cast(const Vector3& direction) const;
+
+ private:
+  struct Target {
+    Bounds box;
+    Vector3 centre;  ///< Of `solid`.
+    Solid solid;
+    const btCollisionObject* body = nullptr;  ///< In place of it, where a shape is no solid.
+  };
+  struct Plane {
+    Vector3 normal;
+    double height = 0;  ///< Of the rays' origin above it [m].
+  };
+  struct Node {
+    Bounds box;
+    int first = 0, count = 0;  ///< Targets of a leaf.
+    int right = -1;            ///< The second child, -1 in a leaf; the first one follows.
+  };
+
+  void addStatic(const WorldState& world, const Model& model);
+  void addMoving(const WorldState& world, const Model& model);
+  void addSurfaces(const Model& model);
+  void add(const Shape& shape, const Pose& pose, const btCollisionObject* hull);
+  void add(Target target);
+  int build(int first, int count);
+  double cast(const Target& target, const Vector3& direction, double range) const;
+
+  const Vector3 from_;
+  const double range_;
+  std::vector<Target> targets_;
+  std::vector<Plane> planes_;  ///< Without bounds.
+  std::vector<Node> nodes_;
+};
+
+}  // namespace kiva

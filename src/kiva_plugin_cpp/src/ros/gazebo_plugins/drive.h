@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+
+#include <string>
+
+#include "gazebo_plugin.h"
+
+namespace kiva_ros {
+
+/// What plugins share that drive a model by cmd_vel and tell its odometry.
+class Drive : public GazeboPlugin {
+ public:
+  using GazeboPlugin::GazeboPlugin;
+
+ protected:
+  static constexpr double kMost = 1e6;  ///< Of speeds and lengths, in SI units.
+
+  struct Command {
+    double speed = 0;  ///< Ahead [m/s].
+    double aside = 0;  ///< To the left [m/s].
+    double turn = 0;   ///< [rad/s]
+  };
+  struct Covariance {
+    double x = 1e-5, y = 1e-5, yaw = 1e-3;
+  };
+
+  /// Reads commandTopic, odometryTopic, odometryFrame and robotBaseFrame.
+  void openTopics(const kiva::Parameters& parameters);
+  void setCovariance(const Covariance& covariance) { covariance_ = covariance; }
+  /// Takes the newest message on the command topic. Whether there was one.
+  bool takeCommand();
+  void setCommand(const Command& command) { command_ = command; }
+  const Command& command() const { return command_; }
+  /// The model's pose in world; its velocity in the plane as it sees it itself.
+  kiva::EntityState trueOdometry(const kiva::World& world) const;
+  void publishOdometry(const kiva::World& world, const kiva::EntityState& state);
+  void publishOdometryTransform(const kiva::World& world, const kiva::EntityState& state);
+  ros::Publisher& transforms() { return transforms_; }
+
+ private:
+  Command command_;
+  Covariance covariance_;
+  std::string odometry_frame_, base_frame_;
+  PluginInput<geometry_msgs::Twist> commands_;
+  ros::Publisher odometry_, transforms_;
+};
+
+}  // namespace kiva_ros

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Why robots wait that have somewhere to go, in words for a person; and what each robot does."""
+
+import numpy as np
+
+from warehouse_fleet.traffic import NOWHERE, Mode
+from warehouse_fleet.transports import Step
+
+WAITS_LONG = 10.0  # [s]
+DOES = {
+    Step.FETCHING: "fetching",
+    Step.READY: "ready",
+    Step.LIFTING: "lifting",
+    Step.BRINGING: "bringing",
+    Step.WAITING: "waiting",
+    Step.STORING: "storing",
+    Step.DROPPING: "dropping",
+}
+
+
+class Waiting:
+    """Of a fleet, by its Traffic and Transports. `by_hand`: names of stations where a person
+    works."""
+
+    def __init__(self, traffic, transports, by_hand=frozenset()):
+        self._traffic, self._by_hand = traffic, by_hand
+        self._transports = transports
+        self._of_robot = {t.robot: t for t in transports if t.robot != NOWHERE}
+
+    def doing(self):
+        """What each robot does that is there, one word each: {kiva_id: word}."""
+        traffic = self._traffic
+        return {
+            int(kiva): self._does(robot)
+            for robot, kiva in enumerate(traffic.kiva_ids)
+            if not traffic.gone[robot]
+        }
+
+    def _does(self, robot):
+        mode = Mode(self._traffic.mode[robot])
+        if mode != Mode.AUTOMATIC:
+            return mode.name.lower()
+        transport = self._of_robot.get(robot)
+        return DOES[transport.step] if transport else "idle"
+
+    def long(self):
+        """[(robot, text)] of those that have stood for WAITS_LONG; none in the queue of a station
+        that itself waits for a person."""
+        traffic = self._traffic
+        still = (traffic.time - traffic.still_since > WAITS_LONG) & ~traffic.busy & ~traffic.gone
+        found = []
+        for robot in np.flatnonzero(still).tolist():
+            last = self._last_ahead(robot)
+            station = self._served_at(last)
+            if station not in self._by_hand:
+                found.append((robot, self._reason(robot, last, station)))
+        return found
+
+    def for_people(self):
+        """Sentences: which stations wait for a person to confirm, and for how long."""
+        return [
+            f"{station} waits for a person, {_lasting(self._traffic.time - transport.since)}"
+            for robot, transport in sorted(self._of_robot.items())
+            if (station := self._served_at(robot)) in self._by_hand
+            and self._traffic.time - transport.since > WAITS_LONG
+        ]
+
+    def _served_at(self, robot):
+        """The station at which a robot's unit is served now; an empty name if at none."""
+        transport = self._of_robot.get(robot)
+        return transport.station if transport and transport.step == Step.WAITING else ""
+
+    def _last_ahead(self, robot):
+        """The robot at the head of the queue that a robot stands in; itself if it heads it."""
+        seen = {robot}
+        while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in seen:
+            seen.add(ahead)
+            robot = ahead
+        return robot
+
+    def _reason(self, robot, last, station):
+        traffic, ahead = self._traffic, self._traffic.ahead_of(robot)
+        if ahead == NOWHERE:
+            if traffic.minds[robot]:
+                return "for people on the floor"
+            if traffic.broken[robot]:
+                return "until it is repaired"
+            return "for a way that is free"
+        behind = f"behind kiva{traffic.kiva_ids[ahead]}"
+        if station:
+            return f"in the queue of {station} {behind}"
+        if traffic.broken[ahead]:
+            return f"{behind}, which is broken"
+        if traffic.mode[ahead] != Mode.AUTOMATIC:
+            return f"{behind}, which is {Mode(traffic.mode[ahead]).name}"
+        return (
+            behind
+            if last == ahead
+            else f"{behind}, in a row that kiva{traffic.kiva_ids[last]} heads"
+        )
+
+
+def _lasting(seconds):
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"

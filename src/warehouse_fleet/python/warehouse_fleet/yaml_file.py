@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads YAML files; what is wrong with one is one sentence with file and line."""
+
+from pathlib import Path
+
+import yaml
+
+
+def read_yaml(path, error):
+    """What the file holds; raises `error`, a class, with a sentence."""
+    try:
+        return yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except OSError as why:
+        raise error(f"{path}: {why.strerror}") from why
+    except yaml.YAMLError as why:
+        mark = getattr(why, "problem_mark", None)
+        line = f":{mark.line + 1}" if mark else ""
+        said = getattr(why, "problem", None) or getattr(why, "reason", None) or why
+        raise error(f"{path}{line}: {said}; YAML was expected") from why
+    # A date that there is not, or what is no text, among others.
+    except (ValueError, OverflowError, RecursionError) as why:
+        raise error(f"{path}: {why}; YAML was expected") from why

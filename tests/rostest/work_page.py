@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tests of the page /operations share."""
+
+import json
+
+from node_test import wait_until
+from page_test import PageTest, ask
+
+LONG = 120.0  # for what robots do [s, wall]
+TASK = "document.querySelector('#screen .task')?.textContent"
+CARD = "[data-station={}] {}"
+
+
+def submit(reference, sku, quantity):
+    wanted = {"reference": reference, "lines": [{"sku": sku, "quantity": quantity}]}
+    status, answer = ask("/orders", wanted)
+    assert status == 201, answer
+    return answer["order_id"]
+
+
+def pieces(sku):
+    """On each storage unit that holds some, by its number."""
+    out = {}
+    for place in ask(f"/stock?sku={sku}")[1]["places"]:
+        out[place["shelf_id"]] = out.get(place["shelf_id"], 0) + place["quantity"]
+    return out
+
+
+def station(name):
+    return {one["name"]: one for one in ask("/stations")[1]["stations"]}[name]
+
+
+class WorkPageTest(PageTest):
+    path, ready = "operations", "page.kpis && document.querySelectorAll('.station').length === 3"
+
+    def setUp(self):
+        self.page.read("(location.hash = '')")  # no station's screen
+
+    def click(self, selector):
+        """In one go: an element may have been drawn again between search and click."""
+        element = f"document.querySelector({json.dumps(selector)})"
+        self.page.until(f"{element}?.checkVisibility() && !{element}.disabled")
+        self.page.read(f"{element}.click()")
+
+    def press(self, name, button):
+        """A button of a station's card: 1 opens or closes it, 2 is for by hand or by itself."""
+        self.click(CARD.format(name, f"button:nth-of-type({button})"))
+
+    def wait_for(self, expression):
+        """Until something comes true that robots do."""
+        wait_until(lambda: self.page.read(f"page && ({expression})"), expression, LONG)

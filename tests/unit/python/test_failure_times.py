@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gaps between failures and times of repair have the distributions that doc/realism.md says."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from kiva_plugin_cpp import EventKind, World
+
+ROBOTS, SECONDS, REPAIR = 40, 8000, 0.2
+GAP = 1.0  # mean of the fleet's [s]; a robot seldom has the same failure twice at a time
+
+
+@pytest.fixture(scope="module")
+def told():
+    """All events of a fleet that stands, while things break and are mended."""
+    failures = {"per_robot_hour": 3600 / GAP / ROBOTS, "repair_time": REPAIR}
+    world = World(seed=5, realism={"failures": failures})
+    for i in range(ROBOTS):
+        world.spawn_model("kiva", f"kiva{i + 1}", 2 * (i % 8), 2 * (i // 8))
+    begin, found = world.time, []
+    while world.time < begin + SECONDS:
+        world.step(1000)
+        found.append(world.events().copy())
+    return np.concatenate(found), begin
+
+
+def test_gaps_are_exponential_in_hours_of_all_robots(told):
+    events, begin = told
+    stamps = events["time"][events["kind"] == EventKind.FAILED]
+    gaps = np.diff(stamps, prepend=begin)
+    assert stats.kstest(gaps, "expon", args=(0, GAP)).pvalue > 0.01
+    assert gaps.mean() == pytest.approx(GAP, rel=3 / np.sqrt(len(gaps)))
+
+
+def test_repairs_take_exponential_times(told):
+    events, _ = told
+    since, took = {}, []
+    for event in events:
+        if event["kind"] == EventKind.FAILED:
+            since[event["model"]] = event["time"]
+        elif event["kind"] == EventKind.REPAIRED and event["model"] in since:
+            took.append(event["time"] - since.pop(event["model"]))
+    # Those that are not over at the end are left out: a handful of REPAIR in SECONDS.
+    assert stats.kstest(took, "expon", args=(0, REPAIR)).pvalue > 0.01
+    assert np.mean(took) == pytest.approx(REPAIR, rel=3 / np.sqrt(len(took)))

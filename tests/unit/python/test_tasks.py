@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a person reports of a pick is done to that pick, once; a write-off can be taken back."""
+
+import pytest
+from operations_site import site
+
+from warehouse_fleet.operations import Operations, check
+from warehouse_fleet.operations.database import open_engine
+from warehouse_fleet.operations.orders import OrderState
+from warehouse_fleet.operations.stations import Mode
+from warehouse_fleet.operations.tasks import UNDO_WITHIN, Outcome, Report
+
+PICK, REPLENISH = "pick1", "replenish3"
+
+
+def by_hand(database=None, least=1):
+    """(Operations, WorkStation) with a unit that has `least` things or more to be picked."""
+    ops = Operations(site=site(), physics=False, database=database, orders="fill:30")
+    ops.shift.set_station(PICK, True, Mode.MANUAL)
+    ops.shift.set_station("pick2", False, Mode.AUTOMATIC)
+    ops.run(minutes=10)
+    station = ops.shift.station(PICK)
+    while len(station.here.picks) < least:
+        ops.shift.tasks.report(report_of(station.here.picks[0]))
+        ops.run(minutes=2)
+    return ops, station
+
+
+def report_of(pick, quantity=None, outcome=Outcome.DONE):
+    order = pick.line.order
+    quantity = pick.quantity if quantity is None else quantity
+    return Report(PICK, order.order_id, pick.bin.item, pick.sequence, quantity, outcome)
+
+
+def promised(ops):
+    lines = [line for order in ops.shift.orders.values() for line in order.lines]
+    bins = ops.shift.inventory.bins.values()
+    return sum(one.reserved for one in bins), sum(line.allotted for line in lines)
+
+
+def test_a_report_that_comes_twice_is_carried_out_once():
+    ops, station = by_hand(least=2)
+    first, second = list(station.here.picks)[:2]
+    report = report_of(first)
+    for _ in range(3):
+        answer = ops.shift.tasks.report(report)
+        assert (answer.success, answer.quantity) == (True, report.quantity)
+    assert station.pieces == report.quantity and second in station.here.picks
+    # The same pick with another outcome is no repetition.
+    other = Report(*list(vars(report).values())[:-1], Outcome.DAMAGED)
+    assert ops.shift.tasks.report(other).message == "that was reported as DONE already"
+
+
+def test_what_is_no_longer_shown_is_refused_and_what_is_asked_for_named():
+    ops, station = by_hand(least=2)
+    first, second = list(station.here.picks)[:2]
+    stale = report_of(first)
+    assert ops.shift.cancel_order(first.line.order.order_id)[0]
+    before = station.pieces
+    answer = ops.shift.tasks.report(stale)
+    assert not answer.success and station.pieces == before
+    assert answer.message.startswith("that is no longer asked for; pick1 asks for")
+    pick = station.here.picks[0]
+    assert f"{pick.quantity} of {pick.line.sku} in {pick.bin.item} for" in answer.message
+    # Nor is one taken for another: each part of its name counts.
+    order, item, sequence = pick.line.order.order_id, pick.bin.item, pick.sequence
+    for name in ((order + 1, item, sequence), (order, "item0", sequence), (order, item, 10**9)):
+        assert not ops.shift.tasks.report(Report(PICK, *name, 1, Outcome.DONE)).success
+    assert station.pieces == before
+    for name, text in (("pick2", "pick2 works by itself"), ("x", "there is no station 'x'")):
+        report = Report(name, order, item, sequence, 1, Outcome.DONE)
+        assert ops.shift.tasks.report(report).message == text
+
+
+def test_what_is_left_of_a_pick_is_another_one():
+    ops, station = by_hand()
+    while station.here.picks[0].quantity < 2:
+        ops.shift.tasks.report(report_of(station.here.picks[0]))
+        while not (station.here and station.here.picks):
+            ops.run(minutes=1)
+    pick = station.here.picks[0]
+    report = report_of(pick, quantity=1)
+    before, left = station.pieces, pick.quantity - 1
+    for _ in range(2):  # a double tap
+        assert ops.shift.tasks.report(report).success
+    assert (station.pieces, pick.quantity) == (before + 1, left)
+    assert pick.sequence != report.sequence
+
+
+@pytest.mark.parametrize("outcome", [Outcome.SHORT, Outcome.DAMAGED])
+def test_a_write_off_is_taken_back_by_a_move_of_its_own(tmp_path, outcome):
+    ops, station = by_hand(tmp_path / "run.db", least=2)
+    pick = station.here.picks[0]
+    one, order, stock = pick.bin, pick.line.order, pick.bin.quantity
+    report = report_of(pick, 0 if outcome == Outcome.SHORT else 1, outcome)
+    answer = ops.shift.tasks.report(report)
+    lacking = stock if outcome == Outcome.SHORT else 1
+    assert (answer.success, answer.quantity) == (True, lacking), answer
+    assert one.quantity == stock - lacking
+    for _ in range(2):
+        assert ops.shift.tasks.undo(PICK, report.sequence) == (True, "")
+        assert one.quantity == stock and promised(ops)[0] == promised(ops)[1]
+    again = station.here.picks[0]
+    assert (again.bin, again.line.order) == (one, order)  # it is asked for again, the next thing
+    assert again.sequence != report.sequence
+    assert ops.shift.tasks.undo(PICK, again.sequence)[0] is False
+    assert ops.shift.tasks.undo("pick2", report.sequence)[0] is False
+    ops.shift.set_station(PICK, True, Mode.AUTOMATIC)
+    ops.run(hours=1)
+    assert order.state == OrderState.COMPLETED
+    ops.close()
+    engine = open_engine(tmp_path / "run.db")
+    assert check.faults(engine) == []
+    with engine.connect() as connection:
+        rows = connection.exec_driver_sql(
+            "SELECT reason, quantity FROM move WHERE reason IN ('short', 'damaged', 'undone')"
+        )
+        assert sorted(map(tuple, rows)) == sorted(
+            [(outcome.name.lower(), -lacking), ("undone", lacking)]
+        )
+
+
+def test_a_write_off_is_for_good_after_a_while_and_where_the_place_is_taken():
+    ops, station = by_hand(least=2)
+    pick = station.here.picks[0]
+    report = report_of(pick, 1, Outcome.DAMAGED)
+    assert ops.shift.tasks.report(report).success
+    one, stock = pick.bin, pick.bin.quantity
+    one.capacity = stock
+    refused, text = ops.shift.tasks.undo(PICK, report.sequence)
+    assert not refused and text == f"{one.item} has no room for 1 of {one.sku} any more"
+    one.capacity += 1
+    ops.run(minutes=(UNDO_WITHIN + 1) / 60)
+    refused, text = ops.shift.tasks.undo(PICK, report.sequence)
+    assert not refused and text == "it was written off more than 60 s ago"
+    assert one.quantity == stock
+
+
+def test_of_a_bundle_what_stays_out_can_go_in_after_all():
+    ops = Operations(site=site(), physics=False, orders="none")
+    ops.shift.set_station(REPLENISH, True, Mode.MANUAL)
+    ops.run(minutes=10)
+    station, tasks = ops.shift.station(REPLENISH), ops.shift.tasks
+    bundle = station.here.puts[0]
+    quantity, stock = bundle.quantity, bundle.bin.quantity
+
+    def report(pieces, outcome):
+        named = REPLENISH, 0, bundle.bin.item, bundle.sequence
+        return Report(*named, pieces, outcome)
+
+    assert not tasks.report(report(quantity + 1, Outcome.DONE)).success
+    lost = report(1, Outcome.DAMAGED)
+    assert tasks.report(lost).success and bundle.quantity == quantity - 1
+    assert tasks.undo(REPLENISH, lost.sequence) == (True, "") and bundle.quantity == quantity
+    done = report(quantity, Outcome.DONE)
+    for _ in range(2):
+        assert tasks.report(done).success
+    assert bundle.bin.quantity == stock + quantity and station.pieces == quantity
+
+
+def test_a_station_tells_for_how_long_it_waits_for_a_person():
+    ops, station = by_hand()
+    shift = ops.shift
+    assert station.waiting(shift.now) > 0
+    shift.tasks.report(report_of(station.here.picks[0]))
+    assert station.waiting(shift.now) == 0
+    while not (station.here and station.here.picks):
+        ops.run(minutes=1)
+    before = station.waiting(shift.now)
+    ops.run(minutes=20)
+    assert station.waiting(shift.now) == pytest.approx(before + 1200)
+    shift.set_station(PICK, True, Mode.AUTOMATIC)
+    assert station.waiting(shift.now) == 0
