@@ -19,31 +19,13 @@
 #include "core/state.h"
 #include "kiva_plugin_cpp/command.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "python/arrays.h"
+#include "python/rware.h"
 
 namespace py = pybind11;
 
 namespace learning::python {
 namespace {
-
-template <typename T>
-using Array = py::array_t<T, py::array::c_style>;
-
-std::string text(const py::object& value) { return py::str(value); }
-
-/// Nothing is converted: another type or shape is a ValueError that names the argument.
-template <typename T>
-Array<T> checked(const char* name, const py::object& given, std::vector<py::ssize_t> shape) {
-  bool fits = py::isinstance<Array<T>>(given);
-  if (fits) {
-    const auto array = py::reinterpret_borrow<py::array>(given);
-    fits = std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim()) == shape;
-  }
-  if (!fits) {
-    throw py::value_error(std::string(name) + ": expected an array of " + text(py::dtype::of<T>()) +
-                          ", contiguous, of shape " + text(py::tuple(py::cast(shape))));
-  }
-  return py::reinterpret_borrow<Array<T>>(given);
-}
 
 /// IndexError unless low <= value < high.
 int within(const char* name, py::ssize_t value, py::ssize_t low, py::ssize_t high) {
@@ -393,4 +375,5 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "The task that robots learn, as the rules say; physics is kiva_plugin_cpp's.";
   learning::python::defineFloor(m);
   learning::python::defineTask(m);
+  learning::python::defineRware(m);
 }

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Agent steps a second of RWARE as built in, beside the package itself, in turns of a second:
+scripts/learning_packages; . devel/setup.bash; .venv/bin/python bench/rware_bench.py
+
+    [--worlds 64] [--seconds 5] [TASK ...]
+
+A TASK is one that rware registers, without rware- and -v2. Both get the same random actions, drawn
+before the clock starts. By CPU tells how many times the steps of one core are.
+"""
+
+import argparse
+import itertools
+import os
+
+import gymnasium
+import numpy as np
+import rware  # noqa: F401: registers its tasks
+from learning_bench import Runner
+
+import warehouse_learning.rware
+
+TASKS = ("tiny-2ag", "tiny-4ag", "small-4ag", "medium-10ag")
+DRAWN = 4096  # steps, again and again
+
+
+def alone(name):
+    """A Runner of one environment, which begins again when it ends."""
+    env = gymnasium.make(name, disable_env_checker=True).unwrapped
+    env.reset(seed=1)
+    actions = itertools.cycle(drawn(env.n_agents).tolist())
+
+    def step():
+        if env.step(next(actions))[2]:
+            env.reset()
+
+    return Runner(step, env.n_agents)
+
+
+def many(name, worlds, threads):
+    """A Runner of the vector environment."""
+    envs = gymnasium.make_vec(name, num_envs=worlds, threads=threads)
+    envs.reset(seed=1)
+    agents = envs.single_action_space.shape[0]
+    actions = itertools.cycle(drawn(worlds, agents, steps=64))
+    return Runner(lambda: envs.step(next(actions)), worlds * agents)
+
+
+def drawn(*shape, steps=DRAWN):
+    return np.random.default_rng(1).integers(0, 5, (steps, *shape), np.int8)
+
+
+def main():
+    parser = argparse.ArgumentParser("rware_bench", description=__doc__)
+    parser.add_argument("tasks", nargs="*", default=TASKS, metavar="TASK")
+    parser.add_argument("--worlds", type=int, default=64)
+    parser.add_argument("--seconds", type=int, default=5, help="of each case")
+    wanted = parser.parse_args()
+    print(f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores")
+    for task in wanted.tasks:
+        ours = f"kiva-rware-{task}-v2"
+        runners = {
+            "the package": alone(f"rware-{task}-v2"),
+            "alone": alone(ours),
+            f"{wanted.worlds} on one thread": many(ours, wanted.worlds, 1),
+            f"{wanted.worlds} on all": many(ours, wanted.worlds, 0),
+        }
+        for _ in range(wanted.seconds):
+            for runner in runners.values():
+                runner.run(1.0)
+        wall, cpu = next(iter(runners.values())).rates
+        for name, runner in runners.items():
+            rates = runner.rates
+            text = f"{task}, {name}: {rates[0]:,.0f} agent steps/s, {rates[0] / wall:.0f} x"
+            print(f"{text}; by CPU {rates[1] / cpu:.0f} x", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""RWARE as a Gymnasium environment of all agents."""
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+
+from warehouse_learning.rware.observations import Observer
+from warehouse_learning.rware.picture import picture
+from warehouse_learning.rware.spaces import of_actions, of_observations
+from warehouse_learning.rware.task import Task, seed_of
+
+RENDERING = {"render_modes": ["rgb_array"], "render_fps": 10}
+ALL = np.ones(1, bool)
+
+
+class Warehouse(gymnasium.Env):
+    """RWARE's Warehouse: same arguments, spaces and results (see Task), many times as fast.
+
+    Observations are a tuple of one an agent, rewards a list, `terminated` says that the episode is
+    over, infos are empty, all as RWARE has it. render_mode may be "rgb_array".
+    """
+
+    metadata = RENDERING
+
+    def __init__(self, *arguments, render_mode=None, **options):
+        self.task = Task(*arguments, **options)
+        self.render_mode = render_mode
+        self._warehouses = self.task.warehouses(1)
+        self._observer = Observer(self.task, self._warehouses, 1)
+        agents = self.task.n_agents
+        self.observation_space = spaces.Tuple(agents * (of_observations(self.task),))
+        self.action_space = spaces.Tuple(agents * (of_actions(self.task),))
+        self._rewards = np.zeros((1, agents))
+        self._no_rewards = list(self._rewards[0])
+        self._is_seeded = self._has_begun = False
+
+    @property
+    def n_agents(self):
+        """How many agents there are."""
+        return self.task.n_agents
+
+    def reset(self, *, seed=None, options=None):
+        """Begins an episode. Without a seed the random stream goes on, as RWARE's does."""
+        super().reset(seed=seed)
+        if seed is not None or not self._is_seeded:
+            self._warehouses.seed(0, *seed_of(seed))
+        self._is_seeded = self._has_begun = True
+        self._warehouses.reset(ALL)
+        return self._observer.of_first(), {}
+
+    def step(self, actions):
+        """actions: an Action an agent, or with messages [Action, bit, …] an agent.
+
+        Raises ValueError for what is no action, or not one an agent.
+        """
+        if not self._has_begun:
+            raise gymnasium.error.ResetNeeded("reset() begins the first episode")
+        if self.task.msg_bits:
+            ends, is_paid = self._step_with_messages(np.asarray(actions)), True
+        else:
+            ends, is_paid = self._warehouses.step_one(actions, self._rewards)
+        rewards = list(self._rewards[0]) if is_paid else self._no_rewards.copy()
+        return self._observer.of_first(), rewards, ends, False, {}
+
+    def _step_with_messages(self, actions):
+        expected = self.task.n_agents, 1 + self.task.msg_bits
+        if actions.shape != expected:
+            raise ValueError(f"actions: shape {expected} was expected, not {actions.shape}")
+        messages = np.ascontiguousarray(actions[None, :, 1:], np.float32)
+        chosen = np.ascontiguousarray(actions[None, :, 0], np.int8)
+        ends = np.empty(1, bool)
+        self._warehouses.step(ALL, chosen, messages, self._rewards, ends)
+        return bool(ends[0])
+
+    def render(self):
+        """(height, width, 3) uint8, with render_mode "rgb_array"; None without."""
+        if self.render_mode != "rgb_array" or not self._has_begun:
+            return None
+        return picture(self.task, self._warehouses, 0)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The floors of RWARE: by the numbers of shelf rows and columns, or drawn as text."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+AISLE = 3  # a column of shelves is two cells wide, with a highway beside it
+
+
+@dataclass(frozen=True)
+class Layout:
+    """highways: (height, width) uint8, 1 = a highway, 0 = a storage place; goals: (x, y) of each,
+    in the order in which deliveries are counted; column_height: None for a drawn floor."""
+
+    highways: np.ndarray
+    goals: list
+    column_height: int | None = None
+
+    @property
+    def grid_size(self):
+        """(height, width) in cells."""
+        return self.highways.shape
+
+
+def of_parameters(shelf_columns, shelf_rows, column_height):
+    """Returns the Layout with blocks of 2 x `column_height` shelves and two goals at the bottom.
+
+    Raises ValueError if the numbers make no floor.
+    """
+    if shelf_columns % 2 != 1:
+        raise ValueError(f"shelf_columns is {shelf_columns}; an odd number was expected")
+    if min(shelf_columns, shelf_rows, column_height) < 1:
+        raise ValueError("shelf_columns, shelf_rows and column_height: 1 or more was expected")
+    height, width = (column_height + 1) * shelf_rows + 2, AISLE * shelf_columns + 1
+    y, x = np.indices((height, width))
+    middle = (x == width // 2 - 1) | (x == width // 2)
+    queue = middle & (y > height - (column_height + 3))
+    highways = (x % AISLE == 0) | (y % (column_height + 1) == 0) | (y == height - 1) | queue
+    goals = [(width // 2 - 1, height - 1), (width // 2, height - 1)]
+    return Layout(highways.astype(np.uint8), goals, column_height)
+
+
+def of_text(text):
+    """Returns the Layout that a text draws: a line a row, x = a shelf, g = a goal, . = a highway.
+
+    Raises ValueError that names line and column.
+    """
+    lines = text.strip().replace(" ", "").split("\n")
+    highways = np.zeros((len(lines), len(lines[0])), np.uint8)
+    goals = []
+    for y, line in enumerate(lines):
+        if len(line) != len(lines[0]):
+            raise ValueError(
+                f"layout: line {y + 1} has {len(line)} cells; {len(lines[0])} were expected"
+            )
+        for x, cell in enumerate(line.lower()):
+            if cell not in "gx.":
+                raise ValueError(f"layout: line {y + 1}, cell {x + 1} is {cell!r}; x, g or . fits")
+            highways[y, x] = cell != "x"
+            if cell == "g":
+                goals.append((x, y))
+    if not goals:
+        raise ValueError("layout: no goal (g) is drawn; one at least was expected")
+    return Layout(highways, goals)

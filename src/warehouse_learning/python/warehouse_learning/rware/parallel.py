@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""RWARE for PettingZoo: each robot an agent."""
+
+from pettingzoo import ParallelEnv
+
+from warehouse_learning.rware.env import RENDERING, Warehouse
+
+
+class RwareParallelEnv(ParallelEnv):
+    """A Warehouse whose agents are "agent_0", "agent_1", …; options as of it."""
+
+    metadata = {**RENDERING, "name": "kiva_rware_v2", "is_parallelizable": True}
+
+    def __init__(self, render_mode=None, **options):
+        self._env = Warehouse(render_mode=render_mode, **options)
+        self.render_mode = render_mode
+        self.possible_agents = [f"agent_{i}" for i in range(self._env.n_agents)]
+        self.agents = []
+        self.observation_spaces = self._each(self._env.observation_space)
+        self.action_spaces = self._each(self._env.action_space)
+
+    def observation_space(self, agent):
+        """What an agent observes."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent):
+        """What an agent may do."""
+        return self.action_spaces[agent]
+
+    def reset(self, seed=None, options=None):
+        """Begins an episode; see Warehouse.reset."""
+        observations, _ = self._env.reset(seed=seed, options=options)
+        self.agents = list(self.possible_agents)
+        return self._each(observations), {agent: {} for agent in self.agents}
+
+    def step(self, actions):
+        """actions: one an agent, by name."""
+        chosen = [actions[agent] for agent in self.possible_agents]
+        observations, rewards, ends, _, _ = self._env.step(chosen)
+        agents = self.agents
+        if ends:
+            self.agents = []
+        return (
+            self._each(observations),
+            self._each(map(float, rewards)),
+            dict.fromkeys(agents, ends),
+            dict.fromkeys(agents, False),
+            {agent: {} for agent in agents},
+        )
+
+    def render(self):
+        """As Warehouse.render."""
+        return self._env.render()
+
+    def close(self):
+        """Ends nothing: there is no window."""
+
+    def _each(self, values):
+        return dict(zip(self.possible_agents, values))

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which robots move when several want into one cell, or each into another's.
+#pragma once
+
+#include <vector>
+
+#include "rware/layout.h"
+
+namespace rware {
+
+/// What each robot wants: cells, `to` equal to `from` if it stays.
+struct Wish {
+  int from, to;
+};
+
+/// Settles a step as RWARE does. Wishes are edges between cells, and every connected part of that
+/// graph has at most one ring. Where there is none, the longest chain of robots moves; a ring of
+/// three or more turns, all else in that part waits; two robots that face each other wait, with
+/// all behind them.
+class Arbiter {
+ public:
+  explicit Arbiter(const Layout& layout) : layout_(layout) {}
+  /// robot_at: by cell, the robot that stands there, or -1. Returns, by robot, whether its wish
+  /// comes true.
+  const std::vector<char>& settle(const std::vector<Wish>& wishes,
+                                  const std::vector<int>& robot_at);
+
+ private:
+  void link(const std::vector<int>& robot_at);
+  void commitRings();
+  void measureChains();
+  void commitChains();
+  void commitChain(int head);
+  int longest(const std::vector<int>& robots);
+  std::vector<int> orderAround(int robot) const;
+
+  const Layout& layout_;
+  const std::vector<Wish>* wishes_ = nullptr;
+  // By robot: the robot in the cell that it wants, itself if it stays, -1 if that is empty; those
+  // that want its cell; how many robots the longest chain has that ends with it.
+  std::vector<int> ahead_, length_;
+  std::vector<std::vector<int>> behind_;
+  std::vector<char> committed_, seen_;
+};
+
+}  // namespace rware

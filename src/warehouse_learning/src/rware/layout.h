@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The floor of RWARE: which cells are highways, storage places and goals.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace rware {
+
+/// Cells are numbered row by row; row 0 is at the top. x is the column, y the row.
+struct Layout {
+  /// highway: height * width, 1 = a highway, where nothing is stored; goals: cells, in the order in
+  /// which deliveries are looked for. Throws std::invalid_argument if one lies outside.
+  Layout(int height, int width, std::vector<std::uint8_t> highway, std::vector<int> goals);
+
+  int size() const { return height * width; }
+  int x(int cell) const { return cell % width; }
+  int y(int cell) const { return cell / width; }
+
+  int height, width;
+  std::vector<std::uint8_t> highway;
+  std::vector<int> goals;
+  std::vector<int> storage;           ///< Where a shelf stands at first.
+  std::vector<std::uint64_t> hashes;  ///< Of each cell's (x, y), as Python has it.
+};
+
+}  // namespace rware
