@@ -15,11 +15,12 @@ import os
 
 import gymnasium
 import numpy as np
-import rware  # noqa: F401: registers its tasks
+import rware
 from learning_bench import Runner
 
 import warehouse_learning.rware
 
+REGISTERED = rware, warehouse_learning.rware  # importing them does that
 TASKS = ("tiny-2ag", "tiny-4ag", "small-4ag", "medium-10ag")
 DRAWN = 4096  # steps, again and again
 
