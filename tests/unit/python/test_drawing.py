@@ -35,10 +35,13 @@ def shows(picture, colour):
 
 
 def test_robots_have_the_colour_of_their_status():
-    idle, busy, blocked = markers.STATUS_COLOURS
+    idle, _, blocked, holding = markers.STATUS_COLOURS
     assert shows(pixels(moment()), idle) > shows(pixels(moment()), blocked)
     stuck = pixels(moment(fleet=fleet(ended=(Event.BLOCKED, Event.BLOCKED))))
     assert shows(stuck, blocked) > shows(pixels(moment()), blocked) + 100
+    loaded = fleet()
+    loaded.shelf_id = [1] * len(loaded.kiva_id)
+    assert shows(pixels(moment(fleet=loaded)), holding) > shows(pixels(moment()), holding) + 100
 
 
 def test_a_robot_is_drawn_where_it_stands():

@@ -12,11 +12,11 @@ from matplotlib.patches import Patch
 from warehouse_fleet import floor_markings
 from warehouse_msgs.msg import KivaStatus
 from warehouse_sim import looks, markers, painted, poses, tracking
-from warehouse_sim.statuses import shown_status
+from warehouse_sim.statuses import HOLDING, activity
 
 UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour of what nobody described
 STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
-STATUS |= {"blocked": KivaStatus.STATUS_BLOCKED}
+STATUS |= {"holding": HOLDING, "blocked": KivaStatus.STATUS_BLOCKED}
 LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]
 HEAD = 0.4  # room for the title [inches]
 FLAT, ROOM = 0.03, 9.0  # [m] above zero and [m2]: what is flatter and larger is floor
@@ -85,13 +85,13 @@ class Drawing:
         self._axes.add_collection(LineCollection(lines, colors=[markers.GRID], linewidths=0.5))
 
     def _heading(self, moment):
-        counts = np.bincount(shown_status(moment.fleet), minlength=3)
+        counts = np.bincount(activity(moment.fleet), minlength=4)
         colours = {name: markers.STATUS_COLOURS[number] for name, number in STATUS.items()}
         keys = [
             Patch(color=c, label=f"{name} {counts[STATUS[name]]}") for name, c in colours.items()
         ]
         self.figure.legends.clear()
-        self.figure.legend(handles=keys, loc="upper right", ncol=3, frameon=False)
+        self.figure.legend(handles=keys, loc="upper right", ncol=4, frameon=False)
         text = f"{self._title}  {moment.fleet.stamp.to_sec():.1f} s".strip()
         self._axes.set_title(text, loc="left", fontsize=12)
 
@@ -113,7 +113,7 @@ def _look(moment, kind):
 def _robots(axes, moment):
     fleet = moment.fleet
     at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
-    colours = markers.STATUS_COLOURS[shown_status(moment.fleet)]
+    colours = markers.STATUS_COLOURS[activity(moment.fleet)]
     size, _ = _look(moment, "kiva")
     body = _placed(_rectangle(size), at, yaw)
     axes.add_collection(

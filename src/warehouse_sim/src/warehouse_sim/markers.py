@@ -7,12 +7,14 @@ from warehouse_fleet import floor_markings
 from warehouse_msgs.msg import KivaStatus, Look
 from warehouse_sim import looks, poses, shapes
 from warehouse_sim.painted import served
+from warehouse_sim.statuses import HOLDING
 
-# Idle, busy, blocked: from the palette of Okabe and Ito (2008), told apart by everyone.
-STATUS_COLOURS = np.zeros((3, 4))
+# Idle, busy, blocked, holding: from the palette of Okabe and Ito (2008), told apart by everyone.
+STATUS_COLOURS = np.zeros((4, 4))
 STATUS_COLOURS[KivaStatus.STATUS_IDLE] = (0.00, 0.45, 0.70, 1)
 STATUS_COLOURS[KivaStatus.STATUS_BUSY] = (0.94, 0.89, 0.26, 1)
 STATUS_COLOURS[KivaStatus.STATUS_BLOCKED] = (0.84, 0.37, 0.00, 1)
+STATUS_COLOURS[HOLDING] = (0.34, 0.71, 0.91, 1)
 
 FLOOR = (0.82, 0.83, 0.84, 1)
 GRID = (0.70, 0.71, 0.73, 1)

@@ -18,7 +18,7 @@ from warehouse_sim.chosen import Chosen
 from warehouse_sim.latest import LatestMessages, LazyPublisher
 from warehouse_sim.paths import PathTopics, ways
 from warehouse_sim.shapes import ShapeArray
-from warehouse_sim.statuses import shown_status
+from warehouse_sim.statuses import activity
 
 
 def fleet_shapes(scenery, fleet, heights, chosen):
@@ -29,7 +29,7 @@ def fleet_shapes(scenery, fleet, heights, chosen):
     """
     at = np.column_stack([fleet.x, fleet.y, fleet.yaw]).reshape(-1, 3)
     numbers = list(map(int, fleet.kiva_id))
-    status = shown_status(fleet)
+    status = activity(fleet)
     look = looks.named(scenery, "kiva")
     trouble = {n for n, s in zip(numbers, status) if s == KivaStatus.STATUS_BLOCKED}
     lift = np.array([heights.get(n, 0.0) for n in numbers])
