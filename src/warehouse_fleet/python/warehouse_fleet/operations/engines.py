@@ -82,9 +82,9 @@ def path_of(engine):
 
 
 def reason(error):
-    """Why, without what SQLAlchemy adds to it."""
-    text = str(getattr(error, "orig", None) or getattr(error, "strerror", None) or error).strip()
-    return text or type(error).__name__
+    """Why, in one line and without what SQLAlchemy adds to it."""
+    text = str(getattr(error, "orig", None) or getattr(error, "strerror", None) or error)
+    return " ".join(text.split()) or type(error).__name__
 
 
 def _sqlite(connection, _record):
