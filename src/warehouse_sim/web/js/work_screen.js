@@ -35,14 +35,20 @@ export class WorkScreen {
   take(stations) {
     if (!this.name) return;
     this.station = stations.find(({ name }) => name === this.name);
-    const { mode, shelf_id: unit, picks = [], inbound, open } = this.station ?? {};
-    const key = JSON.stringify([mode, unit, picks, inbound?.length > 0, open]);
-    if (this.shown === key) return; // a finger may be on its way to a button
-    this.shown = key;
+    const { mode, picks = [] } = this.station ?? {};
+    if (this.shown === this.keyOf(this.station ?? {})) return; // a finger may be on its way to a button
+    this.isSure = false;
+    this.shown = this.keyOf(this.station ?? {});
     if (!this.station) this.say(`there is no station ${this.name}`);
     else if (mode !== 'MANUAL') this.say(`${this.name} works by itself.`, this.byHand('Work by hand', 'MANUAL'));
     else if (!picks.length) this.say(this.waitsFor(), this.byHand('Let it work by itself', 'AUTOMATIC'));
     else this.ask(picks);
+  }
+
+  /** All that is drawn of a station; how many picks follow does not matter while a question is asked of the first. */
+  keyOf({ mode, shelf_id: unit, picks: [first, ...rest] = [], inbound, open }) {
+    const more = first ? this.isSure || rest.length : inbound?.length > 0;
+    return JSON.stringify([mode, unit, open, first, more]);
   }
 
   waitsFor() {
@@ -126,6 +132,8 @@ export class WorkScreen {
     buttons.replaceChildren(make('p', { className: 'sure-text', textContent: `${why}: ${verb.toLowerCase()} ${what}?` }),
       this.button('back', 'Back', () => this.redraw()),
       this.button('sure', `${verb} ${what}`, () => this.report(pick, outcome, isEmpty ? 0 : pieces)));
+    this.isSure = true;
+    this.shown = this.keyOf(this.station);
     this.settle();
   }
 
