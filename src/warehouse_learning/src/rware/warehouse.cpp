@@ -84,7 +84,7 @@ Wish Warehouse::wish(const Agent& agent, int action) const {
   if (action != kForward) return {agent.cell, agent.cell};
   const int target = ahead(agent);
   const int other = agent_at_[target];
-  // A loaded agent can't enter where a shelf stands that nobody carries away.
+  // Cancels a loaded agent's move into a cell whose shelf stands on the floor.
   const bool stands = shelf_at_[target] >= 0 && !(other >= 0 && agents_[other].shelf >= 0);
   return {agent.cell, agent.shelf >= 0 && stands ? agent.cell : target};
 }

@@ -28,6 +28,17 @@ def _views(kinds):
             yield f"{name}-Nd", {"observation_type": kind, "image_observation_directional": False}
 
 
+def _sizes(rows, columns, height, agents, requests, cells):
+    return {
+        "shelf_rows": rows,
+        "shelf_columns": columns,
+        "column_height": height,
+        "n_agents": agents,
+        "request_queue_size": requests,
+        "sensor_range": cells,
+    }
+
+
 def _sized(views, ranges, heights):
     agents = range(1, MOST_AGENTS + 1)
     for size, diff, (view, seen), (sight, cells), (tall, height), n in product(
@@ -35,18 +46,8 @@ def _sized(views, ranges, heights):
     ):
         rows, columns = SIZES[size]
         name = f"rware{view}{sight}-{size}{tall}-{n}ag{diff}-v2"
-        yield (
-            name,
-            seen
-            | {
-                "shelf_rows": rows,
-                "shelf_columns": columns,
-                "column_height": height,
-                "n_agents": n,
-                "request_queue_size": int(n * REQUESTS_PER_AGENT[diff]),
-                "sensor_range": cells,
-            },
-        )
+        requests = int(n * REQUESTS_PER_AGENT[diff])
+        yield name, seen | _sizes(rows, columns, height, n, requests, cells)
 
 
 def plain():
@@ -68,19 +69,8 @@ def full():
         range(1, 5), range(3, 10, 2), range(1, 16), agents, agents, REWARDS, views, RANGES
     ):
         name = f"rware{view}{sight}-{rows}x{columns}-{height}h-{n}ag-{requests}req-{reward}-v2"
-        yield (
-            name,
-            seen
-            | {
-                "shelf_rows": rows,
-                "shelf_columns": columns,
-                "column_height": height,
-                "n_agents": n,
-                "request_queue_size": requests,
-                "sensor_range": RANGES[sight],
-                "reward_type": REWARDS[reward],
-            },
-        )
+        sizes = _sizes(rows, columns, height, n, requests, RANGES[sight])
+        yield name, seen | sizes | {"reward_type": REWARDS[reward]}
 
 
 def register_all(tasks):
