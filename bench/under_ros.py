@@ -224,7 +224,7 @@ def listening(seconds):
 
 
 def unheard(seconds):
-    """The same as fast as it goes, while nobody listens to a single robot."""
+    """The same as fast as it goes, while no client subscribes to single robots."""
     with Session(size="huge", rtf=0) as session:
         session.item_topics_stand()
         return client(session, seconds, "--no-listen")
