@@ -5,21 +5,16 @@
 #pragma once
 
 #include <array>
-#include <ignition/math/Pose3.hh>
-#include <ignition/math/Vector3.hh>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "kiva_plugin_cpp/geometry.h"
 #include "kiva_plugin_cpp/parameters.h"
 #include "kiva_plugin_cpp/people.h"
 
 namespace kiva {
-
-using Pose = ignition::math::Pose3d;
-using Quaternion = ignition::math::Quaterniond;
-using Vector3 = ignition::math::Vector3d;
 
 /// Triangles; shapes of one file share them.
 struct Mesh {

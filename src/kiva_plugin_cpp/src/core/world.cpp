@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ignition/math/MassMatrix3.hh>
 #include <limits>
 #include <stdexcept>
 
@@ -38,12 +37,14 @@
 #include "core/state/path_progress.h"
 #include "core/state/poses.h"
 #include "core/state/workers.h"
+#include "kiva_plugin_cpp/principal_inertia.h"
 #include "plugins/plugin_table.h"
 
 namespace kiva {
 namespace {
 
 constexpr double kMostGravity = 1000;                 // [m/s²]
+constexpr double kSameGravity = 1e-3;                 // [m/s²]
 constexpr double kLeastStep = 1e-6;                   // [s]
 constexpr double kMostStep = 1;                       // [s]
 constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
@@ -211,7 +212,7 @@ void World::setGravity(const Vector3& gravity) {
   if (!gravity.IsFinite() || gravity.Length() > kMostGravity) {
     throw std::invalid_argument("gravity must be finite and at most 1000 m/s²");
   }
-  if (gravity == state_->gravity) return;
+  if (gravity.Equal(state_->gravity, kSameGravity)) return;
   state_->gravity = gravity;
   state_->physics.setGravity(gravity);
   letAllTip(*state_);
@@ -394,12 +395,12 @@ bool World::setLinkInertia(const std::string& model, const Link& link) {
   Model* found = state_->find(model);
   const int index = linkIndex(found, link.name);
   if (index < 0) return false;
-  const ignition::math::MassMatrix3d inertia(link.mass, link.principal_moments, Vector3::Zero);
+  const InertiaTensor inertia{link.principal_moments, Vector3::Zero};
   const bool is_usable =
       link.mass >= kLeastMass && link.mass <= kMostMass && link.principal_moments.IsFinite() &&
       link.principal_moments.Min() >= kLeastMoment && link.inertial_pose_in_link.IsFinite() &&
       link.inertial_pose_in_link.Pos().Abs().Max() <= kMostArm;
-  if (!is_usable || !inertia.IsValid()) {
+  if (!is_usable || !inertia.isPossible(link.mass)) {
     throw std::invalid_argument(
         "no body is like that; expected a mass above 0 kg, principal moments above 0 kg m², none "
         "larger than the sum of the other two, and a centre of mass near the link");

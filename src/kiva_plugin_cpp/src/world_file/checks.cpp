@@ -7,6 +7,7 @@
 
 #include "kiva_plugin_cpp/description.h"
 #include "world_file/errors.h"
+#include "world_file/from_sdformat.h"
 #include "world_file/inertia.h"
 #include "world_file/xml.h"
 
@@ -137,7 +138,7 @@ std::string faultOfJoint(const sdf::ElementPtr& joint) {
   }
   const sdf::ElementPtr axis = joint->FindElement("axis");
   const sdf::ElementPtr xyz = axis ? givenChild(axis, "xyz") : nullptr;
-  if (xyz && !(xyz->Get<Vector3>().Length() > 0)) return "expected an axis that points somewhere";
+  if (xyz && !(vectorIn(xyz).Length() > 0)) return "expected an axis that points somewhere";
   for (const char* end : {"parent", "child"}) {
     const std::string name = joint->HasElement(end) ? joint->Get<std::string>(end) : "";
     if (!isThere(joint->GetParent(), name))

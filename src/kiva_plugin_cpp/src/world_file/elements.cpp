@@ -2,6 +2,7 @@
 #include "world_file/elements.h"
 
 #include "world_file/errors.h"
+#include "world_file/from_sdformat.h"
 
 namespace kiva {
 namespace {
@@ -48,10 +49,10 @@ Parameters readParameters(const sdf::ElementPtr& element, const std::string& whe
 
 Pose resolved(const sdf::SemanticPose& pose, const sdf::ElementConstPtr& element,
               const std::string& to) {
-  Pose result;
+  ignition::math::Pose3d result;
   const sdf::Errors errors = pose.Resolve(result, to);
   if (!errors.empty()) failAt(element, errors.front().Message());
-  return result;
+  return fromSdformat(result);
 }
 
 }  // namespace kiva

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/inertia.h"
 
+#include "kiva_plugin_cpp/principal_inertia.h"
 #include "world_file/errors.h"
+#include "world_file/from_sdformat.h"
 
 namespace kiva {
 namespace {
-
-using ignition::math::MassMatrix3d;
 
 // Beyond, impulses are no finite numbers any more.
 constexpr double kMostMass = 1e9;     // [kg]
@@ -15,10 +15,10 @@ constexpr double kMostMoment = 1e12;  // [kg m²]
 bool isMass(double mass) { return mass > 0 && mass <= kMostMass; }
 
 /// A body's moments are positive, and none exceeds the sum of the other two.
-bool isPossible(const MassMatrix3d& inertia) {
-  return inertia.DiagonalMoments().IsFinite() && inertia.OffDiagonalMoments().IsFinite() &&
-         inertia.PrincipalMoments().Min() > 0 && inertia.PrincipalMoments().Max() <= kMostMoment &&
-         inertia.IsValid();
+bool isPossible(double mass, const InertiaTensor& inertia) {
+  return inertia.moments.IsFinite() && inertia.products.IsFinite() &&
+         inertia.principalMoments().Min() > 0 && inertia.principalMoments().Max() <= kMostMoment &&
+         inertia.isPossible(mass);
 }
 
 bool hasPossibleMoments(const sdf::ElementPtr& inertial) {
@@ -27,10 +27,9 @@ bool hasPossibleMoments(const sdf::ElementPtr& inertial) {
   const auto moment = [&](const char* name, double fallback) {
     return inertia->Get<double>(name, fallback).first;
   };
-  const MassMatrix3d matrix(inertial->Get<double>("mass", 1.0).first,
-                            {moment("ixx", 1), moment("iyy", 1), moment("izz", 1)},
-                            {moment("ixy", 0), moment("ixz", 0), moment("iyz", 0)});
-  return isPossible(matrix);
+  const InertiaTensor tensor{{moment("ixx", 1), moment("iyy", 1), moment("izz", 1)},
+                             {moment("ixy", 0), moment("ixz", 0), moment("iyz", 0)}};
+  return isPossible(inertial->Get<double>("mass", 1.0).first, tensor);
 }
 
 }  // namespace
@@ -55,11 +54,13 @@ void repairInertial(const sdf::ElementPtr& link, sdf::Errors* warnings) {
 }
 
 void setInertia(const ignition::math::Inertiald& inertial, Link* link) {
-  const MassMatrix3d& matrix = inertial.MassMatrix();
+  const ignition::math::MassMatrix3d& matrix = inertial.MassMatrix();
+  const InertiaTensor tensor{fromSdformat(matrix.DiagonalMoments()),
+                             fromSdformat(matrix.OffDiagonalMoments())};
   link->mass = matrix.Mass();
-  link->principal_moments = matrix.PrincipalMoments();
-  const Pose axes(Vector3::Zero, matrix.PrincipalAxesOffset());
-  link->inertial_pose_in_link = inertial.Pose() * axes;
+  link->principal_moments = tensor.principalMoments();
+  const Pose axes(Vector3::Zero, tensor.principalAxes());
+  link->inertial_pose_in_link = fromSdformat(inertial.Pose()) * axes;
 }
 
 }  // namespace kiva

@@ -5,6 +5,7 @@
 
 #include "world_file/elements.h"
 #include "world_file/errors.h"
+#include "world_file/from_sdformat.h"
 #include "world_file/links.h"
 
 namespace kiva {
@@ -63,10 +64,10 @@ void setLimits(const sdf::JointAxis& axis, Joint* joint) {
 void setAxis(const sdf::Joint& from, const Scope& scope, Joint* joint) {
   const sdf::JointAxis* axis = from.Axis(0);
   if (!axis) failAt(from.Element(), "expected an <axis>");
-  Vector3 direction;
+  ignition::math::Vector3d direction;
   const sdf::Errors errors = axis->ResolveXyz(direction, "__model__");
   if (!errors.empty()) failAt(axis->Element(), errors.front().Message());
-  joint->axis_in_model = scope.pose.Rot().RotateVector(direction).Normalized();
+  joint->axis_in_model = scope.pose.Rot().RotateVector(fromSdformat(direction)).Normalized();
   setLimits(*axis, joint);
   joint->damping = atLeastZero(axis->Element(), "damping", axis->Damping());
   joint->friction = atLeastZero(axis->Element(), "friction", axis->Friction());

@@ -7,6 +7,7 @@
 #include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/files.h"
+#include "world_file/from_sdformat.h"
 #include "world_file/model_paths.h"
 #include "world_file/models.h"
 #include "world_file/parser.h"
@@ -20,7 +21,7 @@ void readModel(const sdf::Model& model, const Origin& origin, sdf::Errors* warni
                LibraryModel* result) {
   result->name = model.Name();
   result->pose = resolved(model.SemanticPose(), model.Element());
-  result->placement = model.RawPose().Inverse() * result->pose;
+  result->placement = fromSdformat(model.RawPose()).Inverse() * result->pose;
   result->description =
       std::make_shared<const ModelDescription>(describeModel(model, origin, warnings));
 }
@@ -33,7 +34,7 @@ LibraryModel readFile(const std::string& folder, const std::string& file,
     readModel(*model, {file, model_paths}, &document.warnings, &result);
     addMeshFiles(*result.description, &document.files);
   } else if (const sdf::Light* light = document.root->Light()) {
-    result.light = describeLight(*light, light->RawPose());
+    result.light = describeLight(*light, fromSdformat(light->RawPose()));
   }
   for (const sdf::Error& warning : document.warnings) {
     result.warnings.push_back(describe(warning, file));

@@ -7,6 +7,7 @@
 
 #include "world_file/elements.h"
 #include "world_file/errors.h"
+#include "world_file/from_sdformat.h"
 
 namespace kiva {
 namespace {
@@ -52,7 +53,7 @@ Light describeLight(const sdf::Light& from, const Pose& pose) {
   light.attenuation_constant = from.ConstantAttenuationFactor();
   light.attenuation_linear = from.LinearAttenuationFactor();
   light.attenuation_quadratic = from.QuadraticAttenuationFactor();
-  light.direction = from.Direction();
+  light.direction = fromSdformat(from.Direction());
   light.cast_shadows = from.CastShadows();
   return light;
 }

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <ignition/math/Color.hh>
+#include <ignition/math/Vector2.hh>
 #include <limits>
 
 #include "world_file/checks.h"
 #include "world_file/errors.h"
 #include "world_file/extrusion.h"
+#include "world_file/from_sdformat.h"
 #include "world_file/mesh_file.h"
 #include "world_file/model_paths.h"
 
@@ -40,7 +42,7 @@ double length(const sdf::ElementPtr& parent, const std::string& name) {
 
 Vector3 lengths(const sdf::ElementPtr& parent, const std::string& name) {
   const sdf::ElementPtr element = required(parent, name);
-  const Vector3 value = element->Get<Vector3>();
+  const Vector3 value = vectorIn(element);
   for (const double part : {value.X(), value.Y(), value.Z()}) checkPositive(element, part);
   return value;
 }
@@ -53,7 +55,7 @@ std::string folderOf(const sdf::ElementPtr& element, const Origin& origin) {
 }
 
 Vector3 scaleOf(const sdf::ElementPtr& mesh) {
-  const Vector3 scale = mesh->Get<Vector3>("scale", Vector3::One).first;
+  const Vector3 scale = vectorIn(mesh, "scale", Vector3::One);
   const bool is_fit = scale.IsFinite() && scale.X() * scale.Y() * scale.Z() != 0;
   if (!is_fit) failAt(mesh->FindElement("scale"), "expected a finite scale other than 0");
   return scale;
@@ -91,8 +93,9 @@ std::vector<Vector2> pointsOf(const sdf::ElementPtr& polyline) {
   std::vector<Vector2> points;
   auto point = polyline->FindElement("point");
   for (; point; point = point->GetNextElement("point")) {
-    points.push_back(point->Get<Vector2>());
-    if (!points.back().IsFinite()) failAt(point, "expected finite numbers");
+    const auto at = point->Get<ignition::math::Vector2d>();
+    points.push_back({at.X(), at.Y()});
+    if (!at.IsFinite()) failAt(point, "expected finite numbers");
     if (points.size() > kMostPoints) failAt(polyline, "expected 2000 points at the most");
   }
   return points;
@@ -111,12 +114,12 @@ void readPolylines(const sdf::ElementPtr& first, Shape* shape) {
 }
 
 void readPlane(const sdf::ElementPtr& plane, Shape* shape) {
-  shape->normal = plane->Get<Vector3>("normal", Vector3::UnitZ).first;
+  shape->normal = vectorIn(plane, "normal", Vector3::UnitZ);
   if (!(shape->normal.Length() > 0) || !shape->normal.IsFinite()) {
     failAt(plane->FindElement("normal"), "expected a normal that points somewhere");
   }
   shape->normal.Normalize();
-  const Vector2 size = plane->Get<Vector2>("size", Vector2::One).first;
+  const auto size = plane->Get("size", ignition::math::Vector2d::One).first;
   for (const int i : {0, 1}) {
     if (plane->HasElement("size")) checkPositive(plane->FindElement("size"), size[i]);
     shape->plane_size[i] = size[i];

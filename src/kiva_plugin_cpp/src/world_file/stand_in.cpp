@@ -6,6 +6,7 @@
 #include <sdf/Visual.hh>
 
 #include "world_file/elements.h"
+#include "world_file/from_sdformat.h"
 
 namespace kiva {
 namespace {
@@ -43,8 +44,8 @@ std::vector<Collision> visualsOf(const sdf::Link& from, const std::optional<Pose
 
 /// SDF has a heightmap around its origin, and above it.
 std::vector<Collision> boxOfHeightmap(const Collision& lost, const sdf::ElementPtr& heightmap) {
-  const Vector3 size = heightmap->Get<Vector3>("size", Vector3::One).first;
-  const Vector3 at = heightmap->Get<Vector3>("pos", Vector3::Zero).first;
+  const Vector3 size = vectorIn(heightmap, "size", Vector3::One);
+  const Vector3 at = vectorIn(heightmap, "pos", Vector3::Zero);
   if (!size.IsFinite() || !at.IsFinite() || size.Min() <= 0) return {};
   Collision box = lost;
   box.shape = boxOf(size);

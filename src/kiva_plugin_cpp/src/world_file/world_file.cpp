@@ -13,6 +13,7 @@
 #include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/files.h"
+#include "world_file/from_sdformat.h"
 #include "world_file/model_library.h"
 #include "world_file/model_paths.h"
 #include "world_file/models.h"
@@ -65,7 +66,7 @@ void setGravity(const sdf::World& from, WorldDescription* world) {
   if (!(from.Gravity().Length() <= kMostGravity)) {
     failAt(from.Element()->FindElement("gravity"), "expected a gravity of 1000 m/s² at most");
   }
-  world->gravity = from.Gravity();
+  world->gravity = fromSdformat(from.Gravity());
 }
 
 void describeWorld(const sdf::World& from, const Origin& origin, WorldDescription* world,
@@ -101,7 +102,8 @@ ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
   } else if (root.Model()) {
     addModel(*root.Model(), origin, &parsed.world.models, &document.warnings);
   } else if (root.Light()) {
-    parsed.world.lights.push_back(describeLight(*root.Light(), root.Light()->RawPose()));
+    parsed.world.lights.push_back(
+        describeLight(*root.Light(), fromSdformat(root.Light()->RawPose())));
   }
   parsed.warnings = std::move(document.warnings);
   for (const ModelInstance& model : parsed.world.models) {

@@ -12,7 +12,7 @@ robots' next cells: the one it is in, or a neighbour. A robot that doesn't face 
 towards it, a quarter a tick, and does not leave its cell meanwhile. A YAML file names it:
 
     planner: my_package.my_module:Mine      # Python
-    planner: /path/to/libmine.so:Mine       # C++: a fleet::Planner, registered by ignition-plugin
+    planner: /path/to/libmine.so:Mine       # C++: a registered fleet::Planner
     planner: epibt                          # the one of the house, which is the default
     options: {depth: 5}                     # for epibt, or for the Python class
 """
