@@ -64,9 +64,13 @@ class Writer {
          << text(light.direction) << " shadows " << light.cast_shadows << '\n';
   }
 
+  /// Folders are told from the top of the project, wherever that is.
   void writeLine(const std::string& word, std::string line) {
-    for (std::size_t at; (at = line.find(kTop)) != std::string::npos;) {
-      line.replace(at, kTop.size(), "TOP");
+    const std::string above = fs::path(kTop).parent_path().string() + ",";
+    for (const auto& [folder, name] : {std::pair{kTop, "TOP"}, {above, "ABOVE,"}}) {
+      for (std::size_t at; (at = line.find(folder)) != std::string::npos;) {
+        line.replace(at, folder.size(), name);
+      }
     }
     out_ << word << ' ' << line << '\n';
   }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kiva_plugin_cpp/world_file.h"
+#include "world_file/parser.h"
+
+namespace kiva {
+
+/// Puts models in the place of the includes that name them, and adds the files that they came from.
+/// IncludeGraph has left only what leads somewhere.
+void expandIncludes(const ModelPaths& model_paths, SdfDocument* document);
+
+}  // namespace kiva
