@@ -62,11 +62,11 @@ class Charging:
 
     @property
     def _is_simulated(self):
-        return len(self._cells) and (self._traffic.charge < 1).any()
+        return len(self._cells) and (self._traffic.robots.charge < 1).any()
 
     def kept(self):
         """Which robots get no work, (n,) bool: they charge, or have to before all else."""
-        charge = self._traffic.charge
+        charge = self._traffic.robots.charge
         kept = np.zeros(len(charge), bool)
         if not self._is_simulated:
             return kept
@@ -80,16 +80,16 @@ class Charging:
             return
         traffic = self._traffic
         self._count()
-        for robot in [r for r in self.cell_of if not idle[r] or traffic.charge[r] >= FULL]:
+        for robot in [r for r in self.cell_of if not idle[r] or traffic.robots.charge[r] >= FULL]:
             del self.cell_of[robot]
-        wants = idle & ~traffic.broken & self.policy.sends(traffic.charge, is_wanted)
+        wants = idle & ~traffic.robots.broken & self.policy.sends(traffic.robots.charge, is_wanted)
         wants[list(self.cell_of)] = False
-        for robot in sorted(np.flatnonzero(wants), key=lambda r: traffic.charge[r]):
+        for robot in sorted(np.flatnonzero(wants), key=lambda r: traffic.robots.charge[r]):
             if not self._place(int(robot)):
                 break
         for robot, cell in self.cell_of.items():  # back, too, whom others pushed out
-            if traffic.goal[robot] != cell:
-                traffic.send(robot, cell)
+            if traffic.robots.goal[robot] != cell:
+                traffic.robots.send(robot, cell)
 
     def _place(self, robot):
         """Whether there was a place for it: a free one, or that of a robot which needs it less."""
@@ -97,14 +97,16 @@ class Charging:
         cells = np.setdiff1d(self._cells, [*self.cell_of.values(), *traffic.closed.tolist()])
         if not len(cells):
             others = np.array(list(self.cell_of), int)
-            done = others[self.policy.frees(traffic.charge[others])]
-            if not len(done) or traffic.charge[robot] >= self.policy.low:
+            done = others[self.policy.frees(traffic.robots.charge[others])]
+            if not len(done) or traffic.robots.charge[robot] >= self.policy.low:
                 return False
-            fullest = int(done[traffic.charge[done].argmax()])
+            fullest = int(done[traffic.robots.charge[done].argmax()])
             cells = np.array([self.cell_of.pop(fullest)])
         # Where others only wait it is to wait for them to go.
-        far = self._far(int(traffic.cell[robot]), cells) + 10 * np.isin(cells, traffic.cell)
-        far[cells == traffic.cell[robot]] = 0
+        far = self._far(int(traffic.robots.cell[robot]), cells) + 10 * np.isin(
+            cells, traffic.robots.cell
+        )
+        far[cells == traffic.robots.cell[robot]] = 0
         self.cell_of[robot] = int(cells[far.argmin()])
         return True
 
@@ -112,4 +114,4 @@ class Charging:
         traffic = self._traffic
         elapsed = 0.0 if self._time is None else traffic.time - self._time
         self._time = traffic.time
-        self.robot_s += elapsed * sum(traffic.cell[r] == c for r, c in self.cell_of.items())
+        self.robot_s += elapsed * sum(traffic.robots.cell[r] == c for r, c in self.cell_of.items())

@@ -63,7 +63,7 @@ class FailureLog:
         self._time, self._before = None, None
         self._since = {}  # by robot and kind [s]
 
-    def observe(self, time, failures):
+    def update(self, time, failures):
         """Takes in the bits that robots report at that time [s], (n,)."""
         failures = np.array(failures)
         before = self._before

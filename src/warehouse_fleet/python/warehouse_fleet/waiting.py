@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from warehouse_fleet.traffic import NOWHERE, Mode
-from warehouse_fleet.transports import Step
+from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.transport_book import Step
 
 WAITS_LONG = 10.0  # [s]
 DOES = {
@@ -23,21 +23,20 @@ class Waiting:
     works."""
 
     def __init__(self, traffic, transports, by_hand=frozenset()):
-        self._traffic, self._by_hand = traffic, by_hand
+        self._traffic, self._robots, self._by_hand = traffic, traffic.robots, by_hand
         self._transports = transports
         self._of_robot = {t.robot: t for t in transports if t.robot != NOWHERE}
 
     def doing(self):
         """What each robot does that is there, one word each: {kiva_id: word}."""
-        traffic = self._traffic
         return {
             int(kiva): self._does(robot)
-            for robot, kiva in enumerate(traffic.kiva_ids)
-            if not traffic.gone[robot]
+            for robot, kiva in enumerate(self._robots.kiva_ids)
+            if not self._robots.gone[robot]
         }
 
     def _does(self, robot):
-        mode = Mode(self._traffic.mode[robot])
+        mode = Mode(self._robots.mode[robot])
         if mode != Mode.AUTOMATIC:
             return mode.name.lower()
         transport = self._of_robot.get(robot)
@@ -47,7 +46,11 @@ class Waiting:
         """[(robot, text)] of those that have stood for WAITS_LONG; none in the queue of a station
         that itself waits for a person."""
         traffic = self._traffic
-        still = (traffic.time - traffic.still_since > WAITS_LONG) & ~traffic.busy & ~traffic.gone
+        still = (
+            (traffic.time - self._robots.still_since > WAITS_LONG)
+            & ~self._robots.busy
+            & ~self._robots.gone
+        )
         found = []
         for robot in np.flatnonzero(still).tolist():
             last = self._last_ahead(robot)
@@ -79,24 +82,24 @@ class Waiting:
         return robot
 
     def _reason(self, robot, last, station):
-        traffic, ahead = self._traffic, self._traffic.ahead_of(robot)
+        ahead = self._traffic.ahead_of(robot)
         if ahead == NOWHERE:
-            if traffic.minds[robot]:
+            if self._robots.slowed_for_people[robot]:
                 return "for people on the floor"
-            if traffic.broken[robot]:
+            if self._robots.broken[robot]:
                 return "until it is repaired"
             return "for a way that is free"
-        behind = f"behind kiva{traffic.kiva_ids[ahead]}"
+        behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
         if station:
             return f"in the queue of {station} {behind}"
-        if traffic.broken[ahead]:
+        if self._robots.broken[ahead]:
             return f"{behind}, which is broken"
-        if traffic.mode[ahead] != Mode.AUTOMATIC:
-            return f"{behind}, which is {Mode(traffic.mode[ahead]).name}"
+        if self._robots.mode[ahead] != Mode.AUTOMATIC:
+            return f"{behind}, which is {Mode(self._robots.mode[ahead]).name}"
         return (
             behind
             if last == ahead
-            else f"{behind}, in a row that kiva{traffic.kiva_ids[last]} heads"
+            else f"{behind}, in a row that kiva{self._robots.kiva_ids[last]} heads"
         )
 
 
