@@ -240,7 +240,7 @@ def test_availability():
             bits[1] |= 1 << FailureKind.RADIO_LOST
         if second >= 50:
             bits[2] |= 1 << FailureKind.WHEEL_SLIPS  # slow, but at work
-        log.observe(float(second), bits)
+        log.update(float(second), bits)
     figures = log.figures()
     assert figures["failures"] == 3
     assert figures["availability"] == pytest.approx(1 - 30 / 400)

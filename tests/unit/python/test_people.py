@@ -140,7 +140,7 @@ def test_what_people_cost():
     assert log.figures() == {}
     for second in range(11):
         there = 2 <= second < 7
-        log.observe(
+        log.update(
             float(second),
             SimpleNamespace(
                 name=["p", "q"] if there else [],

@@ -55,6 +55,6 @@ def test_what_stands_in_the_way_is_told():
 
 def test_each_robot_does_one_thing_and_one_that_is_gone_none():
     queue = Queue()
-    queue.robots.mode[1], queue.gone[2] = Mode.OUT_OF_SERVICE, True
+    queue.robots.mode[1], queue.robots.gone[2] = Mode.OUT_OF_SERVICE, True
     doing = Waiting(queue, [served(0, "pick1")]).doing()
     assert doing == {1: "waiting", 2: "out_of_service", 4: "idle"}

@@ -82,10 +82,11 @@ class FleetController:
         last: int = 0,
         tow_after: float | None = None,
         takes_over_at: float | None = None,
-        **timing: float,
+        latency: float = 0.25,
+        lag: float = 0.1,
     ) -> None:
         self.plan = plan
-        self.traffic = Traffic(plan, kiva_ids, kinematics, seed, planner, **timing)
+        self.traffic = Traffic(plan, kiva_ids, kinematics, seed, planner, latency=latency, lag=lag)
         self.robots = self.traffic.robots
         self.transports = Transports(plan, self.traffic, last)
         self._towing = None if tow_after is None else Towing(self.transports, tow_after)
@@ -116,7 +117,7 @@ class FleetController:
             self.transports.update_units(seen.units)
         cancels = self._cancels(seen.time, reports)
         traffic.update_robots(seen.time, reports)
-        if traffic.takes_over:
+        if traffic.takes_over and self._takeover:
             self._takeover.advance(reports)
         traffic.update_people(seen.people)
         tows = self._towing.due() if self._towing else []

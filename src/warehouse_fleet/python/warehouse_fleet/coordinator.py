@@ -53,7 +53,7 @@ class Coordinator:
         self._demand, self._exchange, self._seed = demand, exchange, seed
         self._planner = planner
         self.lock = threading.RLock()
-        self.controller: FleetController | None = None
+        self.controller: Any = None  # a FleetController, while there is a warehouse
         self.events = EventPublisher()
         self._random: RandomTransports | None = None
         self._alarm = self._left_out = ""
@@ -149,7 +149,9 @@ class Coordinator:
         check_mode(mode)
         if why := self._keep_one(kiva_id, mode):
             raise ValueError(why)
-        self._send(FleetOrders(timeline=self._timeline), self.controller.set_mode(kiva_id, mode))
+        self._send(
+            FleetOrders(timeline=self._timeline), self.controller.set_mode(kiva_id, Mode(mode))
+        )
         self._next_state = 0.0  # subscribers see it at once
 
     def _keep_one(self, kiva_id: int, mode: int) -> str:

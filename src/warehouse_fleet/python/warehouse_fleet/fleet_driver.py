@@ -124,8 +124,8 @@ class FleetDriver:
     def _units(self) -> UnitPoses:
         units = self.world.storage_units
         carried = units["kiva_id"] != 0
-        columns = (units[name] for name in ("shelf_id", "x", "y", "yaw"))
-        return UnitPoses(*columns, carried, self.world.time)
+        x, y, yaw = units["x"], units["y"], units["yaw"]
+        return UnitPoses(units["shelf_id"], x, y, yaw, carried, self.world.time)
 
     def _take_events(self) -> list[str]:
         """Takes in what the world tells; returns the models of robots that refused a path."""

@@ -47,7 +47,7 @@ def reports_of(fleet: Any) -> np.ndarray:
     A world in this process keeps no modes: its robots are AUTOMATIC.
     """
     out = np.zeros(len(fleet.kiva_id), REPORT)
-    for name in REPORT.names:
+    for name in REPORT.fields or ():
         values = getattr(fleet, name, 0)
         # rospy reads uint8[] as bytes.
         out[name] = np.frombuffer(values, np.uint8) if isinstance(values, bytes) else values

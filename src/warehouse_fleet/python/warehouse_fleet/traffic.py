@@ -85,7 +85,7 @@ class Traffic:
         self.watchdog = Watchdog(self)
         self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
         self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
-        self._after = {}  # the next cell of a lane, by cell
+        self._after: dict[int, int] = {}  # the next cell of a lane, by cell
         for station in plan.stations:
             cells = station.cells.tolist()
             self._after.update(zip(cells, cells[1:]))

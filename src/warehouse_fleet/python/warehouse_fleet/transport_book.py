@@ -124,7 +124,7 @@ class TransportBook:
     def __iter__(self) -> Iterator[Transport]:
         return iter(list(self._by_number.values()))
 
-    def __contains__(self, number: int) -> bool:
+    def __contains__(self, number: object) -> bool:
         return number in self._by_number
 
     def get(self, number: int) -> Transport | None:

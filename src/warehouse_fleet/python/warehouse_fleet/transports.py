@@ -176,7 +176,7 @@ class Transports:
     def __iter__(self) -> Iterator[Transport]:
         return iter(self.book)
 
-    def __contains__(self, transport_id: int) -> bool:
+    def __contains__(self, transport_id: object) -> bool:
         return transport_id in self.book
 
     @property

@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why robots wait that have somewhere to go, in words for a person; and what each robot does."""
+"""Explains to a person why robots wait that have somewhere to go, and what each robot does."""
+
+from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from warehouse_fleet.robot_table import NOWHERE, Mode
-from warehouse_fleet.transport_book import Step
+from warehouse_fleet.transport_book import Step, Transport
+
+if TYPE_CHECKING:
+    from warehouse_fleet.traffic import Traffic
 
 WAITS_LONG = 10.0  # [s]
 DOES = {
@@ -19,32 +25,36 @@ DOES = {
 
 
 class Waiting:
-    """Of a fleet, by its Traffic and Transports. `by_hand`: names of stations where a person
-    works."""
+    """The waiting robots of a Traffic with its transports. `by_hand`: names of the stations where a
+    person works."""
 
-    def __init__(self, traffic, transports, by_hand=frozenset()):
+    def __init__(
+        self,
+        traffic: "Traffic",
+        transports: Iterable[Transport],
+        by_hand: Collection[str] = frozenset(),
+    ) -> None:
         self._traffic, self._robots, self._by_hand = traffic, traffic.robots, by_hand
-        self._transports = transports
         self._of_robot = {t.robot: t for t in transports if t.robot != NOWHERE}
 
-    def doing(self):
-        """What each robot does that is there, one word each: {kiva_id: word}."""
+    def doing(self) -> dict[int, str]:
+        """Returns {kiva_id: word}: what each robot that is there does."""
         return {
             int(kiva): self._does(robot)
             for robot, kiva in enumerate(self._robots.kiva_ids)
             if not self._robots.gone[robot]
         }
 
-    def _does(self, robot):
+    def _does(self, robot: int) -> str:
         mode = Mode(self._robots.mode[robot])
         if mode != Mode.AUTOMATIC:
             return mode.name.lower()
         transport = self._of_robot.get(robot)
         return DOES[transport.step] if transport else "idle"
 
-    def long(self):
-        """[(robot, text)] of those that have stood for WAITS_LONG; none in the queue of a station
-        that itself waits for a person."""
+    def long(self) -> list[tuple[int, str]]:
+        """Returns [(robot, text)]: robots that have stood for WAITS_LONG, and the reason. Leaves
+        out those in the queue of a station that itself waits for a person."""
         traffic = self._traffic
         still = (
             (traffic.time - self._robots.still_since > WAITS_LONG)
@@ -59,8 +69,8 @@ class Waiting:
                 found.append((robot, self._reason(robot, last, station)))
         return found
 
-    def for_people(self):
-        """Sentences: which stations wait for a person to confirm, and for how long."""
+    def for_people(self) -> list[str]:
+        """Returns a sentence for each station that waits for a person to confirm, and how long."""
         return [
             f"{station} waits for a person, {_lasting(self._traffic.time - transport.since)}"
             for robot, transport in sorted(self._of_robot.items())
@@ -68,27 +78,27 @@ class Waiting:
             and self._traffic.time - transport.since > WAITS_LONG
         ]
 
-    def _served_at(self, robot):
-        """The station at which a robot's unit is served now; an empty name if at none."""
+    def _served_at(self, robot: int) -> str:
+        """Returns the station at which a robot's unit is served now; an empty name if at none."""
         transport = self._of_robot.get(robot)
         return transport.station if transport and transport.step == Step.WAITING else ""
 
-    def _last_ahead(self, robot):
-        """The robot at the head of the queue that a robot stands in; itself if it heads it."""
+    def _last_ahead(self, robot: int) -> int:
+        """Returns the robot at the head of the queue in which a robot is; itself at its head."""
         seen = {robot}
         while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in seen:
             seen.add(ahead)
             robot = ahead
         return robot
 
-    def _reason(self, robot, last, station):
+    def _reason(self, robot: int, last: int, station: str) -> str:
         ahead = self._traffic.ahead_of(robot)
         if ahead == NOWHERE:
             if self._robots.slowed_for_people[robot]:
                 return "for people on the floor"
             if self._robots.broken[robot]:
                 return "until it is repaired"
-            return "for a way that is free"
+            return "until its way is free"
         behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
         if station:
             return f"in the queue of {station} {behind}"
@@ -103,5 +113,5 @@ class Waiting:
         )
 
 
-def _lasting(seconds):
+def _lasting(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"

@@ -34,10 +34,10 @@ class WarehouseWatch:
 
     def __init__(self) -> None:
         self.news = threading.Event()
-        self.fleet: FleetState | None = None
-        self.scenery: Scenery | None = None
-        self.objects: WarehouseObjects | None = None
-        self.units: UnitStates | None = None
+        self.fleet: Any = None  # FleetState
+        self.scenery: Any = None  # Scenery
+        self.objects: Any = None  # WarehouseObjects
+        self.units: Any = None  # UnitStates
         self.people = People()
         self.by_hand: frozenset[str] = frozenset()
         self.collisions = 0
