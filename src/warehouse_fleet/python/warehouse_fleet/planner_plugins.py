@@ -111,10 +111,9 @@ class PythonPlanner:
         of those actions are closed to all others. `seconds` and `attempts` have no effect."""
         committed = fleet.committed  # (robots, ticks); no ticks if no robot is committed
         kept = committed != FREE
-        if kept.any():
-            fleet = _Narrowed(fleet, _ahead(self.floor, fleet))
+        seen: Any = _Narrowed(fleet, _ahead(self.floor, fleet)) if kept.any() else fleet
         plan = np.zeros((len(fleet), max(MANOEUVRE, committed.shape[1])), np.uint8)
-        plan[:, :MANOEUVRE] = np.where(kept.any(axis=1)[:, None], 0, self._ask(fleet))
+        plan[:, :MANOEUVRE] = np.where(kept.any(axis=1)[:, None], 0, self._ask(seen))
         plan[:, : committed.shape[1]][kept] = committed[kept]
         return plan
 
