@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
+.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -61,6 +61,10 @@ test-install: build  ## install into a folder of its own, and use it from there
 build: configured  ## compile everything but the tests
 	@[ build/.built -nt build/CMakeCache.txt ] && [ -z "$$(find CMakeLists.txt src -newer build/.built -not -path '*/__pycache__*' -print -quit)" ] || \
 	{ touch build/.begun; $(BUILD); mv build/.begun build/.built; }
+
+dev: packages  ## the same for work on the C++: a change in one file is compiled in seconds
+	@grep -qs '^CMAKE_UNITY_BUILD:BOOL=OFF' build/CMakeCache.txt || scripts/configure dev
+	@$(BUILD)
 
 configured: packages
 	@[ -e build/build.ninja -o -e build/Makefile ] || scripts/configure
