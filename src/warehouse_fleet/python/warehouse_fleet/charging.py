@@ -5,10 +5,10 @@ the same methods."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from warehouse_fleet.traffic import Traffic
@@ -101,7 +101,7 @@ class Charging:
         self,
         plan: FloorPlan,
         traffic: Traffic,
-        far: Callable[[int, ArrayLike], NDArray[Any]],
+        far: Callable[[int, np.ndarray], np.ndarray],
     ) -> None:
         """far(cell, cells) returns the distance from a cell to each of `cells`, (n,) [cells]."""
         self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
@@ -112,12 +112,12 @@ class Charging:
 
     @property
     def _is_simulated(self) -> bool:
-        return len(self._cells) > 0 and bool((self._traffic.charge < 1).any())
+        return len(self._cells) > 0 and bool((self._traffic.robots.charge < 1).any())
 
     def kept(self) -> NDArray[np.bool_]:
         """Returns which robots get no work, (n,): those that charge, or must before anything
         else."""
-        charge = self._traffic.charge
+        charge = self._traffic.robots.charge
         kept = np.zeros(len(charge), bool)
         if not self._is_simulated:
             return kept
@@ -157,10 +157,9 @@ class Charging:
             fullest = int(done[traffic.robots.charge[done].argmax()])
             cells = np.array([self.cell_of.pop(fullest)])
         # A place counts as farther while another robot stands in it: that robot must leave first.
-        far = self._far(int(traffic.robots.cell[robot]), cells) + 10 * np.isin(
-            cells, traffic.robots.cell
-        )
-        far[cells == traffic.robots.cell[robot]] = 0
+        own, taken = int(traffic.robots.cell[robot]), traffic.robots.cell
+        far = self._far(own, cells) + 10 * np.isin(cells, taken)
+        far[cells == own] = 0
         self.cell_of[robot] = int(cells[far.argmin()])
         return True
 
