@@ -127,7 +127,7 @@ class Shares {
       busy_ += fleet.status[i] != kiva::Status::kIdle;
       in_bullet_ += fleet.activated[i];
     }
-    for (int slot : inside.activated) {
+    for (int slot : inside.models.activated) {
       const kiva::Model& model = *inside.models[slot];
       if (model.kind != kiva::ModelKind::kStorageUnit) continue;
       units_ += 1;

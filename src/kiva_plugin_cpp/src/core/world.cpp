@@ -65,7 +65,7 @@ void addOrLeaveOut(WorldState& world, Add add) {
   try {
     add();
   } catch (const DescriptionError& error) {
-    world.warn(error.what(), std::string("left out: ") + error.what());
+    world.log.warn(error.what(), std::string("left out: ") + error.what());
   }
 }
 
@@ -85,22 +85,22 @@ void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
   if (plugin.filename == kGridPlugin) {
     const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
     plugin.parameters.rejectUnread();
-    world.grid_spacing = spacing;
+    world.settings.grid_spacing = spacing;
   } else if (plugin.filename == kFloorPatchPlugin) {
-    world.floor_patches.push_back(readFloorPatch(plugin.parameters));
+    world.floor.patches.push_back(readFloorPatch(plugin.parameters));
   } else if (plugin.filename == kLightCurtainPlugin) {
     addLightCurtain(world, plugin);
   } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
-    world.world_plugins.push_back(std::move(own));
-    world.world_plugin_descriptions.push_back(plugin);
+    world.plugins.world.push_back(std::move(own));
+    world.plugins.world_descriptions.push_back(plugin);
   }
 }
 
 /// Calls every user's plugin. It may add and remove models, its own among them.
 template <typename Call>
 void forEachUserPlugin(WorldState& world, Call call) {
-  for (auto& plugin : world.world_plugins) call(*plugin);
-  const std::vector<int> slots = world.models_with_plugins;
+  for (auto& plugin : world.plugins.world) call(*plugin);
+  const std::vector<int> slots = world.models.with_plugins;
   for (int slot : slots) {
     if (!world.models[slot]) continue;
     const auto plugins = world.models[slot]->plugins;
@@ -116,17 +116,12 @@ void decide(WorldState& world) {
   useEnergy(world);
   exchangeReports(world);
   keepFromPeople(world);
-  for (const auto& plugin : world.fleet_plugins) plugin->react(world);
+  for (const auto& plugin : world.plugins.fleet) plugin->react(world);
   acceptCommands(world);
 }
 
 void control(WorldState& world) {
-  for (const auto& plugin : world.fleet_plugins) plugin->control(world);
-}
-
-void advanceTime(WorldState& world) {
-  ++world.steps;
-  ++world.total_steps;
+  for (const auto& plugin : world.plugins.fleet) plugin->control(world);
 }
 
 void sense(WorldState& world) {
@@ -152,7 +147,7 @@ void beginAnew(WorldState& world) {
 World::World(const WorldDescription& description, const WorldOptions& options)
     : state_(std::make_unique<WorldState>(description, checked(options))) {
   state_->owner = this;
-  state_->fleet_plugins = makeFleetPlugins();
+  state_->plugins.fleet = makeFleetPlugins();
   for (const Light& light : description.lights) setLight(light);
   for (const ModelInstance& model : description.models) {
     addOrLeaveOut(*state_, [&] { spawn(model); });
@@ -170,49 +165,47 @@ const WorldState& insideOf(const World& world) { return *world.state_; }
 void World::step() {
   WorldState& world = *state_;
   decide(world);
-  forEachUserPlugin(world, [&](Plugin& plugin) { plugin.beforeStep(*this, world.dt); });
+  forEachUserPlugin(world, [&](Plugin& plugin) { plugin.beforeStep(*this, world.clock.dt); });
   applyExternalWrenches(world);
   updateActivation(world);
   control(world);
   actuate(world);
-  world.physics.step(world.dt);
+  world.physics.step(world.clock.dt);
   integrate(world);
   walkOn(world);
-  advanceTime(world);
+  world.clock.advance();
   sense(world);
   observeCollisions(world);
   swayLoads(world);
   dropItems(world);
-  forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.dt); });
+  forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.clock.dt); });
 }
 
-double World::time() const { return state_->time(); }
-std::uint64_t World::steps() const { return state_->steps; }
-double World::stepSize() const { return state_->dt; }
-const Vector3& World::gravity() const { return state_->gravity; }
-std::uint64_t World::seed() const { return state_->options.seed; }
-const Realism& World::realism() const { return state_->realism; }
-const std::string& World::name() const { return state_->name; }
+double World::time() const { return state_->clock.time(); }
+std::uint64_t World::steps() const { return state_->clock.steps; }
+double World::stepSize() const { return state_->clock.dt; }
+const Vector3& World::gravity() const { return state_->settings.gravity; }
+std::uint64_t World::seed() const { return state_->settings.options.seed; }
+const Realism& World::realism() const { return state_->settings.realism; }
+const std::string& World::name() const { return state_->settings.name; }
 
 void World::setStepSize(double seconds) {
   if (!(seconds >= kLeastStep && seconds <= kMostStep)) {
     throw std::invalid_argument("the step size must be from 1e-6 to 1 s");
   }
-  if (seconds == state_->dt) return;
-  state_->dt_since_time = time();
-  state_->dt_since = state_->steps;
-  state_->dt = seconds;
-  state_->applyRealism();
-  state_->scan_rounds_revision = ~0ull;  // those were counted in the old steps, as was
-  beginAnew(*state_);                    // when to look around again
+  if (seconds == state_->clock.dt) return;
+  state_->clock.setStepSize(seconds);
+  state_->fleet.applyRealism(state_->settings.realism, seconds);
+  state_->scans.rounds_revision = ~0ull;  // those were counted in the old steps, as was
+  beginAnew(*state_);                     // when to look around again
 }
 
 void World::setGravity(const Vector3& gravity) {
   if (!gravity.IsFinite() || gravity.Length() > kMostGravity) {
     throw std::invalid_argument("gravity must be finite and at most 1000 m/s²");
   }
-  if (gravity == state_->gravity) return;
-  state_->gravity = gravity;
+  if (gravity == state_->settings.gravity) return;
+  state_->settings.gravity = gravity;
   state_->physics.setGravity(gravity);
   letAllTip(*state_);
   wakeBodies(*state_);
@@ -222,19 +215,16 @@ void World::setGravity(const Vector3& gravity) {
 void World::reset(bool time_too) {
   WorldState& world = *state_;
   forgetContacts(world, -1);
-  world.crashes.clear();
+  world.contact_log.crashes.clear();
   forgetMessages(world);
   putAllBack(world);
-  for (int slot : slotsInOrder(world)) resetModel(world, *world.models[slot]);
+  for (int slot : world.models.inOrder()) resetModel(world, *world.models[slot]);
   for (int i = 0; i < world.fleet.size(); ++i) knowWhereabouts(world, i);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
   beginFailures(world);
   restartScripts(world);
-  if (time_too) {
-    world.steps = world.dt_since = 0;
-    world.dt_since_time = 0;
-  }
+  if (time_too) world.clock.resetTime();
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.reset(*this); });
 }
 
@@ -284,7 +274,7 @@ void World::setLightCurtain(const LightCurtain& curtain) {
 bool World::removeLightCurtain(const std::string& name) {
   return kiva::removeLightCurtain(*state_, name);
 }
-const std::vector<LightCurtain>& World::lightCurtains() const { return state_->curtains; }
+const std::vector<LightCurtain>& World::lightCurtains() const { return state_->people.curtains; }
 
 std::vector<FallenItem> World::fallenItems() const { return fallenIn(*state_); }
 void World::pickUp(const std::string& item) { kiva::pickUp(*state_, item); }
@@ -292,7 +282,7 @@ void World::pickUp(const std::string& item) { kiva::pickUp(*state_, item); }
 void World::spawn(const ModelInstance& instance) {
   spawnModel(*state_, instance);
   if (!instance.walk) return;
-  beginScript(*state_, state_->slot_of_name.at(instance.name), *instance.walk);
+  beginScript(*state_, state_->models.slot_of_name.at(instance.name), *instance.walk);
 }
 
 void World::spawn(const std::vector<ModelInstance>& instances) {
@@ -306,29 +296,29 @@ void World::spawn(const std::vector<ModelInstance>& instances) {
 }
 
 bool World::remove(const std::string& model) {
-  const auto at = state_->slot_of_name.find(model);
-  if (at == state_->slot_of_name.end()) return false;
+  const auto at = state_->models.slot_of_name.find(model);
+  if (at == state_->models.slot_of_name.end()) return false;
   removeModel(*state_, at->second);
   return true;
 }
 
-bool World::has(const std::string& model) const { return state_->find(model) != nullptr; }
+bool World::has(const std::string& model) const { return state_->models.find(model) != nullptr; }
 
 std::vector<std::string> World::modelNames() const {
   std::vector<std::string> names;
-  for (int slot : slotsInOrder(*state_)) names.push_back(state_->models[slot]->name);
+  for (int slot : state_->models.inOrder()) names.push_back(state_->models[slot]->name);
   return names;
 }
 
 ModelKind World::kind(const std::string& model) const {
-  const Model* found = state_->find(model);
+  const Model* found = state_->models.find(model);
   return found ? found->kind : ModelKind::kOther;
 }
 
-std::uint64_t World::modelsRevision() const { return state_->models_revision; }
+std::uint64_t World::modelsRevision() const { return state_->models.revision; }
 
 std::optional<EntityState> World::state(const std::string& model, const std::string& link) const {
-  const Model* found = state_->find(model);
+  const Model* found = state_->models.find(model);
   if (!found) return std::nullopt;
   if (link.empty()) return modelState(*state_, *found);
   const int index = linkIndex(found, link);
@@ -337,12 +327,12 @@ std::optional<EntityState> World::state(const std::string& model, const std::str
 }
 
 std::shared_ptr<const ModelDescription> World::description(const std::string& model) const {
-  const Model* found = state_->find(model);
+  const Model* found = state_->models.find(model);
   return found ? found->description : nullptr;
 }
 
 bool World::setState(const std::string& model, const EntityState& state) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   if (!found) return false;
   placeModel(*state_, *found, state);
   const int robot = found->owner->robot(*state_, *found);
@@ -352,13 +342,13 @@ bool World::setState(const std::string& model, const EntityState& state) {
 
 void World::states(std::vector<EntityState>* out) const {
   out->clear();
-  for (int slot : slotsInOrder(*state_)) {
+  for (int slot : state_->models.inOrder()) {
     out->push_back(modelState(*state_, *state_->models[slot]));
   }
 }
 
 bool World::setVelocity(const std::string& model, const Twist& twist) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   if (!found || found->kind != ModelKind::kOther) return false;
   if (!found->owner->followsBodies(*found)) return false;
   if (!twist.linear.IsFinite() || !twist.angular.IsFinite()) {
@@ -370,7 +360,7 @@ bool World::setVelocity(const std::string& model, const Twist& twist) {
 
 bool World::setLinkState(const std::string& model, const std::string& link,
                          const EntityState& state) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   const int index = linkIndex(found, link);
   if (index < 0) return false;
   placeLink(*state_, *found, index, state);
@@ -380,7 +370,7 @@ bool World::setLinkState(const std::string& model, const std::string& link,
 void World::linkStates(std::vector<std::string>* names, std::vector<EntityState>* states) const {
   names->clear();
   states->clear();
-  for (int slot : slotsInOrder(*state_)) {
+  for (int slot : state_->models.inOrder()) {
     const Model& model = *state_->models[slot];
     const auto& links = model.description->links;
     for (std::size_t i = 0; i < links.size(); ++i) {
@@ -391,7 +381,7 @@ void World::linkStates(std::vector<std::string>* names, std::vector<EntityState>
 }
 
 bool World::setLinkInertia(const std::string& model, const Link& link) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   const int index = linkIndex(found, link.name);
   if (index < 0) return false;
   const ignition::math::MassMatrix3d inertia(link.mass, link.principal_moments, Vector3::Zero);
@@ -409,7 +399,7 @@ bool World::setLinkInertia(const std::string& model, const Link& link) {
 }
 
 std::optional<JointState> World::joint(const std::string& model, const std::string& joint) const {
-  const Model* found = state_->find(model);
+  const Model* found = state_->models.find(model);
   const int index = found ? findJoint(*found, joint) : -1;
   if (index < 0) return std::nullopt;
   return jointState(*state_, *found, index);
@@ -417,7 +407,7 @@ std::optional<JointState> World::joint(const std::string& model, const std::stri
 
 std::optional<JointWrench> World::jointWrench(const std::string& model,
                                               const std::string& joint) const {
-  const Model* found = state_->find(model);
+  const Model* found = state_->models.find(model);
   const int index = found ? findJoint(*found, joint) : -1;
   if (index < 0) return std::nullopt;
   return kiva::jointWrench(*found, index);
@@ -425,7 +415,7 @@ std::optional<JointWrench> World::jointWrench(const std::string& model,
 
 bool World::setJoint(const std::string& model, const std::string& joint,
                      const JointSettings& settings) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   const int index = found ? findJoint(*found, joint) : -1;
   if (index < 0) return false;
   kiva::setJoint(*found, index, settings);
@@ -434,7 +424,7 @@ bool World::setJoint(const std::string& model, const std::string& joint,
 
 void World::setJointPositions(const std::string& model,
                               const std::map<std::string, double>& positions) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   if (!found) throw std::invalid_argument("there is no model '" + model + "'");
   placeJoints(*state_, *found, positions);
 }
@@ -443,20 +433,20 @@ const ExternalInputs& World::externalInputs() const { return state_->external_in
 
 bool World::applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                         const Vector3& torque) {
-  Model* found = state_->find(model);
+  Model* found = state_->models.find(model);
   const int index = linkIndex(found, link);
   return index >= 0 && pushLink(*state_, *found, index, force, torque);
 }
 
 bool World::apply(const Wrench& wrench) {
-  const Model* found = state_->find(wrench.model);
+  const Model* found = state_->models.find(wrench.model);
   if (linkIndex(found, wrench.link) < 0 || found->isStatic()) return false;
   state_->external_inputs.wrenches.push_back(wrench);
   return true;
 }
 
 bool World::apply(const Effort& effort) {
-  const Model* found = state_->find(effort.model);
+  const Model* found = state_->models.find(effort.model);
   if (!found || findJoint(*found, effort.joint) < 0 || found->joints.empty()) return false;
   state_->external_inputs.efforts.push_back(effort);
   return true;
@@ -483,8 +473,8 @@ bool World::removeLight(const std::string& name) {
 void World::setOde(const OdeSettings& settings) { state_->external_inputs.ode = settings; }
 
 const Fleet& World::fleet() const { return state_->fleet; }
-const std::vector<StorageUnit>& World::storageUnits() const { return state_->units; }
-const std::vector<Item>& World::items() const { return state_->items; }
+const std::vector<StorageUnit>& World::storageUnits() const { return state_->storage.units; }
+const std::vector<Item>& World::items() const { return state_->storage.items; }
 Pose World::storageUnitPose(int unit) const { return unitPose(*state_, unit); }
 Pose World::itemPose(int item) const { return kiva::itemPose(*state_, item); }
 std::vector<PathPoint> World::pathAhead(int robot) const {
@@ -502,9 +492,9 @@ Vector3 World::believedPose(int robot) const {
 }
 double World::loadLimit(int robot) const { return kiva::loadLimit(*state_, robot); }
 Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
-std::uint64_t World::unitsRevision() const { return state_->units_revision; }
-const Floor& World::floor() const { return state_->floor; }
-double World::gridSpacing() const { return state_->grid_spacing; }
+std::uint64_t World::unitsRevision() const { return state_->storage.revision; }
+const Floor& World::floor() const { return state_->floor.extent; }
+double World::gridSpacing() const { return state_->settings.grid_spacing; }
 
 void World::scan(int robot, std::vector<float>* ranges) const {
   static thread_local FanHits hits;
@@ -524,15 +514,17 @@ void World::scan(int robot, std::vector<float>* ranges) const {
 
 void World::scan(const std::vector<int>& robots, std::vector<std::vector<float>>* ranges) const {
   ranges->resize(robots.size());
-  state_->workers->share(static_cast<int>(robots.size()), kScansTogether, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) scan(robots[k], &(*ranges)[k]);
-  });
+  state_->schedule.workers->share(static_cast<int>(robots.size()), kScansTogether,
+                                  [&](int begin, int end) {
+                                    for (int k = begin; k < end; ++k)
+                                      scan(robots[k], &(*ranges)[k]);
+                                  });
 }
 
-const std::vector<int>& World::scansDue() const { return state_->scans_due; }
+const std::vector<int>& World::scansDue() const { return state_->scans.due; }
 
 double World::rayCast(const Vector3& from, double yaw, double range, const std::string& but) const {
-  const Model* passed = state_->find(but);
+  const Model* passed = state_->models.find(but);
   const int group = passed ? passed->owner->group(*passed) : -1;
   return state_->obstacles
       .cast(from.X(), from.Y(), from.Z(), std::cos(yaw), std::sin(yaw), range, group)
@@ -541,17 +533,17 @@ double World::rayCast(const Vector3& from, double yaw, double range, const std::
 
 void World::rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
                     const std::string& but, std::vector<double>* ranges) const {
-  const RayScene scene(*state_, from, range, state_->find(but));
+  const RayScene scene(*state_, from, range, state_->models.find(but));
   ranges->resize(directions.size());
   const int rays = static_cast<int>(directions.size());
-  state_->workers->share(rays, kRaysTogether, [&](int begin, int end) {
+  state_->schedule.workers->share(rays, kRaysTogether, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) (*ranges)[k] = scene.cast(directions[k]);
   });
 }
 
 std::vector<ContactPoint> World::contacts(const std::string& model) const {
-  const auto at = state_->slot_of_name.find(model);
-  if (at == state_->slot_of_name.end()) return {};
+  const auto at = state_->models.slot_of_name.find(model);
+  if (at == state_->models.slot_of_name.end()) return {};
   return contactsOf(*state_, at->second);
 }
 
@@ -562,13 +554,13 @@ void World::restore(const std::string& checkpoint) {
   Restored next = readCheckpoint(checkpoint);
   const std::vector<PluginState> before = savePlugins(*state_);
   next.world->owner = this;
-  next.world->options.plugins = state_->options.plugins;
-  next.world->options.threads = state_->options.threads;
-  next.world->workers = state_->workers;
-  next.world->warned = state_->warned;
-  next.world->fleet_plugins = makeFleetPlugins();
-  next.world->models_revision = state_->models_revision + 1;
-  next.world->units_revision = state_->units_revision + 1;
+  next.world->settings.options.plugins = state_->settings.options.plugins;
+  next.world->settings.options.threads = state_->settings.options.threads;
+  next.world->schedule.workers = state_->schedule.workers;
+  next.world->log.warned = state_->log.warned;
+  next.world->plugins.fleet = makeFleetPlugins();
+  next.world->models.revision = state_->models.revision + 1;
+  next.world->storage.revision = state_->storage.revision + 1;
   state_.swap(next.world);
   try {
     adoptPlugins(*state_, *next.world);
@@ -582,22 +574,22 @@ void World::restore(const std::string& checkpoint) {
 
 std::vector<Event> World::takeEvents() {
   std::vector<Event> out;
-  out.swap(state_->events);
-  state_->events.reserve(out.size());  // as many may follow
+  out.swap(state_->log.events);
+  state_->log.events.reserve(out.size());  // as many may follow
   return out;
 }
 
 std::vector<StatusChange> World::takeStatusChanges() {
   std::vector<StatusChange> out;
-  out.swap(state_->status_changes);
+  out.swap(state_->log.status_changes);
   return out;
 }
 
-void World::warn(const std::string& warning) { state_->warn(warning, warning); }
+void World::warn(const std::string& warning) { state_->log.warn(warning, warning); }
 
 std::vector<std::string> World::takeWarnings() {
   std::vector<std::string> out;
-  out.swap(state_->warnings);
+  out.swap(state_->log.warnings);
   return out;
 }
 

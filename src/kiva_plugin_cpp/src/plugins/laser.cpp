@@ -31,7 +31,7 @@ double farthestStop(const WorldState& world, int robot, double obstacle) {
   if (!world.fleet.tasks[robot].segments.front().on_grid) {
     return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
   }
-  const double cell = world.grid_spacing;
+  const double cell = world.settings.grid_spacing;
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
 }
 
@@ -47,7 +47,7 @@ void planStop(WorldState& world, int i, double stop) {
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
   f.deceleration[i] = std::clamp(needed, usual, hardest);
-  const double shortest = speed * speed / (2 * hardest) + speed * world.dt;
+  const double shortest = speed * speed / (2 * hardest) + speed * world.clock.dt;
   f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
@@ -67,7 +67,7 @@ View viewOf(const WorldState& world, int i) {
   View view;
   view.reference = f.command(i).position;
   view.goal = f.goal[i];
-  view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.dt;
+  view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.clock.dt;
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
   view.speed = std::abs(f.command(i).speed);
@@ -140,7 +140,7 @@ void brake(WorldState& world, int i) {
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world, i, stop);
   if (task.follows() && !brakes) {  // its path goes on: this is not told again at its end
-    world.reportCommand(Event::Kind::kBlocked, i, name, task.blocked_reason);
+    reportCommand(world, Event::Kind::kBlocked, i, name, task.blocked_reason);
   }
 }
 
@@ -160,8 +160,8 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
 }
 
 void LaserPlugin::react(WorldState& world) const {
-  for (int i : world.sighted) brake(world, i);
-  world.sighted.clear();
+  for (int i : world.scans.sighted) brake(world, i);
+  world.scans.sighted.clear();
 }
 
 }  // namespace kiva

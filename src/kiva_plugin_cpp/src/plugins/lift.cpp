@@ -53,7 +53,7 @@ double resistance(const WorldState& world, const Model& model) {
   if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
   double mass = 0;
   for (const Link& link : model.description->links) mass += link.mass;
-  return mass * world.gravityDown();
+  return mass * world.settings.gravityDown();
 }
 
 void setTower(WorldState& world, int i, double height) {
@@ -67,9 +67,9 @@ void moveTower(WorldState& world, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
-  const double top = time == 0 ? r.lift.height / world.dt : 2 * r.lift.height / time;
+  const double top = time == 0 ? r.lift.height / world.clock.dt : 2 * r.lift.height / time;
   Profile profile = world.fleet.profile(i);
-  profile.advance(height, top, acceleration, acceleration, world.dt);
+  profile.advance(height, top, acceleration, acceleration, world.clock.dt);
   world.fleet.setProfile(i, profile);
   setTower(world, i, profile.position);
 }
@@ -87,7 +87,7 @@ void giveUp(WorldState& world, int i, const std::string& by, const std::string& 
 void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
   if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
-  const StorageUnit& unit = world.units[segment.unit];
+  const StorageUnit& unit = world.storage.units[segment.unit];
   const bool above = unitDistance(world, i, segment.unit) <= world.fleet.robots[i].lift.proximity &&
                      standsUpright(world, segment.unit);
   if (segment.kind == MotionSegment::Kind::kRaise && unit.carrier >= 0) {
@@ -102,10 +102,10 @@ void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
 
 void putDownOnFloor(WorldState& world, int i, int unit) {
   if (unit < 0 || world.fleet.unit[i] != unit) return;
-  if (unitPose(world, unit).Z() > world.floor.z) return;
+  if (unitPose(world, unit).Z() > world.floor.extent.z) return;
   putDown(world, i);
-  world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
-                      "dropped " + world.units[unit].name);
+  reportCommand(world, Event::Kind::kDropped, i, world.storage.units[unit].name,
+                "dropped " + world.storage.units[unit].name);
 }
 
 /// The tower comes down, a unit that it has stands on the floor again, then the command ends in
@@ -122,7 +122,7 @@ void stall(WorldState& world, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
-  double force = r.load_mass * world.gravityDown();
+  double force = r.load_mass * world.settings.gravityDown();
   const bool meets = f.tower[i] - before > above.clearance;
   if (meets) force += resistance(world, *world.models[above.model]);
   if (force <= r.lift.max_force) {
@@ -132,7 +132,7 @@ void stall(WorldState& world, int i, double before, const Above& above) {
   const double height = meets ? before + above.clearance : before;
   f.setProfile(i, {height, 0});
   setTower(world, i, height);
-  overdue += world.dt;
+  overdue += world.clock.dt;
   if (overdue < kStalled) return;
   const std::string other = meets ? world.models[above.model]->name : "";
   char text[160];
@@ -152,9 +152,10 @@ void raiseSegment(WorldState& world, int i, int unit) {
     takeUp(world, i, unit);
   }
   if (world.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(world, world.modelOf(i));  // its load is higher than when it was taken up
-  world.reportCommand(Event::Kind::kLifted, i, world.units[unit].name,
-                      "lifted " + world.units[unit].name);
+  rebuildBody(world, world.models.of(
+                         world.fleet.robots[i]));  // its load is higher than when it was taken up
+  reportCommand(world, Event::Kind::kLifted, i, world.storage.units[unit].name,
+                "lifted " + world.storage.units[unit].name);
   finishSegment(world, i);
 }
 
@@ -169,7 +170,7 @@ void holdTower(WorldState& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
-  profile.brake(f.robots[i].drive.emergency_deceleration, world.dt);
+  profile.brake(f.robots[i].drive.emergency_deceleration, world.clock.dt);
   profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
   f.setProfile(i, profile);
   setTower(world, i, profile.position);
@@ -207,7 +208,7 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
 
 void LiftPlugin::control(WorldState& world) const {
   const FleetState& f = world.fleet;
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     const Task& task = f.tasks[i];
     const bool is_up_empty = f.tower[i] > 0 && f.unit[i] < 0;
     if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, i);

@@ -58,7 +58,7 @@ bool arrived(const FleetState& f, int i, const OnLine& at) {
 bool giveUp(WorldState& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   double& overdue = f.tasks[i].overdue;
-  if (f.reference[i] == f.goal[i]) overdue += world.dt;
+  if (f.reference[i] == f.goal[i]) overdue += world.clock.dt;
   const double lag = std::abs(f.reference[i] - at.along);
   if (lag < kStuck && overdue < kOverdue) return false;
   haltRobot(world, i, "", "is stuck: its wheels turn or stall without getting it on");
@@ -70,7 +70,7 @@ double allowedSpeed(WorldState& world, int i) {
   const FleetState& f = world.fleet;
   const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
   if (speed <= allowed || f.robots[i].drive.acceleration == 0) return allowed;
-  return std::max(allowed, speed - plannedBraking(world, i) * world.dt);
+  return std::max(allowed, speed - plannedBraking(world, i) * world.clock.dt);
 }
 
 /// Where it has come to its goal by its own estimate, what it was put aside by the last code is
@@ -95,7 +95,7 @@ void holdDrive(WorldState& world, int i, const OnLine& at) {
   Profile command = f.command(i);
   if (command.speed != 0) {
     const bool at_once = f.robots[i].drive.acceleration == 0;
-    command.brake(at_once ? 0 : plannedBraking(world, i), world.dt);
+    command.brake(at_once ? 0 : plannedBraking(world, i), world.clock.dt);
   }
   f.follow(i, command);
   followLine(f, i, at, lag, f.reference_speed[i]);
@@ -133,7 +133,7 @@ void driveSegment(WorldState& world, int i) {
     return;
   }
   Profile command = f.command(i);
-  command.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
+  command.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.clock.dt);
   f.follow(i, command);
   followLine(f, i, at, lag, f.reference_speed[i]);  // behind the reference as it was
 }
@@ -162,7 +162,7 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
 }
 
 void MotionPlugin::control(WorldState& world) const {
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive)) driveSegment(world, i);
   }
 }
@@ -187,7 +187,7 @@ bool halting(WorldState& world, int i) {
   const bool drives = task.isAt(MotionSegment::Kind::kDrive) && !task.segment()->reverse;
   if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
     Profile command = f.command(i);  // its wheels are all it has to go by: they must not slide
-    command.brake(plannedBraking(world, i), world.dt);
+    command.brake(plannedBraking(world, i), world.clock.dt);
     f.follow(i, command);
     setWheels(f, i, f.reference_speed[i], 0);
     return true;

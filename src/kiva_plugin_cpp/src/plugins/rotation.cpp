@@ -45,7 +45,7 @@ void holdTurn(WorldState& world, int i) {
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - f.believed(i).yaw;
   Profile command = f.command(i);
-  if (command.speed != 0) command.brake(f.deceleration[i], world.dt);
+  if (command.speed != 0) command.brake(f.deceleration[i], world.clock.dt);
   f.follow(i, command);
   if (f.reference_speed[i] == 0 && std::abs(lag) < kThereAngle && stands(f, i)) {
     return setWheels(f, i, 0, 0);
@@ -96,15 +96,15 @@ void turnSegment(WorldState& world, int i) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
   }
-  if (ended) task.overdue += world.dt;
+  if (ended) task.overdue += world.clock.dt;
   if (std::abs(lag) > kStuckAngle || task.overdue > kOverdue) {
     return haltRobot(world, i, "", "is stuck: it can't turn");
   }
-  const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
+  const double top = turnSpeed(r, world.clock.dt), acceleration = f.deceleration[i];
   const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
   if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
   Profile command = f.command(i);
-  command.advance(f.goal[i], top, acceleration, acceleration, world.dt);
+  command.advance(f.goal[i], top, acceleration, acceleration, world.clock.dt);
   f.follow(i, command);
   setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }
@@ -117,7 +117,7 @@ void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
 }
 
 void RotationPlugin::control(WorldState& world) const {
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn)) turnSegment(world, i);
   }
 }

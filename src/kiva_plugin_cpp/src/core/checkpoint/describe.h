@@ -254,7 +254,7 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 29);  // what only some realism needs: with the world
+  DESCRIBED(FleetState, 30);  // what only some realism needs: with the world
   // What is broken, charges, and where points are counted next, follow from what else the world
   // holds; what people allow: with those.
   DESCRIBED(Fleet, 27);
@@ -416,8 +416,8 @@ void describe(A& a, FollowPath& p) {
 }
 
 template <class A>
-void describe(A& a, RadioMessage& m) {
-  DESCRIBED(RadioMessage, 3);
+void describe(A& a, CommandMessage& m) {
+  DESCRIBED(CommandMessage, 3);
   FIELDS(m.due, m.command, m.path);
 }
 

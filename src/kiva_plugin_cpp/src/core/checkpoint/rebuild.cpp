@@ -103,7 +103,7 @@ void writeContacts(WorldState& world, const std::vector<ContactMemory>& memories
 }
 
 void buildModel(WorldState& world, const ModelInPhysics& state) {
-  Model& model = *world.models.at(state.slot);
+  Model& model = *world.models.slots.at(state.slot);
   model.bodies = model.owner->build(world, model);
   if (!model.isStatic() && (state.links.size() != model.bodies.links.size() ||
                             state.motors.size() != model.bodies.joints.size())) {
@@ -128,7 +128,7 @@ void addFootprints(WorldState& world, Model& model) {
 }
 
 void rebuildObstacles(WorldState& world, const PhysicsState& state) {
-  for (int slot : slotsInOrder(world)) {
+  for (int slot : world.models.inOrder()) {
     Model& model = *world.models[slot];
     const bool is_touched = model.in_physics || model.owner->isActivatedWhenNear();
     if (model.geometries.empty() && is_touched) addCollisionGeometry(world, model);
@@ -153,7 +153,7 @@ PhysicsState readPhysics(const WorldState& world) {
 }
 
 void rebuild(WorldState& world, const PhysicsState& state) {
-  world.physics.setGravity(world.gravity);
+  world.physics.setGravity(world.settings.gravity);
   for (const ModelInPhysics& model : state.models) buildModel(world, model);
   writeContacts(world, state.contacts);
   rebuildObstacles(world, state);

@@ -15,13 +15,13 @@ bool hasBegun(const Period& period, double now) { return now >= period.start - k
 bool isOver(const Period& period, double now) { return now >= period.end - kRounding; }
 
 void apply(WorldState& world, const Wrench& wrench) {
-  Model* model = world.find(wrench.model);
+  Model* model = world.models.find(wrench.model);
   const int link = model ? linkIndex(*model->description, wrench.link) : -1;
   if (link >= 0) pushLink(world, *model, link, wrench.force, wrench.torque);
 }
 
 void apply(WorldState& world, const Effort& effort) {
-  Model* model = world.find(effort.model);
+  Model* model = world.models.find(effort.model);
   const int joint = model && !model->joints.empty() ? findJoint(*model, effort.joint) : -1;
   if (joint >= 0) pushJoint(*model, joint, effort.effort);
 }
@@ -29,7 +29,7 @@ void apply(WorldState& world, const Effort& effort) {
 template <typename Input>
 void applyDue(WorldState& world, std::vector<Input>* all) {
   if (all->empty()) return;
-  const double now = world.time();
+  const double now = world.clock.time();
   for (const Input& one : *all) {
     if (hasBegun(one.period, now) && !isOver(one.period, now)) apply(world, one);
   }

@@ -37,7 +37,7 @@ std::vector<Foot> feetOf(const WorldState& world, const Model& model, double wei
   const Pose to_mass = (link.pose_in_model * link.inertial_pose_in_link).Inverse();
   const auto add = [&](double x, double y, double friction) {
     const Vector3 at = to_mass.CoordPositionAdd(Vector3(x, y, 0));
-    feet.push_back({toBullet(at), std::min(friction, world.floor_friction)});
+    feet.push_back({toBullet(at), std::min(friction, world.floor.friction)});
   };
   std::vector<std::pair<Bounds, double>> soles;
   for (const Collision& c : link.collisions) {
@@ -86,7 +86,7 @@ double leastSupport(const std::vector<Foot>& feet) {
 
 Rocking rockingOf(const WorldState& world, const btRigidBody& body, const std::vector<Foot>& feet) {
   Rocking r;
-  r.weight = body.getMass() * world.gravityDown();
+  r.weight = body.getMass() * world.settings.gravityDown();
   if (feet.empty()) return r;
   r.height = -feet.front().at.z();
   r.support = leastSupport(feet);
@@ -107,20 +107,21 @@ void rockOne(const WorldState& world, Model& model, const Push& push) {
   const btRigidBody& body = *model.bodies.links.front().body;
   const SlidingFriction& friction = frictionOf(model);
   const Rocking r = rockingOf(world, body, friction.feet());
-  const btVector3 grip = friction.impulse(world.dt);
+  const btVector3 grip = friction.impulse(world.clock.dt);
   // Grip acts at the feet, below the centre of mass.
   Vector3 momentum = model.rocking + Vector3(push.moment.x() + r.height * grip.y(),
                                              push.moment.y() - r.height * grip.x(), 0);
   const double size = momentum.Length();
-  if (size > 0) momentum *= std::max(0.0, 1 - r.weight * armOf(model, momentum) * world.dt / size);
+  if (size > 0)
+    momentum *= std::max(0.0, 1 - r.weight * armOf(model, momentum) * world.clock.dt / size);
   model.rocking = momentum;
   model.tips = model.tips || momentum.SquaredLength() > 2 * r.inertia * r.energy();
 }
 
 /// Whether it bears a load, or is lifted.
 bool isBurdened(const WorldState& world, const Model& model, const Push& push) {
-  const double weight = model.bodies.links.front().body->getMass() * world.gravityDown();
-  return std::abs(push.load) > kBurden * weight * world.dt;
+  const double weight = model.bodies.links.front().body->getMass() * world.settings.gravityDown();
+  return std::abs(push.load) > kBurden * weight * world.clock.dt;
 }
 
 /// Puts another body in place of the one that it has, with that velocity.
@@ -148,11 +149,11 @@ EntityState stateOf(const Model& model) {
 bool hasCalmed(const WorldState& world, const Model& model) {
   const EntityState state = canonicalState(model);
   const double tilt = std::acos(std::min(1.0, state.pose.Rot().ZAxis().Z()));
-  if (tilt > kVisible || std::abs(state.pose.Z() - world.floor.z) > kAbove) return false;
+  if (tilt > kVisible || std::abs(state.pose.Z() - world.floor.extent.z) > kAbove) return false;
   const btRigidBody& body = *model.bodies.links.front().body;
   if (!body.getTotalForce().isZero() || !body.getTotalTorque().isZero()) return false;
   const btVector3 turn = body.getAngularVelocity();
-  const auto feet = feetOf(world, model, body.getMass() * world.gravityDown());
+  const auto feet = feetOf(world, model, body.getMass() * world.settings.gravityDown());
   const Rocking r = rockingOf(world, body, feet);
   const double kinetic = 0.5 * r.inertia * (turn.x() * turn.x() + turn.y() * turn.y());
   return std::abs(body.getLinearVelocity().z()) < kRising &&
@@ -162,7 +163,7 @@ bool hasCalmed(const WorldState& world, const Model& model) {
 void standUp(WorldState& world, Model& model) {
   EntityState state = stateOf(model);
   const Pose& pose = state.pose;
-  state.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+  state.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
   state.twist.linear.Z() = state.twist.angular.X() = state.twist.angular.Y() = 0;
   model.pose = state.pose;
   model.upright = true;
@@ -173,7 +174,7 @@ void standUp(WorldState& world, Model& model) {
 }  // namespace
 
 bool canSlideUpright(const WorldState& world, const Model& model) {
-  const Vector3& g = world.gravity;
+  const Vector3& g = world.settings.gravity;
   return model.description->links.size() == 1 && g.X() == 0 && g.Y() == 0 && g.Z() < 0 &&
          model.description->links.front().gravity && world.physics.hasPlainFloor();
 }
@@ -188,14 +189,14 @@ ModelBodies buildUpright(const WorldState& world, const Model& model,
   body.setLinearFactor({1, 1, 0});
   body.setAngularFactor({0, 0, 1});
   bodies.joints.push_back(std::make_unique<SlidingFriction>(
-      body, feetOf(world, model, link.mass * world.gravityDown())));
+      body, feetOf(world, model, link.mass * world.settings.gravityDown())));
   mark(*bodies.joints.back(), model.slot, 1);
   return bodies;
 }
 
 void rock(WorldState& world) {
   std::vector<Push> pushes;
-  for (int slot : world.activated) {
+  for (int slot : world.models.activated) {
     Model& model = *world.models[slot];
     if (!model.disturbed || !isAwake(model)) continue;
     if (pushes.empty()) pushes = world.physics.pushes();
@@ -221,14 +222,14 @@ void letTip(WorldState& world, Model& model) {
 }
 
 void letAllTip(WorldState& world) {
-  const std::vector<int> activated = world.activated;
+  const std::vector<int> activated = world.models.activated;
   for (int slot : activated) {
     if (world.models[slot]->upright) letTip(world, *world.models[slot]);
   }
 }
 
 void updateUprightness(WorldState& world) {
-  const std::vector<int> activated = world.activated;
+  const std::vector<int> activated = world.models.activated;
   for (int slot : activated) {
     Model& model = *world.models[slot];
     if (model.upright) {

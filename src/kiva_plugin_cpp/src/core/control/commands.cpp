@@ -28,8 +28,8 @@ double checkedDistance(const WorldState& world, double distance) {
   }
   const double whole = nearestGrid(world, distance);
   if (std::abs(whole - distance) <= kGoalTolerance) return whole;
-  throw Refusal(
-      format("distance %g m is no whole number of %g m cells", distance, world.grid_spacing));
+  throw Refusal(format("distance %g m is no whole number of %g m cells", distance,
+                       world.settings.grid_spacing));
 }
 
 Plan planMoveTo(const WorldState& world, int robot, const Command& command) {
@@ -64,16 +64,16 @@ Plan planRotate(const WorldState& world, int robot, int direction) {
 }
 
 int findUnit(const WorldState& world, int id) {
-  const auto at = world.unit_of_id.find(id);
-  if (at == world.unit_of_id.end()) throw Refusal(format("there is no storage_unit%d", id));
+  const auto at = world.storage.unit_of_id.find(id);
+  if (at == world.storage.unit_of_id.end()) throw Refusal(format("there is no storage_unit%d", id));
   return at->second;
 }
 
 void checkCarry(const WorldState& world, int robot, int unit) {
   const Fleet& f = world.fleet;
-  const StorageUnit& u = world.units[unit];
+  const StorageUnit& u = world.storage.units[unit];
   const LiftParameters& lift = f.robots[robot].lift;
-  if (f.unit[robot] >= 0) throw Refusal("it carries " + world.units[f.unit[robot]].name);
+  if (f.unit[robot] >= 0) throw Refusal("it carries " + world.storage.units[f.unit[robot]].name);
   const int holder = u.carrier >= 0 ? u.carrier : u.claimed_by;
   if (holder >= 0) throw Refusal(u.name + " is carried by " + f.robots[holder].name);
   const double distance = unitDistance(world, robot, unit);
@@ -108,7 +108,7 @@ Plan planLift(const WorldState& world, int robot, const Command& command) {
   const int unit = carry || command.shelf_id != 0 ? findUnit(world, command.shelf_id)
                                                   : carriedUnit(world, robot);
   if (carry) checkCarry(world, robot, unit);
-  const std::string& name = world.units[unit].name;
+  const std::string& name = world.storage.units[unit].name;
   if (!carry && world.fleet.unit[robot] != unit) throw Refusal("it does not carry " + name);
   Route route(world, robot);
   route.lift(carry ? MotionSegment::Kind::kRaise : MotionSegment::Kind::kLower, unit);
@@ -148,7 +148,7 @@ void start(WorldState& world, int robot, std::uint32_t number, Plan plan) {
   Task& task = world.fleet.tasks[robot];
   task.command = number;
   task.goal = plan.text;
-  world.reportCommand(Event::Kind::kAccepted, robot, plan.other, plan.text);
+  reportCommand(world, Event::Kind::kAccepted, robot, plan.other, plan.text);
   beginTask(world, robot, std::move(plan.segments));
 }
 
@@ -197,21 +197,21 @@ void obey(WorldState& world, const Command& command, const FollowPath& path) {
   const bool follows = command.kind == Command::Kind::kFollow;
   if (follows && changesPath(world, robot, path)) return changePath(world, robot, path);
   checkIdle(world, robot);
-  const std::uint32_t number = world.last_command + 1;
+  const std::uint32_t number = world.inbox.last_number + 1;
   if (follows) {
     startPath(world, robot, number, path);
   } else {
     start(world, robot, number, plan(world, robot, command));
   }
-  world.last_command = number;
+  world.inbox.last_number = number;
 }
 
 /// A client may tell an idle robot something at each step; to find that there is no way back takes
 /// longer than all else that a step does for it.
 void restFromLooking(WorldState& world, int kiva_id) {
   double& until = world.fleet.wedged_until[world.fleet.find(kiva_id)];
-  const auto now = static_cast<double>(world.total_steps);
-  if (until <= now) until = now + static_cast<double>(world.stepsIn(kLookAgain));
+  const auto now = static_cast<double>(world.clock.total_steps);
+  if (until <= now) until = now + static_cast<double>(world.clock.stepsIn(kLookAgain));
 }
 
 void answer(WorldState& world, const Command& command, const FollowPath& path) {
@@ -220,13 +220,13 @@ void answer(WorldState& world, const Command& command, const FollowPath& path) {
   } catch (const Refusal& refusal) {
     if (dynamic_cast<const Wedged*>(&refusal)) restFromLooking(world, command.kiva_id);
     const bool is_fleets = command.kiva_id == 0 && !path.fault.empty();
-    world.events.push_back({world.time(),
-                            Event::Kind::kRefused,
-                            is_fleets ? "" : "kiva" + std::to_string(command.kiva_id),
-                            "",
-                            refusal.what(),
-                            ++world.last_command,
-                            {}});
+    world.log.events.push_back({world.clock.time(),
+                                Event::Kind::kRefused,
+                                is_fleets ? "" : "kiva" + std::to_string(command.kiva_id),
+                                "",
+                                refusal.what(),
+                                ++world.inbox.last_number,
+                                {}});
   }
 }
 
@@ -234,8 +234,8 @@ void answer(WorldState& world, const Command& command, const FollowPath& path) {
 FollowPath takePath(WorldState& world, const Command& command) {
   FollowPath path;
   if (command.kind != Command::Kind::kFollow) return path;
-  path = std::move(world.paths.front());
-  world.paths.pop_front();
+  path = std::move(world.inbox.paths.front());
+  world.inbox.paths.pop_front();
   return path;
 }
 
@@ -243,19 +243,19 @@ FollowPath takePath(WorldState& world, const Command& command) {
 
 void acceptCommands(WorldState& world) {
   receive(world);
-  while (!world.commands.empty()) {
-    const Command& command = world.commands.front();
+  while (!world.inbox.commands.empty()) {
+    const Command& command = world.inbox.commands.front();
     answer(world, command, takePath(world, command));
-    world.commands.pop_front();
+    world.inbox.commands.pop_front();
   }
 }
 
 void haltCrashed(WorldState& world) {
-  for (const Crash& crash : world.crashes) {
+  for (const Crash& crash : world.contact_log.crashes) {
     const int robot = world.fleet.find(crash.kiva_id);
     if (robot >= 0) haltRobot(world, robot, crash.with, "collision with " + crash.with);
   }
-  world.crashes.clear();
+  world.contact_log.crashes.clear();
 }
 
 }  // namespace kiva

@@ -36,20 +36,21 @@ void addChargers(const Model& model, std::vector<Charger>* out) {
 }
 
 void findChargers(WorldState& world) {
-  if (world.chargers_revision == world.models_revision) return;
-  world.chargers_revision = world.models_revision;
-  world.chargers.clear();
+  if (world.chargers.models_revision == world.models.revision) return;
+  world.chargers.models_revision = world.models.revision;
+  world.chargers.areas.clear();
   for (const auto& model : world.models) {
-    if (model && model->name.rfind(kMarkings, 0) == 0) addChargers(*model, &world.chargers);
+    if (model && model->name.rfind(kMarkings, 0) == 0) addChargers(*model, &world.chargers.areas);
   }
 }
 
 bool isOnCharger(const WorldState& world, int i) {
   const Fleet& f = world.fleet;
   if (std::hypot(f.vx[i], f.vy[i]) > kStandstill) return false;
-  return std::any_of(world.chargers.begin(), world.chargers.end(), [&](const Charger& c) {
-    return f.x[i] > c.min_x && f.x[i] < c.max_x && f.y[i] > c.min_y && f.y[i] < c.max_y;
-  });
+  return std::any_of(
+      world.chargers.areas.begin(), world.chargers.areas.end(), [&](const Charger& c) {
+        return f.x[i] > c.min_x && f.x[i] < c.max_x && f.y[i] > c.min_y && f.y[i] < c.max_y;
+      });
 }
 
 double kineticEnergy(const Fleet& f, int i) {
@@ -67,9 +68,9 @@ void markWheels(FleetState& f, int i) {
 
 /// Its battery as it is at the beginning.
 void begin(WorldState& world, int i) {
-  const EnergyRealism& e = world.realism.energy;
+  const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
-  RandomStream random(world.options.seed, Matter::kEnergy, f.robots[i].id, 0);
+  RandomStream random(world.settings.options.seed, Matter::kEnergy, f.robots[i].id, 0);
   const double most = std::max(e.initial_least, e.initial_most);
   const double charge = e.initial_least + (most - e.initial_least) * random.uniform();
   Battery& battery = f.battery[i];
@@ -86,14 +87,14 @@ bool isAtRest(const FleetState& f, int i) {
 }
 
 void show(WorldState& world, int i) {
-  const double charge = world.fleet.battery[i].energy / capacityOf(world.realism.energy);
+  const double charge = world.fleet.battery[i].energy / capacityOf(world.settings.realism.energy);
   world.fleet.charge[i] = static_cast<float>(charge);
 }
 
 /// In one step [J]: speeding up less what braking gives back, lifting. A turn is over within a few
 /// readings of a battery, and a load is taken up within one.
 void drawForMotion(WorldState& world, int i) {
-  const EnergyRealism& e = world.realism.energy;
+  const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
   if (battery.energy < 0) begin(world, i);
@@ -102,7 +103,7 @@ void drawForMotion(WorldState& world, int i) {
   const double faster = kinetic - battery.kinetic;
   const double moving = faster > 0 ? faster / e.drive_efficiency : faster * e.regeneration;
   const double raised = std::max(0.0, f.tower[i] - battery.tower);
-  const double lifted = raised * f.robots[i].load_mass * world.gravityDown();
+  const double lifted = raised * f.robots[i].load_mass * world.settings.gravityDown();
   battery.kinetic = kinetic;
   battery.tower = f.tower[i];
   if (f.failures[i] & kEmptyBattery) return;
@@ -112,7 +113,7 @@ void drawForMotion(WorldState& world, int i) {
 
 /// Since the last time [J]: electronics, rolling.
 double drawnSteadily(const WorldState& world, int i, double seconds) {
-  const EnergyRealism& e = world.realism.energy;
+  const EnergyRealism& e = world.settings.realism.energy;
   const FleetState& f = world.fleet;
   const Battery& before = f.battery[i];
   const Robot& r = f.robots[i];
@@ -121,14 +122,14 @@ double drawnSteadily(const WorldState& world, int i, double seconds) {
     rolled += std::abs(f.wheel_angle[wheel][i] - before.wheel_angle[wheel]);
   }
   rolled *= r.drive.wheel_radius / 2;
-  const double weight = (r.mass + r.load_mass) * world.gravityDown();
+  const double weight = (r.mass + r.load_mass) * world.settings.gravityDown();
   const double rolling = e.rolling_resistance * weight * rolled;
   return e.electronics * seconds + rolling / e.drive_efficiency;
 }
 
 /// Into its battery in that time [J].
 double takenUp(const WorldState& world, int i, double seconds) {
-  const EnergyRealism& e = world.realism.energy;
+  const EnergyRealism& e = world.settings.realism.energy;
   if (!isOnCharger(world, i)) return 0;
   const double charge = world.fleet.battery[i].energy / capacityOf(e);
   const double falling = (1 - charge) / std::max(1e-9, 1 - e.charge_taper);
@@ -140,7 +141,7 @@ void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) 
   f.failures[i] =
       static_cast<std::uint8_t>((f.failures[i] & ~kEmptyBattery) | (is_empty ? kEmptyBattery : 0));
   const auto kind = is_empty ? Event::Kind::kFailed : Event::Kind::kRepaired;
-  world.report(kind, f.robots[i].name, "", text);
+  world.log.report(kind, f.robots[i].name, "", text);
   if (is_empty && f.awake[i]) moved(f, i);
   if (!is_empty && !isHeld(f, i)) planAnew(world, i);
 }
@@ -148,7 +149,7 @@ void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) 
 void reckon(WorldState& world, int i, double seconds) {
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
-  const double most = capacityOf(world.realism.energy);
+  const double most = capacityOf(world.settings.realism.energy);
   const double drawn = drawnSteadily(world, i, seconds) - takenUp(world, i, seconds);
   battery.energy = std::clamp(battery.energy - drawn, 0.0, most);
   markWheels(f, i);
@@ -163,18 +164,18 @@ void reckon(WorldState& world, int i, double seconds) {
 }  // namespace
 
 void useEnergy(WorldState& world) {
-  if (!world.realism.energy.enabled) return;
+  if (!world.settings.realism.energy.enabled) return;
   for (int i = 0; i < world.fleet.size(); ++i) drawForMotion(world, i);
-  const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.dt));
-  if (world.total_steps % period != 0) return;
+  const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.clock.dt));
+  if (world.clock.total_steps % period != 0) return;
   findChargers(world);
   for (int i = 0; i < world.fleet.size(); ++i) {
-    reckon(world, i, static_cast<double>(period) * world.dt);
+    reckon(world, i, static_cast<double>(period) * world.clock.dt);
   }
 }
 
 void exchangeBattery(WorldState& world, int robot) {
-  world.fleet.battery[robot].energy = capacityOf(world.realism.energy);
+  world.fleet.battery[robot].energy = capacityOf(world.settings.realism.energy);
   show(world, robot);
   setEmpty(world, robot, false, "repaired: it has a full battery");
 }
@@ -183,7 +184,7 @@ void markCharge(WorldState& world) {
   FleetState& f = world.fleet;
   f.charge.assign(f.size(), 1);
   f.battery.resize(f.size());
-  if (!world.realism.energy.enabled) return;
+  if (!world.settings.realism.energy.enabled) return;
   for (int i = 0; i < f.size(); ++i) {
     if (f.battery[i].energy < 0) continue;
     show(world, i);

@@ -45,11 +45,11 @@ void apply(WorldState& world, int robot, Failure failure) {
   FleetState& fleet = world.fleet;
   fleet.failures[robot] |= bitOf(failure);
   if (failure != Failure::kWheelSlip) return;
-  fleet.robots[robot].grip = world.realism.failures.slipping_grip;
+  fleet.robots[robot].grip = world.settings.realism.failures.slipping_grip;
 }
 
 void tell(WorldState& world, Event::Kind kind, int robot, const std::string& text) {
-  world.report(kind, world.fleet.robots[robot].name, "", text);
+  world.log.report(kind, world.fleet.robots[robot].name, "", text);
 }
 
 std::string within(double seconds) {
@@ -82,7 +82,7 @@ void mend(WorldState& world, const Defect& defect) {
   if (defect.failure != Failure::kRadio) return;
   // What nobody heard of meanwhile.
   f.tasks[robot].reported_shelf = -1;
-  world.setStatus(robot, f.status[robot], f.state[robot]);
+  setStatus(world, robot, f.status[robot], f.state[robot]);
 }
 
 Failure drawFailure(const FailureRealism& r, double chance) {
@@ -94,11 +94,11 @@ Failure drawFailure(const FailureRealism& r, double chance) {
 }
 
 void breakSomething(WorldState& world, RandomStream& random) {
-  const FailureRealism& realism = world.realism.failures;
+  const FailureRealism& realism = world.settings.realism.failures;
   const int robots = world.fleet.size();
   const int robot = std::min(robots - 1, static_cast<int>(random.uniform() * robots));
   const Failure failure = drawFailure(realism, random.uniform());
-  const double repair = std::max(world.dt, random.exponential(realism.repair_time));
+  const double repair = std::max(world.clock.dt, random.exponential(realism.repair_time));
   breakDown(world, world.fleet.robots[robot].id, failure, repair);
 }
 
@@ -115,7 +115,7 @@ void mendWhere(WorldState& world, IsMeant is_meant) {
 }
 
 void repairWhoIsDue(WorldState& world) {
-  for (Defect& defect : world.failures.defects) defect.left -= world.dt;
+  for (Defect& defect : world.failures.defects) defect.left -= world.clock.dt;
   mendWhere(world, [](const Defect& defect) { return defect.left <= 0; });
 }
 
@@ -146,7 +146,7 @@ void repair(WorldState& world, int kiva_id) {
 }
 
 std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
-  if (world.realism.radio.delaysReports() && world.fleet.heard[robot].number > 0) {
+  if (world.settings.realism.radio.delaysReports() && world.fleet.heard[robot].number > 0) {
     return world.fleet.heard[robot].report;
   }
   if ((world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0) return std::nullopt;
@@ -160,12 +160,12 @@ std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
 void wearOut(WorldState& world) {
   FailureState& failures = world.failures;
   if (!failures.defects.empty()) repairWhoIsDue(world);
-  const FailureRealism& realism = world.realism.failures;
+  const FailureRealism& realism = world.settings.realism.failures;
   if (!realism.enabled || realism.per_robot_hour == 0 || world.fleet.size() == 0) return;
   const bool is_first = failures.count == 0;  // then only the time of the next one is drawn
-  failures.exposure -= is_first ? 0 : world.fleet.size() * world.dt;
+  failures.exposure -= is_first ? 0 : world.fleet.size() * world.clock.dt;
   if (failures.exposure > 0) return;
-  RandomStream random(world.options.seed, Matter::kFailure, 0, failures.count++);
+  RandomStream random(world.settings.options.seed, Matter::kFailure, 0, failures.count++);
   if (!is_first) breakSomething(world, random);
   failures.exposure = random.exponential(kHour / realism.per_robot_hour);
 }
@@ -173,7 +173,7 @@ void wearOut(WorldState& world) {
 void beginFailures(WorldState& world) { world.failures = {}; }
 
 bool mayFail(const WorldState& world) {
-  return world.realism.failures.enabled || !world.failures.defects.empty();
+  return world.settings.realism.failures.enabled || !world.failures.defects.empty();
 }
 
 void markDefects(WorldState& world) {

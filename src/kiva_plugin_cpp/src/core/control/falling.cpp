@@ -24,8 +24,8 @@ constexpr double kNextTry = 10;  // [s] after which somebody comes again to a un
 
 /// Of an item on its board: its own, whenever it slides.
 double frictionOf(const WorldState& world, const Item& item) {
-  const LoadRealism& r = world.realism.loads;
-  RandomStream random(world.options.seed, Matter::kItem, item.id, 0);
+  const LoadRealism& r = world.settings.realism.loads;
+  RandomStream random(world.settings.options.seed, Matter::kItem, item.id, 0);
   return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
 }
 
@@ -41,8 +41,8 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
 /// Calls visit(item) for those that stand still on that unit.
 template <typename Visit>
 void forEachOn(WorldState& world, const Model& unit, Visit visit) {
-  for (const Item& item : world.items) {
-    if (item.unit == unit.index && !world.offShelf(item.model)) visit(item);
+  for (const Item& item : world.storage.items) {
+    if (item.unit == unit.index && !world.fallen.find(item.model)) visit(item);
   }
 }
 
@@ -52,7 +52,7 @@ void slide(WorldState& world, const Jolt& jolt) {
   const Model& unit = *world.models[jolt.unit];
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
   way.Z() = 0;
-  const double change = way.Length(), g = world.gravityDown();
+  const double change = way.Length(), g = world.settings.gravityDown();
   if (change == 0 || g <= 0) return;
   way /= change;
   const Bounds box = bounds(*unit.description);
@@ -62,27 +62,27 @@ void slide(WorldState& world, const Jolt& jolt) {
     if (left2 <= 0) return;
     const double left = std::sqrt(left2);
     const double time = brake > 0 ? (change - left) / brake : 0;
-    world.off_shelf.push_back(
-        {item.model, unit.slot, way * left, false, world.total_steps + world.stepsIn(time)});
+    world.fallen.items.push_back({item.model, unit.slot, way * left, false,
+                                  world.clock.total_steps + world.clock.stepsIn(time)});
   });
 }
 
 /// Boards that are steeper than friction holds: over their lower edge, as slowly as can be.
 void tilt(WorldState& world, const Model& unit) {
-  Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.gravity);
+  Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.settings.gravity);
   const double down = -way.Z();
   way.Z() = 0;
   const double slope = way.Length();
-  if (slope <= world.realism.loads.item_friction_least * down) return;
+  if (slope <= world.settings.realism.loads.item_friction_least * down) return;
   forEachOn(world, unit, [&](const Item& item) {
     if (slope <= frictionOf(world, item) * down) return;
-    world.off_shelf.push_back(
-        {item.model, unit.slot, way / slope * kSlip, false, world.total_steps});
+    world.fallen.items.push_back(
+        {item.model, unit.slot, way / slope * kSlip, false, world.clock.total_steps});
   });
 }
 
 void tiltAll(WorldState& world) {
-  for (const int slot : world.activated) {
+  for (const int slot : world.models.activated) {
     const Model& model = *world.models[slot];
     const bool may_lean = model.disturbed && !model.upright && model.owner->holdsItems();
     if (may_lean && isAwake(model)) tilt(world, model);
@@ -95,7 +95,7 @@ bool isFree(const WorldState& world, const Model& item, const Pose& pose, int un
   for (const Link& link : item.description->links) {
     for (const Collision& c : link.collisions) {
       const Footprint own = makeFootprint(c.shape, pose * link.pose_in_model * c.pose_in_link);
-      is_free = is_free && own.z_min >= world.floor.z;
+      is_free = is_free && own.z_min >= world.floor.extent.z;
       world.obstacles.near(own.x, own.y, radiusOf(own), [&](const Footprint& other) {
         if (other.model == unit || other.model == item.slot) return;
         is_free = is_free && (!shareHeight(own, other) || gap(own, other) >= 0);
@@ -126,17 +126,17 @@ bool goOver(WorldState& world, OffShelf& one) {
   Model& item = *world.models[one.item];
   const Model& unit = *world.models[one.unit];
   const EntityState below = modelState(world, unit);
-  const Pose pose = below.pose * outside(unit, item, world.items[item.index].pose_in_unit,
+  const Pose pose = below.pose * outside(unit, item, world.storage.items[item.index].pose_in_unit,
                                          one.velocity.Normalized());
   if (!isFree(world, item, pose, unit.slot)) return false;
   EntityState state = carriedState(below, pose);
   state.twist.linear += below.pose.Rot() * one.velocity;
   fallOff(world, item, state);
   one.lies = true;
-  const double until = world.realism.loads.pick_up_after;
-  one.due = until > 0 ? world.total_steps + world.stepsIn(until) : 0;
-  world.report(Event::Kind::kFell, item.name, unit.name,
-               item.name + " falls off " + unit.name + " at " + placeOf(pose));
+  const double until = world.settings.realism.loads.pick_up_after;
+  one.due = until > 0 ? world.clock.total_steps + world.clock.stepsIn(until) : 0;
+  world.log.report(Event::Kind::kFell, item.name, unit.name,
+                   item.name + " falls off " + unit.name + " at " + placeOf(pose));
   return true;
 }
 
@@ -151,19 +151,19 @@ void lift(WorldState& world, const OffShelf& one) {
   const Model& unit = *world.models[one.unit];
   const std::string from = placeOf(modelState(world, item).pose);
   putBack(world, item, unit);
-  world.report(Event::Kind::kPickedUp, item.name, unit.name,
-               item.name + " is picked up at " + from + " and is back on " + unit.name);
+  world.log.report(Event::Kind::kPickedUp, item.name, unit.name,
+                   item.name + " is picked up at " + from + " and is back on " + unit.name);
 }
 
 /// What is due for one of them; returns whether that was the last.
 bool attend(WorldState& world, OffShelf& one) {
   if (!one.lies) {
-    if (one.due > world.total_steps || goOver(world, one)) return false;
-    return one.due + world.stepsIn(kWaits) < world.total_steps;
+    if (one.due > world.clock.total_steps || goOver(world, one)) return false;
+    return one.due + world.clock.stepsIn(kWaits) < world.clock.total_steps;
   }
-  if (one.due == 0 || one.due > world.total_steps) return false;
+  if (one.due == 0 || one.due > world.clock.total_steps) return false;
   if (!isUpright(world, one)) {
-    one.due = world.total_steps + world.stepsIn(kNextTry);
+    one.due = world.clock.total_steps + world.clock.stepsIn(kNextTry);
     return false;
   }
   lift(world, one);
@@ -173,11 +173,11 @@ bool attend(WorldState& world, OffShelf& one) {
 }  // namespace
 
 void dropItems(WorldState& world) {
-  if (!world.realism.loads.enabled) return;
-  for (const Jolt& jolt : world.jolts) slide(world, jolt);
-  world.jolts.clear();
+  if (!world.settings.realism.loads.enabled) return;
+  for (const Jolt& jolt : world.contact_log.jolts) slide(world, jolt);
+  world.contact_log.jolts.clear();
   tiltAll(world);
-  auto& all = world.off_shelf;
+  auto& all = world.fallen.items;
   for (std::size_t i = 0; i < all.size();) {
     if (attend(world, all[i])) {
       all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
@@ -189,7 +189,7 @@ void dropItems(WorldState& world) {
 
 std::vector<FallenItem> fallenIn(const WorldState& world) {
   std::vector<FallenItem> out;
-  for (const OffShelf& one : world.off_shelf) {
+  for (const OffShelf& one : world.fallen.items) {
     if (!one.lies) continue;
     const Model& item = *world.models[one.item];
     out.push_back({item.name, world.models[one.unit]->name, modelState(world, item).pose});
@@ -198,8 +198,8 @@ std::vector<FallenItem> fallenIn(const WorldState& world) {
 }
 
 void pickUp(WorldState& world, const std::string& item) {
-  const Model* model = world.find(item);
-  auto& all = world.off_shelf;
+  const Model* model = world.models.find(item);
+  auto& all = world.fallen.items;
   const auto at = std::find_if(all.begin(), all.end(), [&](const OffShelf& one) {
     return model && one.lies && one.item == model->slot;
   });

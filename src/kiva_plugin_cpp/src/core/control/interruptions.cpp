@@ -27,9 +27,9 @@ bool lifts(const MotionSegment& segment) {
 /// Lets a drive end on the next grid point where the robot can stop.
 void shortenDrive(WorldState& world, int robot) {
   const FleetState& f = world.fleet;
-  const double cell = world.grid_spacing;
+  const double cell = world.settings.grid_spacing;
   double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
-  while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.dt)) stop += cell;
+  while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.clock.dt)) stop += cell;
   if (stop >= f.goal[robot]) return;
   world.fleet.tasks[robot].segments.front().goal = stop;
   setGoal(world, robot, stop);

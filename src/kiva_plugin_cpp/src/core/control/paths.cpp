@@ -55,7 +55,7 @@ bool isBuilding(const WorldState& world, const Model& model) {
   if (as == Occupancy::kBelt) return true;
   if (as != Occupancy::kTaken || !model.isStatic()) return false;
   const Vector3 size = bounds(*model.description).max - bounds(*model.description).min;
-  return std::max(size.X(), size.Y()) > world.grid_spacing - kGoalTolerance;
+  return std::max(size.X(), size.Y()) > world.settings.grid_spacing - kGoalTolerance;
 }
 
 /// Throws Refusal if a robot would drive into the building between two neighbours.
@@ -70,8 +70,8 @@ void checkClear(const WorldState& world, int robot, const PathPoint& from, const
   swept.hy = along_x ? halfWidth(r) : way / 2 + halfLength(r);
   swept.hx -= kKeepOff;
   swept.hy -= kKeepOff;
-  swept.z_min = world.floor.z;
-  swept.z_max = world.floor.z + (world.fleet.unit[robot] < 0 ? r.height : 1e9);
+  swept.z_min = world.floor.extent.z;
+  swept.z_max = world.floor.extent.z + (world.fleet.unit[robot] < 0 ? r.height : 1e9);
   const Model* hit = nullptr;
   world.obstacles.near(swept.x, swept.y, std::max(swept.hx, swept.hy), [&](const Footprint& other) {
     if (hit || !shareHeight(other, swept) || gap(swept, other) >= 0) return;
@@ -165,7 +165,7 @@ RunEnd checkedRunEnd(const WorldState& world, int robot, std::uint32_t released)
   const double along = alongRun(task, end);
   if (end == task.path.end) return {end, along};
   if (task.drives()) {
-    if (!f.command(robot).canStopAt(along, f.deceleration[robot], world.dt)) throw tooLate();
+    if (!f.command(robot).canStopAt(along, f.deceleration[robot], world.clock.dt)) throw tooLate();
   } else if (alongSegment(f, robot) > along + kCentred) {
     throw tooLate();
   }
@@ -212,7 +212,7 @@ void startPath(WorldState& world, int robot, std::uint32_t number, const FollowP
   Task& task = world.fleet.tasks[robot];
   task.command = number;
   task.goal = format("follow path %u", m.path_id);
-  world.reportCommand(Event::Kind::kAccepted, robot, "", task.goal);
+  reportCommand(world, Event::Kind::kAccepted, robot, "", task.goal);
   beginPath(world, robot, m.path_id, std::move(path), route.takeSegments());
 }
 

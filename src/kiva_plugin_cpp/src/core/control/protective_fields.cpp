@@ -60,7 +60,7 @@ double safeSpeed(const Seen& person, const Braking& braking, double top) {
 
 Braking brakingOf(WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const double period = static_cast<double>(scanPeriod(world, r) + 1) * world.dt;
+  const double period = static_cast<double>(scanPeriod(world, r) + 1) * world.clock.dt;
   const bool at_once = r.drive.acceleration == 0;
   return {period, at_once ? kInfinity : plannedBraking(world, robot)};
 }
@@ -108,7 +108,7 @@ double allowedSpeed(WorldState& world, int robot) {
   const bool turns = task.isAt(MotionSegment::Kind::kTurn);
   const double reach = farthestOf(world, robot);
   double least = kInfinity;
-  for (const Walker& walker : world.walkers) {
+  for (const Walker& walker : world.people.walkers) {
     if (!isWithin(world, robot, walker, reach)) continue;
     least = std::min(
         least, turns ? whileTurning(world, robot, walker) : whileDriving(world, robot, walker));
@@ -135,7 +135,7 @@ void allow(WorldState& world, int robot, double speed) {
 /// A turn is fast: nobody waits for a scan before it.
 void holdTurns(WorldState& world) {
   const FleetState& f = world.fleet;
-  for (const Walker& walker : world.walkers) {
+  for (const Walker& walker : world.people.walkers) {
     for (int i = 0; i < f.size(); ++i) {
       if (!isWithin(world, i, walker, kBeside)) continue;
       const bool turns = f.tasks[i].isAt(MotionSegment::Kind::kTurn);
@@ -147,12 +147,13 @@ void holdTurns(WorldState& world) {
 // --- light curtains
 
 bool isInterrupted(const WorldState& world, const LightCurtain& curtain) {
-  return std::any_of(world.walkers.begin(), world.walkers.end(), [&](const Walker& walker) {
-    const Vector3& at = world.models[walker.model]->pose.Pos();
-    const double dx = at.X() - std::clamp(at.X(), curtain.min_x, curtain.max_x);
-    const double dy = at.Y() - std::clamp(at.Y(), curtain.min_y, curtain.max_y);
-    return std::hypot(dx, dy) < walker.radius;
-  });
+  return std::any_of(world.people.walkers.begin(), world.people.walkers.end(),
+                     [&](const Walker& walker) {
+                       const Vector3& at = world.models[walker.model]->pose.Pos();
+                       const double dx = at.X() - std::clamp(at.X(), curtain.min_x, curtain.max_x);
+                       const double dy = at.Y() - std::clamp(at.Y(), curtain.min_y, curtain.max_y);
+                       return std::hypot(dx, dy) < walker.radius;
+                     });
 }
 
 /// Whether any of the robot and its load may be inside.
@@ -167,7 +168,7 @@ bool reachesInto(const WorldState& world, int robot, const LightCurtain& curtain
 
 void watchCurtains(WorldState& world) {
   std::vector<const LightCurtain*> interrupted;
-  for (const LightCurtain& curtain : world.curtains) {
+  for (const LightCurtain& curtain : world.people.curtains) {
     if (isInterrupted(world, curtain)) interrupted.push_back(&curtain);
   }
   for (int i = 0; i < world.fleet.size(); ++i) {
@@ -183,17 +184,19 @@ void watchCurtains(WorldState& world) {
 
 void keepFromPeople(WorldState& world) {
   if (!minds(world)) return;
-  if (world.walkers.empty()) {
+  if (world.people.walkers.empty()) {
     for (int i = 0; i < world.fleet.size(); ++i) allow(world, i, kInfinity);
   } else {
-    for (int i : world.scans_due) allow(world, i, allowedSpeed(world, i));
+    for (int i : world.scans.due) allow(world, i, allowedSpeed(world, i));
   }
   holdTurns(world);
   watchCurtains(world);
-  world.keeps_off = !world.walkers.empty();
+  world.people.slowed_for_people = !world.people.walkers.empty();
 }
 
-bool minds(const WorldState& world) { return !world.walkers.empty() || world.keeps_off; }
+bool minds(const WorldState& world) {
+  return !world.people.walkers.empty() || world.people.slowed_for_people;
+}
 
 void setLightCurtain(WorldState& world, const LightCurtain& curtain) {
   if (curtain.name.empty()) throw std::invalid_argument("a light curtain needs a name");
@@ -205,11 +208,11 @@ void setLightCurtain(WorldState& world, const LightCurtain& curtain) {
                                 "': min_x < max_x and min_y < max_y, all finite, were expected");
   }
   removeLightCurtain(world, curtain.name);
-  world.curtains.push_back(curtain);
+  world.people.curtains.push_back(curtain);
 }
 
 bool removeLightCurtain(WorldState& world, const std::string& name) {
-  auto& curtains = world.curtains;
+  auto& curtains = world.people.curtains;
   const auto is_it = [&](const LightCurtain& curtain) { return curtain.name == name; };
   const auto end = std::remove_if(curtains.begin(), curtains.end(), is_it);
   const bool was_there = end != curtains.end();

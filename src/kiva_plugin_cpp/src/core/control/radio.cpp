@@ -10,8 +10,8 @@ namespace kiva {
 namespace {
 
 void arrive(WorldState& world, const Command& command, FollowPath path) {
-  world.commands.push_back(command);
-  if (command.kind == Command::Kind::kFollow) world.paths.push_back(std::move(path));
+  world.inbox.commands.push_back(command);
+  if (command.kind == Command::Kind::kFollow) world.inbox.paths.push_back(std::move(path));
 }
 
 bool isWired(const Command& command) {
@@ -21,28 +21,29 @@ bool isWired(const Command& command) {
 /// The step at which a message sent now is there: never before one that was sent to the same robot
 /// earlier.
 std::uint64_t arrival(const WorldState& world, int kiva_id, RandomStream* random) {
-  const RadioRealism& real = world.realism.radio;
+  const RadioRealism& real = world.settings.realism.radio;
   const double rest = std::max(0.0, real.latency_mean - real.latency_least);
   std::uint64_t due =
-      world.total_steps + world.stepsIn(real.latency_least + random->exponential(rest));
-  for (const RadioMessage& other : world.on_air) {
+      world.clock.total_steps + world.clock.stepsIn(real.latency_least + random->exponential(rest));
+  for (const CommandMessage& other : world.command_link.messages) {
     if (other.command.kiva_id == kiva_id) due = std::max(due, other.due);
   }
   return due;
 }
 
-void put(WorldState& world, RadioMessage message) {
-  const auto later = [](const RadioMessage& a, const RadioMessage& b) { return a.due < b.due; };
-  const auto at = std::upper_bound(world.on_air.begin(), world.on_air.end(), message, later);
-  world.on_air.insert(at, std::move(message));
+void put(WorldState& world, CommandMessage message) {
+  const auto later = [](const CommandMessage& a, const CommandMessage& b) { return a.due < b.due; };
+  const auto at = std::upper_bound(world.command_link.messages.begin(),
+                                   world.command_link.messages.end(), message, later);
+  world.command_link.messages.insert(at, std::move(message));
 }
 
 }  // namespace
 
 void send(WorldState& world, const Command& command, FollowPath path) {
-  const RadioRealism& real = world.realism.radio;
+  const RadioRealism& real = world.settings.realism.radio;
   if (!real.enabled || isWired(command)) return arrive(world, command, std::move(path));
-  RandomStream random(world.options.seed, Matter::kCommand, 0, world.radio_messages++);
+  RandomStream random(world.settings.options.seed, Matter::kCommand, 0, world.command_link.sent++);
   if (random.chance(real.lost)) return;
   const bool is_repeated = random.chance(real.repeated);
   put(world, {arrival(world, command.kiva_id, &random), command, path});
@@ -52,16 +53,17 @@ void send(WorldState& world, const Command& command, FollowPath path) {
 }
 
 void receive(WorldState& world) {
-  while (!world.on_air.empty() && world.on_air.front().due <= world.total_steps) {
-    RadioMessage& message = world.on_air.front();
+  while (!world.command_link.messages.empty() &&
+         world.command_link.messages.front().due <= world.clock.total_steps) {
+    CommandMessage& message = world.command_link.messages.front();
     arrive(world, message.command, std::move(message.path));
-    world.on_air.pop_front();
+    world.command_link.messages.pop_front();
   }
 }
 
 void forgetMessages(WorldState& world) {
-  world.on_air.clear();
-  world.reports_on_air.clear();
+  world.command_link.messages.clear();
+  world.report_link.messages.clear();
 }
 
 }  // namespace kiva

@@ -26,8 +26,8 @@ std::vector<Point> gridAround(const WorldState& world, const Point& here) {
   std::vector<Point> points;
   for (int i = -kCells; i <= kCells; ++i) {
     for (int j = -kCells; j <= kCells; ++j) {
-      points.push_back({nearestGrid(world, here.x) + i * world.grid_spacing,
-                        nearestGrid(world, here.y) + j * world.grid_spacing});
+      points.push_back({nearestGrid(world, here.x) + i * world.settings.grid_spacing,
+                        nearestGrid(world, here.y) + j * world.settings.grid_spacing});
     }
   }
   std::stable_sort(points.begin(), points.end(), [&](const Point& a, const Point& b) {

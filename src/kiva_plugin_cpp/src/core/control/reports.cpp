@@ -19,16 +19,16 @@ bool comesLater(const ReportMessage& a, const ReportMessage& b) {
 void sendReport(WorldState& world, int robot) {
   const FleetState& f = world.fleet;
   if (f.failures[robot] & bitOf(Failure::kRadio)) return;
-  const RadioRealism& real = world.realism.radio;
+  const RadioRealism& real = world.settings.realism.radio;
   const int id = f.robots[robot].id;
-  const std::uint64_t number = ++world.reports;
-  RandomStream random(world.options.seed, Matter::kStatus, id, number);
+  const std::uint64_t number = ++world.report_link.sent;
+  RandomStream random(world.settings.options.seed, Matter::kStatus, id, number);
   if (random.chance(real.status_lost)) return;
   const double rest = std::max(0.0, real.status_latency_mean - real.status_latency_least);
   const double latency = real.status_latency_least + random.exponential(rest);
-  world.reports_on_air.push_back(
-      {world.total_steps + world.stepsIn(latency), number, id, reportOf(world, robot)});
-  std::push_heap(world.reports_on_air.begin(), world.reports_on_air.end(), comesLater);
+  world.report_link.messages.push_back(
+      {world.clock.total_steps + world.clock.stepsIn(latency), number, id, reportOf(world, robot)});
+  std::push_heap(world.report_link.messages.begin(), world.report_link.messages.end(), comesLater);
 }
 
 bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
@@ -42,13 +42,14 @@ void hear(WorldState& world, int robot, std::uint64_t number, const RobotReport&
   const bool is_new = heard.number == 0 || !tellsTheSame(report, heard.report);
   heard = {number, report};
   if (!is_new) return;
-  world.status_changes.push_back({world.time(), world.fleet.robots[robot].id, report.status,
-                                  report.state, report.shelf_id, report.x, report.y, report.yaw});
+  world.log.status_changes.push_back({world.clock.time(), world.fleet.robots[robot].id,
+                                      report.status, report.state, report.shelf_id, report.x,
+                                      report.y, report.yaw});
 }
 
 void receiveReports(WorldState& world) {
-  auto& on_air = world.reports_on_air;
-  while (!on_air.empty() && on_air.front().due <= world.total_steps) {
+  auto& on_air = world.report_link.messages;
+  while (!on_air.empty() && on_air.front().due <= world.clock.total_steps) {
     std::pop_heap(on_air.begin(), on_air.end(), comesLater);
     const ReportMessage& message = on_air.back();
     const int robot = world.fleet.find(message.kiva_id);
@@ -64,34 +65,34 @@ RobotReport reportOf(const WorldState& world, int robot) {
   const int unit = f.unit[robot];
   return {f.x[robot],       f.y[robot],       f.yaw[robot],
           f.vx[robot],      f.vy[robot],      f.yaw_rate[robot],
-          f.status[robot],  f.state[robot],   unit < 0 ? 0 : world.units[unit].id,
+          f.status[robot],  f.state[robot],   unit < 0 ? 0 : world.storage.units[unit].id,
           f.path_id[robot], f.reached[robot], f.left[robot],
           f.last_end[robot]};
 }
 
 void exchangeReports(WorldState& world) {
-  if (!world.realism.radio.delaysReports()) return;
+  if (!world.settings.realism.radio.delaysReports()) return;
   std::vector<int> changed;
-  changed.swap(world.to_report);
+  changed.swap(world.report_link.changed);
   for (const int id : changed) {
     const int robot = world.fleet.find(id);
     if (robot < 0) continue;
     // Whoever puts a robot there knows where.
     if (world.fleet.heard[robot].number == 0) {
-      hear(world, robot, ++world.reports, reportOf(world, robot));
+      hear(world, robot, ++world.report_link.sent, reportOf(world, robot));
     } else {
       sendReport(world, robot);
     }
   }
-  const auto period = static_cast<int>(world.stepsIn(kReportPeriod));
-  const auto first = static_cast<int>(world.total_steps % static_cast<std::uint64_t>(period));
+  const auto period = static_cast<int>(world.clock.stepsIn(kReportPeriod));
+  const auto first = static_cast<int>(world.clock.total_steps % static_cast<std::uint64_t>(period));
   for (int i = first; i < world.fleet.size(); i += period) sendReport(world, i);
   receiveReports(world);
 }
 
 void knowWhereabouts(WorldState& world, int robot) {
   const RobotReport report = reportOf(world, robot);
-  if (world.fleet.heard[robot].number > 0) hear(world, robot, ++world.reports, report);
+  if (world.fleet.heard[robot].number > 0) hear(world, robot, ++world.report_link.sent, report);
   const int id = world.fleet.robots[robot].id;
   for (Defect& defect : world.failures.defects) {
     if (defect.kiva_id == id) defect.last = report;

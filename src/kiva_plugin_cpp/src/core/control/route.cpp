@@ -19,7 +19,7 @@ constexpr double kAside = 0.05;                // [m]: who can't get back may go
 
 void checkGoal(const WorldState& world, const Point& goal) {
   if (isOnFloor(world, goal)) return;
-  const Floor& f = world.floor;
+  const Floor& f = world.floor.extent;
   if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
   throw Refusal(format("goal (%g, %g) is outside the floor, which spans x %g…%g m, y %g…%g m",
                        goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
@@ -31,7 +31,8 @@ double checkedGoal(const WorldState& world, double coordinate, char axis) {
   }
   const double grid = nearestGrid(world, coordinate);
   if (std::abs(grid - coordinate) <= kGoalTolerance) return grid;
-  throw Refusal(format("%c = %g m is off the grid of %g m", axis, coordinate, world.grid_spacing));
+  throw Refusal(
+      format("%c = %g m is off the grid of %g m", axis, coordinate, world.settings.grid_spacing));
 }
 
 void checkMotion(const WorldState& world, int robot) {
@@ -96,7 +97,7 @@ MotionSegment Route::makeDrive(State state) const {
 void Route::recover(const Point* back) {
   Point from{here_.x, here_.y};
   const bool is_wedged =
-      world_.fleet.wedged_until[robot_] > static_cast<double>(world_.total_steps);
+      world_.fleet.wedged_until[robot_] > static_cast<double>(world_.clock.total_steps);
   if (is_wedged) throw Wedged();
   const std::vector<Point> way = wayBack(world_, robot_, back);
   if (way.empty() && std::hypot(from.x - at_.x, from.y - at_.y) > kAside) throw Wedged();

@@ -40,7 +40,7 @@ void tipOff(WorldState& world, int robot) {
   FleetState& f = world.fleet;
   const Sway sway = f.sway[robot];
   f.sway[robot] = {};
-  Model& unit = *world.models[world.units[f.unit[robot]].model];
+  Model& unit = *world.models[world.storage.units[f.unit[robot]].model];
   const Pose pose = unitPose(world, f.unit[robot]), plate = towerPose(world, robot);
   const Vector3 axis(-sway.to_y, sway.to_x, 0);
   const Quaternion turn(axis, sway.tilt);
@@ -51,8 +51,8 @@ void tipOff(WorldState& world, int robot) {
   state.twist.angular = axis * sway.rate;
   state.twist.linear =
       Vector3(f.vx[robot], f.vy[robot], 0) + state.twist.angular.Cross(state.pose.Pos() - edge);
-  world.report(Event::Kind::kTipped, unit.name, f.robots[robot].name,
-               unit.name + " tips off " + f.robots[robot].name);
+  world.log.report(Event::Kind::kTipped, unit.name, f.robots[robot].name,
+                   unit.name + " tips off " + f.robots[robot].name);
   placeModel(world, unit, state);
   haltRobot(world, robot, unit.name, "has lost its load");
 }
@@ -60,21 +60,23 @@ void tipOff(WorldState& world, int robot) {
 void swayOne(WorldState& world, int robot) {
   FleetState& f = world.fleet;
   Sway& sway = f.sway[robot];
-  const double ax = (f.vx[robot] - sway.vx) / world.dt, ay = (f.vy[robot] - sway.vy) / world.dt;
-  const bool is_next = sway.step + 1 == world.total_steps;
+  const double ax = (f.vx[robot] - sway.vx) / world.clock.dt,
+               ay = (f.vy[robot] - sway.vy) / world.clock.dt;
+  const bool is_next = sway.step + 1 == world.clock.total_steps;
   sway.vx = f.vx[robot];
   sway.vy = f.vy[robot];
-  sway.step = world.total_steps;
+  sway.step = world.clock.total_steps;
   if (!is_next) return;  // it stood, or cruised
-  lean(&sway, f.robots[robot], world.gravityDown(), ax, ay, world.dt);
+  lean(&sway, f.robots[robot], world.settings.gravityDown(), ax, ay, world.clock.dt);
   if (sway.tilt > kTips) tipOff(world, robot);
 }
 
 }  // namespace
 
 void swayLoads(WorldState& world) {
-  if (!world.realism.loads.enabled) return;
-  const std::vector<int> stepped = world.stepped_singly;  // who tips a load may be deleted by it
+  if (!world.settings.realism.loads.enabled) return;
+  const std::vector<int> stepped =
+      world.schedule.stepped_singly;  // who tips a load may be deleted by it
   for (const int robot : stepped) {
     if (robot < world.fleet.size() && world.fleet.unit[robot] >= 0) swayOne(world, robot);
   }

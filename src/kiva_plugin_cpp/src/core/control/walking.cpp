@@ -68,9 +68,9 @@ Walker newWalker(const Model& model) {
 }
 
 Walker& walkerOf(WorldState& world, const Model& model) {
-  if (Walker* known = findWalker(world, model.slot)) return *known;
-  world.walkers.push_back(newWalker(model));
-  return world.walkers.back();
+  if (Walker* known = world.people.find(model.slot)) return *known;
+  world.people.walkers.push_back(newWalker(model));
+  return world.people.walkers.back();
 }
 
 /// Whoever reckoned with somebody who stands looks again.
@@ -101,7 +101,7 @@ bool isFreeAhead(const WorldState& world, const Walker& walker, const Pose& at,
 }
 
 void waitOrTurnAside(WorldState& world, Walker* walker) {
-  walker->held_up += world.dt;
+  walker->held_up += world.clock.dt;
   if (walker->held_up < walker->patience) return;
   const Waypoint& to = walker->walk.waypoints[walker->next];
   walker->detour = wayAround(world, *walker, to.x, to.y);
@@ -129,10 +129,10 @@ void put(WorldState& world, Model& model, const Pose& pose) {
 void stepTowards(WorldState& world, Walker* walker, const PathPoint& to) {
   Model& model = *world.models[walker->model];
   const double dx = to.x - model.pose.X(), dy = to.y - model.pose.Y();
-  const double part = partOf(walker->walk.waypoints[walker->next].speed * world.dt, dx, dy);
+  const double part = partOf(walker->walk.waypoints[walker->next].speed * world.clock.dt, dx, dy);
   const Vector3& at = model.pose.Pos();
-  walker->vx = part * dx / world.dt;
-  walker->vy = part * dy / world.dt;
+  walker->vx = part * dx / world.clock.dt;
+  walker->vy = part * dy / world.clock.dt;
   walker->held_up = 0;
   const double yaw = std::hypot(dx, dy) > kThere ? std::atan2(dy, dx) : model.pose.Yaw();
   put(world, model, Pose(at.X() + part * dx, at.Y() + part * dy, at.Z(), 0, 0, yaw));
@@ -142,14 +142,14 @@ void stepTowards(WorldState& world, Walker* walker, const PathPoint& to) {
 void walkOn(WorldState& world, Walker* walker) {
   walker->vx = walker->vy = 0;
   if (walker->pause > 0) {
-    walker->pause -= world.dt;
+    walker->pause -= world.clock.dt;
     return;
   }
   if (!walker->walks()) return;
   const PathPoint to = walker->target();
-  if (world.total_steps >= walker->look_at) {
+  if (world.clock.total_steps >= walker->look_at) {
     walker->is_free = isFreeAhead(world, *walker, world.models[walker->model]->pose, to);
-    walker->look_at = world.total_steps + world.stepsIn(kLook);
+    walker->look_at = world.clock.total_steps + world.clock.stepsIn(kLook);
   }
   if (walker->is_free) return stepTowards(world, walker, to);
   waitOrTurnAside(world, walker);
@@ -158,7 +158,7 @@ void walkOn(WorldState& world, Walker* walker) {
 }  // namespace
 
 void walk(WorldState& world, const std::string& person, const Walk& walk) {
-  const Model* model = world.find(person);
+  const Model* model = world.models.find(person);
   if (!model) throw std::invalid_argument("there is no model '" + person + "'");
   if (!isPerson(*model)) refuse(person, "it is no person");
   checkOnFloor(world, walk, person);
@@ -172,19 +172,19 @@ void beginScript(WorldState& world, int model, const Walk& script) {
 }
 
 void restartScripts(WorldState& world) {
-  auto& walkers = world.walkers;
+  auto& walkers = world.people.walkers;
   const auto has_none = [](const Walker& walker) { return !walker.script; };
   walkers.erase(std::remove_if(walkers.begin(), walkers.end(), has_none), walkers.end());
   for (Walker& walker : walkers) setOut(world, &walker, *walker.script);
 }
 
 void walkOn(WorldState& world) {
-  for (Walker& walker : world.walkers) walkOn(world, &walker);
+  for (Walker& walker : world.people.walkers) walkOn(world, &walker);
 }
 
 std::vector<Person> peopleIn(const WorldState& world) {
   std::vector<Person> people;
-  for (const Walker& walker : world.walkers) {
+  for (const Walker& walker : world.people.walkers) {
     const Model& model = *world.models[walker.model];
     Person person{model.name, model.pose.X(), model.pose.Y(), model.pose.Yaw(),
                   walker.vx,  walker.vy,      model.pose.X(), model.pose.Y()};

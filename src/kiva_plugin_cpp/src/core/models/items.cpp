@@ -14,20 +14,20 @@ namespace kiva {
 namespace {
 
 bool liesOnUnit(const WorldState& world, const Model& model) {
-  return world.items[model.index].unit >= 0;
+  return world.storage.items[model.index].unit >= 0;
 }
 
 Model& unitBelow(const WorldState& world, const Model& model) {
-  return *world.models[world.units[world.items[model.index].unit].model];
+  return *world.models[world.storage.units[world.storage.items[model.index].unit].model];
 }
 
 /// The unit that an item lies on. One that was raised onto the floor takes along what would lie on
 /// it had the floor been where it was thought to be.
 int findUnit(const WorldState& world, Model& item) {
-  const Vector3 lift(0, 0, std::max(0.0, world.floor.z));
+  const Vector3 lift(0, 0, std::max(0.0, world.floor.extent.z));
   const int raised = unitAt(world, item.pose.Pos() + lift);
-  if (raised < 0 || world.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
-  item.pose.Pos().Z() += world.units[raised].raised;
+  if (raised < 0 || world.storage.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
+  item.pose.Pos().Z() += world.storage.units[raised].raised;
   return raised;
 }
 
@@ -35,7 +35,7 @@ int findUnit(const WorldState& world, Model& item) {
 
 std::uint8_t Items::occupies(const WorldState& world, const Model& model) const {
   if (liesOnUnit(world, model)) return Occupancy::kFree;
-  const OffShelf* off = world.offShelf(model.slot);
+  const OffShelf* off = world.fallen.find(model.slot);
   return off && off->lies ? Occupancy::kTaken : Occupancy::kFree;
 }
 
@@ -48,8 +48,8 @@ void Items::add(WorldState& world, Model& model) const {
   item.unit = findUnit(world, model);
   if (item.unit >= 0) item.pose_in_unit = unitPose(world, item.unit).Inverse() * model.pose;
   item.spawn_pose_in_unit = item.pose_in_unit;
-  model.index = static_cast<int>(world.items.size());
-  world.items.push_back(item);
+  model.index = static_cast<int>(world.storage.items.size());
+  world.storage.items.push_back(item);
   if (item.unit >= 0) {
     addMass(world, item.unit, item.mass);
   } else {
@@ -60,27 +60,27 @@ void Items::add(WorldState& world, Model& model) const {
 void Items::remove(WorldState& world, Model& model) const {
   OrdinaryModels::remove(world, model);
   if (model.index < 0) return;  // it never joined
-  const Item gone = world.items[model.index];
-  const int last = static_cast<int>(world.items.size()) - 1;
+  const Item gone = world.storage.items[model.index];
+  const int last = static_cast<int>(world.storage.items.size()) - 1;
   if (model.index != last) {
-    world.items[model.index] = std::move(world.items[last]);
-    world.models[world.items[model.index].model]->index = model.index;
+    world.storage.items[model.index] = std::move(world.storage.items[last]);
+    world.models[world.storage.items[model.index].model]->index = model.index;
   }
-  world.items.pop_back();
+  world.storage.items.pop_back();
   if (gone.unit >= 0) addMass(world, gone.unit, -gone.mass);
-  world.unitsMoved();
+  world.storage.noteMove();
 }
 
 void Items::place(WorldState& world, Model& model, const EntityState& state) const {
   if (!liesOnUnit(world, model)) return OrdinaryModels::place(world, model, state);
-  Item& item = world.items[model.index];
+  Item& item = world.storage.items[model.index];
   item.pose_in_unit = unitPose(world, item.unit).Inverse() * state.pose;
 }
 
 /// One that lies on a unit goes where that goes.
 void Items::reset(WorldState& world, Model& model) const {
   if (!liesOnUnit(world, model)) return OrdinaryModels::reset(world, model);
-  Item& item = world.items[model.index];
+  Item& item = world.storage.items[model.index];
   item.pose_in_unit = item.spawn_pose_in_unit;
 }
 
@@ -95,7 +95,7 @@ Pose Items::linkPose(const WorldState& world, const Model& model, int link) cons
 }
 
 void Items::reweigh(WorldState& world, Model& model, double added) const {
-  Item& item = world.items[model.index];
+  Item& item = world.storage.items[model.index];
   item.mass += added;
   if (item.unit >= 0) return addMass(world, item.unit, added);
   OrdinaryModels::reweigh(world, model, added);
@@ -111,7 +111,7 @@ bool Items::push(WorldState& world, Model& model, int link, const Vector3& at, c
 }
 
 void fallOff(WorldState& world, Model& model, const EntityState& state) {
-  Item& item = world.items[model.index];
+  Item& item = world.storage.items[model.index];
   const int unit = item.unit;
   item.unit = -1;
   addMass(world, unit, -item.mass);
@@ -119,7 +119,7 @@ void fallOff(WorldState& world, Model& model, const EntityState& state) {
   OrdinaryModels().place(world, model, state);
   moved(world, model);
   alarm(world);
-  ++world.models_revision;
+  ++world.models.revision;
 }
 
 void putBack(WorldState& world, Model& model, const Model& unit) {
@@ -129,26 +129,26 @@ void putBack(WorldState& world, Model& model, const Model& unit) {
   model.in_physics = false;
   hideFootprints(world, model);
   model.geometries.clear();
-  Item& item = world.items[model.index];
+  Item& item = world.storage.items[model.index];
   item.unit = unit.index;
   addMass(world, item.unit, item.mass);
-  world.unitsMoved();
+  world.storage.noteMove();
   alarm(world);
   wakeBodies(world);  // what lies on it falls
-  ++world.models_revision;
+  ++world.models.revision;
 }
 
 void forgetFallen(WorldState& world, int slot) {
-  auto& all = world.off_shelf;
+  auto& all = world.fallen.items;
   const auto is_of = [slot](const OffShelf& o) { return o.item == slot || o.unit == slot; };
   all.erase(std::remove_if(all.begin(), all.end(), is_of), all.end());
 }
 
 void putAllBack(WorldState& world) {
-  for (const OffShelf& one : world.off_shelf) {
+  for (const OffShelf& one : world.fallen.items) {
     if (one.lies) putBack(world, *world.models[one.item], *world.models[one.unit]);
   }
-  world.off_shelf.clear();
+  world.fallen.items.clear();
 }
 
 }  // namespace kiva

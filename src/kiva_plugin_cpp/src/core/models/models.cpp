@@ -18,6 +18,7 @@
 #include "core/state/footprints.h"
 #include "core/state/people.h"
 #include "core/state/poses.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -47,7 +48,7 @@ void checkInstance(const WorldState& world, const ModelInstance& instance) {
   if (name.empty()) throw DescriptionError("a model needs a name");
   if (name.size() > 200) refuse(instance, "a name may have 200 characters at the most");
   if (name.find("::") != std::string::npos) refuse(instance, "'::' can't be part of a name");
-  if (world.find(name)) refuse(instance, "entity already exists");
+  if (world.models.find(name)) refuse(instance, "entity already exists");
   checkPose(name, instance.pose);
 }
 
@@ -62,32 +63,15 @@ ModelKind classify(const ModelInstance& instance) {
   return ModelKind::kOther;
 }
 
-Model& takeSlot(WorldState& world, const ModelInstance& instance) {
-  int slot = static_cast<int>(world.models.size());
-  if (world.free_slots.empty()) {
-    world.models.emplace_back();
-  } else {
-    slot = world.free_slots.back();
-    world.free_slots.pop_back();
-  }
+Model& addModel(WorldState& world, const ModelInstance& instance) {
   auto model = std::make_unique<Model>();
   model->name = instance.name;
   model->description = instance.description;
   model->kind = classify(instance);
   model->owner = &ownerOf(model->kind);
-  model->slot = slot;
-  model->serial = world.next_serial++;
   model->spawn_pose = model->pose = instance.pose;
   model->robot_namespace = instance.robot_namespace;
-  world.models[slot] = std::move(model);
-  world.slot_of_name[instance.name] = slot;
-  return *world.models[slot];
-}
-
-void freeSlot(WorldState& world, int slot) {
-  world.slot_of_name.erase(world.models[slot]->name);
-  world.models[slot].reset();
-  world.free_slots.push_back(slot);
+  return world.models.add(std::move(model));
 }
 
 /// Whether a plugin of that file comes with the world and is dealt with elsewhere.
@@ -122,22 +106,22 @@ void dismantle(WorldState& world, Model& model) {
   forgetContacts(world, model.slot);
   model.plugins.clear();
   forgetExternalInputs(world, model.name);
-  forgetWalker(world, model.slot);
+  world.people.forget(model.slot);
   forgetFallen(world, model.slot);
   if (model.in_physics) world.physics.remove(model.bodies);
   model.in_physics = false;
-  for (auto* slots : {&world.activated, &world.models_with_plugins}) {
+  for (auto* slots : {&world.models.activated, &world.models.with_plugins}) {
     slots->erase(std::remove(slots->begin(), slots->end(), model.slot), slots->end());
   }
   model.owner->remove(world, model);
   hideFootprints(world, model);
-  freeSlot(world, model.slot);
+  world.models.remove(model.slot);
   wakeBodies(world);  // what sleeps on something falls once that is gone
 }
 
 void loadAllPlugins(WorldState& world, Model& model) {
   loadPlugins(world, model);
-  if (!model.plugins.empty()) world.models_with_plugins.push_back(model.slot);
+  if (!model.plugins.empty()) world.models.with_plugins.push_back(model.slot);
 }
 
 /// Others notice that a model was put somewhere.
@@ -204,7 +188,7 @@ void loadPlugins(WorldState& world, Model& model) {
 
 void spawnModel(WorldState& world, const ModelInstance& instance) {
   checkInstance(world, instance);
-  Model& model = takeSlot(world, instance);
+  Model& model = addModel(world, instance);
   try {
     model.owner->add(world, model);
     moved(world, model);
@@ -217,10 +201,10 @@ void spawnModel(WorldState& world, const ModelInstance& instance) {
     refuse(instance, error.what());
   }
   const int robot = model.owner->robot(world, model);
-  if (robot >= 0) world.setStatus(robot, Status::kIdle, State::kIdle);
+  if (robot >= 0) setStatus(world, robot, Status::kIdle, State::kIdle);
   alarm(world);
-  ++world.models_revision;
-  world.report(Event::Kind::kSpawned, instance.name, "", instance.name + " has come");
+  ++world.models.revision;
+  world.log.report(Event::Kind::kSpawned, instance.name, "", instance.name + " has come");
 }
 
 void removeModel(WorldState& world, int slot) {
@@ -228,8 +212,8 @@ void removeModel(WorldState& world, int slot) {
   const std::string name = model.name;
   for (int passenger : model.owner->passengers(world, model)) removeModel(world, passenger);
   dismantle(world, model);
-  ++world.models_revision;
-  world.report(Event::Kind::kDeleted, name, "", name + " is gone");
+  ++world.models.revision;
+  world.log.report(Event::Kind::kDeleted, name, "", name + " is gone");
 }
 
 void placeModel(WorldState& world, Model& model, const EntityState& state) {
@@ -278,7 +262,7 @@ std::vector<ContactPoint> contactsOf(const WorldState& world, int slot) {
   for (const TouchPoint& touch : world.physics.touchPoints(slot)) {
     out.push_back({collisionName(world, touch.body_a, touch.part_a),
                    collisionName(world, touch.body_b, touch.part_b), touch.point, touch.normal,
-                   touch.depth, touch.impulse / world.dt});
+                   touch.depth, touch.impulse / world.clock.dt});
   }
   return out;
 }

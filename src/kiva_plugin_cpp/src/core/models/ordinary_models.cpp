@@ -55,7 +55,7 @@ void setModelTwist(Model& model, const Twist& twist) {
 void OrdinaryModels::add(WorldState& world, Model& model) const {
   insertBodies(world, model);
   if (!model.isStatic()) {
-    world.bodies.push_back(model.slot);
+    world.models.bodies.push_back(model.slot);
     initJoints(model);
   }
   addCollisionGeometry(world, model);
@@ -63,7 +63,7 @@ void OrdinaryModels::add(WorldState& world, Model& model) const {
 }
 
 void OrdinaryModels::remove(WorldState& world, Model& model) const {
-  auto& slots = world.bodies;
+  auto& slots = world.models.bodies;
   slots.erase(std::remove(slots.begin(), slots.end(), model.slot), slots.end());
   const bool may_be_floor = !model.level_surfaces.empty();
   model.level_surfaces.clear();
@@ -92,7 +92,7 @@ void OrdinaryModels::reset(WorldState& world, Model& model) const {
 
 EntityState OrdinaryModels::state(const WorldState& world, const Model& model) const {
   if (followsBodies(model)) return canonicalState(model);
-  return {model.pose, walkingTwist(world, model.slot)};
+  return {model.pose, world.people.twist(model.slot)};
 }
 
 Pose OrdinaryModels::linkPose(const WorldState& /*world*/, const Model& model, int link) const {

@@ -75,8 +75,8 @@ std::optional<Realism> realismOf(const Parameters& parameters) {
 /// Throws DescriptionError if robots of this world are told otherwise already.
 void checkRealism(const WorldState& world, const Parameters& parameters) {
   const std::optional<Realism> asked = realismOf(parameters);
-  if (!asked || world.options.realism || !world.realism_of_models) return;
-  if (*asked == world.realism) return;
+  if (!asked || world.settings.options.realism || !world.settings.realism_of_models) return;
+  if (*asked == world.settings.realism) return;
   throw DescriptionError(parameters.where() +
                          ": <realism> is not that of the robots before; all robots of a world have "
                          "the same");
@@ -84,14 +84,14 @@ void checkRealism(const WorldState& world, const Parameters& parameters) {
 
 /// The world's is that of the first robot whose file says anything of it, unless it was given.
 void adoptRealism(WorldState& world, const ModelDescription& description) {
-  if (world.options.realism || world.realism_of_models) return;
+  if (world.settings.options.realism || world.settings.realism_of_models) return;
   for (const PluginDescription& plugin : description.plugins) {
     if (plugin.filename != kMotionPlugin) continue;
     const std::optional<Realism> asked = realismOf(plugin.parameters);
     if (!asked) continue;
-    world.realism = *asked;
-    world.realism_of_models = true;
-    world.applyRealism();
+    world.settings.realism = *asked;
+    world.settings.realism_of_models = true;
+    world.fleet.applyRealism(world.settings.realism, world.clock.dt);
   }
 }
 
@@ -103,14 +103,14 @@ void configure(const WorldState& world, const ModelDescription& description, Rob
     if (plugin.filename == kMotionPlugin) checkRealism(world, plugin.parameters);
     plugin.parameters.rejectUnread();
   }
-  if (world.options.drive) robot->drive.drive = *world.options.drive;
+  if (world.settings.options.drive) robot->drive.drive = *world.settings.options.drive;
 }
 
 /// What is stored by index follows a robot that got another one.
 void reindexRobot(WorldState& world, int from, int to) {
-  Model& model = world.modelOf(to);
+  Model& model = world.models.of(world.fleet.robots[to]);
   model.index = to;
-  for (StorageUnit& unit : world.units) {
+  for (StorageUnit& unit : world.storage.units) {
     if (unit.carrier == from) unit.carrier = to;
     if (unit.claimed_by == from) unit.claimed_by = to;
   }
@@ -147,9 +147,9 @@ void stand(FleetState& f, int robot, const EntityState& at) {
 /// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
 void setSpread(const WorldState& world, Robot* robot) {
   constexpr double kMost = 3;  // deviations that are delivered
-  const ActuationRealism& real = world.realism.actuation;
+  const ActuationRealism& real = world.settings.realism.actuation;
   if (!real.enabled) return;
-  RandomStream random(world.options.seed, Matter::kActuation, robot->id, 0);
+  RandomStream random(world.settings.options.seed, Matter::kActuation, robot->id, 0);
   const auto deviate = [&](double share) {
     return 1 + share * std::clamp(random.normal(), -kMost, kMost);
   };
@@ -179,8 +179,8 @@ void Robots::add(WorldState& world, Model& model) const {
   const double yaw = model.pose.Rot().Yaw();
   const bool jointed = robot.drive.drive == Drive::kJointed;
   setRays(world, &robot);
-  world.top_speed = std::max(world.top_speed, robot.drive.speed);
-  world.floor_parts_due = true;
+  world.fleet.fastest = std::max(world.fleet.fastest, robot.drive.speed);
+  world.floor.cover_due = true;
   adoptRealism(world, *model.description);
   setSpread(world, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
@@ -193,7 +193,7 @@ void Robots::remove(WorldState& world, Model& model) const {
   const int robot = model.index, last = world.fleet.size() - 1;
   if (robot < 0) return;  // it never joined
   if (world.fleet.unit[robot] >= 0) putDown(world, robot);
-  for (StorageUnit& unit : world.units) {
+  for (StorageUnit& unit : world.storage.units) {
     if (unit.claimed_by == robot) unit.claimed_by = -1;
   }
   auto& defects = world.failures.defects;
@@ -203,8 +203,8 @@ void Robots::remove(WorldState& world, Model& model) const {
                 defects.end());
   world.fleet.remove(robot);
   world.obstacles.removeMover(robot);
-  world.scans_due.clear();  // indices have changed
-  world.sighted.clear();
+  world.scans.due.clear();  // indices have changed
+  world.scans.sighted.clear();
   if (robot != last) reindexRobot(world, last, robot);
 }
 
@@ -275,10 +275,10 @@ bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& 
   const Vehicle vehicle = vehicleOf(f.robots[i], groundOf(world));
   const Vector3 centre = centreFromOrigin(f, i);
   const Vector3 arm = at - basePose(world, i).Pos() - centre;
-  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.dt;
+  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.clock.dt;
   moved(f, i);
-  f.vx[i] += force.X() / vehicle.mass * world.dt + turn * centre.Y();
-  f.vy[i] += force.Y() / vehicle.mass * world.dt - turn * centre.X();
+  f.vx[i] += force.X() / vehicle.mass * world.clock.dt + turn * centre.Y();
+  f.vy[i] += force.Y() / vehicle.mass * world.clock.dt - turn * centre.X();
   f.yaw_rate[i] += turn;
   return true;
 }
@@ -308,7 +308,7 @@ ModelBodies Robots::build(const WorldState& world, const Model& model) const {
   };
   add(model);
   const int unit = world.fleet.unit[robot];
-  if (unit >= 0) add(*world.models[world.units[unit].model]);
+  if (unit >= 0) add(*world.models[world.storage.units[unit].model]);
   body.body->setLinearFactor({1, 1, 0});
   body.body->setAngularFactor({0, 0, 1});
   body.body->setActivationState(DISABLE_DEACTIVATION);

@@ -27,12 +27,12 @@ bool standsStill(const WorldState& world, const Model& model) {
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
   return up > kTilt && body.getLinearVelocity().length() < kStill &&
          body.getAngularVelocity().length() < kStill &&
-         unitPose(world, model.index).Z() - world.floor.z < kAbove;
+         unitPose(world, model.index).Z() - world.floor.extent.z < kAbove;
 }
 
 /// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
 void reindexUnit(WorldState& world, int from, int to) {
-  for (Item& item : world.items) {
+  for (Item& item : world.storage.items) {
     if (item.unit == from) item.unit = to;
   }
   for (Task& task : world.fleet.tasks) {
@@ -41,15 +41,15 @@ void reindexUnit(WorldState& world, int from, int to) {
     }
   }
   if (to < 0) return;
-  const StorageUnit& unit = world.units[to];
-  world.unit_of_id[unit.id] = to;
+  const StorageUnit& unit = world.storage.units[to];
+  world.storage.unit_of_id[unit.id] = to;
   world.models[unit.model]->index = to;
   if (unit.carrier >= 0) world.fleet.unit[unit.carrier] = to;
 }
 
 /// Off its robot, and out of Bullet.
 void takeAway(WorldState& world, Model& model) {
-  const int carrier = world.units[model.index].carrier;
+  const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) putDown(world, carrier);
   if (model.in_physics) deactivate(world, model);
 }
@@ -63,31 +63,31 @@ void StorageUnits::add(WorldState& world, Model& model) const {
   unit.model = model.slot;
   unit.mass = massOf(*model.description);
   raiseToFloor(world, &unit, &model);
-  model.index = static_cast<int>(world.units.size());
-  world.units.push_back(unit);
-  world.unit_of_id[unit.id] = model.index;
+  model.index = static_cast<int>(world.storage.units.size());
+  world.storage.units.push_back(unit);
+  world.storage.unit_of_id[unit.id] = model.index;
   addCollisionGeometry(world, model);
   if (!standsUpright(world, model.index)) letFall(world, model);
 }
 
 void StorageUnits::remove(WorldState& world, Model& model) const {
   if (model.index < 0) return;  // it never joined
-  const int index = model.index, last = static_cast<int>(world.units.size()) - 1;
-  const StorageUnit& unit = world.units[index];
+  const int index = model.index, last = static_cast<int>(world.storage.units.size()) - 1;
+  const StorageUnit& unit = world.storage.units[index];
   if (unit.carrier >= 0) unload(world, unit.carrier);
-  world.unit_of_id.erase(unit.id);
+  world.storage.unit_of_id.erase(unit.id);
   reindexUnit(world, index, -1);
   if (index != last) {
-    world.units[index] = std::move(world.units[last]);
+    world.storage.units[index] = std::move(world.storage.units[last]);
     reindexUnit(world, last, index);
   }
-  world.units.pop_back();
-  world.unitsMoved();
+  world.storage.units.pop_back();
+  world.storage.noteMove();
 }
 
 std::vector<int> StorageUnits::passengers(const WorldState& world, const Model& model) const {
   std::vector<int> slots;
-  for (const Item& item : world.items) {
+  for (const Item& item : world.storage.items) {
     if (item.unit == model.index) slots.push_back(item.model);
   }
   return slots;
@@ -108,7 +108,7 @@ void StorageUnits::reset(WorldState& world, Model& model) const {
 
 EntityState StorageUnits::state(const WorldState& world, const Model& model) const {
   if (followsBodies(model)) return canonicalState(model);
-  const int carrier = world.units[model.index].carrier;
+  const int carrier = world.storage.units[model.index].carrier;
   const Pose pose = unitPose(world, model.index);
   return carrier < 0 ? EntityState{pose, {}} : carriedState(robotState(world, carrier), pose);
 }
@@ -129,9 +129,9 @@ void StorageUnits::reweigh(WorldState& world, Model& model, double added) const 
 
 bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3& at,
                         const Vector3& force, const Vector3& torque) const {
-  const int carrier = world.units[model.index].carrier;
+  const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) {
-    Model& below = world.modelOf(carrier);
+    Model& below = world.models.of(world.fleet.robots[carrier]);
     return below.owner->push(world, below, 0, at, force, torque);
   }
   letFall(world, model);
@@ -140,7 +140,7 @@ bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3
 
 /// With the mass of its items.
 ModelBodies StorageUnits::build(const WorldState& world, const Model& model) const {
-  const StorageUnit& unit = world.units[model.index];
+  const StorageUnit& unit = world.storage.units[model.index];
   ModelDescription loaded = *model.description;
   const double own = massOf(loaded);
   for (Link& link : loaded.links) {
@@ -162,7 +162,7 @@ bool StorageUnits::mayBeUpright(const WorldState& world, const Model& model) con
 void StorageUnits::deactivated(WorldState& world, Model& model) const {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
-    model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+    model.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
   }
   model.disturbed = false;
 }
@@ -178,18 +178,18 @@ bool StorageUnits::mayLeaveBullet(const WorldState& world, const Model& model,
 
 /// From now on it is where its body is.
 void StorageUnits::touched(WorldState& world, Model& model) const {
-  if (model.disturbed || world.units[model.index].carrier >= 0) return;
+  if (model.disturbed || world.storage.units[model.index].carrier >= 0) return;
   model.disturbed = true;
   moved(world, model);
 }
 
 int StorageUnits::robot(const WorldState& world, const Model& model) const {
-  return world.units[model.index].carrier;
+  return world.storage.units[model.index].carrier;
 }
 
 /// A robot without a load passes beneath one that stands.
 bool StorageUnits::stops(const WorldState& world, const Model& model, int robot) const {
-  return world.fleet.unit[robot] >= 0 || world.units[model.index].carrier >= 0;
+  return world.fleet.unit[robot] >= 0 || world.storage.units[model.index].carrier >= 0;
 }
 
 }  // namespace kiva

@@ -91,7 +91,8 @@ void checkUnread(WorldState& world, const Plugin& plugin, const std::string& fil
   std::string list;
   for (const std::string& key : parameters.unread()) list += (list.empty() ? "" : ", ") + key;
   if (list.empty()) return;
-  world.warn(filename + list, parameters.where() + ": " + filename + " makes no use of " + list);
+  world.log.warn(filename + list,
+                 parameters.where() + ": " + filename + " makes no use of " + list);
 }
 
 }  // namespace
@@ -102,10 +103,10 @@ std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
   const std::string& where = parameters.where();
   std::string why;
   std::shared_ptr<Plugin> plugin;
-  if (world.options.plugins) plugin = world.options.plugins(filename, sensor);
+  if (world.settings.options.plugins) plugin = world.settings.options.plugins(filename, sensor);
   if (!plugin) plugin = fromLibrary(filename, where, &why);
   if (!plugin) {
-    world.warn(filename, leftOut(where, model, why));
+    world.log.warn(filename, leftOut(where, model, why));
     return nullptr;
   }
   try {
@@ -114,7 +115,7 @@ std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
     return plugin;
   } catch (const std::exception& error) {
     if (plugin->isStrict()) throw;
-    world.warn(model + filename + error.what(), leftOut(where, model, error.what()));
+    world.log.warn(model + filename + error.what(), leftOut(where, model, error.what()));
     return nullptr;
   }
 }

@@ -118,10 +118,10 @@ bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
 bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
   const FleetState& f = world.fleet;
   Footprint lifted = swept;  // it counts from the floor
-  lifted.z_min += world.floor.z;
-  lifted.z_max += world.floor.z;
+  lifted.z_min += world.floor.extent.z;
+  lifted.z_max += world.floor.extent.z;
   const auto meets = [&](const Footprint& other) {
-    const double reach = kNear + walkingSpeed(world, other.model) * time;
+    const double reach = kNear + world.people.walkingSpeed(other.model) * time;
     return shareHeight(other, lifted) && mayBeWithin(reach, swept, other) &&
            gap(swept, other) < reach;
   };
@@ -133,8 +133,8 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double walk = world.walkers.empty() ? 0 : kMostWalkingSpeed * time;
-  const double drive = std::max((world.top_speed + kPushed) * time, walk);
+  const double walk = world.people.walkers.empty() ? 0 : kMostWalkingSpeed * time;
+  const double drive = std::max((world.fleet.fastest + kPushed) * time, walk);
   const double reach = radiusOf(swept) + kNear;
   return !world.obstacles.anyAround(swept.x, swept.y, reach + walk, reach + drive, meets,
                                     approaches);
@@ -168,7 +168,7 @@ Footprint holding(const std::vector<Footprint>& all) {
 double clearTime(const WorldState& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
   // In long steps the shorter horizons are one step, and nothing is indexed for longer.
-  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.dt) {
+  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.clock.dt) {
     for (const double horizon : {kHorizons[0], kShortest}) {
       if (isClearFor(world, i, horizon)) return horizon;
     }
@@ -189,8 +189,8 @@ bool noteClearance(WorldState& world, int i, double time) {
   if (f.cruising[i] != 0) {
     world.obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
   }
-  f.clear_until[i] =
-      static_cast<double>(world.total_steps) + std::max(1.0, std::floor(time / world.dt));
+  f.clear_until[i] = static_cast<double>(world.clock.total_steps) +
+                     std::max(1.0, std::floor(time / world.clock.dt));
   return true;
 }
 
@@ -199,8 +199,8 @@ bool findClearance(WorldState& world, int i, bool is_crowded) {
 }
 
 bool hasClearance(const WorldState& world, int i) {
-  const double left = world.fleet.clear_until[i] - static_cast<double>(world.total_steps);
-  return left * world.dt >= kWorthwhile;
+  const double left = world.fleet.clear_until[i] - static_cast<double>(world.clock.total_steps);
+  return left * world.clock.dt >= kWorthwhile;
 }
 
 double pointSpeed(const FleetState& f, int i) {
@@ -213,7 +213,7 @@ double pointSpeed(const FleetState& f, int i) {
 double findClose(const WorldState& world, const std::vector<Footprint>& all, double speed,
                  double reach, std::vector<int>* close) {
   if (all.empty()) return reach;
-  const double farthest = kNear + (speed + world.top_speed + kCornerSpeed) * world.dt;
+  const double farthest = kNear + (speed + world.fleet.fastest + kCornerSpeed) * world.clock.dt;
   const Footprint whole = holding(all);
   double least = reach;
   const auto compare = [&](const Footprint& own, const Footprint& other) {
@@ -223,8 +223,8 @@ double findClose(const WorldState& world, const std::vector<Footprint>& all, dou
     least = std::min(least, distance);
     const bool is_robot = other.group >= 0 && other.group < world.fleet.size();
     const double theirs =
-        is_robot ? pointSpeed(world.fleet, other.group) : walkingSpeed(world, other.model);
-    if (distance < kNear + (speed + theirs) * world.dt) close->push_back(other.model);
+        is_robot ? pointSpeed(world.fleet, other.group) : world.people.walkingSpeed(other.model);
+    if (distance < kNear + (speed + theirs) * world.clock.dt) close->push_back(other.model);
   };
   world.obstacles.near(whole.x, whole.y, whole.hx + reach, [&](const Footprint& other) {
     if (!mayBeWithin(std::max(least, farthest), whole, other)) return;

@@ -153,18 +153,18 @@ void planAttention(WorldState& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
   if (f.localises && !f.localisation[i].stretch.turns) {
-    const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.dt);
+    const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.clock.dt);
     f.attend_at[i] = std::min(f.attend_at[i], end);
   }
   if (std::isinf(f.count_at[i])) return;
-  const double next = after + stepsTo(f, i, f.count_at[i], world.dt);
+  const double next = after + stepsTo(f, i, f.count_at[i], world.clock.dt);
   f.attend_at[i] = std::min(f.attend_at[i], next);
 }
 
 /// The same where its way has changed.
 void replanAttention(WorldState& world, int i) {
   world.fleet.count_at[i] = nextCount(world, i);
-  planAttention(world, i, static_cast<double>(world.total_steps));
+  planAttention(world, i, static_cast<double>(world.clock.total_steps));
 }
 
 /// Of a robot that has come to where there is something to count.
@@ -185,7 +185,7 @@ void attend(WorldState& world, const Attention& due, double now) {
   const int i = due.robot;
   bool ended = due.ended;
   if (f.reference[i] >= f.count_at[i]) count(world, i);
-  if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.dt);
+  if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.clock.dt);
   if (ended) return moved(f, i);
   // Who has just read a code may go elsewhere.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
@@ -214,7 +214,7 @@ void findAttention(const WorldState& world, int b, double now, std::vector<Atten
   const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
   for (int i = begin; i < end; ++i) {
     if (f.cruising[i] == 0) continue;
-    const bool ended = hasEnded(f, i, world.dt);
+    const bool ended = hasEnded(f, i, world.clock.dt);
     if (ended || f.attend_at[i] <= now) out->push_back({i, ended, 0});
   }
 }
@@ -223,13 +223,14 @@ void findAttention(const WorldState& world, int b, double now, std::vector<Atten
 /// changes nothing of it.
 void attendAll(WorldState& world, std::vector<Attention> all, double now) {
   const FleetState& f = world.fleet;
-  world.workers->share(static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const int i = all[k].robot;
-      const bool asks = !all[k].ended && !f.localises && f.clear_until[i] <= now;
-      if (asks) all[k].clear_time = clearTime(world, i, false);
-    }
-  });
+  world.schedule.workers->share(
+      static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) {
+          const int i = all[k].robot;
+          const bool asks = !all[k].ended && !f.localises && f.clear_until[i] <= now;
+          if (asks) all[k].clear_time = clearTime(world, i, false);
+        }
+      });
   for (const Attention& due : all) attend(world, due, now);
 }
 
@@ -253,10 +254,12 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   const double way = std::abs(f.goal[i] - f.reference[i]);
-  const double end = endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.dt);
-  if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
-      f.sway[i].tilt > 0 || way <= end || (f.tower[i] > 0 && f.unit[i] < 0) ||
-      std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
+  const double end =
+      endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.clock.dt);
+  if (r.drive.drive == Drive::kJointed || f.activated[i] ||
+      world.settings.options.always_in_bullet || f.sway[i].tilt > 0 || way <= end ||
+      (f.tower[i] > 0 && f.unit[i] < 0) || std::abs(f.reference_speed[i]) > per.top_speed ||
+      !hasClearance(world, i) ||
       !(f.localises ? keepsUpByEstimate(f, i, per.yaw != 0) : keepsUp(f, i, per)) ||
       !hasForce(f, i, per, groundAhead(world, i))) {
     return false;
@@ -265,7 +268,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (!hasEnded(f, i, world.dt) && findClearance(world, i, true)) {
+  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, i, true)) {
     replanAttention(world, i);
     return true;
   }
@@ -276,8 +279,8 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
 
 void setGoal(WorldState& world, int i, double goal) {
   FleetState& f = world.fleet;
-  const double left = f.clear_until[i] - static_cast<double>(world.total_steps) + 1;
-  const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.dt;
+  const double left = f.clear_until[i] - static_cast<double>(world.clock.total_steps) + 1;
+  const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.clock.dt;
   const bool goes_farther = goal > f.goal[i];
   f.goal[i] = goal;
   if (f.cruising[i] == 0) return;
@@ -289,20 +292,21 @@ void setGoal(WorldState& world, int i, double goal) {
 
 void cruise(WorldState& world) {
   FleetState& f = world.fleet;
-  const auto next = static_cast<double>(world.total_steps + 1);
-  world.cruised.resize((f.size() + kBlock - 1) / kBlock);
-  const auto blocks = static_cast<int>(world.cruised.size());
-  world.workers->share(blocks, kBlocksTogether, [&](int begin, int end) {
-    for (int b = begin; b < end; ++b) world.cruised[b] = advanceBlock(f, b, world.dt, next);
+  const auto next = static_cast<double>(world.clock.total_steps + 1);
+  world.schedule.cruised.resize((f.size() + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<int>(world.schedule.cruised.size());
+  world.schedule.workers->share(blocks, kBlocksTogether, [&](int begin, int end) {
+    for (int b = begin; b < end; ++b)
+      world.schedule.cruised[b] = advanceBlock(f, b, world.clock.dt, next);
   });
   char any = 0;
   std::vector<Attention> due;
   for (int b = 0; b < blocks; ++b) {
-    any |= world.cruised[b];
-    if (world.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
+    any |= world.schedule.cruised[b];
+    if (world.schedule.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
   }
   attendAll(world, std::move(due), next);
-  if (any & kCarries) world.unitsMoved();
+  if (any & kCarries) world.storage.noteMove();
 }
 
 }  // namespace kiva

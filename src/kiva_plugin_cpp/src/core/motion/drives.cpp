@@ -24,9 +24,9 @@ double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&
 }  // namespace
 
 double loadLimit(const WorldState& world, int robot) {
-  if (!world.realism.loads.enabled) return std::numeric_limits<double>::infinity();
-  const double tips = tippingAcceleration(world.fleet.robots[robot], world.gravityDown());
-  return std::max(kLeastPlanned, world.realism.loads.tipping_share * tips);
+  if (!world.settings.realism.loads.enabled) return std::numeric_limits<double>::infinity();
+  const double tips = tippingAcceleration(world.fleet.robots[robot], world.settings.gravityDown());
+  return std::max(kLeastPlanned, world.settings.realism.loads.tipping_share * tips);
 }
 
 Vector3 centreFromOrigin(const Fleet& f, int robot) {
@@ -37,7 +37,7 @@ Vector3 centreFromOrigin(const Fleet& f, int robot) {
 }
 
 Vehicle plannedVehicle(WorldState& world, int robot) {
-  const Ground ground{world.gravityDown(), {kGripsAll, kGripsAll}};
+  const Ground ground{world.settings.gravityDown(), {kGripsAll, kGripsAll}};
   const Robot& r = world.fleet.robots[robot];
   const bool is_jointed = r.drive.drive == Drive::kJointed;
   Vehicle vehicle = is_jointed ? jointedVehicle(world, robot, ground) : vehicleOf(r, ground);

@@ -24,7 +24,7 @@ constexpr int kDrivesTogether = 128;  // on one thread: less is not worth waking
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
 btRigidBody& bodyOf(const WorldState& world, int robot) {
-  return *world.modelOf(robot).bodies.links.front().body;
+  return *world.models.of(world.fleet.robots[robot]).bodies.links.front().body;
 }
 
 void pushBody(const WorldState& world, int robot) {
@@ -42,7 +42,8 @@ void readBody(WorldState& world, int robot) {
   // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
   const btVector3 arm = toBullet(centreFromOrigin(f, robot));
   const btVector3 velocity = body.getLinearVelocity() - body.getAngularVelocity().cross(arm);
-  const btTransform pose = world.modelOf(robot).bodies.links.front().linkPose();
+  const btTransform pose =
+      world.models.of(world.fleet.robots[robot]).bodies.links.front().linkPose();
   const btVector3 at = pose.getOrigin(), ahead = pose.getBasis().getColumn(0);
   f.x[robot] = at.x();
   f.y[robot] = at.y();
@@ -51,7 +52,7 @@ void readBody(WorldState& world, int robot) {
   f.vy[robot] = velocity.y();
   f.yaw_rate[robot] = body.getAngularVelocity().z();
   for (int wheel = 0; wheel < 2; ++wheel) {
-    f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.dt;
+    f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.clock.dt;
   }
 }
 
@@ -78,24 +79,25 @@ void letRest(FleetState& f, int robot) {
 /// Each by itself, on all threads.
 void driveByTraction(WorldState& world) {
   FleetState& f = world.fleet;
-  const std::vector<int>& robots = world.stepped_singly;
-  world.workers->share(static_cast<int>(robots.size()), kDrivesTogether, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const int i = robots[k];
-      if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
-      applyTraction(f, i, groundUnder(world, i), world.dt);
-    }
-  });
+  const std::vector<int>& robots = world.schedule.stepped_singly;
+  world.schedule.workers->share(static_cast<int>(robots.size()), kDrivesTogether,
+                                [&](int begin, int end) {
+                                  for (int k = begin; k < end; ++k) {
+                                    const int i = robots[k];
+                                    if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
+                                    applyTraction(f, i, groundUnder(world, i), world.clock.dt);
+                                  }
+                                });
 }
 
 void integrateRobots(WorldState& world) {
   FleetState& f = world.fleet;
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     if (f.cruising[i] != 0) continue;  // since this step
     if (f.activated[i]) {
       readBody(world, i);
     } else {
-      integrate(f, i, world.dt);
+      integrate(f, i, world.clock.dt);
     }
     if (isJointed(f.robots[i])) settleJointed(world, i);
     followRobot(world, i);
@@ -107,10 +109,10 @@ void integrateRobots(WorldState& world) {
 }
 
 void followBodies(WorldState& world) {
-  for (int slot : world.bodies) {
+  for (int slot : world.models.bodies) {
     if (isAwake(*world.models[slot])) moved(world, *world.models[slot]);
   }
-  for (int slot : world.activated) {
+  for (int slot : world.models.activated) {
     Model& model = *world.models[slot];
     if (model.disturbed && isAwake(model)) moved(world, model);
   }
@@ -120,7 +122,7 @@ void followBodies(WorldState& world) {
 
 void actuate(WorldState& world) {
   driveByTraction(world);
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     const FleetState& f = world.fleet;
     if (f.cruising[i] != 0) continue;
     if (isJointed(f.robots[i])) driveJointed(world, i);
@@ -136,7 +138,7 @@ void integrate(WorldState& world) {
 }
 
 void wakeBodies(WorldState& world) {
-  for (int slot : world.bodies) {
+  for (int slot : world.models.bodies) {
     for (LinkBody& link : world.models[slot]->bodies.links) link.body->activate();
   }
 }

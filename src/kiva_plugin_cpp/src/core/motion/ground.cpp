@@ -21,33 +21,35 @@ struct Cell {
 };
 
 Cell cellAt(const WorldState& world, double x, double y) {
-  return {std::llround(x / world.grid_spacing), std::llround(y / world.grid_spacing)};
+  return {std::llround(x / world.settings.grid_spacing),
+          std::llround(y / world.settings.grid_spacing)};
 }
 
 bool isSlippery(const WorldState& world, const Cell& cell) {
-  RandomStream random(world.options.seed, Matter::kFloor, static_cast<std::uint64_t>(cell.column),
+  RandomStream random(world.settings.options.seed, Matter::kFloor,
+                      static_cast<std::uint64_t>(cell.column),
                       static_cast<std::uint64_t>(cell.row));
-  return random.chance(world.realism.floor.slippery_cells);
+  return random.chance(world.settings.realism.floor.slippery_cells);
 }
 
 /// What the surface at (x, y) grips with as it was built.
 double builtFriction(const WorldState& world, double x, double y) {
-  const double usual = world.floor_friction;
-  return world.floor_parts ? world.floor_parts->frictionAt(x, y, usual) : usual;
+  const double usual = world.floor.friction;
+  return world.floor.cover ? world.floor.cover->frictionAt(x, y, usual) : usual;
 }
 
 /// The least of it in a rectangle [m].
 double leastBuiltFriction(const WorldState& world, const FloorPatch& area) {
-  const double usual = world.floor_friction;
-  return world.floor_parts ? world.floor_parts->leastFriction(area, usual) : usual;
+  const double usual = world.floor.friction;
+  return world.floor.cover ? world.floor.cover->leastFriction(area, usual) : usual;
 }
 
 /// The last of the patches there counts; a slippery cell where there is none.
 double frictionAt(const WorldState& world, double x, double y) {
-  for (auto patch = world.floor_patches.rbegin(); patch != world.floor_patches.rend(); ++patch) {
+  for (auto patch = world.floor.patches.rbegin(); patch != world.floor.patches.rend(); ++patch) {
     if (patch->has(x, y)) return patch->friction;
   }
-  const FloorRealism& real = world.realism.floor;
+  const FloorRealism& real = world.settings.realism.floor;
   const double built = builtFriction(world, x, y);
   if (!real.enabled || !isSlippery(world, cellAt(world, x, y))) return built;
   return std::min(real.friction, built);
@@ -56,10 +58,10 @@ double frictionAt(const WorldState& world, double x, double y) {
 /// The least friction in a rectangle [m].
 double leastFriction(const WorldState& world, const FloorPatch& area) {
   double least = leastBuiltFriction(world, area);
-  for (const FloorPatch& patch : world.floor_patches) {
+  for (const FloorPatch& patch : world.floor.patches) {
     if (patch.meets(area)) least = std::min(least, patch.friction);
   }
-  const FloorRealism& real = world.realism.floor;
+  const FloorRealism& real = world.settings.realism.floor;
   if (!real.enabled || real.friction >= least) return least;
   const Cell first = cellAt(world, area.min_x, area.min_y);
   const Cell last = cellAt(world, area.max_x, area.max_y);
@@ -102,11 +104,11 @@ FloorPatch readFloorPatch(const Parameters& p) {
 }
 
 Ground groundOf(const WorldState& world) {
-  return {world.gravityDown(), {world.floor_friction, world.floor_friction}};
+  return {world.settings.gravityDown(), {world.floor.friction, world.floor.friction}};
 }
 
 bool isPatchy(const WorldState& world) {
-  return !world.floor_patches.empty() || world.realism.floor.enabled || world.floor_parts;
+  return !world.floor.patches.empty() || world.settings.realism.floor.enabled || world.floor.cover;
 }
 
 Ground groundUnder(const WorldState& world, int robot) {
@@ -124,8 +126,8 @@ Ground groundUnder(const WorldState& world, int robot) {
 }
 
 double knownFriction(const WorldState& world, int robot) {
-  return world.floor_parts ? leastBuiltFriction(world, areaAhead(world, robot))
-                           : world.floor_friction;
+  return world.floor.cover ? leastBuiltFriction(world, areaAhead(world, robot))
+                           : world.floor.friction;
 }
 
 Ground groundAhead(const WorldState& world, int robot) {

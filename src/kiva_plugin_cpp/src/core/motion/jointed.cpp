@@ -84,9 +84,9 @@ class Step {
         tilt_(stance_),
         to_heading_(tilt_.toHeading()),
         up_(to_heading_.getRow(2)),
-        dt_(world.dt),
-        gravity_(world.gravityDown()),
-        floor_friction_(world.floor_friction),
+        dt_(world.clock.dt),
+        gravity_(world.settings.gravityDown()),
+        floor_friction_(world.floor.friction),
         ground_(groundUnder(world, robot)) {}
 
   void run() {
@@ -337,9 +337,9 @@ void settleJointed(WorldState& world, int robot) {
   const Tilt tilt(stance);
   const btVector3 turning = tilt.turning(stance, f.yaw_rate[robot]);
   const double heading_rate = f.yaw_rate[robot];
-  stance.height += stance.climb_rate * world.dt;
-  stance.pitch += (turning.y() * tilt.cos_roll - turning.z() * tilt.sin_roll) * world.dt;
-  stance.roll += (turning.x() + heading_rate * tilt.sin_pitch) * world.dt;
+  stance.height += stance.climb_rate * world.clock.dt;
+  stance.pitch += (turning.y() * tilt.cos_roll - turning.z() * tilt.sin_roll) * world.clock.dt;
+  stance.roll += (turning.x() + heading_rate * tilt.sin_pitch) * world.clock.dt;
 }
 
 bool restJointed(FleetState& f, int robot) {

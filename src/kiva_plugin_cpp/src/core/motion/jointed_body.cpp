@@ -124,12 +124,12 @@ void measureCasters(const Robot& robot, JointedBody* body) {
 /// Where the unit is on its robot; upright on the floor plane, as far as this goes.
 Pose unitInModel(const WorldState& world, int robot, int unit) {
   const double height = world.fleet.robots[robot].height + world.fleet.tower[robot];
-  return Pose(0, 0, height, 0, 0, 0) * world.units[unit].pose_on_carrier;
+  return Pose(0, 0, height, 0, 0, 0) * world.storage.units[unit].pose_on_carrier;
 }
 
 SpatialInertia addUp(const WorldState& world, int robot, JointedBody* body) {
   SpatialInertia sum;
-  for (const Link& link : world.modelOf(robot).description->links) {
+  for (const Link& link : world.models.of(world.fleet.robots[robot]).description->links) {
     Pose at = link.pose_in_model;
     if (link.name == "tower") at.Pos().Z() += world.fleet.tower[robot];
     sum.add(link, at);
@@ -138,7 +138,7 @@ SpatialInertia addUp(const WorldState& world, int robot, JointedBody* body) {
   if (body->unit < 0) return sum;
   const Pose at = unitInModel(world, robot, body->unit);
   sum.add(body->load, at);
-  for (const Link& link : world.models[world.units[body->unit].model]->description->links) {
+  for (const Link& link : world.models[world.storage.units[body->unit].model]->description->links) {
     addFeet(link, at * link.pose_in_model, &body->feet);
   }
   return sum;
@@ -209,7 +209,7 @@ void raiseOrigin(JointedBody* body) {
 
 std::shared_ptr<JointedBody> make(const WorldState& world, int robot, const SpatialInertia& load) {
   const Robot& r = world.fleet.robots[robot];
-  const Model& model = world.modelOf(robot);
+  const Model& model = world.models.of(world.fleet.robots[robot]);
   auto body = std::make_shared<JointedBody>();
   body->tower = world.fleet.tower[robot];
   body->unit = world.fleet.unit[robot];
@@ -247,15 +247,16 @@ bool isFor(const JointedBody& body, const WorldState& world, int robot) {
 SpatialInertia loadOf(const WorldState& world, int robot) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return SpatialInertia();
-  const JointedBody* old = world.modelOf(robot).jointed.get();
+  const JointedBody* old = world.models.of(world.fleet.robots[robot]).jointed.get();
   return old && hasLoadOf(*old, world, robot) ? old->load : sumUnit(world, unit);
 }
 
 /// Robots of one description are the same while they carry nothing and the tower is down; a step
 /// of a whole fleet spends much of its time on fetching what it knows about each robot.
 std::shared_ptr<const JointedBody> shareBare(WorldState& world, int robot) {
-  auto& known = world.bare_jointed;
-  const ModelDescription* description = world.modelOf(robot).description.get();
+  auto& known = world.jointed_bodies.bare;
+  const ModelDescription* description =
+      world.models.of(world.fleet.robots[robot]).description.get();
   const auto at = known.find(description);
   if (at != known.end() && !at->second.expired()) return at->second.lock();
   for (auto old = known.begin(); old != known.end();) {
@@ -270,10 +271,10 @@ std::shared_ptr<const JointedBody> shareBare(WorldState& world, int robot) {
 
 SpatialInertia sumUnit(const WorldState& world, int unit) {
   SpatialInertia sum;
-  for (const Link& link : world.models[world.units[unit].model]->description->links) {
+  for (const Link& link : world.models[world.storage.units[unit].model]->description->links) {
     sum.add(link, link.pose_in_model);
   }
-  for (const Item& item : world.items) {
+  for (const Item& item : world.storage.items) {
     if (item.unit == unit) sum.addPoint(item.mass, item.pose_in_unit.Pos());
   }
   return sum;
@@ -285,7 +286,7 @@ double tyreFriction(const Link& wheel) {
 }
 
 const JointedBody& jointedBody(WorldState& world, int robot) {
-  Model& model = world.modelOf(robot);
+  Model& model = world.models.of(world.fleet.robots[robot]);
   if (!model.jointed || !isFor(*model.jointed, world, robot)) {
     const bool bare = world.fleet.unit[robot] < 0 && world.fleet.tower[robot] == 0;
     model.jointed = bare ? shareBare(world, robot) : make(world, robot, loadOf(world, robot));

@@ -235,19 +235,19 @@ void restoreLimits(Model& model) {
 }
 
 void driveJoints(WorldState& world) {
-  for (int slot : world.bodies) {
+  for (int slot : world.models.bodies) {
     Model& model = *world.models[slot];
     if (model.joints.empty()) continue;
     if (!isAwake(model)) {
       if (!wantsToMove(model)) continue;
       wake(model);
     }
-    forAxes(model, [&](int i) { driveJoint(model, i, world.dt); });
+    forAxes(model, [&](int i) { driveJoint(model, i, world.clock.dt); });
   }
 }
 
 void readJoints(WorldState& world) {
-  for (int slot : world.bodies) {
+  for (int slot : world.models.bodies) {
     Model& model = *world.models[slot];
     if (model.joints.empty() || !isAwake(model)) continue;
     forAxes(model, [&](int i) { readJoint(model, i); });

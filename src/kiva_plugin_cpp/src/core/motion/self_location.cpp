@@ -17,7 +17,7 @@ constexpr double kMostDeviations = 3;  // what deviates more is not delivered
 
 RandomStream streamOf(WorldState& world, int robot, Matter matter) {
   Localisation& l = world.fleet.localisation[robot];
-  return RandomStream(world.options.seed, matter, world.fleet.robots[robot].id, l.draws++);
+  return RandomStream(world.settings.options.seed, matter, world.fleet.robots[robot].id, l.draws++);
 }
 
 double deviation(RandomStream& random, double share) {
@@ -34,7 +34,7 @@ struct Code {
 };
 
 Code nearestCode(const WorldState& world, int robot) {
-  const double cell = world.grid_spacing;
+  const double cell = world.settings.grid_spacing;
   const double column = std::round(world.fleet.x[robot] / cell);
   const double row = std::round(world.fleet.y[robot] / cell);
   return {static_cast<std::int32_t>(column), static_cast<std::int32_t>(row), column * cell,
@@ -44,7 +44,7 @@ Code nearestCode(const WorldState& world, int robot) {
 }  // namespace
 
 void calibrate(WorldState& world, int robot) {
-  const LocalisationRealism& real = world.realism.localisation;
+  const LocalisationRealism& real = world.settings.realism.localisation;
   const DriveParameters& drive = world.fleet.robots[robot].drive;
   Localisation& l = world.fleet.localisation[robot];
   l = Localisation();
@@ -63,7 +63,7 @@ void calibrate(WorldState& world, int robot) {
 }
 
 void relocate(WorldState& world, int robot) {
-  const LocalisationRealism& real = world.realism.localisation;
+  const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   l.stretch = Stretch();
@@ -87,7 +87,7 @@ void relocate(WorldState& world, int robot) {
 }
 
 void drawSlip(WorldState& world, int robot, double length) {
-  const double slip = world.realism.localisation.slip;
+  const double slip = world.settings.realism.localisation.slip;
   Localisation& l = world.fleet.localisation[robot];
   l.slip_for = length;
   if (slip == 0) return;
@@ -107,7 +107,7 @@ void track(WorldState& world, int robot) {
 }
 
 void readCode(WorldState& world, int robot, bool stands) {
-  const LocalisationRealism& real = world.realism.localisation;
+  const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   const Code code = nearestCode(world, robot);
@@ -133,10 +133,10 @@ bool checkLost(WorldState& world, int robot) {
   Localisation& l = world.fleet.localisation[robot];
   if (l.since_code < l.lost_at) return false;
   l.lost = true;
-  l.lost_at = l.since_code + world.realism.localisation.lost_after;
+  l.lost_at = l.since_code + world.settings.realism.localisation.lost_after;
   char text[80];
   std::snprintf(text, sizeof text, "is lost: it has read no code for %.1f m", l.since_code);
-  world.reportCommand(Event::Kind::kLost, robot, "", text);
+  reportCommand(world, Event::Kind::kLost, robot, "", text);
   haltRobot(world, robot, "", text);
   return true;
 }

@@ -37,7 +37,7 @@ OnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
 
 /// Where along the segment the next code comes into view.
 double nextCode(const WorldState& world, double along) {
-  const double cell = world.grid_spacing;
+  const double cell = world.settings.grid_spacing;
   return std::ceil((along + kReadBefore + kJustRead) / cell) * cell - kReadBefore;
 }
 
@@ -101,7 +101,7 @@ void brakeFor(WorldState& world, int i) {
   if (f.acceleration[i] == 0) return;
   const Profile command = f.command(i);
   const double way = f.goal[i] - command.position, v = command.speed;
-  const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.dt, kTiny)) : 0;
+  const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.clock.dt, kTiny)) : 0;
   const double usual = f.tasks[i].phase == Phase::kDriving ? f.acceleration[i] : f.deceleration[i];
   if (needed > usual) {
     f.deceleration[i] = std::min(needed, std::max(usual, plannedBraking(world, i)));

@@ -26,7 +26,7 @@ constexpr double kFlat = 0.02;       // [m] by which two rays beside each other 
 
 /// What noise alone may seem to bring nearer is not yet an obstacle.
 double endMargin(const WorldState& world) {
-  const LaserRealism& real = world.realism.lasers;
+  const LaserRealism& real = world.settings.realism.lasers;
   return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
 }
 
@@ -40,7 +40,7 @@ bool stops(const WorldState& world, int model, int robot) {
 /// The nearest obstacle in the corridor that the robot would sweep.
 Sighting look(const WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const RayFan& fan = world.ray_fans[r.ray_fan];
+  const RayFan& fan = world.scans.fans[r.ray_fan];
   const double half = halfWidth(r) + kSideMargin;
   static thread_local FanHits hits;
   Sighting seen;
@@ -88,7 +88,7 @@ void lookAhead(WorldState& world, const std::vector<int>& robots) {
   FleetState& f = world.fleet;
   std::vector<char> looked(robots.size(), 0);
   const auto count = static_cast<int>(robots.size());
-  world.workers->share(count, kLooksTogether, [&](int begin, int end) {
+  world.schedule.workers->share(count, kLooksTogether, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       if (!isOnGuard(f, robots[k])) continue;
       looked[k] = 1;
@@ -98,7 +98,7 @@ void lookAhead(WorldState& world, const std::vector<int>& robots) {
     }
   });
   for (int k = 0; k < count; ++k) {
-    if (looked[k]) world.sighted.push_back(robots[k]);
+    if (looked[k]) world.scans.sighted.push_back(robots[k]);
   }
 }
 
@@ -106,7 +106,7 @@ void lookAhead(WorldState& world, const std::vector<int>& robots) {
 std::vector<int> beginners(const WorldState& world) {
   const FleetState& f = world.fleet;
   std::vector<int> out;
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) out.push_back(i);
   }
   return out;
@@ -115,8 +115,8 @@ std::vector<int> beginners(const WorldState& world) {
 }  // namespace
 
 void lookAhead(WorldState& world) {
-  world.sighted.clear();
-  lookAhead(world, world.scans_due);
+  world.scans.sighted.clear();
+  lookAhead(world, world.scans.due);
   lookAhead(world, beginners(world));
 }
 

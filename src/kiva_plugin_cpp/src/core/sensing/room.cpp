@@ -21,7 +21,7 @@ constexpr double kNearer = 1e-6;  // [m]
 /// Whether it is part of a storage unit that no robot carries.
 bool isOfUnit(const WorldState& world, const Footprint& other) {
   const Model& model = *world.models[other.model];
-  return model.kind == ModelKind::kStorageUnit && world.units[model.index].carrier < 0;
+  return model.kind == ModelKind::kStorageUnit && world.storage.units[model.index].carrier < 0;
 }
 
 Footprint turningCircle(const WorldState& world, int robot, double x, double y) {
@@ -51,7 +51,7 @@ std::vector<Footprint> thingsAround(const WorldState& world, int robot, double x
                                     Among among) {
   std::vector<Footprint> things;
   const Footprint circle = turningCircle(world, robot, x, y);
-  const double top = world.floor.z + heightOf(world.fleet, robot);
+  const double top = world.floor.extent.z + heightOf(world.fleet, robot);
   world.obstacles.near(x, y, circle.hx, [&](const Footprint& other) {
     if (other.group == robot || other.z_min >= top || gap(circle, other) > 0) return;
     const Model& model = *world.models[other.model];
@@ -74,8 +74,8 @@ Footprint lane(const WorldState& world, int robot, const PlanarPose& from, doubl
   const double middle = std::copysign(out.hx, way);
   out.x = from.x + out.c * middle;
   out.y = from.y + out.s * middle;
-  out.z_min = world.floor.z;
-  out.z_max = world.floor.z + heightOf(world.fleet, robot);
+  out.z_min = world.floor.extent.z;
+  out.z_max = world.floor.extent.z + heightOf(world.fleet, robot);
   return out;
 }
 

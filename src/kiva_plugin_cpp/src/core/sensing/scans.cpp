@@ -29,16 +29,16 @@ int scanTogether(int robots, std::uint64_t period) {
 
 /// Rebuilds the rounds after robots have come or gone.
 void arrangeScans(WorldState& world) {
-  world.scan_rounds.clear();
-  world.scan_rounds_revision = world.models_revision;
+  world.scans.rounds.clear();
+  world.scans.rounds_revision = world.models.revision;
   for (int i = 0; i < world.fleet.size(); ++i) {
     const Robot& robot = world.fleet.robots[i];
     if (!robot.laser.fitted) continue;
     const std::uint64_t period = scanPeriod(world, robot);
-    auto round = std::find_if(world.scan_rounds.begin(), world.scan_rounds.end(),
+    auto round = std::find_if(world.scans.rounds.begin(), world.scans.rounds.end(),
                               [&](const ScanRound& r) { return r.period == period; });
-    if (round == world.scan_rounds.end()) {
-      round = world.scan_rounds.insert(round, {period, {}});
+    if (round == world.scans.rounds.end()) {
+      round = world.scans.rounds.insert(round, {period, {}});
       round->robots_at.resize(period);
     }
     // Weyl's sequence by the golden ratio spreads any set of ids evenly.
@@ -52,11 +52,11 @@ void arrangeScans(WorldState& world) {
 /// As the laser tells it: each ray's error depends on robot, step and ray alone, whoever looks.
 void disturb(const WorldState& world, const Robot& robot, FanHits* hits) {
   constexpr std::uint64_t kMostRays = 1 << 14;
-  const LaserRealism& real = world.realism.lasers;
+  const LaserRealism& real = world.settings.realism.lasers;
   for (int ray = hits->first; ray <= hits->last; ++ray) {
     if (hits->model[ray] < 0) continue;
-    RandomStream random(world.options.seed, Matter::kLaser, robot.id,
-                        world.total_steps * kMostRays + ray);
+    RandomStream random(world.settings.options.seed, Matter::kLaser, robot.id,
+                        world.clock.total_steps * kMostRays + ray);
     const bool is_dropped = random.chance(real.dropped_rays);
     double& range = hits->range[ray];
     range = std::max(0.0, range + real.range_noise * random.normal());
@@ -67,7 +67,7 @@ void disturb(const WorldState& world, const Robot& robot, FanHits* hits) {
 }  // namespace
 
 std::uint64_t scanPeriod(const WorldState& world, const Robot& robot) {
-  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * world.dt)));
+  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * world.clock.dt)));
 }
 
 bool isBlind(const WorldState& world, int robot) {
@@ -75,18 +75,18 @@ bool isBlind(const WorldState& world, int robot) {
 }
 
 void findDueScans(WorldState& world) {
-  if (world.scan_rounds_revision != world.models_revision) arrangeScans(world);
-  world.scans_due.clear();
-  for (const ScanRound& round : world.scan_rounds) {
-    const std::vector<int>& due = round.robots_at[world.total_steps % round.period];
-    world.scans_due.insert(world.scans_due.end(), due.begin(), due.end());
+  if (world.scans.rounds_revision != world.models.revision) arrangeScans(world);
+  world.scans.due.clear();
+  for (const ScanRound& round : world.scans.rounds) {
+    const std::vector<int>& due = round.robots_at[world.clock.total_steps % round.period];
+    world.scans.due.insert(world.scans.due.end(), due.begin(), due.end());
   }
   if (!world.failures.defects.empty()) {
     const auto is_blind = [&](int i) { return isBlind(world, i); };
-    world.scans_due.erase(std::remove_if(world.scans_due.begin(), world.scans_due.end(), is_blind),
-                          world.scans_due.end());
+    world.scans.due.erase(std::remove_if(world.scans.due.begin(), world.scans.due.end(), is_blind),
+                          world.scans.due.end());
   }
-  if (world.scan_rounds.size() > 1) std::sort(world.scans_due.begin(), world.scans_due.end());
+  if (world.scans.rounds.size() > 1) std::sort(world.scans.due.begin(), world.scans.due.end());
 }
 
 void setRays(WorldState& world, Robot* robot) {
@@ -95,29 +95,29 @@ void setRays(WorldState& world, Robot* robot) {
     return fan.rays == laser.rays && fan.min_angle == laser.min_angle &&
            fan.max_angle == laser.max_angle;
   };
-  const auto at = std::find_if(world.ray_fans.begin(), world.ray_fans.end(), same);
-  robot->ray_fan = static_cast<int>(at - world.ray_fans.begin());
-  if (at != world.ray_fans.end()) return;
+  const auto at = std::find_if(world.scans.fans.begin(), world.scans.fans.end(), same);
+  robot->ray_fan = static_cast<int>(at - world.scans.fans.begin());
+  if (at != world.scans.fans.end()) return;
   RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}, {}};
   for (int ray = 0; ray < laser.rays; ++ray) {
     fan.c.push_back(std::cos(rayAngle(laser, ray)));
     fan.s.push_back(std::sin(rayAngle(laser, ray)));
     fan.per_aside.push_back(1 / std::max(1e-9, std::abs(fan.s.back())));
   }
-  world.ray_fans.push_back(std::move(fan));
+  world.scans.fans.push_back(std::move(fan));
 }
 
 Sensor sensorOf(const WorldState& world, int robot) {
   const FleetState& f = world.fleet;
   const LaserParameters& laser = f.robots[robot].laser;
   const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
-  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.z + laser.z, c, s};
+  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.extent.z + laser.z, c, s};
 }
 
 void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits) {
-  const RayFan& fan = world.ray_fans[world.fleet.robots[robot].ray_fan];
+  const RayFan& fan = world.scans.fans[world.fleet.robots[robot].ray_fan];
   world.obstacles.cast(fan, sensorOf(world, robot), reach, robot, hits);
-  if (world.realism.lasers.enabled) disturb(world, world.fleet.robots[robot], hits);
+  if (world.settings.realism.lasers.enabled) disturb(world, world.fleet.robots[robot], hits);
 }
 
 }  // namespace kiva

@@ -4,7 +4,7 @@
 namespace kiva {
 
 const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename) {
-  for (const auto& plugin : world.fleet_plugins) {
+  for (const auto& plugin : world.plugins.fleet) {
     if (filename == plugin->filename()) return plugin.get();
   }
   return nullptr;

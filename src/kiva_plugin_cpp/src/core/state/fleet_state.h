@@ -12,6 +12,7 @@
 #include "core/state/profile.h"
 #include "core/state/released_path.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/realism.h"
 
 namespace kiva {
 
@@ -155,6 +156,12 @@ struct FleetState : Fleet {
   /// Whether robots drive by where they believe to be; if not, they know, and the next is empty.
   bool localises = false;
   std::vector<Localisation> localisation;
+
+  /// The top speed of the fastest robot that the fleet ever had [m/s].
+  double fastest = 0;
+
+  /// Takes in what of realism robots drive by, at that step size [s].
+  void applyRealism(const Realism& realism, double dt);
 
   /// Where robot `i` believes to be.
   PlanarPose believed(int i) const {

@@ -210,8 +210,8 @@ ModelBodies buildStatic(const WorldState& world, const Model& model) {
   // What stands still touches nothing that does.
   const int mask = ~(kFloorGroup | kStaticGroup);
   const auto build = [&](bool low, int group) {
-    return world.physics.build(partOf(model, world.floor, low), model.pose, model.slot, group,
-                               mask);
+    return world.physics.build(partOf(model, world.floor.extent, low), model.pose, model.slot,
+                               group, mask);
   };
   ModelBodies bodies = build(false, kStaticGroup), floor = build(true, kFloorGroup);
   for (auto* list : {&floor.links, &floor.surfaces}) {
@@ -224,9 +224,9 @@ ModelBodies buildStatic(const WorldState& world, const Model& model) {
 }
 
 void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model) {
-  const double depth = world.floor.z - model->pose.Z();
+  const double depth = world.floor.extent.z - model->pose.Z();
   if (depth <= 0 || depth > kNearGround) return;
-  model->pose.Pos().Z() = model->spawn_pose.Pos().Z() = world.floor.z;
+  model->pose.Pos().Z() = model->spawn_pose.Pos().Z() = world.floor.extent.z;
   unit->raised += depth;
 }
 
@@ -235,7 +235,8 @@ FloorCover::FloorCover(const WorldState& world) {
     if (!model || model->level_surfaces.empty()) continue;
     for (const Link& link : model->description->links) {
       for (const Collision& collision : link.collisions) {
-        add(collision, model->pose * link.pose_in_model * collision.pose_in_link, world.floor);
+        add(collision, model->pose * link.pose_in_model * collision.pose_in_link,
+            world.floor.extent);
       }
     }
   }

@@ -63,12 +63,14 @@ void appendFootprints(const WorldState& world, const Model& model, const Pose& t
 
 /// A robot and its load move as one.
 void updateMover(WorldState& world, int robot) {
-  const Pose to_robot = Pose(0, 0, world.floor.z, 0, 0, 0) * basePose(world, robot).Inverse();
+  const Pose to_robot =
+      Pose(0, 0, world.floor.extent.z, 0, 0, 0) * basePose(world, robot).Inverse();
   std::vector<Footprint> local;
-  appendFootprints(world, world.modelOf(robot), to_robot, robot, &local);
+  appendFootprints(world, world.models.of(world.fleet.robots[robot]), to_robot, robot, &local);
   const int unit = world.fleet.unit[robot];
   if (unit >= 0) {
-    appendFootprints(world, *world.models[world.units[unit].model], to_robot, robot, &local);
+    appendFootprints(world, *world.models[world.storage.units[unit].model], to_robot, robot,
+                     &local);
   }
   world.obstacles.setMover(robot, std::move(local));
 }
@@ -107,8 +109,8 @@ void addCollisionGeometry(const WorldState& world, Model& model) {
       const CollisionGeometry geometry{static_cast<int>(i), collision.pose_in_link,
                                        collision.shape};
       if (collision.shape.kind == Shape::Kind::kMesh && model.isStatic()) {
-        addTriangles(world.floor, model, geometry);
-      } else if (!model.isStatic() || !isLow(world.floor, topOf(model, geometry))) {
+        addTriangles(world.floor.extent, model, geometry);
+      } else if (!model.isStatic() || !isLow(world.floor.extent, topOf(model, geometry))) {
         model.geometries.push_back(geometry);
       }
     }
@@ -117,7 +119,8 @@ void addCollisionGeometry(const WorldState& world, Model& model) {
 
 void moved(WorldState& world, Model& model) {
   const int mover = model.owner->robot(world, model);
-  if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0)) world.unitsMoved();
+  if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0))
+    world.storage.noteMove();
   if (mover < 0) return updateStanding(world, model);
   hideFootprints(world, model);  // of a unit that was taken up
   updateMover(world, mover);
@@ -128,14 +131,14 @@ void followRobot(WorldState& world, int robot) {
   const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
   if (still) return;
   world.obstacles.follow(robot);
-  if (f.unit[robot] >= 0) world.unitsMoved();
+  if (f.unit[robot] >= 0) world.storage.noteMove();
 }
 
 void raiseLoad(WorldState& world, int robot, double by) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return;
-  world.obstacles.raise(robot, world.units[unit].model, by);
-  world.unitsMoved();
+  world.obstacles.raise(robot, world.storage.units[unit].model, by);
+  world.storage.noteMove();
 }
 
 void hideFootprints(WorldState& world, Model& model) {

@@ -36,7 +36,7 @@ Floor withoutFloor(const WorldState& world) {
     if (!model || model->owner->occupies(world, *model) != Occupancy::kTaken) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& f = world.obstacles[geometry.handle];
-      const double reach = radiusOf(f) + world.grid_spacing;
+      const double reach = radiusOf(f) + world.settings.grid_spacing;
       all.min_x = std::min(all.min_x, f.x - reach);
       all.max_x = std::max(all.max_x, f.x + reach);
       all.min_y = std::min(all.min_y, f.y - reach);
@@ -105,9 +105,9 @@ void mark(const Footprint& other, std::uint8_t as, Occupancy* map) {
 Occupancy World::occupancy() const {
   const WorldState& world = *state_;
   Occupancy map;
-  map.spacing = world.grid_spacing;
-  const bool has_floor = world.floor.max_x > world.floor.min_x;
-  const Floor floor = has_floor ? world.floor : withoutFloor(world);
+  map.spacing = world.settings.grid_spacing;
+  const bool has_floor = world.floor.extent.max_x > world.floor.extent.min_x;
+  const Floor floor = has_floor ? world.floor.extent : withoutFloor(world);
   const Line x = pointsWithin(floor.min_x, floor.max_x, map.spacing);
   const Line y = pointsWithin(floor.min_y, floor.max_y, map.spacing);
   map.x = x.first * map.spacing;
@@ -129,7 +129,7 @@ Occupancy World::occupancy() const {
     for (const CollisionGeometry& geometry : model->geometries) {
       if (geometry.handle < 0) continue;  // it is carried
       const Footprint& footprint = world.obstacles[geometry.handle];
-      if (isInTheWay(world.floor, footprint)) mark(footprint, as, &map);
+      if (isInTheWay(world.floor.extent, footprint)) mark(footprint, as, &map);
     }
   }
   return map;

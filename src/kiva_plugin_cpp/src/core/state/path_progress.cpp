@@ -47,7 +47,7 @@ class Run {
 /// How far the middle of a robot must be from that of a cell to be out of it, ahead and aside [m].
 OnRun outOfCell(const WorldState& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const double half = world.grid_spacing / 2 - kCellRounding;
+  const double half = world.settings.grid_spacing / 2 - kCellRounding;
   return {half + halfLength(r), half + halfWidth(r)};
 }
 
@@ -70,7 +70,8 @@ MotionSegment driveAlong(const WorldState& world, const ReleasedPath& path, doub
   run.y = from.y;
   run.yaw = heading;
   run.goal = std::abs(to.x - from.x) + std::abs(to.y - from.y);
-  run.state = std::abs(to.x - from.x) > world.grid_spacing / 2 ? State::kMovingX : State::kMovingY;
+  run.state =
+      std::abs(to.x - from.x) > world.settings.grid_spacing / 2 ? State::kMovingX : State::kMovingY;
   return run;
 }
 

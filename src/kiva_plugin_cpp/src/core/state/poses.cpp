@@ -7,7 +7,7 @@ namespace kiva {
 
 Pose basePose(const WorldState& world, int robot) {
   const Fleet& f = world.fleet;
-  return Pose(f.x[robot], f.y[robot], world.floor.z, 0, 0, f.yaw[robot]);
+  return Pose(f.x[robot], f.y[robot], world.floor.extent.z, 0, 0, f.yaw[robot]);
 }
 
 Pose towerPose(const WorldState& world, int robot) {
@@ -16,14 +16,14 @@ Pose towerPose(const WorldState& world, int robot) {
 }
 
 Pose unitPose(const WorldState& world, int unit) {
-  const StorageUnit& u = world.units[unit];
+  const StorageUnit& u = world.storage.units[unit];
   if (u.carrier >= 0) return towerPose(world, u.carrier) * u.pose_on_carrier;
   const Model& model = *world.models[u.model];
   return model.in_physics && model.disturbed ? canonicalState(model).pose : model.pose;
 }
 
 Pose itemPose(const WorldState& world, int item) {
-  const Item& i = world.items[item];
+  const Item& i = world.storage.items[item];
   if (i.unit >= 0) return unitPose(world, i.unit) * i.pose_in_unit;
   return modelState(world, *world.models[i.model]).pose;
 }
@@ -61,16 +61,6 @@ EntityState canonicalState(const Model& model) {
 EntityState carriedState(const EntityState& carrier, const Pose& pose) {
   const Vector3 arm = pose.Pos() - carrier.pose.Pos();
   return {pose, {carrier.twist.linear + carrier.twist.angular.Cross(arm), carrier.twist.angular}};
-}
-
-std::vector<int> slotsInOrder(const WorldState& world) {
-  std::vector<int> slots;
-  for (std::size_t i = 0; i < world.models.size(); ++i) {
-    if (world.models[i]) slots.push_back(static_cast<int>(i));
-  }
-  std::sort(slots.begin(), slots.end(),
-            [&](int a, int b) { return world.models[a]->serial < world.models[b]->serial; });
-  return slots;
 }
 
 }  // namespace kiva

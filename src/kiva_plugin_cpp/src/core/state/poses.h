@@ -28,7 +28,4 @@ EntityState canonicalState(const Model& model);
 /// Of a point that moves with something, without turning against it.
 EntityState carriedState(const EntityState& carrier, const Pose& pose);
 
-/// Slots of the models in order of arrival.
-std::vector<int> slotsInOrder(const WorldState& world);
-
 }  // namespace kiva

@@ -17,8 +17,8 @@ void becomeIdle(WorldState& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   for (const MotionSegment& segment : task.segments) {
-    if (segment.unit >= 0 && world.units[segment.unit].claimed_by == robot) {
-      world.units[segment.unit].claimed_by = -1;
+    if (segment.unit >= 0 && world.storage.units[segment.unit].claimed_by == robot) {
+      world.storage.units[segment.unit].claimed_by = -1;
     }
   }
   task.segments.clear();
@@ -33,15 +33,37 @@ void end(WorldState& world, int robot, Event::Kind kind, const std::string& othe
          const std::string& text) {
   becomeIdle(world, robot);
   world.fleet.last_end[robot] = static_cast<std::uint8_t>(kind);
-  world.reportCommand(kind, robot, other, text);
+  reportCommand(world, kind, robot, other, text);
 }
 
 }  // namespace
 
+void setStatus(WorldState& world, int robot, Status status, State state) {
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[robot];
+  const int unit = f.unit[robot];
+  const int shelf = unit < 0 ? 0 : world.storage.units[unit].id;
+  if (f.status[robot] == status && f.state[robot] == state && task.reported_shelf == shelf) return;
+  f.status[robot] = status;
+  f.state[robot] = state;
+  task.reported_shelf = shelf;
+  if (f.failures[robot] & bitOf(Failure::kRadio)) return;
+  const int id = f.robots[robot].id;
+  if (world.settings.realism.radio.delaysReports()) return world.report_link.changed.push_back(id);
+  world.log.status_changes.push_back(
+      {world.clock.time(), id, status, state, shelf, f.x[robot], f.y[robot], f.yaw[robot]});
+}
+
+void reportCommand(WorldState& world, Event::Kind kind, int robot, const std::string& other,
+                   const std::string& text) {
+  const FleetState& f = world.fleet;
+  world.log.report(kind, f.robots[robot].name, other, text, {}, f.tasks[robot].command);
+}
+
 void enterPhase(WorldState& world, int robot, Phase phase, Status status, State state) {
   world.fleet.tasks[robot].phase = phase;
   moved(world.fleet, robot);
-  world.setStatus(robot, status, state);
+  setStatus(world, robot, status, state);
 }
 
 void startSegment(WorldState& world, int robot) {
@@ -59,7 +81,8 @@ void beginTask(WorldState& world, int robot, std::deque<MotionSegment> segments)
   f.path_id[robot] = f.reached[robot] = f.left[robot] = 0;
   if (task.segments.empty()) return end(world, robot, Event::Kind::kDone, "", "is there already");
   for (const MotionSegment& segment : task.segments) {
-    if (segment.kind == MotionSegment::Kind::kRaise) world.units[segment.unit].claimed_by = robot;
+    if (segment.kind == MotionSegment::Kind::kRaise)
+      world.storage.units[segment.unit].claimed_by = robot;
   }
   startSegment(world, robot);
 }
@@ -146,7 +169,7 @@ void endStop(WorldState& world, int robot) {
 
 void endBlocked(WorldState& world, int robot, const std::string& by, const std::string& reason) {
   Task& task = world.fleet.tasks[robot];
-  if (!task.isStopping()) world.setStatus(robot, Status::kBlocked, State::kBlocked);
+  if (!task.isStopping()) setStatus(world, robot, Status::kBlocked, State::kBlocked);
   end(world, robot, Event::Kind::kBlocked, by, reason);
 }
 

@@ -38,6 +38,11 @@ void endBlocked(WorldState& world, int robot, const std::string& by, const std::
 /// Locks the wheels of a robot that turns or drives, at once; one that lifts stands anyway, and a
 /// path on which it stands is over.
 void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason);
+/// Sets what the robot reports, and records it if it is new.
+void setStatus(WorldState& world, int robot, Status status, State state);
+/// Reports what became of a robot's command.
+void reportCommand(WorldState& world, Event::Kind kind, int robot, const std::string& other,
+                   const std::string& text);
 /// The robot is in that phase from now on, and reports so.
 void enterPhase(WorldState& world, int robot, Phase phase, Status status, State state);
 

@@ -17,7 +17,7 @@ constexpr double kUpright = 0.9999;   // cosine of a tilt of 0.8°
 }  // namespace
 
 double underside(const WorldState& world, int unit) {
-  const Model& model = *world.models[world.units[unit].model];
+  const Model& model = *world.models[world.storage.units[unit].model];
   double lowest = 1e9;
   for (const Link& link : model.description->links) {
     for (const Collision& c : link.collisions) {
@@ -32,7 +32,7 @@ double underside(const WorldState& world, int unit) {
 
 bool standsUpright(const WorldState& world, int unit) {
   const Pose pose = unitPose(world, unit);
-  return std::abs(pose.Z() - world.floor.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
+  return std::abs(pose.Z() - world.floor.extent.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
 }
 
 int unitAt(const WorldState& world, const Vector3& point) {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "kiva_plugin_cpp/command.h"
+
+namespace kiva {
+
+/// Commands that have arrived and are answered at the next step.
+struct Inbox {
+  std::deque<Command> commands;
+  std::deque<FollowPath> paths;   ///< Of those that are kFollow, in the same order.
+  std::uint32_t last_number = 0;  ///< Of the command that was answered last.
+};
+
+}  // namespace kiva

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "kiva_plugin_cpp/plugin.h"
+
+namespace kiva {
+
+class FleetPlugin;
+
+/// The plugins of a world that belong to no model.
+struct Plugins {
+  std::vector<std::shared_ptr<const FleetPlugin>> fleet;  ///< Those that come with the world.
+  std::vector<std::shared_ptr<Plugin>> world;
+  std::vector<PluginDescription> world_descriptions;  ///< Of those, in the same order.
+};
+
+}  // namespace kiva
