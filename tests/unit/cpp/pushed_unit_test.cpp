@@ -207,7 +207,7 @@ struct Row {
   }
   bool slides() {
     const bool is = unit(2).upright && unit(2).disturbed;
-    return is && modelState(insideOf(w.world), unit(2)).twist.linear.Length() > 0.1;
+    return is && modelState(insideOf(w.world).view, unit(2)).twist.linear.Length() > 0.1;
   }
   Warehouse w;
 };

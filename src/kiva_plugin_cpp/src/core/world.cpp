@@ -38,6 +38,7 @@
 #include "core/state/path_progress.h"
 #include "core/state/poses.h"
 #include "core/state/workers.h"
+#include "core/state/world_state.h"
 #include "plugins/plugin_table.h"
 
 namespace kiva {
@@ -75,7 +76,7 @@ void addLightCurtain(WorldState& world, const PluginDescription& plugin) {
   const std::vector<double> min = p.numbers("min", {0, 0}), max = p.numbers("max", {0, 0});
   p.rejectUnread();
   try {
-    setLightCurtain(world, {plugin.name, min[0], max[0], min[1], max[1]});
+    setLightCurtain(world.people, {plugin.name, min[0], max[0], min[1], max[1]});
   } catch (const std::invalid_argument& error) {
     throw DescriptionError(p.where() + ": " + error.what());
   }
@@ -90,7 +91,7 @@ void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
     world.floor.patches.push_back(readFloorPatch(plugin.parameters));
   } else if (plugin.filename == kLightCurtainPlugin) {
     addLightCurtain(world, plugin);
-  } else if (auto own = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr)) {
+  } else if (auto own = loadPlugin(world.view, "", plugin.filename, plugin.parameters, nullptr)) {
     world.plugins.world.push_back(std::move(own));
     world.plugins.world_descriptions.push_back(plugin);
   }
@@ -110,23 +111,25 @@ void forEachUserPlugin(WorldState& world, Call call) {
 
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
-  findFloorParts(world);
-  haltCrashed(world);
-  wearOut(world);
-  useEnergy(world);
-  exchangeReports(world);
-  keepFromPeople(world);
-  for (const auto& plugin : world.plugins.fleet) plugin->react(world);
-  acceptCommands(world);
+  findFloorParts(world.view);
+  haltCrashed(world.view, world.contact_log);
+  wearOut(world.view, world.failures);
+  useEnergy(world.view, world.chargers);
+  exchangeReports(world.view);
+  keepFromPeople(world.view, world.people, world.scans.due);
+  for (const auto& plugin : world.plugins.fleet) plugin->react(world.view, world.scans.sighted);
+  world.scans.sighted.clear();
+  receive(world.command_link, world.inbox, world.clock);
+  acceptCommands(world.view, world.inbox);
 }
 
 void control(WorldState& world) {
-  for (const auto& plugin : world.plugins.fleet) plugin->control(world);
+  for (const auto& plugin : world.plugins.fleet) plugin->control(world.view);
 }
 
 void sense(WorldState& world) {
-  findDueScans(world);
-  lookAhead(world);
+  findDueScans(world.view, world.failures, world.scans);
+  lookAhead(world.view, world.scans);
 }
 
 /// -1 = none.
@@ -136,7 +139,7 @@ int linkIndex(const Model* model, const std::string& name) {
 
 /// Whatever robots foresaw holds no more.
 void beginAnew(WorldState& world) {
-  alarm(world);
+  invalidateClearance(world.fleet);
   for (int i = 0; i < world.fleet.size(); ++i) {
     if (world.fleet.awake[i]) moved(world.fleet, i);
   }
@@ -146,7 +149,7 @@ void beginAnew(WorldState& world) {
 
 World::World(const WorldDescription& description, const WorldOptions& options)
     : state_(std::make_unique<WorldState>(description, checked(options))) {
-  state_->owner = this;
+  state_->plugins.owner = this;
   state_->plugins.fleet = makeFleetPlugins();
   for (const Light& light : description.lights) setLight(light);
   for (const ModelInstance& model : description.models) {
@@ -166,18 +169,18 @@ void World::step() {
   WorldState& world = *state_;
   decide(world);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.beforeStep(*this, world.clock.dt); });
-  applyExternalWrenches(world);
-  updateActivation(world);
+  applyExternalWrenches(world.view);
+  updateActivation(world.view);
   control(world);
-  actuate(world);
+  actuate(world.view);
   world.physics.step(world.clock.dt);
-  integrate(world);
-  walkOn(world);
+  integrate(world.view);
+  walkOn(world.view, world.people);
   world.clock.advance();
   sense(world);
-  observeCollisions(world);
-  swayLoads(world);
-  dropItems(world);
+  observeCollisions(world.view);
+  swayLoads(world.view);
+  dropItems(world.view);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.clock.dt); });
 }
 
@@ -207,23 +210,24 @@ void World::setGravity(const Vector3& gravity) {
   if (gravity == state_->settings.gravity) return;
   state_->settings.gravity = gravity;
   state_->physics.setGravity(gravity);
-  letAllTip(*state_);
-  wakeBodies(*state_);
+  letAllTip(state_->view);
+  wakeBodies(state_->view.models);
   beginAnew(*state_);
 }
 
 void World::reset(bool time_too) {
   WorldState& world = *state_;
-  forgetContacts(world, -1);
+  forgetContacts(world.view, -1);
   world.contact_log.crashes.clear();
-  forgetMessages(world);
-  putAllBack(world);
-  for (int slot : world.models.inOrder()) resetModel(world, *world.models[slot]);
-  for (int i = 0; i < world.fleet.size(); ++i) knowWhereabouts(world, i);
+  world.command_link.messages.clear();
+  world.report_link.messages.clear();
+  putAllBack(world.view);
+  for (int slot : world.models.inOrder()) resetModel(world.view, *world.models[slot]);
+  for (int i = 0; i < world.fleet.size(); ++i) knowWhereabouts(world.view, world.failures, i);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
-  beginFailures(world);
-  restartScripts(world);
+  world.failures = {};
+  restartScripts(world.fleet, world.people);
   if (time_too) world.clock.resetTime();
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.reset(*this); });
 }
@@ -232,7 +236,7 @@ void World::post(const Command& command) {
   if (command.kind == Command::Kind::kFollow) {
     throw std::invalid_argument("a path is posted as a FollowPath");
   }
-  send(*state_, command);
+  send(state_->command_link, state_->inbox, state_->view, command);
 }
 
 void World::post(FollowPath path) {
@@ -245,15 +249,15 @@ void World::post(FollowPath path) {
   Command command;
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;
-  send(*state_, command, std::move(path));
+  send(state_->command_link, state_->inbox, state_->view, command, std::move(path));
 }
 
 void World::fail(int kiva_id, Failure failure, double repair_after) {
-  breakDown(*state_, kiva_id, failure, repair_after);
+  breakDown(state_->view, state_->failures, kiva_id, failure, repair_after);
 }
-void World::repair(int kiva_id) { kiva::repair(*state_, kiva_id); }
+void World::repair(int kiva_id) { kiva::repair(state_->view, state_->failures, kiva_id); }
 std::optional<RobotReport> World::lastHeard(int robot) const {
-  return kiva::lastHeard(*state_, robot);
+  return kiva::lastHeard(state_->view, state_->failures, robot);
 }
 
 void World::keepMode(int kiva_id, int mode) {
@@ -266,23 +270,26 @@ void World::keepMode(int kiva_id, int mode) {
   state_->fleet.mode[robot] = static_cast<std::uint8_t>(mode);
 }
 
-void World::walk(const std::string& person, const Walk& walk) { kiva::walk(*state_, person, walk); }
-std::vector<Person> World::people() const { return peopleIn(*state_); }
+void World::walk(const std::string& person, const Walk& walk) {
+  kiva::walk(state_->view, state_->people, person, walk);
+}
+std::vector<Person> World::people() const { return peopleIn(state_->view); }
 void World::setLightCurtain(const LightCurtain& curtain) {
-  kiva::setLightCurtain(*state_, curtain);
+  kiva::setLightCurtain(state_->people, curtain);
 }
 bool World::removeLightCurtain(const std::string& name) {
-  return kiva::removeLightCurtain(*state_, name);
+  return kiva::removeLightCurtain(state_->people, name);
 }
 const std::vector<LightCurtain>& World::lightCurtains() const { return state_->people.curtains; }
 
-std::vector<FallenItem> World::fallenItems() const { return fallenIn(*state_); }
-void World::pickUp(const std::string& item) { kiva::pickUp(*state_, item); }
+std::vector<FallenItem> World::fallenItems() const { return fallenIn(state_->view); }
+void World::pickUp(const std::string& item) { kiva::pickUp(state_->view, item); }
 
 void World::spawn(const ModelInstance& instance) {
-  spawnModel(*state_, instance);
+  spawnModel(state_->view, instance);
   if (!instance.walk) return;
-  beginScript(*state_, state_->models.slot_of_name.at(instance.name), *instance.walk);
+  beginScript(state_->view, state_->people, state_->models.slot_of_name.at(instance.name),
+              *instance.walk);
 }
 
 void World::spawn(const std::vector<ModelInstance>& instances) {
@@ -298,7 +305,7 @@ void World::spawn(const std::vector<ModelInstance>& instances) {
 bool World::remove(const std::string& model) {
   const auto at = state_->models.slot_of_name.find(model);
   if (at == state_->models.slot_of_name.end()) return false;
-  removeModel(*state_, at->second);
+  removeModel(state_->view, at->second);
   return true;
 }
 
@@ -320,10 +327,10 @@ std::uint64_t World::modelsRevision() const { return state_->models.revision; }
 std::optional<EntityState> World::state(const std::string& model, const std::string& link) const {
   const Model* found = state_->models.find(model);
   if (!found) return std::nullopt;
-  if (link.empty()) return modelState(*state_, *found);
+  if (link.empty()) return modelState(state_->view, *found);
   const int index = linkIndex(found, link);
   if (index < 0) return std::nullopt;
-  return linkState(*state_, *found, index);
+  return linkState(state_->view, *found, index);
 }
 
 std::shared_ptr<const ModelDescription> World::description(const std::string& model) const {
@@ -334,16 +341,16 @@ std::shared_ptr<const ModelDescription> World::description(const std::string& mo
 bool World::setState(const std::string& model, const EntityState& state) {
   Model* found = state_->models.find(model);
   if (!found) return false;
-  placeModel(*state_, *found, state);
-  const int robot = found->owner->robot(*state_, *found);
-  if (robot >= 0) knowWhereabouts(*state_, robot);
+  placeModel(state_->view, *found, state);
+  const int robot = found->owner->robot(state_->view, *found);
+  if (robot >= 0) knowWhereabouts(state_->view, state_->failures, robot);
   return true;
 }
 
 void World::states(std::vector<EntityState>* out) const {
   out->clear();
   for (int slot : state_->models.inOrder()) {
-    out->push_back(modelState(*state_, *state_->models[slot]));
+    out->push_back(modelState(state_->view, *state_->models[slot]));
   }
 }
 
@@ -363,7 +370,7 @@ bool World::setLinkState(const std::string& model, const std::string& link,
   Model* found = state_->models.find(model);
   const int index = linkIndex(found, link);
   if (index < 0) return false;
-  placeLink(*state_, *found, index, state);
+  placeLink(state_->view, *found, index, state);
   return true;
 }
 
@@ -375,7 +382,7 @@ void World::linkStates(std::vector<std::string>* names, std::vector<EntityState>
     const auto& links = model.description->links;
     for (std::size_t i = 0; i < links.size(); ++i) {
       names->push_back(model.name + "::" + links[i].name);
-      states->push_back(linkState(*state_, model, static_cast<int>(i)));
+      states->push_back(linkState(state_->view, model, static_cast<int>(i)));
     }
   }
 }
@@ -394,7 +401,7 @@ bool World::setLinkInertia(const std::string& model, const Link& link) {
         "no body is like that; expected a mass above 0 kg, principal moments above 0 kg m², none "
         "larger than the sum of the other two, and a centre of mass near the link");
   }
-  reweighLink(*state_, *found, index, link);
+  reweighLink(state_->view, *found, index, link);
   return true;
 }
 
@@ -402,7 +409,7 @@ std::optional<JointState> World::joint(const std::string& model, const std::stri
   const Model* found = state_->models.find(model);
   const int index = found ? findJoint(*found, joint) : -1;
   if (index < 0) return std::nullopt;
-  return jointState(*state_, *found, index);
+  return jointState(state_->view.fleet, *found, index);
 }
 
 std::optional<JointWrench> World::jointWrench(const std::string& model,
@@ -426,7 +433,7 @@ void World::setJointPositions(const std::string& model,
                               const std::map<std::string, double>& positions) {
   Model* found = state_->models.find(model);
   if (!found) throw std::invalid_argument("there is no model '" + model + "'");
-  placeJoints(*state_, *found, positions);
+  placeJoints(state_->view, *found, positions);
 }
 
 const ExternalInputs& World::externalInputs() const { return state_->external_inputs; }
@@ -435,7 +442,7 @@ bool World::applyWrench(const std::string& model, const std::string& link, const
                         const Vector3& torque) {
   Model* found = state_->models.find(model);
   const int index = linkIndex(found, link);
-  return index >= 0 && pushLink(*state_, *found, index, force, torque);
+  return index >= 0 && pushLink(state_->view, *found, index, force, torque);
 }
 
 bool World::apply(const Wrench& wrench) {
@@ -475,11 +482,11 @@ void World::setOde(const OdeSettings& settings) { state_->external_inputs.ode = 
 const Fleet& World::fleet() const { return state_->fleet; }
 const std::vector<StorageUnit>& World::storageUnits() const { return state_->storage.units; }
 const std::vector<Item>& World::items() const { return state_->storage.items; }
-Pose World::storageUnitPose(int unit) const { return unitPose(*state_, unit); }
-Pose World::itemPose(int item) const { return kiva::itemPose(*state_, item); }
+Pose World::storageUnitPose(int unit) const { return unitPose(state_->view, unit); }
+Pose World::itemPose(int item) const { return kiva::itemPose(state_->view, item); }
 std::vector<PathPoint> World::pathAhead(int robot) const {
   const Task& task = state_->fleet.tasks[robot];
-  if (task.follows()) return pointsAhead(*state_, robot);
+  if (task.follows()) return pointsAhead(state_->view.fleet, robot);
   std::vector<PathPoint> points;
   for (const MotionSegment& segment : task.segments) {
     if (segment.kind == MotionSegment::Kind::kDrive) points.push_back({segment.x, segment.y});
@@ -490,8 +497,8 @@ Vector3 World::believedPose(int robot) const {
   const PlanarPose at = state_->fleet.believed(robot);
   return {at.x, at.y, at.yaw};
 }
-double World::loadLimit(int robot) const { return kiva::loadLimit(*state_, robot); }
-Pose World::basePose(int robot) const { return kiva::basePose(*state_, robot); }
+double World::loadLimit(int robot) const { return kiva::loadLimit(state_->view, robot); }
+Pose World::basePose(int robot) const { return kiva::basePose(state_->view, robot); }
 std::uint64_t World::unitsRevision() const { return state_->storage.revision; }
 const Floor& World::floor() const { return state_->floor.extent; }
 double World::gridSpacing() const { return state_->settings.grid_spacing; }
@@ -499,8 +506,8 @@ double World::gridSpacing() const { return state_->settings.grid_spacing; }
 void World::scan(int robot, std::vector<float>* ranges) const {
   static thread_local FanHits hits;
   const LaserParameters& laser = state_->fleet.robots[robot].laser;
-  castRays(*state_, robot, {laser.max_range, kInfinity}, &hits);
-  if (isBlind(*state_, robot)) {
+  castRays(state_->view, state_->scans, robot, {laser.max_range, kInfinity}, &hits);
+  if (isBlind(state_->view.fleet, robot)) {
     ranges->assign(laser.rays, std::numeric_limits<float>::quiet_NaN());
     return;
   }
@@ -533,7 +540,7 @@ double World::rayCast(const Vector3& from, double yaw, double range, const std::
 
 void World::rayCast(const Vector3& from, const std::vector<Vector3>& directions, double range,
                     const std::string& but, std::vector<double>* ranges) const {
-  const RayScene scene(*state_, from, range, state_->models.find(but));
+  const RayScene scene(state_->view, from, range, state_->models.find(but));
   ranges->resize(directions.size());
   const int rays = static_cast<int>(directions.size());
   state_->schedule.workers->share(rays, kRaysTogether, [&](int begin, int end) {
@@ -544,7 +551,7 @@ void World::rayCast(const Vector3& from, const std::vector<Vector3>& directions,
 std::vector<ContactPoint> World::contacts(const std::string& model) const {
   const auto at = state_->models.slot_of_name.find(model);
   if (at == state_->models.slot_of_name.end()) return {};
-  return contactsOf(*state_, at->second);
+  return contactsOf(state_->view, at->second);
 }
 
 std::string World::checkpoint() const { return kiva::checkpoint(*state_); }
@@ -553,7 +560,7 @@ std::uint64_t World::stateHash() const { return kiva::stateHash(*state_); }
 void World::restore(const std::string& checkpoint) {
   Restored next = readCheckpoint(checkpoint);
   const std::vector<PluginState> before = savePlugins(*state_);
-  next.world->owner = this;
+  next.world->plugins.owner = this;
   next.world->settings.options.plugins = state_->settings.options.plugins;
   next.world->settings.options.threads = state_->settings.options.threads;
   next.world->schedule.workers = state_->schedule.workers;

@@ -27,7 +27,7 @@ double approachSpeed(const Sighting& before, const Sighting& now, double between
 
 /// How far along the segment the robot may go: a grid point before the cell of what is ahead, or,
 /// off the grid, a little before it.
-double farthestStop(const WorldState& world, int robot, double obstacle) {
+double farthestStop(const Scene& world, int robot, double obstacle) {
   if (!world.fleet.tasks[robot].segments.front().on_grid) {
     return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
   }
@@ -36,7 +36,7 @@ double farthestStop(const WorldState& world, int robot, double obstacle) {
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(WorldState& world, int i, double stop) {
+void planStop(MotionView& world, int i, double stop) {
   FleetState& f = world.fleet;
   const double speed = std::abs(f.command(i).speed), here = f.command(i).position;
   const double way = stop - here;
@@ -61,13 +61,13 @@ struct View {
   double scan_time;  // until the next look [s]
 };
 
-View viewOf(const WorldState& world, int i) {
+View viewOf(const Scene& world, int i) {
   const FleetState& f = world.fleet;
   const Sighting& now = f.tasks[i].sighting;
   View view;
   view.reference = f.command(i).position;
   view.goal = f.goal[i];
-  view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.clock.dt;
+  view.scan_time = static_cast<double>(scanPeriod(world.clock, f.robots[i])) * world.clock.dt;
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
   view.speed = std::abs(f.command(i).speed);
@@ -75,7 +75,7 @@ View viewOf(const WorldState& world, int i) {
 }
 
 /// [m/s²]
-double usualBraking(WorldState& world, int i) {
+double usualBraking(MotionView& world, int i) {
   const double usual = plannedAcceleration(world, i);
   return usual > 0 ? usual : 1e9;
 }
@@ -88,7 +88,7 @@ double expectedObstacle(const View& view, double braking) {
 }
 
 /// Where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(WorldState& world, int robot, const View& view) {
+double firstStop(MotionView& world, int robot, const View& view) {
   const auto isBehindGoal = [&](double stop) { return stop >= view.goal - kSoon; };
   // Most looks end here: how it can brake is worked out for the others alone.
   if (view.approach == 0 && isBehindGoal(farthestStop(world, robot, view.obstacle))) {
@@ -105,7 +105,7 @@ double firstStop(WorldState& world, int robot, const View& view) {
 
 /// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
 /// by now, or even two hard stops would hardly do.
-double revisedStop(WorldState& world, int robot, const View& view) {
+double revisedStop(MotionView& world, int robot, const View& view) {
   const Robot& r = world.fleet.robots[robot];
   const double hardest = plannedBraking(world, robot);
   const double gap = view.obstacle - view.reference - halfLength(r);
@@ -117,7 +117,7 @@ double revisedStop(WorldState& world, int robot, const View& view) {
 }
 
 /// Whether a robot that brakes or stands on its path can go farther than to where it does.
-bool mayResume(WorldState& world, int i) {
+bool mayResume(MotionView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   const View view = viewOf(world, i);
   if (task.sighting.model < 0 || view.obstacle >= reachOfInterest(world, i)) return true;
@@ -125,7 +125,7 @@ bool mayResume(WorldState& world, int i) {
   return farthestStop(world, i, expected) > view.goal + kSoon;
 }
 
-void brake(WorldState& world, int i) {
+void brake(MotionView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   if (!task.sighting.taken) return;
   const bool is_obstructed = task.isHeldUp() || task.phase == Phase::kBraking;
@@ -159,9 +159,8 @@ void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   laser.z = p.number("z", laser.z, 0, 10);
 }
 
-void LaserPlugin::react(WorldState& world) const {
-  for (int i : world.scans.sighted) brake(world, i);
-  world.scans.sighted.clear();
+void LaserPlugin::react(MotionView& world, const std::vector<int>& sighted) const {
+  for (int i : sighted) brake(world, i);
 }
 
 }  // namespace kiva

@@ -26,7 +26,7 @@ struct Above {
   int model = -1;
 };
 
-Above findAbove(const WorldState& world, int i) {
+Above findAbove(const Scene& world, int i) {
   Above above;
   const Fleet& f = world.fleet;
   const std::vector<Footprint>& all = world.obstacles.footprints(i);
@@ -49,21 +49,21 @@ Above findAbove(const WorldState& world, int i) {
 
 /// With what it resists being lifted [N]: by its weight, unless it is fixed or a robot, whose
 /// wheels stay on the floor.
-double resistance(const WorldState& world, const Model& model) {
+double resistance(const Scene& world, const Model& model) {
   if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
   double mass = 0;
   for (const Link& link : model.description->links) mass += link.mass;
   return mass * world.settings.gravityDown();
 }
 
-void setTower(WorldState& world, int i, double height) {
+void setTower(ContactView& world, int i, double height) {
   raiseLoad(world, i, height - world.fleet.tower[i]);
   world.fleet.tower[i] = height;
 }
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: half of it at 4·height/time², half at minus that.
-void moveTower(WorldState& world, int i, double height) {
+void moveTower(ContactView& world, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
@@ -74,17 +74,17 @@ void moveTower(WorldState& world, int i, double height) {
   setTower(world, i, profile.position);
 }
 
-void begin(WorldState& world, int i) {
+void begin(ContactView& world, int i) {
   world.fleet.tasks[i].phase = Phase::kLifting;
   world.fleet.setProfile(i, {world.fleet.tower[i], 0});
 }
 
-void giveUp(WorldState& world, int i, const std::string& by, const std::string& reason) {
+void giveUp(ContactView& world, int i, const std::string& by, const std::string& reason) {
   stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
-void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
+void checkUnit(ContactView& world, int i, const MotionSegment& segment) {
   if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
   const StorageUnit& unit = world.storage.units[segment.unit];
@@ -100,7 +100,7 @@ void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
   }
 }
 
-void putDownOnFloor(WorldState& world, int i, int unit) {
+void putDownOnFloor(ContactView& world, int i, int unit) {
   if (unit < 0 || world.fleet.unit[i] != unit) return;
   if (unitPose(world, unit).Z() > world.floor.extent.z) return;
   putDown(world, i);
@@ -110,7 +110,7 @@ void putDownOnFloor(WorldState& world, int i, int unit) {
 
 /// The tower comes down, a unit that it has stands on the floor again, then the command ends in
 /// BLOCKED.
-void abandon(WorldState& world, int i, int unit) {
+void abandon(ContactView& world, int i, int unit) {
   moveTower(world, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) endStop(world, i);
@@ -118,7 +118,7 @@ void abandon(WorldState& world, int i, int unit) {
 
 /// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
 /// a load that is too heavy. It gives up after a while. `above` is what it saw from `before` [m].
-void stall(WorldState& world, int i, double before, const Above& above) {
+void stall(ContactView& world, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
@@ -141,7 +141,7 @@ void stall(WorldState& world, int i, double before, const Above& above) {
   giveUp(world, i, other, text);
 }
 
-void raiseSegment(WorldState& world, int i, int unit) {
+void raiseSegment(ContactView& world, int i, int unit) {
   Robot& r = world.fleet.robots[i];
   const double before = world.fleet.tower[i];
   const bool is_loaded = world.fleet.unit[i] >= 0;
@@ -159,14 +159,14 @@ void raiseSegment(WorldState& world, int i, int unit) {
   finishSegment(world, i);
 }
 
-void lowerSegment(WorldState& world, int i, int unit) {
+void lowerSegment(ContactView& world, int i, int unit) {
   moveTower(world, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
 /// Stops the tower, and keeps it there.
-void holdTower(WorldState& world, int i) {
+void holdTower(ContactView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
@@ -176,7 +176,7 @@ void holdTower(WorldState& world, int i) {
   setTower(world, i, profile.position);
 }
 
-void liftSegment(WorldState& world, int i) {
+void liftSegment(ContactView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   if (isHeld(world.fleet, i)) return holdTower(world, i);
   const MotionSegment segment = task.segments.front();
@@ -188,7 +188,7 @@ void liftSegment(WorldState& world, int i) {
 }
 
 /// A tower whose unit was deleted comes down by itself.
-void lowerEmptyTower(WorldState& world, int i) {
+void lowerEmptyTower(ContactView& world, int i) {
   FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
   moveTower(world, i, 0);
@@ -206,7 +206,7 @@ void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   lift.proximity = p.number("proximity", lift.proximity, 0, 10);
 }
 
-void LiftPlugin::control(WorldState& world) const {
+void LiftPlugin::control(ContactView& world) const {
   const FleetState& f = world.fleet;
   for (int i : world.schedule.stepped_singly) {
     const Task& task = f.tasks[i];

@@ -37,7 +37,7 @@ OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i], at.yaw - segment.yaw};
 }
 
-void begin(WorldState& world, int i, const OnLine& at) {
+void begin(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
@@ -55,7 +55,7 @@ bool arrived(const FleetState& f, int i, const OnLine& at) {
 }
 
 /// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
-bool giveUp(WorldState& world, int i, const OnLine& at) {
+bool giveUp(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   double& overdue = f.tasks[i].overdue;
   if (f.reference[i] == f.goal[i]) overdue += world.clock.dt;
@@ -66,7 +66,7 @@ bool giveUp(WorldState& world, int i, const OnLine& at) {
 }
 
 /// What it may drive for the sake of people now, on its way down to what is allowed.
-double allowedSpeed(WorldState& world, int i) {
+double allowedSpeed(MotionView& world, int i) {
   const FleetState& f = world.fleet;
   const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
   if (speed <= allowed || f.robots[i].drive.acceleration == 0) return allowed;
@@ -88,7 +88,7 @@ void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed
 }
 
 /// Stops where it can, and stays there.
-void holdDrive(WorldState& world, int i, const OnLine& at) {
+void holdDrive(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - at.along;
@@ -103,7 +103,7 @@ void holdDrive(WorldState& world, int i, const OnLine& at) {
   if (f.reference_speed[i] == 0 && is_there) setWheels(f, i, 0, 0);
 }
 
-void driveSegment(WorldState& world, int i) {
+void driveSegment(MotionView& world, int i) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
@@ -161,7 +161,7 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
   robot.has_motion = true;
 }
 
-void MotionPlugin::control(WorldState& world) const {
+void MotionPlugin::control(ContactView& world) const {
   for (int i : world.schedule.stepped_singly) {
     if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive)) driveSegment(world, i);
   }
@@ -180,7 +180,7 @@ bool stands(const Fleet& f, int i) {
   return std::hypot(f.vx[i], f.vy[i]) < kStill && std::abs(f.yaw_rate[i]) < kStill;
 }
 
-bool halting(WorldState& world, int i) {
+bool halting(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase != Phase::kHalting) return false;
   const Task& task = f.tasks[i];

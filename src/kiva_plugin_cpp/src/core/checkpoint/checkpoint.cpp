@@ -100,13 +100,14 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
          world.contact_log.crashes);
   FIELDS(within(world.fleet.fastest, 0, 1e4), world.external_inputs);
   FIELDS(physics);
-  if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
+  if (!std::is_same_v<A, Hasher> || mayFail(world.settings.realism, world.failures))
+    FIELDS(world.failures);
   if (world.settings.realism.energy.enabled) FIELDS(world.fleet.battery);
   if (world.settings.realism.radio.delaysReports()) {
     FIELDS(world.fleet.heard, world.report_link.messages, world.report_link.sent,
            world.report_link.changed);
   }
-  if (!std::is_same_v<A, Hasher> || minds(world)) {
+  if (!std::is_same_v<A, Hasher> || minds(world.people)) {
     FIELDS(world.people.walkers, world.people.slowed_for_people, world.people.curtains,
            within(world.fleet.allowed_speed, 0, kEndless), within(world.fleet.curtained, 0, 1));
   }
@@ -129,15 +130,15 @@ void indexModels(WorldState& world) {
     world.storage.unit_of_id[world.storage.units[i].id] = static_cast<int>(i);
   }
   for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
-  for (Robot& robot : world.fleet.robots) setRays(world, &robot);
-  markDefects(world);
-  markCharge(world);
+  for (Robot& robot : world.fleet.robots) setRays(world.scans, &robot);
+  markDefects(world.fleet, world.settings.realism, world.failures);
+  markCharge(world.fleet, world.settings.realism.energy);
   world.fleet.sway.resize(world.fleet.size());
   world.fleet.heard.resize(world.fleet.size());
   world.fleet.command_speed.resize(world.fleet.size());
   world.fleet.count_at.clear();
   for (int i = 0; i < world.fleet.size(); ++i) {
-    world.fleet.count_at.push_back(nextCount(world, i));
+    world.fleet.count_at.push_back(nextCount(world.view, i));
   }
 }
 

@@ -23,7 +23,7 @@ void save(const std::string& model, const PluginList& plugins, std::vector<Plugi
 Descriptions usersOwn(const WorldState& world, const Descriptions& all) {
   Descriptions own;
   for (const PluginDescription& plugin : all) {
-    if (!findFleetPlugin(world, plugin.filename)) own.push_back(plugin);
+    if (!findFleetPlugin(world.plugins, plugin.filename)) own.push_back(plugin);
   }
   return own;
 }
@@ -53,7 +53,7 @@ void adoptModel(WorldState& world, const WorldState& before, Model& model) {
   if (same) {
     model.plugins = known->plugins;
   } else {
-    loadPlugins(world, model);
+    loadPlugins(world.view, model);
   }
 }
 
@@ -64,7 +64,7 @@ void adoptWorld(WorldState& world, const WorldState& before) {
     return;
   }
   for (const PluginDescription& plugin : own) {
-    auto loaded = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr);
+    auto loaded = loadPlugin(world.view, "", plugin.filename, plugin.parameters, nullptr);
     if (loaded) world.plugins.world.push_back(std::move(loaded));
   }
 }
@@ -97,7 +97,7 @@ void restorePlugins(WorldState& world, const std::vector<PluginState>& states) {
     const Model* model = saved.model.empty() ? nullptr : world.models.find(saved.model);
     const PluginList& plugins = model ? model->plugins : world.plugins.world;
     const auto index = static_cast<std::size_t>(saved.index);
-    if (index < plugins.size()) plugins[index]->restore(*world.owner, saved.state);
+    if (index < plugins.size()) plugins[index]->restore(*world.plugins.owner, saved.state);
   }
 }
 

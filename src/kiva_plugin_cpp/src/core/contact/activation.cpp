@@ -22,7 +22,7 @@ constexpr double kSlow = 0.2, kSeldom = 0.008;  // [m/s, s]
 constexpr int kLooksTogether = 32;              // on one thread: less is not worth waking another
 
 /// A load enters with the robot that carries it.
-void activateWhole(WorldState& world, int slot) {
+void activateWhole(ContactView& world, int slot) {
   Model& model = *world.models[slot];
   if (!model.owner->isActivatedWhenNear()) return;
   const int robot = model.owner->robot(world, model);
@@ -30,14 +30,14 @@ void activateWhole(WorldState& world, int slot) {
 }
 
 /// In an order that does not depend on how the obstacles are indexed.
-void activateAll(WorldState& world, std::vector<int> slots) {
+void activateAll(ContactView& world, std::vector<int> slots) {
   std::sort(slots.begin(), slots.end());
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   for (int slot : slots) activateWhole(world, slot);
 }
 
 /// Lets the robot, which can't be left alone for long, and what it could touch enter Bullet.
-void activateClose(WorldState& world, int robot) {
+void activateClose(ContactView& world, int robot) {
   FleetState& f = world.fleet;
   std::vector<int> close;
   const auto& own = world.obstacles.footprints(robot);
@@ -53,20 +53,20 @@ void activateClose(WorldState& world, int robot) {
       static_cast<double>(world.clock.total_steps) + std::max(seldom, free_steps);
 }
 
-bool isMoving(const WorldState& world, int robot) {
-  return world.fleet.tasks[robot].phase != Phase::kIdle || !atRest(world.fleet, robot);
+bool isMoving(const FleetState& fleet, int robot) {
+  return fleet.tasks[robot].phase != Phase::kIdle || !atRest(fleet, robot);
 }
 
-bool looksAround(const WorldState& world, int robot) {
+bool looksAround(const Scene& world, int robot) {
   const FleetState& f = world.fleet;
   const bool is_hasty = f.activated[robot] && pointSpeed(f, robot) > kSlow;
   const bool is_known = f.clear_until[robot] > static_cast<double>(world.clock.total_steps);
-  return (is_hasty || !is_known) && isMoving(world, robot);
+  return (is_hasty || !is_known) && isMoving(world.fleet, robot);
 }
 
 /// For how long the way of each robot that looks around is free [s], as all stand now; 0 for
 /// others. By place in the list of those that are stepped singly.
-std::vector<double> clearTimes(const WorldState& world) {
+std::vector<double> clearTimes(const ContactView& world) {
   const std::vector<int>& robots = world.schedule.stepped_singly;
   std::vector<double> times(robots.size(), 0);
   std::vector<int> asking;
@@ -83,7 +83,7 @@ std::vector<double> clearTimes(const WorldState& world) {
 }
 
 /// One by one, since who enters Bullet changes what the next one finds.
-void lookAround(WorldState& world) {
+void lookAround(ContactView& world) {
   const FleetState& f = world.fleet;
   const auto asks = [&](int robot) { return looksAround(world, robot); };
   const std::vector<int>& all = world.schedule.stepped_singly;
@@ -107,7 +107,7 @@ bool isSlow(const Model& model) {
 }
 
 /// A body that moves by itself: what it could hit enters Bullet too.
-void lookAroundBody(WorldState& world, Model& model) {
+void lookAroundBody(ContactView& world, Model& model) {
   if (!isAwake(model)) return;
   const bool is_due = (world.clock.total_steps + model.slot) % world.clock.stepsIn(kSeldom) == 0;
   if (model.upright && !is_due && isSlow(model)) return;
@@ -132,7 +132,7 @@ void lookAroundBody(WorldState& world, Model& model) {
   }
 }
 
-void release(WorldState& world) {
+void release(ContactView& world) {
   for (std::size_t k = 0; k < world.models.activated.size();) {
     Model& model = *world.models[world.models.activated[k]];
     if (model.owner->mayLeaveBullet(world, model, model.active_until < world.clock.total_steps)) {
@@ -144,7 +144,7 @@ void release(WorldState& world) {
 }
 
 /// Most blocks of a large fleet have none, and cost little.
-void findSteppedSingly(WorldState& world) {
+void findSteppedSingly(ContactView& world) {
   const FleetState& f = world.fleet;
   world.schedule.stepped_singly.clear();
   constexpr int kBlock = 16;
@@ -161,7 +161,7 @@ void findSteppedSingly(WorldState& world) {
 
 }  // namespace
 
-void activate(WorldState& world, Model& model) {
+void activate(ContactView& world, Model& model) {
   model.active_until = world.clock.total_steps + world.clock.stepsIn(kLinger);
   if (model.in_physics) return;
   model.upright = model.owner->mayBeUpright(world, model);
@@ -172,7 +172,7 @@ void activate(WorldState& world, Model& model) {
   model.owner->activated(world, model);
 }
 
-void deactivate(WorldState& world, Model& model) {
+void deactivate(ContactView& world, Model& model) {
   model.owner->deactivated(world, model);
   world.physics.remove(model.bodies);
   model.bodies = ModelBodies();
@@ -183,20 +183,20 @@ void deactivate(WorldState& world, Model& model) {
   moved(world, model);
 }
 
-void rebuildBody(WorldState& world, Model& model) {
+void rebuildBody(ContactView& world, Model& model) {
   if (!model.in_physics) return;
   deactivate(world, model);
   activate(world, model);
 }
 
-void letFall(WorldState& world, Model& model) {
+void letFall(ContactView& world, Model& model) {
   activate(world, model);
   if (model.upright) letTip(world, model);
   for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
   model.disturbed = true;
 }
 
-void updateActivation(WorldState& world) {
+void updateActivation(ContactView& world) {
   const FleetState& f = world.fleet;
   if (world.settings.options.always_in_bullet) {
     for (int i = 0; i < f.size(); ++i) activate(world, world.models.of(world.fleet.robots[i]));

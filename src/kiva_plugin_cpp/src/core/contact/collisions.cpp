@@ -20,29 +20,27 @@ constexpr double kQuiet = 0.002, kImpact = 0.01;
 // What counts as nearing: a share of the speed at first, and at least so much [m/s].
 constexpr double kShare = 0.01, kNearing = 0.001;
 
-int robotIn(const WorldState& world, const Model& model) {
-  return model.owner->robot(world, model);
-}
+int robotIn(const Scene& world, const Model& model) { return model.owner->robot(world, model); }
 
 /// Whether one is an item that slides, or has fallen, off the other.
-bool isFall(const WorldState& world, const Contact& contact) {
+bool isFall(const FallenItems& fallen, const Contact& contact) {
   const auto is_off = [&](int item, int unit) {
-    const OffShelf* off = world.fallen.find(item);
+    const OffShelf* off = fallen.find(item);
     return off && off->unit == unit;
   };
   return is_off(contact.model_a, contact.model_b) || is_off(contact.model_b, contact.model_a);
 }
 
-bool isCollision(const WorldState& world, const Contact& contact) {
+bool isCollision(const Scene& world, const Contact& contact) {
   const Model& a = *world.models[contact.model_a];
   const Model& b = *world.models[contact.model_b];
   if (a.owner->isFloor() || b.owner->isFloor()) return false;
   if (!a.owner->tellsCollisions() && !b.owner->tellsCollisions()) return false;
   const int robot = robotIn(world, a);
-  return (robot < 0 || robot != robotIn(world, b)) && !isFall(world, contact);
+  return (robot < 0 || robot != robotIn(world, b)) && !isFall(world.fallen, contact);
 }
 
-bool areApart(const WorldState& world, const TouchingPair& pair) {
+bool areApart(const Scene& world, const TouchingPair& pair) {
   bool apart = true;
   forFootprints(world, pair.model_a, [&](const Footprint& a) {
     forFootprints(world, pair.model_b, [&](const Footprint& b) {
@@ -53,13 +51,13 @@ bool areApart(const WorldState& world, const TouchingPair& pair) {
 }
 
 /// A robot in it is to stop.
-void noteCrash(WorldState& world, const Model& model, const Model& other) {
+void noteCrash(ContactView& world, const Model& model, const Model& other) {
   const int robot = robotIn(world, model);
   if (robot >= 0) world.contact_log.crashes.push_back({world.fleet.robots[robot].id, other.name});
 }
 
 /// What an impact [Ns, in world] made of the storage unit that it hit, or whose robot.
-void noteJolt(WorldState& world, const Model& model, const Vector3& impulse) {
+void noteJolt(ContactView& world, const Model& model, const Vector3& impulse) {
   const int robot = robotIn(world, model);
   if (robot >= 0 && world.fleet.unit[robot] >= 0) {
     const Robot& r = world.fleet.robots[robot];
@@ -71,14 +69,14 @@ void noteJolt(WorldState& world, const Model& model, const Vector3& impulse) {
   }
 }
 
-void noteJolts(WorldState& world, const TouchingPair& pair) {
+void noteJolts(ContactView& world, const TouchingPair& pair) {
   if (!world.settings.realism.loads.enabled) return;
   const Vector3 impulse = pair.impact.normal * pair.impact.impulse;
   noteJolt(world, *world.models[pair.model_a], impulse);
   noteJolt(world, *world.models[pair.model_b], -impulse);
 }
 
-void tell(WorldState& world, TouchingPair* pair) {
+void tell(ContactView& world, TouchingPair* pair) {
   const Model* a = world.models[pair->model_a].get();
   const Model* b = world.models[pair->model_b].get();
   Impact impact = pair->impact;
@@ -93,7 +91,7 @@ void tell(WorldState& world, TouchingPair* pair) {
   noteCrash(world, *b, *a);
 }
 
-void tellWhatIsOver(WorldState& world) {
+void tellWhatIsOver(ContactView& world) {
   for (TouchingPair& pair : world.contact_log.touching) {
     if (pair.tell_at == 0 || pair.tell_at > world.clock.total_steps) continue;
     noteJolts(world, pair);
@@ -101,7 +99,7 @@ void tellWhatIsOver(WorldState& world) {
   }
 }
 
-TouchingPair& pairOf(WorldState& world, const Contact& contact) {
+TouchingPair& pairOf(ContactView& world, const Contact& contact) {
   for (TouchingPair& pair : world.contact_log.touching) {
     if (pair.model_a == contact.model_a && pair.model_b == contact.model_b) return pair;
   }
@@ -113,7 +111,7 @@ TouchingPair& pairOf(WorldState& world, const Contact& contact) {
   return world.contact_log.touching.back();
 }
 
-void touch(WorldState& world, const Contact& contact) {
+void touch(ContactView& world, const Contact& contact) {
   for (int slot : {contact.model_a, contact.model_b}) {
     world.models[slot]->owner->touched(world, *world.models[slot]);
   }
@@ -127,7 +125,7 @@ void touch(WorldState& world, const Contact& contact) {
 
 }  // namespace
 
-void observeCollisions(WorldState& world) {
+void observeCollisions(ContactView& world) {
   if (world.models.activated.empty() && world.contact_log.touching.empty()) return;
   world.physics.contacts(&world.contact_log.contacts);
   for (const Contact& contact : world.contact_log.contacts) {
@@ -144,7 +142,7 @@ void observeCollisions(WorldState& world) {
       world.contact_log.touching.end());
 }
 
-void forgetContacts(WorldState& world, int slot) {
+void forgetContacts(ContactView& world, int slot) {
   const auto has = [slot](const TouchingPair& pair) {
     return slot < 0 || pair.model_a == slot || pair.model_b == slot;
   };

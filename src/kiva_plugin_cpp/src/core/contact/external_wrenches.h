@@ -5,17 +5,17 @@
 
 #include <string>
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
 
 namespace kiva {
 
 /// Before a step: applies what is due now, and drops what is over.
-void applyExternalWrenches(WorldState& world);
+void applyExternalWrenches(ContactView& world);
 /// For the next step: a force on the link's centre of mass and a torque, in world. Returns false
 /// if the link does not move.
-bool pushLink(WorldState& world, Model& model, int link, const Vector3& force,
+bool pushLink(ContactView& world, Model& model, int link, const Vector3& force,
               const Vector3& torque);
 /// A model is going.
-void forgetExternalInputs(WorldState& world, const std::string& model);
+void forgetExternalInputs(ExternalInputs& external_inputs, const std::string& model);
 
 }  // namespace kiva

@@ -35,22 +35,20 @@ void addChargers(const Model& model, std::vector<Charger>* out) {
   }
 }
 
-void findChargers(WorldState& world) {
-  if (world.chargers.models_revision == world.models.revision) return;
-  world.chargers.models_revision = world.models.revision;
-  world.chargers.areas.clear();
-  for (const auto& model : world.models) {
-    if (model && model->name.rfind(kMarkings, 0) == 0) addChargers(*model, &world.chargers.areas);
+void findChargers(const ModelTable& models, Chargers& chargers) {
+  if (chargers.models_revision == models.revision) return;
+  chargers.models_revision = models.revision;
+  chargers.areas.clear();
+  for (const auto& model : models) {
+    if (model && model->name.rfind(kMarkings, 0) == 0) addChargers(*model, &chargers.areas);
   }
 }
 
-bool isOnCharger(const WorldState& world, int i) {
-  const Fleet& f = world.fleet;
+bool isOnCharger(const Chargers& chargers, const Fleet& f, int i) {
   if (std::hypot(f.vx[i], f.vy[i]) > kStandstill) return false;
-  return std::any_of(
-      world.chargers.areas.begin(), world.chargers.areas.end(), [&](const Charger& c) {
-        return f.x[i] > c.min_x && f.x[i] < c.max_x && f.y[i] > c.min_y && f.y[i] < c.max_y;
-      });
+  return std::any_of(chargers.areas.begin(), chargers.areas.end(), [&](const Charger& c) {
+    return f.x[i] > c.min_x && f.x[i] < c.max_x && f.y[i] > c.min_y && f.y[i] < c.max_y;
+  });
 }
 
 double kineticEnergy(const Fleet& f, int i) {
@@ -67,7 +65,7 @@ void markWheels(FleetState& f, int i) {
 }
 
 /// Its battery as it is at the beginning.
-void begin(WorldState& world, int i) {
+void begin(MotionView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
   RandomStream random(world.settings.options.seed, Matter::kEnergy, f.robots[i].id, 0);
@@ -86,14 +84,14 @@ bool isAtRest(const FleetState& f, int i) {
          f.tower[i] == battery.tower;
 }
 
-void show(WorldState& world, int i) {
-  const double charge = world.fleet.battery[i].energy / capacityOf(world.settings.realism.energy);
-  world.fleet.charge[i] = static_cast<float>(charge);
+void show(FleetState& f, const EnergyRealism& e, int i) {
+  const double charge = f.battery[i].energy / capacityOf(e);
+  f.charge[i] = static_cast<float>(charge);
 }
 
 /// In one step [J]: speeding up less what braking gives back, lifting. A turn is over within a few
 /// readings of a battery, and a load is taken up within one.
-void drawForMotion(WorldState& world, int i) {
+void drawForMotion(MotionView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
@@ -108,11 +106,11 @@ void drawForMotion(WorldState& world, int i) {
   battery.tower = f.tower[i];
   if (f.failures[i] & kEmptyBattery) return;
   battery.energy = std::max(0.0, battery.energy - moving - lifted / e.lift_efficiency);
-  show(world, i);
+  show(world.fleet, world.settings.realism.energy, i);
 }
 
 /// Since the last time [J]: electronics, rolling.
-double drawnSteadily(const WorldState& world, int i, double seconds) {
+double drawnSteadily(const Scene& world, int i, double seconds) {
   const EnergyRealism& e = world.settings.realism.energy;
   const FleetState& f = world.fleet;
   const Battery& before = f.battery[i];
@@ -128,15 +126,15 @@ double drawnSteadily(const WorldState& world, int i, double seconds) {
 }
 
 /// Into its battery in that time [J].
-double takenUp(const WorldState& world, int i, double seconds) {
+double takenUp(const Scene& world, const Chargers& chargers, int i, double seconds) {
   const EnergyRealism& e = world.settings.realism.energy;
-  if (!isOnCharger(world, i)) return 0;
+  if (!isOnCharger(chargers, world.fleet, i)) return 0;
   const double charge = world.fleet.battery[i].energy / capacityOf(e);
   const double falling = (1 - charge) / std::max(1e-9, 1 - e.charge_taper);
   return e.charge_power * std::clamp(falling, kLeastCharge, 1.0) * seconds;
 }
 
-void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) {
+void setEmpty(MotionView& world, int i, bool is_empty, const std::string& text) {
   FleetState& f = world.fleet;
   f.failures[i] =
       static_cast<std::uint8_t>((f.failures[i] & ~kEmptyBattery) | (is_empty ? kEmptyBattery : 0));
@@ -146,14 +144,14 @@ void setEmpty(WorldState& world, int i, bool is_empty, const std::string& text) 
   if (!is_empty && !isHeld(f, i)) planAnew(world, i);
 }
 
-void reckon(WorldState& world, int i, double seconds) {
+void reckon(MotionView& world, const Chargers& chargers, int i, double seconds) {
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
   const double most = capacityOf(world.settings.realism.energy);
-  const double drawn = drawnSteadily(world, i, seconds) - takenUp(world, i, seconds);
+  const double drawn = drawnSteadily(world, i, seconds) - takenUp(world, chargers, i, seconds);
   battery.energy = std::clamp(battery.energy - drawn, 0.0, most);
   markWheels(f, i);
-  show(world, i);
+  show(world.fleet, world.settings.realism.energy, i);
   const bool was_empty = (f.failures[i] & kEmptyBattery) != 0;
   if (!was_empty && battery.energy == 0) setEmpty(world, i, true, "its battery is empty");
   if (was_empty && battery.energy > kRestarts * most) {
@@ -163,31 +161,30 @@ void reckon(WorldState& world, int i, double seconds) {
 
 }  // namespace
 
-void useEnergy(WorldState& world) {
+void useEnergy(MotionView& world, Chargers& chargers) {
   if (!world.settings.realism.energy.enabled) return;
   for (int i = 0; i < world.fleet.size(); ++i) drawForMotion(world, i);
   const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.clock.dt));
   if (world.clock.total_steps % period != 0) return;
-  findChargers(world);
+  findChargers(world.models, chargers);
   for (int i = 0; i < world.fleet.size(); ++i) {
-    reckon(world, i, static_cast<double>(period) * world.clock.dt);
+    reckon(world, chargers, i, static_cast<double>(period) * world.clock.dt);
   }
 }
 
-void exchangeBattery(WorldState& world, int robot) {
+void exchangeBattery(MotionView& world, int robot) {
   world.fleet.battery[robot].energy = capacityOf(world.settings.realism.energy);
-  show(world, robot);
+  show(world.fleet, world.settings.realism.energy, robot);
   setEmpty(world, robot, false, "repaired: it has a full battery");
 }
 
-void markCharge(WorldState& world) {
-  FleetState& f = world.fleet;
+void markCharge(FleetState& f, const EnergyRealism& realism) {
   f.charge.assign(f.size(), 1);
   f.battery.resize(f.size());
-  if (!world.settings.realism.energy.enabled) return;
+  if (!realism.enabled) return;
   for (int i = 0; i < f.size(); ++i) {
     if (f.battery[i].energy < 0) continue;
-    show(world, i);
+    show(f, realism, i);
     if (f.battery[i].energy == 0) f.failures[i] |= kEmptyBattery;
   }
 }

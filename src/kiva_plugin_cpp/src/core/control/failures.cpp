@@ -35,20 +35,19 @@ const char* nameOf(Failure failure) {
   return "";
 }
 
-int findRobot(const WorldState& world, int kiva_id) {
-  const int robot = world.fleet.find(kiva_id);
+int findRobot(const FleetState& fleet, int kiva_id) {
+  const int robot = fleet.find(kiva_id);
   if (robot >= 0) return robot;
   throw std::invalid_argument("there is no robot kiva" + std::to_string(kiva_id));
 }
 
-void apply(WorldState& world, int robot, Failure failure) {
-  FleetState& fleet = world.fleet;
+void apply(FleetState& fleet, const Realism& realism, int robot, Failure failure) {
   fleet.failures[robot] |= bitOf(failure);
   if (failure != Failure::kWheelSlip) return;
-  fleet.robots[robot].grip = world.settings.realism.failures.slipping_grip;
+  fleet.robots[robot].grip = realism.failures.slipping_grip;
 }
 
-void tell(WorldState& world, Event::Kind kind, int robot, const std::string& text) {
+void tell(MotionView& world, Event::Kind kind, int robot, const std::string& text) {
   world.log.report(kind, world.fleet.robots[robot].name, "", text);
 }
 
@@ -60,7 +59,7 @@ std::string within(double seconds) {
 }
 
 /// Its motion goes on with what it can do now. Who stands has nothing to do anew.
-void adapt(WorldState& world, int robot) {
+void adapt(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   const Phase phase = f.tasks[robot].phase;
   const bool moves = phase == Phase::kDriving || phase == Phase::kTurning;
@@ -68,7 +67,7 @@ void adapt(WorldState& world, int robot) {
   if (f.awake[robot]) moved(f, robot);
 }
 
-void mend(WorldState& world, const Defect& defect) {
+void mend(MotionView& world, const Defect& defect) {
   FleetState& f = world.fleet;
   const int robot = f.find(defect.kiva_id);
   const bool was_held = isHeld(f, robot);
@@ -93,19 +92,19 @@ Failure drawFailure(const FailureRealism& r, double chance) {
   return static_cast<Failure>(kind + static_cast<int>(Failure::kMotor));
 }
 
-void breakSomething(WorldState& world, RandomStream& random) {
+void breakSomething(MotionView& world, FailureState& failures, RandomStream& random) {
   const FailureRealism& realism = world.settings.realism.failures;
   const int robots = world.fleet.size();
   const int robot = std::min(robots - 1, static_cast<int>(random.uniform() * robots));
   const Failure failure = drawFailure(realism, random.uniform());
   const double repair = std::max(world.clock.dt, random.exponential(realism.repair_time));
-  breakDown(world, world.fleet.robots[robot].id, failure, repair);
+  breakDown(world, failures, world.fleet.robots[robot].id, failure, repair);
 }
 
 /// Mends all defects of which is_meant(defect) holds, in order.
 template <typename IsMeant>
-void mendWhere(WorldState& world, IsMeant is_meant) {
-  auto& defects = world.failures.defects;
+void mendWhere(MotionView& world, FailureState& failures, IsMeant is_meant) {
+  auto& defects = failures.defects;
   auto at = defects.begin();
   while ((at = std::find_if(at, defects.end(), is_meant)) != defects.end()) {
     const Defect defect = *at;
@@ -114,73 +113,70 @@ void mendWhere(WorldState& world, IsMeant is_meant) {
   }
 }
 
-void repairWhoIsDue(WorldState& world) {
-  for (Defect& defect : world.failures.defects) defect.left -= world.clock.dt;
-  mendWhere(world, [](const Defect& defect) { return defect.left <= 0; });
+void repairWhoIsDue(MotionView& world, FailureState& failures) {
+  for (Defect& defect : failures.defects) defect.left -= world.clock.dt;
+  mendWhere(world, failures, [](const Defect& defect) { return defect.left <= 0; });
 }
 
 }  // namespace
 
-void breakDown(WorldState& world, int kiva_id, Failure failure, double repair_after) {
-  const int robot = findRobot(world, kiva_id);
+void breakDown(MotionView& world, FailureState& failures, int kiva_id, Failure failure,
+               double repair_after) {
+  const int robot = findRobot(world.fleet, kiva_id);
   if (!(repair_after >= 0 && std::isfinite(repair_after))) {
     throw std::invalid_argument("repair_after must be finite and at least 0 s");
   }
   if (nameOf(failure)[0] == 0) throw std::invalid_argument("there is no such failure");
   const double left = repair_after > 0 ? repair_after : HUGE_VAL;
-  for (Defect& defect : world.failures.defects) {
+  for (Defect& defect : failures.defects) {
     if (defect.kiva_id != kiva_id || defect.failure != failure) continue;
     defect.left = left;
     return;
   }
   tell(world, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
-  world.failures.defects.push_back({kiva_id, failure, left, reportOf(world, robot)});
-  apply(world, robot, failure);
+  failures.defects.push_back({kiva_id, failure, left, reportOf(world, robot)});
+  apply(world.fleet, world.settings.realism, robot, failure);
   adapt(world, robot);
 }
 
-void repair(WorldState& world, int kiva_id) {
-  const int robot = findRobot(world, kiva_id);
+void repair(MotionView& world, FailureState& failures, int kiva_id) {
+  const int robot = findRobot(world.fleet, kiva_id);
   if (world.fleet.failures[robot] & kEmptyBattery) exchangeBattery(world, robot);
-  mendWhere(world, [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; });
+  mendWhere(world, failures, [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; });
 }
 
-std::optional<RobotReport> lastHeard(const WorldState& world, int robot) {
+std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& failures, int robot) {
   if (world.settings.realism.radio.delaysReports() && world.fleet.heard[robot].number > 0) {
     return world.fleet.heard[robot].report;
   }
   if ((world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0) return std::nullopt;
   const int id = world.fleet.robots[robot].id;
-  for (const Defect& defect : world.failures.defects) {
+  for (const Defect& defect : failures.defects) {
     if (defect.kiva_id == id && defect.failure == Failure::kRadio) return defect.last;
   }
   return std::nullopt;
 }
 
-void wearOut(WorldState& world) {
-  FailureState& failures = world.failures;
-  if (!failures.defects.empty()) repairWhoIsDue(world);
+void wearOut(MotionView& world, FailureState& failures) {
+  if (!failures.defects.empty()) repairWhoIsDue(world, failures);
   const FailureRealism& realism = world.settings.realism.failures;
   if (!realism.enabled || realism.per_robot_hour == 0 || world.fleet.size() == 0) return;
   const bool is_first = failures.count == 0;  // then only the time of the next one is drawn
   failures.exposure -= is_first ? 0 : world.fleet.size() * world.clock.dt;
   if (failures.exposure > 0) return;
   RandomStream random(world.settings.options.seed, Matter::kFailure, 0, failures.count++);
-  if (!is_first) breakSomething(world, random);
+  if (!is_first) breakSomething(world, failures, random);
   failures.exposure = random.exponential(kHour / realism.per_robot_hour);
 }
 
-void beginFailures(WorldState& world) { world.failures = {}; }
-
-bool mayFail(const WorldState& world) {
-  return world.settings.realism.failures.enabled || !world.failures.defects.empty();
+bool mayFail(const Realism& realism, const FailureState& failures) {
+  return realism.failures.enabled || !failures.defects.empty();
 }
 
-void markDefects(WorldState& world) {
-  FleetState& f = world.fleet;
+void markDefects(FleetState& f, const Realism& realism, const FailureState& failures) {
   f.failures.assign(f.size(), 0);
-  for (const Defect& defect : world.failures.defects) {
-    apply(world, f.find(defect.kiva_id), defect.failure);
+  for (const Defect& defect : failures.defects) {
+    apply(f, realism, f.find(defect.kiva_id), defect.failure);
   }
 }
 

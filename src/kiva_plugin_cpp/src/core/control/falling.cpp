@@ -23,9 +23,9 @@ constexpr double kUpright =
 constexpr double kNextTry = 10;  // [s] after which somebody comes again to a unit that lies
 
 /// Of an item on its board: its own, whenever it slides.
-double frictionOf(const WorldState& world, const Item& item) {
-  const LoadRealism& r = world.settings.realism.loads;
-  RandomStream random(world.settings.options.seed, Matter::kItem, item.id, 0);
+double frictionOf(const Settings& settings, const Item& item) {
+  const LoadRealism& r = settings.realism.loads;
+  RandomStream random(settings.options.seed, Matter::kItem, item.id, 0);
   return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
 }
 
@@ -40,7 +40,7 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
 
 /// Calls visit(item) for those that stand still on that unit.
 template <typename Visit>
-void forEachOn(WorldState& world, const Model& unit, Visit visit) {
+void forEachOn(ModelView& world, const Model& unit, Visit visit) {
   for (const Item& item : world.storage.items) {
     if (item.unit == unit.index && !world.fallen.find(item.model)) visit(item);
   }
@@ -48,7 +48,7 @@ void forEachOn(WorldState& world, const Model& unit, Visit visit) {
 
 /// A unit that is suddenly faster by v leaves behind what stands on it: against friction that
 /// slides v² / 2 μ g far.
-void slide(WorldState& world, const Jolt& jolt) {
+void slide(ModelView& world, const Jolt& jolt) {
   const Model& unit = *world.models[jolt.unit];
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
   way.Z() = 0;
@@ -57,7 +57,7 @@ void slide(WorldState& world, const Jolt& jolt) {
   way /= change;
   const Bounds box = bounds(*unit.description);
   forEachOn(world, unit, [&](const Item& item) {
-    const double brake = frictionOf(world, item) * g;
+    const double brake = frictionOf(world.settings, item) * g;
     const double left2 = change * change - 2 * brake * wayOut(box, item.pose_in_unit.Pos(), way);
     if (left2 <= 0) return;
     const double left = std::sqrt(left2);
@@ -68,20 +68,20 @@ void slide(WorldState& world, const Jolt& jolt) {
 }
 
 /// Boards that are steeper than friction holds: over their lower edge, as slowly as can be.
-void tilt(WorldState& world, const Model& unit) {
+void tilt(ModelView& world, const Model& unit) {
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.settings.gravity);
   const double down = -way.Z();
   way.Z() = 0;
   const double slope = way.Length();
   if (slope <= world.settings.realism.loads.item_friction_least * down) return;
   forEachOn(world, unit, [&](const Item& item) {
-    if (slope <= frictionOf(world, item) * down) return;
+    if (slope <= frictionOf(world.settings, item) * down) return;
     world.fallen.items.push_back(
         {item.model, unit.slot, way / slope * kSlip, false, world.clock.total_steps});
   });
 }
 
-void tiltAll(WorldState& world) {
+void tiltAll(ModelView& world) {
   for (const int slot : world.models.activated) {
     const Model& model = *world.models[slot];
     const bool may_lean = model.disturbed && !model.upright && model.owner->holdsItems();
@@ -90,7 +90,7 @@ void tiltAll(WorldState& world) {
 }
 
 /// Whether nothing but its unit is there, above the floor.
-bool isFree(const WorldState& world, const Model& item, const Pose& pose, int unit) {
+bool isFree(const Scene& world, const Model& item, const Pose& pose, int unit) {
   bool is_free = true;
   for (const Link& link : item.description->links) {
     for (const Collision& c : link.collisions) {
@@ -122,7 +122,7 @@ std::string placeOf(const Pose& pose) {
 }
 
 /// Returns whether it has fallen; else something stands where it would.
-bool goOver(WorldState& world, OffShelf& one) {
+bool goOver(ModelView& world, OffShelf& one) {
   Model& item = *world.models[one.item];
   const Model& unit = *world.models[one.unit];
   const EntityState below = modelState(world, unit);
@@ -140,13 +140,13 @@ bool goOver(WorldState& world, OffShelf& one) {
   return true;
 }
 
-bool isUpright(const WorldState& world, const OffShelf& one) {
+bool isUpright(const Scene& world, const OffShelf& one) {
   const Model& unit = *world.models[one.unit];
   return unitPose(world, unit.index).Rot().ZAxis().Z() > kUpright;
 }
 
 /// From the floor to its place.
-void lift(WorldState& world, const OffShelf& one) {
+void lift(ModelView& world, const OffShelf& one) {
   Model& item = *world.models[one.item];
   const Model& unit = *world.models[one.unit];
   const std::string from = placeOf(modelState(world, item).pose);
@@ -156,7 +156,7 @@ void lift(WorldState& world, const OffShelf& one) {
 }
 
 /// What is due for one of them; returns whether that was the last.
-bool attend(WorldState& world, OffShelf& one) {
+bool attend(ModelView& world, OffShelf& one) {
   if (!one.lies) {
     if (one.due > world.clock.total_steps || goOver(world, one)) return false;
     return one.due + world.clock.stepsIn(kWaits) < world.clock.total_steps;
@@ -172,7 +172,7 @@ bool attend(WorldState& world, OffShelf& one) {
 
 }  // namespace
 
-void dropItems(WorldState& world) {
+void dropItems(ModelView& world) {
   if (!world.settings.realism.loads.enabled) return;
   for (const Jolt& jolt : world.contact_log.jolts) slide(world, jolt);
   world.contact_log.jolts.clear();
@@ -187,7 +187,7 @@ void dropItems(WorldState& world) {
   }
 }
 
-std::vector<FallenItem> fallenIn(const WorldState& world) {
+std::vector<FallenItem> fallenIn(const Scene& world) {
   std::vector<FallenItem> out;
   for (const OffShelf& one : world.fallen.items) {
     if (!one.lies) continue;
@@ -197,7 +197,7 @@ std::vector<FallenItem> fallenIn(const WorldState& world) {
   return out;
 }
 
-void pickUp(WorldState& world, const std::string& item) {
+void pickUp(ModelView& world, const std::string& item) {
   const Model* model = world.models.find(item);
   auto& all = world.fallen.items;
   const auto at = std::find_if(all.begin(), all.end(), [&](const OffShelf& one) {

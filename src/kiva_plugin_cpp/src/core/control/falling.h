@@ -4,16 +4,16 @@
 // picked up; nothing while the world's realism has no loads.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/model_view.h"
 
 namespace kiva {
 
 /// Which items the last step's jolts and tilts set sliding, which come to the edge of their boards
 /// and become bodies, FELL, and which somebody picks up.
-void dropItems(WorldState& world);
+void dropItems(ModelView& world);
 
 /// As World::fallenItems and World::pickUp say.
-std::vector<FallenItem> fallenIn(const WorldState& world);
-void pickUp(WorldState& world, const std::string& item);
+std::vector<FallenItem> fallenIn(const Scene& world);
+void pickUp(ModelView& world, const std::string& item);
 
 }  // namespace kiva

@@ -13,9 +13,9 @@ constexpr double kFromRobots = 0.1;   // [m] that people keep off,
 constexpr double kFromOthers = 0.05;  // and off what does not drive [m]
 constexpr double kFar = 1;            // [m]: no matter how much farther
 
-Footprint discOf(const WorldState& world, const Walker& walker, double x, double y) {
+Footprint discOf(const ModelTable& models, const Walker& walker, double x, double y) {
   Footprint disc = circleAt(x, y, walker.radius);
-  const double origin = world.models[walker.model]->pose.Z();
+  const double origin = models[walker.model]->pose.Z();
   disc.z_min = origin + walker.bottom;
   disc.z_max = origin + walker.top;
   return disc;
@@ -23,8 +23,8 @@ Footprint discOf(const WorldState& world, const Walker& walker, double x, double
 
 }  // namespace
 
-double roomAt(const WorldState& world, const Walker& walker, double x, double y) {
-  const Footprint disc = discOf(world, walker, x, y);
+double roomAt(const Scene& world, const Walker& walker, double x, double y) {
+  const Footprint disc = discOf(world.models, walker, x, y);
   double least = kFar;
   const auto other = [&](const Footprint& thing) {
     if (thing.model == walker.model || !shareHeight(thing, disc)) return false;

@@ -3,7 +3,7 @@
 // The grid that robots drive along, and the floor beneath it.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
@@ -13,8 +13,8 @@ struct Point {
   double& operator[](int axis) { return axis == 0 ? x : y; }
 };
 
-double nearestGrid(const WorldState& world, double coordinate);
+double nearestGrid(const Settings& settings, double coordinate);
 /// Whether the cell around the grid point lies on the floor as a whole.
-bool isOnFloor(const WorldState& world, const Point& p);
+bool isOnFloor(const Scene& world, const Point& p);
 
 }  // namespace kiva

@@ -25,7 +25,7 @@ bool lifts(const MotionSegment& segment) {
 }
 
 /// Lets a drive end on the next grid point where the robot can stop.
-void shortenDrive(WorldState& world, int robot) {
+void shortenDrive(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
   const double cell = world.settings.grid_spacing;
   double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
@@ -37,7 +37,7 @@ void shortenDrive(WorldState& world, int robot) {
 
 }  // namespace
 
-void cancel(WorldState& world, int robot) {
+void cancel(MotionView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kIdle) throw Refusal("it is idle: there is nothing to cancel");
   if (task.phase == Phase::kHalting || task.phase == Phase::kAbandoning) {
@@ -56,21 +56,21 @@ void cancel(WorldState& world, int robot) {
   if (task.phase == Phase::kBraking) task.segments.front().goal = world.fleet.goal[robot];
 }
 
-void stop(WorldState& world, int robot) {
+void stop(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   if (f.stopped[robot]) return;
   f.stopped[robot] = 1;
   if (f.awake[robot]) moved(f, robot);
 }
 
-void goOn(WorldState& world, int robot) {
+void goOn(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   if (!f.stopped[robot]) return;
   f.stopped[robot] = 0;
   if (!isHeld(f, robot)) planAnew(world, robot);
 }
 
-void planAnew(WorldState& world, int robot) {
+void planAnew(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   moved(f, robot);

@@ -3,18 +3,18 @@
 // What comes between a robot and the end of its command, by a client's wish.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
 /// The robot's command ends in DONE at the next grid point where it can stop, or, a lift, when it
 /// is over. Throws Refusal if there is nothing to cancel.
-void cancel(WorldState& world, int robot);
+void cancel(MotionView& world, int robot);
 /// Wheels and tower stop as hard as they can, and stand until it may go on.
-void stop(WorldState& world, int robot);
+void stop(MotionView& world, int robot);
 /// It goes on with what it did, from where it is now.
-void goOn(WorldState& world, int robot);
+void goOn(MotionView& world, int robot);
 /// It stood, or can do less than was planned with: what it is at begins again, from where it is.
-void planAnew(WorldState& world, int robot);
+void planAnew(MotionView& world, int robot);
 
 }  // namespace kiva

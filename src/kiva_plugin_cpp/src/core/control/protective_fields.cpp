@@ -58,15 +58,14 @@ double safeSpeed(const Seen& person, const Braking& braking, double top) {
   return low;
 }
 
-Braking brakingOf(WorldState& world, int robot) {
+Braking brakingOf(MotionView& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const double period = static_cast<double>(scanPeriod(world, r) + 1) * world.clock.dt;
+  const double period = static_cast<double>(scanPeriod(world.clock, r) + 1) * world.clock.dt;
   const bool at_once = r.drive.acceleration == 0;
   return {period, at_once ? kInfinity : plannedBraking(world, robot)};
 }
 
-Seen seenFrom(const WorldState& world, int robot, const MotionSegment& segment,
-              const Walker& walker) {
+Seen seenFrom(const Scene& world, int robot, const MotionSegment& segment, const Walker& walker) {
   const Robot& r = world.fleet.robots[robot];
   const double sign = segment.reverse ? -1 : 1;
   const double c = sign * std::cos(segment.yaw), s = sign * std::sin(segment.yaw);
@@ -76,33 +75,33 @@ Seen seenFrom(const WorldState& world, int robot, const MotionSegment& segment,
           walker.radius};
 }
 
-double whileDriving(WorldState& world, int robot, const Walker& walker) {
+double whileDriving(MotionView& world, int robot, const Walker& walker) {
   const MotionSegment& segment = world.fleet.tasks[robot].segments.front();
   const double top = world.fleet.robots[robot].drive.speed;
   return safeSpeed(seenFrom(world, robot, segment, walker), brakingOf(world, robot), top);
 }
 
 /// Farther off nobody matters, however it drives [m].
-double farthestOf(WorldState& world, int robot) {
+double farthestOf(MotionView& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const Braking braking = brakingOf(world, robot);
   return cornerRadius(r) + braking.way(r.drive.speed) + kMargin +
          kMostWalkingSpeed * braking.time(r.drive.speed);
 }
 
-bool isWithin(const WorldState& world, int robot, const Walker& walker, double reach) {
+bool isWithin(const Scene& world, int robot, const Walker& walker, double reach) {
   const Vector3& at = world.models[walker.model]->pose.Pos();
   const double dx = at.X() - world.fleet.x[robot], dy = at.Y() - world.fleet.y[robot];
   return dx * dx + dy * dy < (reach + walker.radius) * (reach + walker.radius);
 }
 
 /// It turns where nobody is within reach of its corners.
-double whileTurning(const WorldState& world, int robot, const Walker& walker) {
+double whileTurning(const Scene& world, int robot, const Walker& walker) {
   const double reach = cornerRadius(world.fleet.robots[robot]) + kTurnMargin;
   return isWithin(world, robot, walker, reach) ? 0 : kInfinity;
 }
 
-double allowedSpeed(WorldState& world, int robot) {
+double allowedSpeed(MotionView& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   if (!task.movesOnFloor()) return kInfinity;
   const bool turns = task.isAt(MotionSegment::Kind::kTurn);
@@ -119,7 +118,7 @@ double allowedSpeed(WorldState& world, int robot) {
 
 /// `change` alters what the robot may do.
 template <typename Change>
-void restrain(WorldState& world, int robot, Change change) {
+void restrain(MotionView& world, int robot, Change change) {
   FleetState& f = world.fleet;
   const bool was_held = isHeld(f, robot);
   change();
@@ -127,13 +126,13 @@ void restrain(WorldState& world, int robot, Change change) {
   if (f.awake[robot]) moved(f, robot);
 }
 
-void allow(WorldState& world, int robot, double speed) {
+void allow(MotionView& world, int robot, double speed) {
   double& allowed = world.fleet.allowed_speed[robot];
   if (speed != allowed) restrain(world, robot, [&] { allowed = speed; });
 }
 
 /// A turn is fast: nobody waits for a scan before it.
-void holdTurns(WorldState& world) {
+void holdTurns(MotionView& world) {
   const FleetState& f = world.fleet;
   for (const Walker& walker : world.people.walkers) {
     for (int i = 0; i < f.size(); ++i) {
@@ -146,7 +145,7 @@ void holdTurns(WorldState& world) {
 
 // --- light curtains
 
-bool isInterrupted(const WorldState& world, const LightCurtain& curtain) {
+bool isInterrupted(const Scene& world, const LightCurtain& curtain) {
   return std::any_of(world.people.walkers.begin(), world.people.walkers.end(),
                      [&](const Walker& walker) {
                        const Vector3& at = world.models[walker.model]->pose.Pos();
@@ -157,8 +156,7 @@ bool isInterrupted(const WorldState& world, const LightCurtain& curtain) {
 }
 
 /// Whether any of the robot and its load may be inside.
-bool reachesInto(const WorldState& world, int robot, const LightCurtain& curtain) {
-  const FleetState& f = world.fleet;
+bool reachesInto(const FleetState& f, int robot, const LightCurtain& curtain) {
   const Robot& r = f.robots[robot];
   const double c = std::abs(std::cos(f.yaw[robot])), s = std::abs(std::sin(f.yaw[robot]));
   const double hx = c * halfLength(r) + s * halfWidth(r), hy = s * halfLength(r) + c * halfWidth(r);
@@ -166,15 +164,15 @@ bool reachesInto(const WorldState& world, int robot, const LightCurtain& curtain
          f.y[robot] + hy > curtain.min_y && f.y[robot] - hy < curtain.max_y;
 }
 
-void watchCurtains(WorldState& world) {
+void watchCurtains(MotionView& world) {
   std::vector<const LightCurtain*> interrupted;
   for (const LightCurtain& curtain : world.people.curtains) {
     if (isInterrupted(world, curtain)) interrupted.push_back(&curtain);
   }
   for (int i = 0; i < world.fleet.size(); ++i) {
-    const bool stands =
-        std::any_of(interrupted.begin(), interrupted.end(),
-                    [&](const LightCurtain* curtain) { return reachesInto(world, i, *curtain); });
+    const bool stands = std::any_of(
+        interrupted.begin(), interrupted.end(),
+        [&](const LightCurtain* curtain) { return reachesInto(world.fleet, i, *curtain); });
     std::uint8_t& curtained = world.fleet.curtained[i];
     if (stands != (curtained != 0)) restrain(world, i, [&] { curtained = stands; });
   }
@@ -182,23 +180,21 @@ void watchCurtains(WorldState& world) {
 
 }  // namespace
 
-void keepFromPeople(WorldState& world) {
-  if (!minds(world)) return;
-  if (world.people.walkers.empty()) {
+void keepFromPeople(MotionView& world, People& people, const std::vector<int>& scans_due) {
+  if (!minds(people)) return;
+  if (people.walkers.empty()) {
     for (int i = 0; i < world.fleet.size(); ++i) allow(world, i, kInfinity);
   } else {
-    for (int i : world.scans.due) allow(world, i, allowedSpeed(world, i));
+    for (int i : scans_due) allow(world, i, allowedSpeed(world, i));
   }
   holdTurns(world);
   watchCurtains(world);
-  world.people.slowed_for_people = !world.people.walkers.empty();
+  people.slowed_for_people = !people.walkers.empty();
 }
 
-bool minds(const WorldState& world) {
-  return !world.people.walkers.empty() || world.people.slowed_for_people;
-}
+bool minds(const People& people) { return !people.walkers.empty() || people.slowed_for_people; }
 
-void setLightCurtain(WorldState& world, const LightCurtain& curtain) {
+void setLightCurtain(People& people, const LightCurtain& curtain) {
   if (curtain.name.empty()) throw std::invalid_argument("a light curtain needs a name");
   const auto are_edges = [](double min, double max) {
     return std::isfinite(min) && std::isfinite(max) && min < max;
@@ -207,12 +203,12 @@ void setLightCurtain(WorldState& world, const LightCurtain& curtain) {
     throw std::invalid_argument("light curtain '" + curtain.name +
                                 "': min_x < max_x and min_y < max_y, all finite, were expected");
   }
-  removeLightCurtain(world, curtain.name);
-  world.people.curtains.push_back(curtain);
+  removeLightCurtain(people, curtain.name);
+  people.curtains.push_back(curtain);
 }
 
-bool removeLightCurtain(WorldState& world, const std::string& name) {
-  auto& curtains = world.people.curtains;
+bool removeLightCurtain(People& people, const std::string& name) {
+  auto& curtains = people.curtains;
   const auto is_it = [&](const LightCurtain& curtain) { return curtain.name == name; };
   const auto end = std::remove_if(curtains.begin(), curtains.end(), is_it);
   const bool was_there = end != curtains.end();

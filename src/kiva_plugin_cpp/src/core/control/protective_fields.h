@@ -4,17 +4,17 @@
 // curtains. Where nobody is it costs a comparison a step.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
 /// Before robots are controlled: those whose scan has come slow down, stand, or go on.
-void keepFromPeople(WorldState& world);
+void keepFromPeople(MotionView& world, People& people, const std::vector<int>& scans_due);
 /// Whether anybody is there to keep from, or was a moment ago.
-bool minds(const WorldState& world);
+bool minds(const People& people);
 
 /// As World::setLightCurtain and World::removeLightCurtain say.
-void setLightCurtain(WorldState& world, const LightCurtain& curtain);
-bool removeLightCurtain(WorldState& world, const std::string& name);
+void setLightCurtain(People& people, const LightCurtain& curtain);
+bool removeLightCurtain(People& people, const std::string& name);
 
 }  // namespace kiva

@@ -9,9 +9,9 @@
 namespace kiva {
 namespace {
 
-void arrive(WorldState& world, const Command& command, FollowPath path) {
-  world.inbox.commands.push_back(command);
-  if (command.kind == Command::Kind::kFollow) world.inbox.paths.push_back(std::move(path));
+void arrive(Inbox& inbox, const Command& command, FollowPath path) {
+  inbox.commands.push_back(command);
+  if (command.kind == Command::Kind::kFollow) inbox.paths.push_back(std::move(path));
 }
 
 bool isWired(const Command& command) {
@@ -20,50 +20,45 @@ bool isWired(const Command& command) {
 
 /// The step at which a message sent now is there: never before one that was sent to the same robot
 /// earlier.
-std::uint64_t arrival(const WorldState& world, int kiva_id, RandomStream* random) {
+std::uint64_t arrival(const CommandLink& link, const Scene& world, int kiva_id,
+                      RandomStream* random) {
   const RadioRealism& real = world.settings.realism.radio;
   const double rest = std::max(0.0, real.latency_mean - real.latency_least);
   std::uint64_t due =
       world.clock.total_steps + world.clock.stepsIn(real.latency_least + random->exponential(rest));
-  for (const CommandMessage& other : world.command_link.messages) {
+  for (const CommandMessage& other : link.messages) {
     if (other.command.kiva_id == kiva_id) due = std::max(due, other.due);
   }
   return due;
 }
 
-void put(WorldState& world, CommandMessage message) {
+void put(CommandLink& link, CommandMessage message) {
   const auto later = [](const CommandMessage& a, const CommandMessage& b) { return a.due < b.due; };
-  const auto at = std::upper_bound(world.command_link.messages.begin(),
-                                   world.command_link.messages.end(), message, later);
-  world.command_link.messages.insert(at, std::move(message));
+  const auto at = std::upper_bound(link.messages.begin(), link.messages.end(), message, later);
+  link.messages.insert(at, std::move(message));
 }
 
 }  // namespace
 
-void send(WorldState& world, const Command& command, FollowPath path) {
+void send(CommandLink& link, Inbox& inbox, const Scene& world, const Command& command,
+          FollowPath path) {
   const RadioRealism& real = world.settings.realism.radio;
-  if (!real.enabled || isWired(command)) return arrive(world, command, std::move(path));
-  RandomStream random(world.settings.options.seed, Matter::kCommand, 0, world.command_link.sent++);
+  if (!real.enabled || isWired(command)) return arrive(inbox, command, std::move(path));
+  RandomStream random(world.settings.options.seed, Matter::kCommand, 0, link.sent++);
   if (random.chance(real.lost)) return;
   const bool is_repeated = random.chance(real.repeated);
-  put(world, {arrival(world, command.kiva_id, &random), command, path});
+  put(link, {arrival(link, world, command.kiva_id, &random), command, path});
   if (is_repeated) {
-    put(world, {arrival(world, command.kiva_id, &random), command, std::move(path)});
+    put(link, {arrival(link, world, command.kiva_id, &random), command, std::move(path)});
   }
 }
 
-void receive(WorldState& world) {
-  while (!world.command_link.messages.empty() &&
-         world.command_link.messages.front().due <= world.clock.total_steps) {
-    CommandMessage& message = world.command_link.messages.front();
-    arrive(world, message.command, std::move(message.path));
-    world.command_link.messages.pop_front();
+void receive(CommandLink& link, Inbox& inbox, const Clock& clock) {
+  while (!link.messages.empty() && link.messages.front().due <= clock.total_steps) {
+    CommandMessage& message = link.messages.front();
+    arrive(inbox, message.command, std::move(message.path));
+    link.messages.pop_front();
   }
-}
-
-void forgetMessages(WorldState& world) {
-  world.command_link.messages.clear();
-  world.report_link.messages.clear();
 }
 
 }  // namespace kiva

@@ -3,20 +3,17 @@
 // The way of commands to the robots: at once, or as a radio brings them.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/command_link.h"
+#include "core/state/inbox.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
 /// Sends a command; `path` is what it stands for, if it is to follow one. What stops robots or lets
 /// them go on has a wire of its own, and is never late.
-void send(WorldState& world, const Command& command, FollowPath path = {});
+void send(CommandLink& link, Inbox& inbox, const Scene& world, const Command& command,
+          FollowPath path = {});
 /// Takes in what has come by now.
-void receive(WorldState& world);
-
-/// Nothing is under way any more, to robots or from them; they are where they are.
-void forgetMessages(WorldState& world);
-
-/// Nothing that was sent, to robots or by them, is under way any more.
-void forgetMessages(WorldState& world);
+void receive(CommandLink& link, Inbox& inbox, const Clock& clock);
 
 }  // namespace kiva

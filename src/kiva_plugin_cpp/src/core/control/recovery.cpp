@@ -22,12 +22,12 @@ constexpr double kSideClearance = 0.002, kScrape = -0.01;
 
 double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-std::vector<Point> gridAround(const WorldState& world, const Point& here) {
+std::vector<Point> gridAround(const Settings& settings, const Point& here) {
   std::vector<Point> points;
   for (int i = -kCells; i <= kCells; ++i) {
     for (int j = -kCells; j <= kCells; ++j) {
-      points.push_back({nearestGrid(world, here.x) + i * world.settings.grid_spacing,
-                        nearestGrid(world, here.y) + j * world.settings.grid_spacing});
+      points.push_back({nearestGrid(settings, here.x) + i * settings.grid_spacing,
+                        nearestGrid(settings, here.y) + j * settings.grid_spacing});
     }
   }
   std::stable_sort(points.begin(), points.end(), [&](const Point& a, const Point& b) {
@@ -37,8 +37,8 @@ std::vector<Point> gridAround(const WorldState& world, const Point& here) {
 }
 
 /// On the floor, the nearest first.
-std::vector<Point> goalsAround(const WorldState& world, const Point& here) {
-  std::vector<Point> points = gridAround(world, here);
+std::vector<Point> goalsAround(const Scene& world, const Point& here) {
+  std::vector<Point> points = gridAround(world.settings, here);
   const auto is_outside = [&](const Point& p) { return !isOnFloor(world, p); };
   points.erase(std::remove_if(points.begin(), points.end(), is_outside), points.end());
   return points;
@@ -58,12 +58,12 @@ PlanarPose shifted(const PlanarPose& from, double way) {
 }
 
 /// How far straight on to look for room to turn [m]: in steps, and where grid points lie beside.
-std::vector<double> waysToRoom(const WorldState& world, const PlanarPose& at) {
+std::vector<double> waysToRoom(const Settings& settings, const PlanarPose& at) {
   std::vector<double> ways;
   for (int step = 1; step * kRoomStep <= kRoomReach; ++step) {
     for (double way : {step * kRoomStep, -step * kRoomStep}) ways.push_back(way);
   }
-  for (const Point& p : gridAround(world, {at.x, at.y})) {
+  for (const Point& p : gridAround(settings, {at.x, at.y})) {
     ways.push_back(std::cos(at.yaw) * (p.x - at.x) + std::sin(at.yaw) * (p.y - at.y));
   }
   std::stable_sort(ways.begin(), ways.end(),
@@ -74,7 +74,7 @@ std::vector<double> waysToRoom(const WorldState& world, const PlanarPose& at) {
 /// One robot's search. Ways are the points to which it drives straight; empty: there is none.
 class ReturnSearch {
  public:
-  ReturnSearch(const WorldState& world, int robot, std::vector<Point> goals, double margin)
+  ReturnSearch(const Scene& world, int robot, std::vector<Point> goals, double margin)
       : world_(world), robot_(robot), goals_(std::move(goals)), margin_(margin) {}
 
   /// From that pose, or from a little ahead of it or behind.
@@ -108,7 +108,7 @@ class ReturnSearch {
   /// Straight on to where there is room to turn all around, then to a goal.
   std::vector<Point> wayByRoom(const PlanarPose& at) const {
     std::vector<Point> way;
-    visitStraight(at, waysToRoom(world_, at), [&](const PlanarPose& there) {
+    visitStraight(at, waysToRoom(world_.settings, at), [&](const PlanarPose& there) {
       const bool has_room = hasRoomToTurn(world_, robot_, there.x, there.y);
       const Point* goal = has_room ? findGoal(there, TurnRoom()) : nullptr;
       if (goal) way = {{there.x, there.y}, *goal};
@@ -144,7 +144,7 @@ class ReturnSearch {
     }
   }
 
-  const WorldState& world_;
+  const Scene& world_;
   const int robot_;
   const std::vector<Point> goals_;
   const double margin_;
@@ -161,7 +161,7 @@ StraightWay straightWay(const PlanarPose& from, const Point& to) {
   return {reverse ? back : ahead, reverse ? -length : length};
 }
 
-std::vector<Point> wayBack(const WorldState& world, int robot, const Point* back) {
+std::vector<Point> wayBack(const Scene& world, int robot, const Point* back) {
   const PlanarPose at = world.fleet.believed(robot);
   const std::vector<Point> goals = goalsAround(world, {at.x, at.y});
   const std::vector<Point> told = back ? only(*back, goals) : std::vector<Point>();

@@ -19,6 +19,6 @@ StraightWay straightWay(const PlanarPose& from, const Point& to);
 /// The points that the robot drives to straight, one after the other, turning before each: the last
 /// is a free grid point, `back` if it can be that. On its way it touches no leg of a storage unit,
 /// or pushes it but a little. Empty: there is no such way.
-std::vector<Point> wayBack(const WorldState& world, int robot, const Point* back);
+std::vector<Point> wayBack(const Scene& world, int robot, const Point* back);
 
 }  // namespace kiva

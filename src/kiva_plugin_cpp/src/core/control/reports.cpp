@@ -16,7 +16,7 @@ bool comesLater(const ReportMessage& a, const ReportMessage& b) {
   return std::tie(a.due, a.number) > std::tie(b.due, b.number);
 }
 
-void sendReport(WorldState& world, int robot) {
+void sendReport(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
   if (f.failures[robot] & bitOf(Failure::kRadio)) return;
   const RadioRealism& real = world.settings.realism.radio;
@@ -36,7 +36,7 @@ bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
 }
 
 /// A report that was overtaken by a newer one tells nothing.
-void hear(WorldState& world, int robot, std::uint64_t number, const RobotReport& report) {
+void hear(MotionView& world, int robot, std::uint64_t number, const RobotReport& report) {
   Heard& heard = world.fleet.heard[robot];
   if (number < heard.number) return;
   const bool is_new = heard.number == 0 || !tellsTheSame(report, heard.report);
@@ -47,7 +47,7 @@ void hear(WorldState& world, int robot, std::uint64_t number, const RobotReport&
                                       report.y, report.yaw});
 }
 
-void receiveReports(WorldState& world) {
+void receiveReports(MotionView& world) {
   auto& on_air = world.report_link.messages;
   while (!on_air.empty() && on_air.front().due <= world.clock.total_steps) {
     std::pop_heap(on_air.begin(), on_air.end(), comesLater);
@@ -60,7 +60,7 @@ void receiveReports(WorldState& world) {
 
 }  // namespace
 
-RobotReport reportOf(const WorldState& world, int robot) {
+RobotReport reportOf(const Scene& world, int robot) {
   const Fleet& f = world.fleet;
   const int unit = f.unit[robot];
   return {f.x[robot],       f.y[robot],       f.yaw[robot],
@@ -70,7 +70,7 @@ RobotReport reportOf(const WorldState& world, int robot) {
           f.last_end[robot]};
 }
 
-void exchangeReports(WorldState& world) {
+void exchangeReports(MotionView& world) {
   if (!world.settings.realism.radio.delaysReports()) return;
   std::vector<int> changed;
   changed.swap(world.report_link.changed);
@@ -90,11 +90,11 @@ void exchangeReports(WorldState& world) {
   receiveReports(world);
 }
 
-void knowWhereabouts(WorldState& world, int robot) {
+void knowWhereabouts(MotionView& world, FailureState& failures, int robot) {
   const RobotReport report = reportOf(world, robot);
   if (world.fleet.heard[robot].number > 0) hear(world, robot, ++world.report_link.sent, report);
   const int id = world.fleet.robots[robot].id;
-  for (Defect& defect : world.failures.defects) {
+  for (Defect& defect : failures.defects) {
     if (defect.kiva_id == id) defect.last = report;
   }
 }

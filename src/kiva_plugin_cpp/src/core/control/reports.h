@@ -4,16 +4,17 @@
 // all.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/failure_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
 /// What the robot would report now.
-RobotReport reportOf(const WorldState& world, int robot);
+RobotReport reportOf(const Scene& world, int robot);
 /// Robots report ten times a second, and when their status changes; takes in what has come by now.
 /// Nothing while the world's realism has no radio.
-void exchangeReports(WorldState& world);
+void exchangeReports(MotionView& world);
 /// Whoever has put a robot somewhere knows where it is, heard or not.
-void knowWhereabouts(WorldState& world, int robot);
+void knowWhereabouts(MotionView& world, FailureState& failures, int robot);
 
 }  // namespace kiva

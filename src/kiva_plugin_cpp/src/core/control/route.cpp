@@ -17,7 +17,7 @@ constexpr double kAside = 0.05;                // [m]: who can't get back may go
 
 }  // namespace
 
-void checkGoal(const WorldState& world, const Point& goal) {
+void checkGoal(const Scene& world, const Point& goal) {
   if (isOnFloor(world, goal)) return;
   const Floor& f = world.floor.extent;
   if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
@@ -25,25 +25,25 @@ void checkGoal(const WorldState& world, const Point& goal) {
                        goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
 }
 
-double checkedGoal(const WorldState& world, double coordinate, char axis) {
+double checkedGoal(const Settings& settings, double coordinate, char axis) {
   if (!std::isfinite(coordinate)) {
     throw Refusal(format("%c = %g: a finite number of metres was expected", axis, coordinate));
   }
-  const double grid = nearestGrid(world, coordinate);
+  const double grid = nearestGrid(settings, coordinate);
   if (std::abs(grid - coordinate) <= kGoalTolerance) return grid;
   throw Refusal(
-      format("%c = %g m is off the grid of %g m", axis, coordinate, world.settings.grid_spacing));
+      format("%c = %g m is off the grid of %g m", axis, coordinate, settings.grid_spacing));
 }
 
-void checkMotion(const WorldState& world, int robot) {
-  if (!world.fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
+void checkMotion(const FleetState& fleet, int robot) {
+  if (!fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
 }
 
-Route::Route(const WorldState& world, int robot, const Point* back)
+Route::Route(const Scene& world, int robot, const Point* back)
     : world_(world),
       robot_(robot),
       here_(world.fleet.believed(robot)),
-      at_{nearestGrid(world, here_.x), nearestGrid(world, here_.y)},
+      at_{nearestGrid(world.settings, here_.x), nearestGrid(world.settings, here_.y)},
       yaw_(squareTo(here_.yaw)) {
   const bool localises = world.fleet.localises;
   const double off = std::hypot(here_.x - at_.x, here_.y - at_.y);

@@ -35,16 +35,16 @@ std::string format(const char* pattern, Args... args) {
 
 /// These throw Refusal: the grid's coordinate, where `axis` is x or y [m]; that a goal is on the
 /// floor; that the robot can drive.
-double checkedGoal(const WorldState& world, double coordinate, char axis);
-void checkGoal(const WorldState& world, const Point& goal);
-void checkMotion(const WorldState& world, int robot);
+double checkedGoal(const Settings& settings, double coordinate, char axis);
+void checkGoal(const Scene& world, const Point& goal);
+void checkMotion(const FleetState& fleet, int robot);
 
 /// Plans the way of one robot, segment by segment; knows where each segment will leave it.
 class Route {
  public:
   /// From where the robot stands; from off the grid it first returns to it: to `back`, if that is a
   /// free grid point near it, else to the nearest one. Throws Refusal if there is no way back.
-  Route(const WorldState& world, int robot, const Point* back = nullptr);
+  Route(const Scene& world, int robot, const Point* back = nullptr);
 
   Point at() const { return at_; }
   void rotate(int direction);
@@ -59,7 +59,7 @@ class Route {
   void recover(const Point* back);
   void driveOff(const Point& from, const Point& to);
 
-  const WorldState& world_;
+  const Scene& world_;
   int robot_;
   PlanarPose here_;  ///< Where the robot believes to be.
   Point at_;

@@ -36,7 +36,7 @@ void lean(Sway* sway, const Robot& r, double gravity, double ax, double ay, doub
 }
 
 /// From here on Bullet has it, as it is: tilted about the edge of what it stood on, and turning.
-void tipOff(WorldState& world, int robot) {
+void tipOff(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   const Sway sway = f.sway[robot];
   f.sway[robot] = {};
@@ -57,7 +57,7 @@ void tipOff(WorldState& world, int robot) {
   haltRobot(world, robot, unit.name, "has lost its load");
 }
 
-void swayOne(WorldState& world, int robot) {
+void swayOne(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   Sway& sway = f.sway[robot];
   const double ax = (f.vx[robot] - sway.vx) / world.clock.dt,
@@ -73,7 +73,7 @@ void swayOne(WorldState& world, int robot) {
 
 }  // namespace
 
-void swayLoads(WorldState& world) {
+void swayLoads(ModelView& world) {
   if (!world.settings.realism.loads.enabled) return;
   const std::vector<int> stepped =
       world.schedule.stepped_singly;  // who tips a load may be deleted by it

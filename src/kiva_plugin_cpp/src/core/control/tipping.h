@@ -4,12 +4,12 @@
 // world's realism has no loads.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/model_view.h"
 
 namespace kiva {
 
 /// What the robots' motion in the last step did to what they carry: TIPPED for each load that goes
 /// over its edge. It is a body of its own from then on, and its robot stops.
-void swayLoads(WorldState& world);
+void swayLoads(ModelView& world);
 
 }  // namespace kiva

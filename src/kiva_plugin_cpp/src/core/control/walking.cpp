@@ -44,7 +44,7 @@ void checkWaypoint(const Waypoint& w, const std::string& person, std::size_t num
   }
 }
 
-void checkOnFloor(const WorldState& world, const Walk& walk, const std::string& person) {
+void checkOnFloor(const Scene& world, const Walk& walk, const std::string& person) {
   if (walk.waypoints.empty()) return;
   const FloorCover cover(world);
   for (std::size_t k = 0; k < walk.waypoints.size(); ++k) {
@@ -67,21 +67,21 @@ Walker newWalker(const Model& model) {
   return walker;
 }
 
-Walker& walkerOf(WorldState& world, const Model& model) {
-  if (Walker* known = world.people.find(model.slot)) return *known;
-  world.people.walkers.push_back(newWalker(model));
-  return world.people.walkers.back();
+Walker& walkerOf(People& people, const Model& model) {
+  if (Walker* known = people.find(model.slot)) return *known;
+  people.walkers.push_back(newWalker(model));
+  return people.walkers.back();
 }
 
 /// Whoever reckoned with somebody who stands looks again.
-void setOut(WorldState& world, Walker* walker, const Walk& walk) {
+void setOut(FleetState& fleet, Walker* walker, const Walk& walk) {
   walker->walk = walk;
   walker->next = 0;
   walker->pause = walker->held_up = walker->vx = walker->vy = 0;
   walker->patience = kPatience;
   walker->detour.clear();
   walker->look_at = 0;
-  alarm(world);
+  invalidateClearance(fleet);
 }
 
 // --- a step
@@ -92,15 +92,14 @@ double partOf(double metres, double dx, double dy) {
 }
 
 /// Whether there is room half a step ahead, or at least more of it than here.
-bool isFreeAhead(const WorldState& world, const Walker& walker, const Pose& at,
-                 const PathPoint& to) {
+bool isFreeAhead(const Scene& world, const Walker& walker, const Pose& at, const PathPoint& to) {
   const double dx = to.x - at.X(), dy = to.y - at.Y();
   const double part = partOf(kLookAhead, dx, dy);
   const double there = roomAt(world, walker, at.X() + part * dx, at.Y() + part * dy);
   return there >= 0 || there > roomAt(world, walker, at.X(), at.Y()) + kThere;
 }
 
-void waitOrTurnAside(WorldState& world, Walker* walker) {
+void waitOrTurnAside(ContactView& world, Walker* walker) {
   walker->held_up += world.clock.dt;
   if (walker->held_up < walker->patience) return;
   const Waypoint& to = walker->walk.waypoints[walker->next];
@@ -120,13 +119,13 @@ void arrive(Walker* walker) {
   if (walker->walk.loops && !walker->walks()) walker->next = 0;
 }
 
-void put(WorldState& world, Model& model, const Pose& pose) {
+void put(ContactView& world, Model& model, const Pose& pose) {
   model.pose = pose;
   world.physics.shift(model.bodies, *model.description, pose);
   moved(world, model);
 }
 
-void stepTowards(WorldState& world, Walker* walker, const PathPoint& to) {
+void stepTowards(ContactView& world, Walker* walker, const PathPoint& to) {
   Model& model = *world.models[walker->model];
   const double dx = to.x - model.pose.X(), dy = to.y - model.pose.Y();
   const double part = partOf(walker->walk.waypoints[walker->next].speed * world.clock.dt, dx, dy);
@@ -139,7 +138,7 @@ void stepTowards(WorldState& world, Walker* walker, const PathPoint& to) {
   if (part == 1) arrive(walker);
 }
 
-void walkOn(WorldState& world, Walker* walker) {
+void walkOn(ContactView& world, Walker* walker) {
   walker->vx = walker->vy = 0;
   if (walker->pause > 0) {
     walker->pause -= world.clock.dt;
@@ -157,32 +156,32 @@ void walkOn(WorldState& world, Walker* walker) {
 
 }  // namespace
 
-void walk(WorldState& world, const std::string& person, const Walk& walk) {
+void walk(ContactView& world, People& people, const std::string& person, const Walk& walk) {
   const Model* model = world.models.find(person);
   if (!model) throw std::invalid_argument("there is no model '" + person + "'");
   if (!isPerson(*model)) refuse(person, "it is no person");
   checkOnFloor(world, walk, person);
-  setOut(world, &walkerOf(world, *model), walk);
+  setOut(world.fleet, &walkerOf(people, *model), walk);
 }
 
-void beginScript(WorldState& world, int model, const Walk& script) {
-  Walker& walker = walkerOf(world, *world.models[model]);
+void beginScript(ContactView& world, People& people, int model, const Walk& script) {
+  Walker& walker = walkerOf(people, *world.models[model]);
   walker.script = script;
-  setOut(world, &walker, script);
+  setOut(world.fleet, &walker, script);
 }
 
-void restartScripts(WorldState& world) {
-  auto& walkers = world.people.walkers;
+void restartScripts(FleetState& fleet, People& people) {
+  auto& walkers = people.walkers;
   const auto has_none = [](const Walker& walker) { return !walker.script; };
   walkers.erase(std::remove_if(walkers.begin(), walkers.end(), has_none), walkers.end());
-  for (Walker& walker : walkers) setOut(world, &walker, *walker.script);
+  for (Walker& walker : walkers) setOut(fleet, &walker, *walker.script);
 }
 
-void walkOn(WorldState& world) {
-  for (Walker& walker : world.people.walkers) walkOn(world, &walker);
+void walkOn(ContactView& world, People& people) {
+  for (Walker& walker : people.walkers) walkOn(world, &walker);
 }
 
-std::vector<Person> peopleIn(const WorldState& world) {
+std::vector<Person> peopleIn(const Scene& world) {
   std::vector<Person> people;
   for (const Walker& walker : world.people.walkers) {
     const Model& model = *world.models[walker.model];

@@ -32,7 +32,7 @@ int estimate(const Place& a, const Place& b) {
 /// A* over places a pace apart (Hart, Nilsson, Raphael 1968).
 class Search {
  public:
-  Search(const WorldState& world, const Walker& walker, double x, double y)
+  Search(const Scene& world, const Walker& walker, double x, double y)
       : world_(world), walker_(walker), from_(world.models[walker.model]->pose) {
     goal_ = {static_cast<int>(std::lround((x - from_.X()) / kPace)),
              static_cast<int>(std::lround((y - from_.Y()) / kPace))};
@@ -106,7 +106,7 @@ class Search {
     return way;
   }
 
-  const WorldState& world_;
+  const Scene& world_;
   const Walker& walker_;
   const Pose from_;
   Place goal_;
@@ -122,8 +122,7 @@ bool isStraight(const Place& a, const Place& b, const Place& c) {
 
 }  // namespace
 
-std::vector<PathPoint> wayAround(const WorldState& world, const Walker& walker, double x,
-                                 double y) {
+std::vector<PathPoint> wayAround(const Scene& world, const Walker& walker, double x, double y) {
   Search search(world, walker, x, y);
   const std::vector<Place> way = search.run();
   std::vector<PathPoint> points;

@@ -5,12 +5,12 @@
 
 #include <vector>
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
 /// Points from where a person stands around what stands there now to (x, y), that one first; empty
 /// if there is no way within reach.
-std::vector<PathPoint> wayAround(const WorldState& world, const Walker& walker, double x, double y);
+std::vector<PathPoint> wayAround(const Scene& world, const Walker& walker, double x, double y);
 
 }  // namespace kiva

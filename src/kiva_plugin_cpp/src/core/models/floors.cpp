@@ -28,7 +28,7 @@ void widen(Floor* floor, const LevelSurface& surface) {
 
 /// Calls visit(model, surface) for the level surfaces of all that stands.
 template <typename Visit>
-void forSurfaces(const WorldState& world, Visit visit) {
+void forSurfaces(const Scene& world, Visit visit) {
   for (const auto& model : world.models) {
     if (!model) continue;
     for (const LevelSurface& surface : model->level_surfaces) visit(surface);
@@ -36,8 +36,8 @@ void forSurfaces(const WorldState& world, Visit visit) {
 }
 
 /// Whether wheels get from the floor onto it.
-bool isAtFloor(const WorldState& world, const LevelSurface& surface) {
-  return std::abs(surface.z - world.floor.extent.z) <= kStep + 1e-9;
+bool isAtFloor(const FloorState& floor, const LevelSurface& surface) {
+  return std::abs(surface.z - floor.extent.z) <= kStep + 1e-9;
 }
 
 /// By which the floor's own surface is chosen among those near its height; 0 for all others.
@@ -48,7 +48,7 @@ double extentAt(double height, const LevelSurface& surface) {
 
 /// The height of the largest surface. Of two about as large, the undersides of slabs for one, the
 /// upper one.
-std::optional<double> floorHeight(const WorldState& world) {
+std::optional<double> floorHeight(const Scene& world) {
   std::optional<double> plane;
   std::map<long long, std::pair<double, double>> bounded;  // by height: area, height
   forSurfaces(world, [&](const LevelSurface& surface) {
@@ -71,16 +71,16 @@ std::optional<double> floorHeight(const WorldState& world) {
   return height;
 }
 
-void tellIce(WorldState& world, double friction) {
+void tellIce(EventLog& log, double friction) {
   std::ostringstream text;
   text << "the floor: its friction for wheels is " << friction << "; below " << kLeastGrip
        << " robots take minutes for a cell or can't move at all. The <mu> of the floor's <surface> "
           "and the <friction> of the robots' motion plugin tell it";
-  world.log.warn("floor friction", text.str());
+  log.warn("floor friction", text.str());
 }
 
 /// Static models have other low parts, robots and storage units stand higher or lower.
-void fitToFloor(WorldState& world) {
+void fitToFloor(ModelView& world) {
   for (const auto& model : world.models) {
     if (!model || !model->isStatic() || !model->in_physics) continue;
     world.physics.remove(model->bodies);
@@ -101,7 +101,7 @@ void fitToFloor(WorldState& world) {
 
 }  // namespace
 
-void measureFloor(WorldState& world) {
+void measureFloor(ModelView& world) {
   const double before = world.floor.extent.z;
   const auto height = floorHeight(world);
   world.floor.extent = Floor();
@@ -111,7 +111,7 @@ void measureFloor(WorldState& world) {
     world.floor.extent = {1e300, -1e300, 1e300, -1e300, *height};
     double most = -1;
     forSurfaces(world, [&](const LevelSurface& surface) {
-      if (!isAtFloor(world, surface)) return;
+      if (!isAtFloor(world.floor, surface)) return;
       widen(&world.floor.extent, surface);
       const double area = extentAt(*height, surface);
       if (area <= most) return;
@@ -123,17 +123,17 @@ void measureFloor(WorldState& world) {
   if (world.floor.extent.z != before) fitToFloor(world);
 }
 
-void findFloorParts(WorldState& world) {
+void findFloorParts(ModelView& world) {
   if (!world.floor.cover_due) return;
   world.floor.cover_due = false;
   double holds = 0;  // what the best wheels grip with where the floor lets them
   for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
   const double usual = std::min(holds, world.floor.friction);
-  if (holds > 0 && usual < kLeastGrip) tellIce(world, usual);
+  if (holds > 0 && usual < kLeastGrip) tellIce(world.log, usual);
   bool is_alike = true;
   forSurfaces(world, [&](const LevelSurface& surface) {
     const bool differs = std::min(holds, surface.friction) != usual;
-    if (differs && isAtFloor(world, surface)) is_alike = false;
+    if (differs && isAtFloor(world.floor, surface)) is_alike = false;
   });
   world.floor.cover = is_alike ? nullptr : std::make_shared<const FloorCover>(world);
 }

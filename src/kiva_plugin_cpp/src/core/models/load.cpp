@@ -19,7 +19,7 @@ constexpr double kGuided = 0.02;  // [m] off its middle, [rad] off square: the t
 
 /// How far the plate on which loads stand reaches from the middle, at least [m]; the chassis where
 /// there is none.
-double plateReach(const WorldState& world, int robot) {
+double plateReach(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   Bounds box;
   bool has_plate = false;
@@ -33,7 +33,7 @@ double plateReach(const WorldState& world, int robot) {
 }
 
 /// How the load, given in the robot's frame as is its underside, stands on the plate.
-void setFoothold(WorldState& world, int robot, const SpatialInertia& load, double underside) {
+void setFoothold(ContactView& world, int robot, const SpatialInertia& load, double underside) {
   Robot& r = world.fleet.robots[robot];
   const Vector3 centre = load.centre();
   const double off = std::hypot(centre.X(), centre.Y());
@@ -44,7 +44,7 @@ void setFoothold(WorldState& world, int robot, const SpatialInertia& load, doubl
   r.load_tipping_inertia = r.load_mass * arm2 + std::max(own(0, 0), own(1, 1));
 }
 
-void loadRobot(WorldState& world, int robot, int unit) {
+void loadRobot(ContactView& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
   const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
   SpatialInertia load;
@@ -77,7 +77,7 @@ void centre(Pose* on_tower) {
 
 }  // namespace
 
-void takeUp(WorldState& world, int robot, int unit) {
+void takeUp(ContactView& world, int robot, int unit) {
   StorageUnit& u = world.storage.units[unit];
   Model& model = *world.models[u.model];
   if (model.in_physics) deactivate(world, model);
@@ -94,7 +94,7 @@ void takeUp(WorldState& world, int robot, int unit) {
   setStatus(world, robot, world.fleet.status[robot], world.fleet.state[robot]);
 }
 
-void putDown(WorldState& world, int robot) {
+void putDown(ContactView& world, int robot) {
   const int unit = world.fleet.unit[robot];
   StorageUnit& u = world.storage.units[unit];
   Model& model = *world.models[u.model];
@@ -105,7 +105,7 @@ void putDown(WorldState& world, int robot) {
   moved(world, model);
 }
 
-void unload(WorldState& world, int robot) {
+void unload(ContactView& world, int robot) {
   FleetState& f = world.fleet;
   Robot& r = f.robots[robot];
   f.unit[robot] = -1;
@@ -119,7 +119,7 @@ void unload(WorldState& world, int robot) {
   setStatus(world, robot, f.status[robot], f.state[robot]);
 }
 
-void addMass(WorldState& world, int unit, double mass) {
+void addMass(ContactView& world, int unit, double mass) {
   world.storage.units[unit].mass += mass;
   const int carrier = world.storage.units[unit].carrier;
   if (carrier < 0) return;

@@ -3,7 +3,7 @@
 // Models come and go, and are moved by hand.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/model_view.h"
 
 namespace kiva {
 
@@ -11,23 +11,23 @@ namespace kiva {
 const ModelOwner& ownerOf(ModelKind kind);
 
 /// Adds one model with all it needs, or throws DescriptionError and leaves nothing of it.
-void spawnModel(WorldState& world, const ModelInstance& instance);
+void spawnModel(ModelView& world, const ModelInstance& instance);
 /// And what goes with it.
-void removeModel(WorldState& world, int slot);
+void removeModel(ModelView& world, int slot);
 /// Puts a model there with that velocity, as a hand would. Throws DescriptionError if the state is
 /// not finite or too far away.
-void placeModel(WorldState& world, Model& model, const EntityState& state);
+void placeModel(ModelView& world, Model& model, const EntityState& state);
 /// The same for one link, and what joints hold to it.
-void placeLink(WorldState& world, Model& model, int link, const EntityState& state);
+void placeLink(ModelView& world, Model& model, int link, const EntityState& state);
 /// Another mass, centre of mass, inertia and gravity flag for the link of that index.
-void reweighLink(WorldState& world, Model& model, int link, const Link& like);
+void reweighLink(ModelView& world, Model& model, int link, const Link& like);
 /// Back to where it was spawned, at rest.
-void resetModel(WorldState& world, Model& model);
+void resetModel(ModelView& world, Model& model);
 
 /// Loads the plugins of a model and of its sensors, but for those that come with the world.
 /// Throws DescriptionError.
-void loadPlugins(WorldState& world, Model& model);
+void loadPlugins(ModelView& world, Model& model);
 /// Where a model touches others; see World::contacts.
-std::vector<ContactPoint> contactsOf(const WorldState& world, int slot);
+std::vector<ContactPoint> contactsOf(const Scene& world, int slot);
 
 }  // namespace kiva

@@ -73,7 +73,7 @@ std::optional<Realism> realismOf(const Parameters& parameters) {
 }
 
 /// Throws DescriptionError if robots of this world are told otherwise already.
-void checkRealism(const WorldState& world, const Parameters& parameters) {
+void checkRealism(const Scene& world, const Parameters& parameters) {
   const std::optional<Realism> asked = realismOf(parameters);
   if (!asked || world.settings.options.realism || !world.settings.realism_of_models) return;
   if (*asked == world.settings.realism) return;
@@ -83,7 +83,7 @@ void checkRealism(const WorldState& world, const Parameters& parameters) {
 }
 
 /// The world's is that of the first robot whose file says anything of it, unless it was given.
-void adoptRealism(WorldState& world, const ModelDescription& description) {
+void adoptRealism(ModelView& world, const ModelDescription& description) {
   if (world.settings.options.realism || world.settings.realism_of_models) return;
   for (const PluginDescription& plugin : description.plugins) {
     if (plugin.filename != kMotionPlugin) continue;
@@ -95,9 +95,9 @@ void adoptRealism(WorldState& world, const ModelDescription& description) {
   }
 }
 
-void configure(const WorldState& world, const ModelDescription& description, Robot* robot) {
+void configure(const ModelView& world, const ModelDescription& description, Robot* robot) {
   for (const PluginDescription& plugin : description.plugins) {
-    const FleetPlugin* ours = findFleetPlugin(world, plugin.filename);
+    const FleetPlugin* ours = findFleetPlugin(world.plugins, plugin.filename);
     if (!ours) continue;
     ours->configure(*robot, plugin.parameters);
     if (plugin.filename == kMotionPlugin) checkRealism(world, plugin.parameters);
@@ -107,7 +107,7 @@ void configure(const WorldState& world, const ModelDescription& description, Rob
 }
 
 /// What is stored by index follows a robot that got another one.
-void reindexRobot(WorldState& world, int from, int to) {
+void reindexRobot(ModelView& world, int from, int to) {
   Model& model = world.models.of(world.fleet.robots[to]);
   model.index = to;
   for (StorageUnit& unit : world.storage.units) {
@@ -145,11 +145,11 @@ void stand(FleetState& f, int robot, const EntityState& at) {
 }
 
 /// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
-void setSpread(const WorldState& world, Robot* robot) {
+void setSpread(const Settings& settings, Robot* robot) {
   constexpr double kMost = 3;  // deviations that are delivered
-  const ActuationRealism& real = world.settings.realism.actuation;
+  const ActuationRealism& real = settings.realism.actuation;
   if (!real.enabled) return;
-  RandomStream random(world.settings.options.seed, Matter::kActuation, robot->id, 0);
+  RandomStream random(settings.options.seed, Matter::kActuation, robot->id, 0);
   const auto deviate = [&](double share) {
     return 1 + share * std::clamp(random.normal(), -kMost, kMost);
   };
@@ -164,7 +164,7 @@ bool isRobot(const ModelDescription& description) {
                      [](const PluginDescription& p) { return p.filename == kMotionPlugin; });
 }
 
-void Robots::add(WorldState& world, Model& model) const {
+void Robots::add(ModelView& world, Model& model) const {
   Robot robot;
   robot.name = model.name;
   robot.id = idIn(model.name);
@@ -178,18 +178,18 @@ void Robots::add(WorldState& world, Model& model) const {
   model.geometries.push_back({-1, centre, box, -1});
   const double yaw = model.pose.Rot().Yaw();
   const bool jointed = robot.drive.drive == Drive::kJointed;
-  setRays(world, &robot);
+  setRays(world.scans, &robot);
   world.fleet.fastest = std::max(world.fleet.fastest, robot.drive.speed);
   world.floor.cover_due = true;
   adoptRealism(world, *model.description);
-  setSpread(world, &robot);
+  setSpread(world.settings, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   if (world.fleet.localises) calibrate(world, model.index);
   moved(world, model);
   if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
 }
 
-void Robots::remove(WorldState& world, Model& model) const {
+void Robots::remove(ModelView& world, Model& model) const {
   const int robot = model.index, last = world.fleet.size() - 1;
   if (robot < 0) return;  // it never joined
   if (world.fleet.unit[robot] >= 0) putDown(world, robot);
@@ -208,7 +208,7 @@ void Robots::remove(WorldState& world, Model& model) const {
   if (robot != last) reindexRobot(world, last, robot);
 }
 
-void Robots::place(WorldState& world, Model& model, const EntityState& state) const {
+void Robots::place(ModelView& world, Model& model, const EntityState& state) const {
   const int robot = model.index;
   if (world.fleet.tasks[robot].phase != Phase::kIdle) {
     endBlocked(world, robot, "", "was moved by hand");
@@ -219,7 +219,7 @@ void Robots::place(WorldState& world, Model& model, const EntityState& state) co
   rebuildBody(world, model);
 }
 
-void Robots::reset(WorldState& world, Model& model) const {
+void Robots::reset(ModelView& world, Model& model) const {
   FleetState& fleet = world.fleet;
   const int robot = model.index;
   if (fleet.unit[robot] >= 0) putDown(world, robot);
@@ -238,12 +238,12 @@ void Robots::reset(WorldState& world, Model& model) const {
   if (fleet.localises) relocate(world, robot);  // its wheels stand at 0 now
 }
 
-EntityState Robots::state(const WorldState& world, const Model& model) const {
+EntityState Robots::state(const Scene& world, const Model& model) const {
   return robotState(world, model.index);
 }
 
 /// Wheels turned and tower raised.
-Pose Robots::linkPose(const WorldState& world, const Model& model, int link) const {
+Pose Robots::linkPose(const Scene& world, const Model& model, int link) const {
   const Fleet& fleet = world.fleet;
   const int robot = model.index;
   const Link& description = model.description->links[link];
@@ -261,14 +261,14 @@ Pose Robots::linkPose(const WorldState& world, const Model& model, int link) con
   return pose;
 }
 
-void Robots::reweigh(WorldState& world, Model& model, double /*added*/) const {
+void Robots::reweigh(ModelView& world, Model& model, double /*added*/) const {
   moved(world.fleet, model.index);
   weigh(*model.description, &world.fleet.robots[model.index]);
   rebuildBody(world, model);
 }
 
 /// The wheels' grip answers in the same step.
-bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& at,
+bool Robots::push(ContactView& world, Model& model, int /*link*/, const Vector3& at,
                   const Vector3& force, const Vector3& torque) const {
   FleetState& f = world.fleet;
   const int i = model.index;
@@ -283,7 +283,7 @@ bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& 
   return true;
 }
 
-ModelBodies Robots::build(const WorldState& world, const Model& model) const {
+ModelBodies Robots::build(const Scene& world, const Model& model) const {
   const int robot = model.index;
   const Robot& r = world.fleet.robots[robot];
   Link link;
@@ -315,12 +315,12 @@ ModelBodies Robots::build(const WorldState& world, const Model& model) const {
   return bodies;
 }
 
-void Robots::activated(WorldState& world, Model& model) const {
+void Robots::activated(ContactView& world, Model& model) const {
   world.fleet.activated[model.index] = 1;
   moved(world.fleet, model.index);
 }
 
-void Robots::deactivated(WorldState& world, Model& model) const {
+void Robots::deactivated(ContactView& world, Model& model) const {
   world.fleet.activated[model.index] = 0;
 }
 

@@ -22,7 +22,7 @@ constexpr double kTilt = 1 - 5e-5;  // cosine
 constexpr double kAbove = 0.002;    // [m]
 constexpr double kResting = 0.05;   // [s] for which Bullet has found it at rest
 
-bool standsStill(const WorldState& world, const Model& model) {
+bool standsStill(const Scene& world, const Model& model) {
   const btRigidBody& body = *model.bodies.links.front().body;
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
   return up > kTilt && body.getLinearVelocity().length() < kStill &&
@@ -31,7 +31,7 @@ bool standsStill(const WorldState& world, const Model& model) {
 }
 
 /// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
-void reindexUnit(WorldState& world, int from, int to) {
+void reindexUnit(ModelView& world, int from, int to) {
   for (Item& item : world.storage.items) {
     if (item.unit == from) item.unit = to;
   }
@@ -48,7 +48,7 @@ void reindexUnit(WorldState& world, int from, int to) {
 }
 
 /// Off its robot, and out of Bullet.
-void takeAway(WorldState& world, Model& model) {
+void takeAway(ModelView& world, Model& model) {
   const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) putDown(world, carrier);
   if (model.in_physics) deactivate(world, model);
@@ -56,7 +56,7 @@ void takeAway(WorldState& world, Model& model) {
 
 }  // namespace
 
-void StorageUnits::add(WorldState& world, Model& model) const {
+void StorageUnits::add(ModelView& world, Model& model) const {
   StorageUnit unit;
   unit.name = model.name;
   unit.id = numberIn(model.name, "storage_unit");
@@ -66,11 +66,11 @@ void StorageUnits::add(WorldState& world, Model& model) const {
   model.index = static_cast<int>(world.storage.units.size());
   world.storage.units.push_back(unit);
   world.storage.unit_of_id[unit.id] = model.index;
-  addCollisionGeometry(world, model);
+  addCollisionGeometry(world.floor, model);
   if (!standsUpright(world, model.index)) letFall(world, model);
 }
 
-void StorageUnits::remove(WorldState& world, Model& model) const {
+void StorageUnits::remove(ModelView& world, Model& model) const {
   if (model.index < 0) return;  // it never joined
   const int index = model.index, last = static_cast<int>(world.storage.units.size()) - 1;
   const StorageUnit& unit = world.storage.units[index];
@@ -85,7 +85,7 @@ void StorageUnits::remove(WorldState& world, Model& model) const {
   world.storage.noteMove();
 }
 
-std::vector<int> StorageUnits::passengers(const WorldState& world, const Model& model) const {
+std::vector<int> StorageUnits::passengers(const Scene& world, const Model& model) const {
   std::vector<int> slots;
   for (const Item& item : world.storage.items) {
     if (item.unit == model.index) slots.push_back(item.model);
@@ -93,32 +93,32 @@ std::vector<int> StorageUnits::passengers(const WorldState& world, const Model& 
   return slots;
 }
 
-void StorageUnits::place(WorldState& world, Model& model, const EntityState& state) const {
+void StorageUnits::place(ModelView& world, Model& model, const EntityState& state) const {
   takeAway(world, model);
   model.pose = state.pose;
   letFall(world, model);  // one that is moved by hand may float: let Bullet tell
   moveBodies(model, state);
 }
 
-void StorageUnits::reset(WorldState& world, Model& model) const {
+void StorageUnits::reset(ModelView& world, Model& model) const {
   takeAway(world, model);
   model.pose = model.spawn_pose;
   if (!standsUpright(world, model.index)) letFall(world, model);
 }
 
-EntityState StorageUnits::state(const WorldState& world, const Model& model) const {
+EntityState StorageUnits::state(const Scene& world, const Model& model) const {
   if (followsBodies(model)) return canonicalState(model);
   const int carrier = world.storage.units[model.index].carrier;
   const Pose pose = unitPose(world, model.index);
   return carrier < 0 ? EntityState{pose, {}} : carriedState(robotState(world, carrier), pose);
 }
 
-Pose StorageUnits::linkPose(const WorldState& world, const Model& model, int link) const {
+Pose StorageUnits::linkPose(const Scene& world, const Model& model, int link) const {
   if (followsBodies(model)) return fromBullet(model.bodies.links[link].linkPose());
   return unitPose(world, model.index) * model.description->links[link].pose_in_model;
 }
 
-void StorageUnits::reweigh(WorldState& world, Model& model, double added) const {
+void StorageUnits::reweigh(ModelView& world, Model& model, double added) const {
   addMass(world, model.index, added);
   if (!model.in_physics) return;
   const EntityState state = bodyState(model.bodies.links.front());
@@ -127,7 +127,7 @@ void StorageUnits::reweigh(WorldState& world, Model& model, double added) const 
   setBodyState(model.bodies.links.front(), state);
 }
 
-bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3& at,
+bool StorageUnits::push(ContactView& world, Model& model, int link, const Vector3& at,
                         const Vector3& force, const Vector3& torque) const {
   const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) {
@@ -139,7 +139,7 @@ bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3
 }
 
 /// With the mass of its items.
-ModelBodies StorageUnits::build(const WorldState& world, const Model& model) const {
+ModelBodies StorageUnits::build(const Scene& world, const Model& model) const {
   const StorageUnit& unit = world.storage.units[model.index];
   ModelDescription loaded = *model.description;
   const double own = massOf(loaded);
@@ -154,12 +154,12 @@ ModelBodies StorageUnits::build(const WorldState& world, const Model& model) con
   return bodies;
 }
 
-bool StorageUnits::mayBeUpright(const WorldState& world, const Model& model) const {
+bool StorageUnits::mayBeUpright(const Scene& world, const Model& model) const {
   return canSlideUpright(world, model) && standsUpright(world, model.index);
 }
 
 /// Takes over where Bullet left the unit, upright on its legs.
-void StorageUnits::deactivated(WorldState& world, Model& model) const {
+void StorageUnits::deactivated(ContactView& world, Model& model) const {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
     model.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
@@ -169,26 +169,25 @@ void StorageUnits::deactivated(WorldState& world, Model& model) const {
 
 /// One that was pushed leaves as soon as it has come to rest: else it and a robot beside it would
 /// keep each other in Bullet.
-bool StorageUnits::mayLeaveBullet(const WorldState& world, const Model& model,
-                                  bool is_alone) const {
+bool StorageUnits::mayLeaveBullet(const Scene& world, const Model& model, bool is_alone) const {
   if (!model.disturbed) return is_alone;
   const bool rests = model.bodies.links.front().body->getDeactivationTime() > kResting;
   return (is_alone || rests) && standsStill(world, model);
 }
 
 /// From now on it is where its body is.
-void StorageUnits::touched(WorldState& world, Model& model) const {
+void StorageUnits::touched(ContactView& world, Model& model) const {
   if (model.disturbed || world.storage.units[model.index].carrier >= 0) return;
   model.disturbed = true;
   moved(world, model);
 }
 
-int StorageUnits::robot(const WorldState& world, const Model& model) const {
+int StorageUnits::robot(const Scene& world, const Model& model) const {
   return world.storage.units[model.index].carrier;
 }
 
 /// A robot without a load passes beneath one that stands.
-bool StorageUnits::stops(const WorldState& world, const Model& model, int robot) const {
+bool StorageUnits::stops(const Scene& world, const Model& model, int robot) const {
   return world.fleet.unit[robot] >= 0 || world.storage.units[model.index].carrier >= 0;
 }
 

@@ -85,19 +85,18 @@ std::string leftOut(const std::string& where, const std::string& model, std::str
 }
 
 /// What is misspelt is an error, but for plugins that take the parameters of others.
-void checkUnread(WorldState& world, const Plugin& plugin, const std::string& filename,
+void checkUnread(EventLog& log, const Plugin& plugin, const std::string& filename,
                  const Parameters& parameters) {
   if (plugin.isStrict()) return parameters.rejectUnread();
   std::string list;
   for (const std::string& key : parameters.unread()) list += (list.empty() ? "" : ", ") + key;
   if (list.empty()) return;
-  world.log.warn(filename + list,
-                 parameters.where() + ": " + filename + " makes no use of " + list);
+  log.warn(filename + list, parameters.where() + ": " + filename + " makes no use of " + list);
 }
 
 }  // namespace
 
-std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
+std::shared_ptr<Plugin> loadPlugin(ModelView& world, const std::string& model,
                                    const std::string& filename, const Parameters& parameters,
                                    const SensorDescription* sensor) {
   const std::string& where = parameters.where();
@@ -110,8 +109,8 @@ std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
     return nullptr;
   }
   try {
-    plugin->load(*world.owner, model, parameters);
-    checkUnread(world, *plugin, filename, parameters);
+    plugin->load(*world.plugins.owner, model, parameters);
+    checkUnread(world.log, *plugin, filename, parameters);
     return plugin;
   } catch (const std::exception& error) {
     if (plugin->isStrict()) throw;

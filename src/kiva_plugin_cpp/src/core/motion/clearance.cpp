@@ -103,7 +103,7 @@ Footprint sweep(const FleetState& f, int i, double time) {
 /// Whether meets(footprint) is true for any of a robot and its load. Keeps nothing, so that several
 /// threads may ask.
 template <typename Meets>
-bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
+bool anyOfRobot(const Scene& world, int robot, Meets meets) {
   const FleetState& f = world.fleet;
   const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
   const auto& own = world.obstacles.ofMover(robot);
@@ -115,7 +115,7 @@ bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
 }
 
 /// Whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
-bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
+bool isClear(const Scene& world, int robot, const Footprint& swept, double time) {
   const FleetState& f = world.fleet;
   Footprint lifted = swept;  // it counts from the floor
   lifted.z_min += world.floor.extent.z;
@@ -148,7 +148,7 @@ double horizonOf(const FleetState& f, int i, double horizon) {
 }
 
 /// Whether nothing can come near the robot within `time` [s].
-bool isClearFor(const WorldState& world, int i, double time) {
+bool isClearFor(const Scene& world, int i, double time) {
   const FleetState& f = world.fleet;
   return isClear(world, i, f.cruising[i] != 0 ? cruiseSweep(f, i, time) : sweep(f, i, time), time);
 }
@@ -165,7 +165,7 @@ Footprint holding(const std::vector<Footprint>& all) {
 
 }  // namespace
 
-double clearTime(const WorldState& world, int i, bool is_crowded) {
+double clearTime(const Scene& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
   // In long steps the shorter horizons are one step, and nothing is indexed for longer.
   if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.clock.dt) {
@@ -183,7 +183,7 @@ double clearTime(const WorldState& world, int i, bool is_crowded) {
   return 0;
 }
 
-bool noteClearance(WorldState& world, int i, double time) {
+bool noteClearance(MotionView& world, int i, double time) {
   FleetState& f = world.fleet;
   if (time == 0) return false;
   if (f.cruising[i] != 0) {
@@ -194,11 +194,11 @@ bool noteClearance(WorldState& world, int i, double time) {
   return true;
 }
 
-bool findClearance(WorldState& world, int i, bool is_crowded) {
+bool findClearance(MotionView& world, int i, bool is_crowded) {
   return noteClearance(world, i, clearTime(world, i, is_crowded));
 }
 
-bool hasClearance(const WorldState& world, int i) {
+bool hasClearance(const Scene& world, int i) {
   const double left = world.fleet.clear_until[i] - static_cast<double>(world.clock.total_steps);
   return left * world.clock.dt >= kWorthwhile;
 }
@@ -210,8 +210,8 @@ double pointSpeed(const FleetState& f, int i) {
   return at_once ? std::max(speed, r.drive.speed + kCornerSpeed) : speed;
 }
 
-double findClose(const WorldState& world, const std::vector<Footprint>& all, double speed,
-                 double reach, std::vector<int>* close) {
+double findClose(const Scene& world, const std::vector<Footprint>& all, double speed, double reach,
+                 std::vector<int>* close) {
   if (all.empty()) return reach;
   const double farthest = kNear + (speed + world.fleet.fastest + kCornerSpeed) * world.clock.dt;
   const Footprint whole = holding(all);

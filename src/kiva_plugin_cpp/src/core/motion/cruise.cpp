@@ -149,7 +149,7 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
 }
 
 /// Of a robot that is to cruise on after step number `after`.
-void planAttention(WorldState& world, int i, double after) {
+void planAttention(MotionView& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
   if (f.localises && !f.localisation[i].stretch.turns) {
@@ -162,13 +162,13 @@ void planAttention(WorldState& world, int i, double after) {
 }
 
 /// The same where its way has changed.
-void replanAttention(WorldState& world, int i) {
+void replanAttention(MotionView& world, int i) {
   world.fleet.count_at[i] = nextCount(world, i);
   planAttention(world, i, static_cast<double>(world.clock.total_steps));
 }
 
 /// Of a robot that has come to where there is something to count.
-void count(WorldState& world, int i) {
+void count(MotionView& world, int i) {
   countPoints(world, i, world.fleet.reference[i]);
   world.fleet.count_at[i] = nextCount(world, i);
 }
@@ -180,7 +180,7 @@ struct Attention {
   double clear_time = 0;  ///< [s] for which its way is free from here, if it has to be known.
 };
 
-void attend(WorldState& world, const Attention& due, double now) {
+void attend(MotionView& world, const Attention& due, double now) {
   FleetState& f = world.fleet;
   const int i = due.robot;
   bool ended = due.ended;
@@ -209,7 +209,7 @@ char advanceBlock(FleetState& f, int b, double dt, double now) {
 }
 
 /// Adds those of block `b` that need a look.
-void findAttention(const WorldState& world, int b, double now, std::vector<Attention>* out) {
+void findAttention(const Scene& world, int b, double now, std::vector<Attention>* out) {
   const FleetState& f = world.fleet;
   const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
   for (int i = begin; i < end; ++i) {
@@ -221,7 +221,7 @@ void findAttention(const WorldState& world, int b, double now, std::vector<Atten
 
 /// What each finds on its way is worked out on all threads, where all have gone: what is noted then
 /// changes nothing of it.
-void attendAll(WorldState& world, std::vector<Attention> all, double now) {
+void attendAll(MotionView& world, std::vector<Attention> all, double now) {
   const FleetState& f = world.fleet;
   world.schedule.workers->share(
       static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
@@ -235,7 +235,7 @@ void attendAll(WorldState& world, std::vector<Attention> all, double now) {
 }
 
 /// What a unit of reference moves, exactly or by the robot's own estimate.
-void setMotion(WorldState& world, int i, const ReferenceMotion& per) {
+void setMotion(MotionView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   if (f.localises) return beginStretch(world, i, per.yaw != 0);
   const DriveParameters& drive = f.robots[i].drive;
@@ -250,7 +250,7 @@ void setMotion(WorldState& world, int i, const ReferenceMotion& per) {
 
 }  // namespace
 
-bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
+bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   const double way = std::abs(f.goal[i] - f.reference[i]);
@@ -277,7 +277,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   return false;
 }
 
-void setGoal(WorldState& world, int i, double goal) {
+void setGoal(MotionView& world, int i, double goal) {
   FleetState& f = world.fleet;
   const double left = f.clear_until[i] - static_cast<double>(world.clock.total_steps) + 1;
   const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.clock.dt;
@@ -290,7 +290,7 @@ void setGoal(WorldState& world, int i, double goal) {
   replanAttention(world, i);
 }
 
-void cruise(WorldState& world) {
+void cruise(MotionView& world) {
   FleetState& f = world.fleet;
   const auto next = static_cast<double>(world.clock.total_steps + 1);
   world.schedule.cruised.resize((f.size() + kBlock - 1) / kBlock);

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -25,12 +25,12 @@ inline bool isExact(double error) { return std::abs(error) < 2e-11; }
 
 /// Lets the robot cruise along its segment from this step on, if it is fit for it and its way is
 /// free. It does until something else moves it, see moved().
-bool tryCruise(WorldState& world, int robot, const ReferenceMotion& per);
+bool tryCruise(MotionView& world, int robot, const ReferenceMotion& per);
 
 /// Where the robot's reference is to end from now on; it goes on as it does, without a dip.
-void setGoal(WorldState& world, int robot, double goal);
+void setGoal(MotionView& world, int robot, double goal);
 
 /// One step of all who cruise. Those whose reference ends, or who may have somebody near, stop.
-void cruise(WorldState& world);
+void cruise(MotionView& world);
 
 }  // namespace kiva

@@ -23,11 +23,11 @@ constexpr int kDrivesTogether = 128;  // on one thread: less is not worth waking
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
-btRigidBody& bodyOf(const WorldState& world, int robot) {
+btRigidBody& bodyOf(const Scene& world, int robot) {
   return *world.models.of(world.fleet.robots[robot]).bodies.links.front().body;
 }
 
-void pushBody(const WorldState& world, int robot) {
+void pushBody(const Scene& world, int robot) {
   const Fleet& f = world.fleet;
   btRigidBody& body = bodyOf(world, robot);
   const btVector3 turning(0, 0, f.yaw_rate[robot]);
@@ -36,7 +36,7 @@ void pushBody(const WorldState& world, int robot) {
   body.setAngularVelocity(turning);
 }
 
-void readBody(WorldState& world, int robot) {
+void readBody(MotionView& world, int robot) {
   Fleet& f = world.fleet;
   const btRigidBody& body = bodyOf(world, robot);
   // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
@@ -77,7 +77,7 @@ void letRest(FleetState& f, int robot) {
 }
 
 /// Each by itself, on all threads.
-void driveByTraction(WorldState& world) {
+void driveByTraction(MotionView& world) {
   FleetState& f = world.fleet;
   const std::vector<int>& robots = world.schedule.stepped_singly;
   world.schedule.workers->share(static_cast<int>(robots.size()), kDrivesTogether,
@@ -90,7 +90,7 @@ void driveByTraction(WorldState& world) {
                                 });
 }
 
-void integrateRobots(WorldState& world) {
+void integrateRobots(MotionView& world) {
   FleetState& f = world.fleet;
   for (int i : world.schedule.stepped_singly) {
     if (f.cruising[i] != 0) continue;  // since this step
@@ -108,7 +108,7 @@ void integrateRobots(WorldState& world) {
   cruise(world);
 }
 
-void followBodies(WorldState& world) {
+void followBodies(MotionView& world) {
   for (int slot : world.models.bodies) {
     if (isAwake(*world.models[slot])) moved(world, *world.models[slot]);
   }
@@ -120,7 +120,7 @@ void followBodies(WorldState& world) {
 
 }  // namespace
 
-void actuate(WorldState& world) {
+void actuate(MotionView& world) {
   driveByTraction(world);
   for (int i : world.schedule.stepped_singly) {
     const FleetState& f = world.fleet;
@@ -131,15 +131,15 @@ void actuate(WorldState& world) {
   driveJoints(world);
 }
 
-void integrate(WorldState& world) {
+void integrate(MotionView& world) {
   integrateRobots(world);
   followBodies(world);
-  readJoints(world);
+  readJoints(world.models);
 }
 
-void wakeBodies(WorldState& world) {
-  for (int slot : world.models.bodies) {
-    for (LinkBody& link : world.models[slot]->bodies.links) link.body->activate();
+void wakeBodies(const ModelTable& models) {
+  for (int slot : models.bodies) {
+    for (LinkBody& link : models[slot]->bodies.links) link.body->activate();
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/physics/spatial_inertia.h"
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -52,13 +52,13 @@ struct JointedBody {
 };
 
 /// A storage unit with its items, in its frame.
-SpatialInertia sumUnit(const WorldState& world, int unit);
+SpatialInertia sumUnit(const Scene& world, int unit);
 
 /// Coulomb coefficient of the tyre of a wheel's link: its first round shape.
 double tyreFriction(const Link& wheel);
 
 /// The robot's mechanism with its present load and tower. Throws DescriptionError if it lacks a
 /// link `left_wheel` or `right_wheel`.
-const JointedBody& jointedBody(WorldState& world, int robot);
+const JointedBody& jointedBody(MotionView& world, int robot);
 
 }  // namespace kiva

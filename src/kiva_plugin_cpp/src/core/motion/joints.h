@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -18,18 +18,18 @@ void initJoints(Model& model);
 void restoreLimits(Model& model);
 
 /// Before Bullet's step: what motors, damping and friction do.
-void driveJoints(WorldState& world);
+void driveJoints(MotionView& world);
 /// After it: where the joints are.
-void readJoints(WorldState& world);
+void readJoints(const ModelTable& models);
 
 /// -1 = none.
 int findJoint(const Model& model, const std::string& joint);
-JointState jointState(const WorldState& world, const Model& model, int joint);
+JointState jointState(const FleetState& fleet, const Model& model, int joint);
 /// Nothing of a model without free bodies.
 std::optional<JointWrench> jointWrench(const Model& model, int joint);
 void setJoint(Model& model, int joint, const JointSettings& settings);
 /// All or none; throws std::invalid_argument.
-void placeJoints(WorldState& world, Model& model, const std::map<std::string, double>& positions);
+void placeJoints(MotionView& world, Model& model, const std::map<std::string, double>& positions);
 /// For the next step [Nm] or [N].
 void pushJoint(Model& model, int joint, double effort);
 /// Indices of the links that joints hold to `link`, itself among them; `without` is a joint that

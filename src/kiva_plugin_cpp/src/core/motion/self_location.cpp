@@ -15,7 +15,7 @@ constexpr double kView = 0.05;         // [m] around the camera in which a code'
 constexpr double kSlipLength = 0.25;   // [m] on which a wheel slips alike
 constexpr double kMostDeviations = 3;  // what deviates more is not delivered
 
-RandomStream streamOf(WorldState& world, int robot, Matter matter) {
+RandomStream streamOf(MotionView& world, int robot, Matter matter) {
   Localisation& l = world.fleet.localisation[robot];
   return RandomStream(world.settings.options.seed, matter, world.fleet.robots[robot].id, l.draws++);
 }
@@ -33,7 +33,7 @@ struct Code {
   double x, y;  // in world [m]
 };
 
-Code nearestCode(const WorldState& world, int robot) {
+Code nearestCode(const Scene& world, int robot) {
   const double cell = world.settings.grid_spacing;
   const double column = std::round(world.fleet.x[robot] / cell);
   const double row = std::round(world.fleet.y[robot] / cell);
@@ -43,7 +43,7 @@ Code nearestCode(const WorldState& world, int robot) {
 
 }  // namespace
 
-void calibrate(WorldState& world, int robot) {
+void calibrate(MotionView& world, int robot) {
   const LocalisationRealism& real = world.settings.realism.localisation;
   const DriveParameters& drive = world.fleet.robots[robot].drive;
   Localisation& l = world.fleet.localisation[robot];
@@ -62,7 +62,7 @@ void calibrate(WorldState& world, int robot) {
   relocate(world, robot);
 }
 
-void relocate(WorldState& world, int robot) {
+void relocate(MotionView& world, int robot) {
   const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
@@ -86,7 +86,7 @@ void relocate(WorldState& world, int robot) {
   l.code_row = code.row;
 }
 
-void drawSlip(WorldState& world, int robot, double length) {
+void drawSlip(MotionView& world, int robot, double length) {
   const double slip = world.settings.realism.localisation.slip;
   Localisation& l = world.fleet.localisation[robot];
   l.slip_for = length;
@@ -95,7 +95,7 @@ void drawSlip(WorldState& world, int robot, double length) {
   for (double& share : l.slip) share = deviation(random, slip / std::sqrt(length));
 }
 
-void track(WorldState& world, int robot) {
+void track(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   if (f.wheel_angle[0][robot] != l.wheel_angle[0] || f.wheel_angle[1][robot] != l.wheel_angle[1]) {
@@ -106,7 +106,7 @@ void track(WorldState& world, int robot) {
   checkLost(world, robot);
 }
 
-void readCode(WorldState& world, int robot, bool stands) {
+void readCode(MotionView& world, int robot, bool stands) {
   const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
@@ -129,7 +129,7 @@ void readCode(WorldState& world, int robot, bool stands) {
   l.lost = false;
 }
 
-bool checkLost(WorldState& world, int robot) {
+bool checkLost(MotionView& world, int robot) {
   Localisation& l = world.fleet.localisation[robot];
   if (l.since_code < l.lost_at) return false;
   l.lost = true;

@@ -4,7 +4,7 @@
 // codes on the floor or miss them, and are lost at last. Their estimates are in core/state.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -12,17 +12,17 @@ namespace kiva {
 constexpr double kReadBefore = 0.04;
 
 /// Of a robot that is new: what its calibration says of its wheels, and where it is put.
-void calibrate(WorldState& world, int robot);
+void calibrate(MotionView& world, int robot);
 /// Somebody put the robot where it is now, and told it.
-void relocate(WorldState& world, int robot);
+void relocate(MotionView& world, int robot);
 /// After a step in which it did not cruise: what its wheels rolled, and codes that come into view.
-void track(WorldState& world, int robot);
+void track(MotionView& world, int robot);
 /// Looks at the floor. A code that is in view is read, or missed, once as it is passed; again if
 /// the robot `stands` on it.
-void readCode(WorldState& world, int robot, bool stands);
+void readCode(MotionView& world, int robot, bool stands);
 /// Draws the slip of its wheels on the next `length` [m].
-void drawSlip(WorldState& world, int robot, double length);
+void drawSlip(MotionView& world, int robot, double length);
 /// Where it has gone too far without a code, it stops and says that it is lost. Returns whether.
-bool checkLost(WorldState& world, int robot);
+bool checkLost(MotionView& world, int robot);
 
 }  // namespace kiva

@@ -62,7 +62,7 @@ Vector3 inverseOf(const Vector3& direction) {
 
 }  // namespace
 
-RayScene::RayScene(const WorldState& world, const Vector3& from, double range, const Model* but)
+RayScene::RayScene(const Scene& world, const Vector3& from, double range, const Model* but)
     : from_(from), range_(range) {
   const int robot = but ? but->owner->robot(world, *but) : -1;
   for (const auto& model : world.models) {
@@ -77,7 +77,7 @@ RayScene::RayScene(const WorldState& world, const Vector3& from, double range, c
   if (!targets_.empty()) build(0, static_cast<int>(targets_.size()));
 }
 
-void RayScene::addStatic(const WorldState& world, const Model& model) {
+void RayScene::addStatic(const Scene& world, const Model& model) {
   const auto& links = model.description->links;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Pose link = linkPose(world, model, static_cast<int>(i));
@@ -90,7 +90,7 @@ void RayScene::addStatic(const WorldState& world, const Model& model) {
   addSurfaces(model);
 }
 
-void RayScene::addMoving(const WorldState& world, const Model& model) {
+void RayScene::addMoving(const Scene& world, const Model& model) {
   for (const CollisionGeometry& geometry : model.geometries) {
     const int link = geometry.link;  // -1 is a robot's base
     const Pose pose = link < 0 ? basePose(world, model.index) : linkPose(world, model, link);

@@ -206,7 +206,7 @@ bool isFloor(const ModelInstance& instance) {
                                              [](const auto& s) { return s.area >= kRoom; });
 }
 
-ModelBodies buildStatic(const WorldState& world, const Model& model) {
+ModelBodies buildStatic(const Scene& world, const Model& model) {
   // What stands still touches nothing that does.
   const int mask = ~(kFloorGroup | kStaticGroup);
   const auto build = [&](bool low, int group) {
@@ -223,14 +223,14 @@ ModelBodies buildStatic(const WorldState& world, const Model& model) {
   return bodies;
 }
 
-void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model) {
+void raiseToFloor(const Scene& world, StorageUnit* unit, Model* model) {
   const double depth = world.floor.extent.z - model->pose.Z();
   if (depth <= 0 || depth > kNearGround) return;
   model->pose.Pos().Z() = model->spawn_pose.Pos().Z() = world.floor.extent.z;
   unit->raised += depth;
 }
 
-FloorCover::FloorCover(const WorldState& world) {
+FloorCover::FloorCover(const Scene& world) {
   for (const auto& model : world.models) {
     if (!model || model->level_surfaces.empty()) continue;
     for (const Link& link : model->description->links) {

@@ -4,7 +4,7 @@
 // as a part of the mesh of a whole building, and not always with its top at zero.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
@@ -24,18 +24,18 @@ bool isFloor(const ModelInstance& instance);
 std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, const Pose& pose);
 
 /// A static model's bodies: what lies at the floor is in a group that robots don't touch.
-ModelBodies buildStatic(const WorldState& world, const Model& model);
+ModelBodies buildStatic(const Scene& world, const Model& model);
 
 /// Whether what rises to `top` in world [m] is low enough to drive over.
 inline bool isLow(const Floor& floor, double top) { return top <= floor.z + kStep + 1e-9; }
 
 /// Puts a storage unit that would stand in the floor on it.
-void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model);
+void raiseToFloor(const Scene& world, StorageUnit* unit, Model* model);
 
 /// Where the surfaces of the floor lie, and how they grip.
 class FloorCover {
  public:
-  explicit FloorCover(const WorldState& world);
+  explicit FloorCover(const Scene& world);
   /// Whether the square around (x, y) with edges of twice `half` [m] lies on them.
   bool covers(double x, double y, double half) const;
   /// Coulomb coefficient of the uppermost surface at (x, y); of surfaces of one height the smallest

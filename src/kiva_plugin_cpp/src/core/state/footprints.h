@@ -5,30 +5,31 @@
 #pragma once
 
 #include "core/geometry/footprint.h"
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
 /// Gives a model the geometry of its collision shapes, without footprints so far.
-void addCollisionGeometry(const WorldState& world, Model& model);
+void addCollisionGeometry(const FloorState& floor, Model& model);
 /// The same for a static model that has them already, once it or the floor is elsewhere.
-void refitGeometry(WorldState& world, Model& model);
+void refitGeometry(MotionView& world, Model& model);
 /// A model, or a robot's load, is somewhere else or shaped otherwise: its footprints follow, and
 /// whoever asks World::unitsRevision hears of units and items that moved. Whoever moves a model
 /// calls this, and nothing else follows.
-void moved(WorldState& world, Model& model);
+void moved(MotionView& world, Model& model);
 /// The same for a robot that drove by itself in this step.
-void followRobot(WorldState& world, int robot);
+void followRobot(MotionView& world, int robot);
 /// The load of a robot, if it has one, is higher by so much [m].
-void raiseLoad(WorldState& world, int robot, double by);
+void raiseLoad(MotionView& world, int robot, double by);
 /// Takes the footprints away; the model keeps its geometry.
-void hideFootprints(WorldState& world, Model& model);
-/// Something came or was moved from outside: robots look around before they go on.
-void alarm(WorldState& world);
+void hideFootprints(Obstacles& obstacles, Model& model);
+/// Discards what robots know of how long their ways are free, since something came or was moved
+/// from outside: robots look around before they go on.
+void invalidateClearance(FleetState& fleet);
 
 /// Calls visit(footprint) for each of the model's footprints in world.
 template <typename Visit>
-void forFootprints(const WorldState& world, int slot, Visit visit) {
+void forFootprints(const Scene& world, int slot, Visit visit) {
   const Model& model = *world.models[slot];
   const int mover = model.owner->robot(world, model);
   if (mover < 0) {

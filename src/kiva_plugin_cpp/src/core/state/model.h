@@ -16,7 +16,9 @@ namespace kiva {
 
 struct JointedBody;
 struct Model;
-struct WorldState;
+struct Scene;
+struct ContactView;
+struct ModelView;
 
 /// One collision shape of a model, and its footprint among the obstacles.
 struct CollisionGeometry {
@@ -45,42 +47,39 @@ class ModelOwner {
   virtual ~ModelOwner() = default;
 
   /// The model, which has a name and a slot, becomes part of the world. Throws DescriptionError.
-  virtual void add(WorldState& world, Model& model) const = 0;
+  virtual void add(ModelView& world, Model& model) const = 0;
   /// It goes, with all that was made for it.
-  virtual void remove(WorldState& world, Model& model) const = 0;
+  virtual void remove(ModelView& world, Model& model) const = 0;
   /// Slots of the models that go when it goes.
-  virtual std::vector<int> passengers(const WorldState& /*world*/, const Model& /*model*/) const {
+  virtual std::vector<int> passengers(const Scene& /*world*/, const Model& /*model*/) const {
     return {};
   }
   /// Puts it there with that velocity, as a hand would.
-  virtual void place(WorldState& world, Model& model, const EntityState& state) const = 0;
+  virtual void place(ModelView& world, Model& model, const EntityState& state) const = 0;
   /// Back to where it was spawned, at rest.
-  virtual void reset(WorldState& world, Model& model) const = 0;
-  virtual EntityState state(const WorldState& world, const Model& model) const = 0;
+  virtual void reset(ModelView& world, Model& model) const = 0;
+  virtual EntityState state(const Scene& world, const Model& model) const = 0;
   /// In world.
-  virtual Pose linkPose(const WorldState& world, const Model& model, int link) const = 0;
+  virtual Pose linkPose(const Scene& world, const Model& model, int link) const = 0;
 
   /// Its description names other masses now, `added` [kg] more than before.
-  virtual void reweigh(WorldState& world, Model& model, double added) const = 0;
+  virtual void reweigh(ModelView& world, Model& model, double added) const = 0;
   /// For the next step: a force [N] at a point and a torque [Nm] on that link, in world. Returns
   /// false if it does not move.
-  virtual bool push(WorldState& world, Model& model, int link, const Vector3& at,
+  virtual bool push(ContactView& world, Model& model, int link, const Vector3& at,
                     const Vector3& force, const Vector3& torque) const = 0;
 
   /// Its bodies as they are when it enters Bullet, at its present pose.
-  virtual ModelBodies build(const WorldState& world, const Model& model) const = 0;
+  virtual ModelBodies build(const Scene& world, const Model& model) const = 0;
   /// Whether it is in Bullet only while something is near; else for as long as it stands.
   virtual bool isActivatedWhenNear() const { return false; }
   /// It is in Bullet from now on, or was taken out of it: `model.bodies` are still there.
-  virtual void activated(WorldState& /*world*/, Model& /*model*/) const {}
-  virtual void deactivated(WorldState& /*world*/, Model& /*model*/) const {}
+  virtual void activated(ContactView& /*world*/, Model& /*model*/) const {}
+  virtual void deactivated(ContactView& /*world*/, Model& /*model*/) const {}
   /// Whether it can be there as a body that slides on its feet, as long as it does not tip.
-  virtual bool mayBeUpright(const WorldState& /*world*/, const Model& /*model*/) const {
-    return false;
-  }
+  virtual bool mayBeUpright(const Scene& /*world*/, const Model& /*model*/) const { return false; }
   /// Whether it may leave Bullet, if `is_alone`: nothing was near it for a while.
-  virtual bool mayLeaveBullet(const WorldState& /*world*/, const Model& /*model*/,
-                              bool is_alone) const {
+  virtual bool mayLeaveBullet(const Scene& /*world*/, const Model& /*model*/, bool is_alone) const {
     return is_alone;
   }
   /// Whether Bullet moves it: what its bodies do is what it does.
@@ -93,15 +92,15 @@ class ModelOwner {
   virtual bool tellsCollisions() const { return false; }
   virtual bool isFloor() const { return false; }
   /// It was touched by something that is no floor.
-  virtual void touched(WorldState& /*world*/, Model& /*model*/) const {}
+  virtual void touched(ContactView& /*world*/, Model& /*model*/) const {}
   /// The robot that it is, or that carries it; -1 = none.
-  virtual int robot(const WorldState& /*world*/, const Model& /*model*/) const { return -1; }
+  virtual int robot(const Scene& /*world*/, const Model& /*model*/) const { return -1; }
   /// Whether it stops a robot that comes near.
-  virtual bool stops(const WorldState& /*world*/, const Model& /*model*/, int /*robot*/) const {
+  virtual bool stops(const Scene& /*world*/, const Model& /*model*/, int /*robot*/) const {
     return true;
   }
   /// What it makes of a cell where it stands: of Occupancy.
-  virtual std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const {
+  virtual std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const {
     return Occupancy::kFree;
   }
   /// Whether what is put into it stays there and goes where it goes.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/state/floors.h"
+#include "core/state/world_state.h"
 
 namespace kiva {
 namespace {
@@ -30,7 +31,7 @@ bool isInTheWay(const Floor& floor, const Footprint& other) {
 }
 
 /// Without a floor: all that stands there, on which nothing can drive.
-Floor withoutFloor(const WorldState& world) {
+Floor withoutFloor(const Scene& world) {
   Floor all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
     if (!model || model->owner->occupies(world, *model) != Occupancy::kTaken) continue;
@@ -103,7 +104,7 @@ void mark(const Footprint& other, std::uint8_t as, Occupancy* map) {
 }  // namespace
 
 Occupancy World::occupancy() const {
-  const WorldState& world = *state_;
+  const Scene& world = state_->view;
   Occupancy map;
   map.spacing = world.settings.grid_spacing;
   const bool has_floor = world.floor.extent.max_x > world.floor.extent.min_x;

@@ -9,9 +9,11 @@
 namespace kiva {
 
 class FleetPlugin;
+class World;
 
 /// The plugins of a world that belong to no model.
 struct Plugins {
+  World* owner = nullptr;                                 ///< What all plugins are loaded into.
   std::vector<std::shared_ptr<const FleetPlugin>> fleet;  ///< Those that come with the world.
   std::vector<std::shared_ptr<Plugin>> world;
   std::vector<PluginDescription> world_descriptions;  ///< Of those, in the same order.

@@ -7,43 +7,43 @@
 #include <deque>
 #include <string>
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
 /// The robot, whose task names the command, is at these from now on. None: it is done already.
-void beginTask(WorldState& world, int robot, std::deque<MotionSegment> segments);
+void beginTask(MotionView& world, int robot, std::deque<MotionSegment> segments);
 /// The same with a path; `segments` bring the robot to its point 0.
-void beginPath(WorldState& world, int robot, std::uint32_t id, ReleasedPath path,
+void beginPath(MotionView& world, int robot, std::uint32_t id, ReleasedPath path,
                std::deque<MotionSegment> segments);
 /// The robot stands on a point of its path, at the end of a run or of a turn: it turns, drives,
 /// waits for a release, or is done.
-void continuePath(WorldState& world, int robot);
+void continuePath(MotionView& world, int robot);
 /// The way is free again before a robot that brakes or stands on its path: it goes on.
-void resumePath(WorldState& world, int robot);
+void resumePath(MotionView& world, int robot);
 /// It begins the first of its segments at the next step, unless it is stopped.
-void startSegment(WorldState& world, int robot);
+void startSegment(MotionView& world, int robot);
 /// The current segment is over: the next one, or DONE; BLOCKED if the command was stopping.
-void finishSegment(WorldState& world, int robot);
+void finishSegment(MotionView& world, int robot);
 /// The command is to end in BLOCKED as soon as the robot has done what `phase` says: kBraking,
 /// kHalting or kAbandoning. It reports BLOCKED from now on; of several reasons the first counts.
-void stopTask(WorldState& world, int robot, Phase phase, const std::string& by,
+void stopTask(MotionView& world, int robot, Phase phase, const std::string& by,
               const std::string& reason);
 /// The stop is over: BLOCKED, then idle.
-void endStop(WorldState& world, int robot);
+void endStop(MotionView& world, int robot);
 /// The command is done; or cancelled, if it was.
-void endDone(WorldState& world, int robot);
+void endDone(MotionView& world, int robot);
 /// The command ends in BLOCKED now, whatever the robot is at.
-void endBlocked(WorldState& world, int robot, const std::string& by, const std::string& reason);
+void endBlocked(MotionView& world, int robot, const std::string& by, const std::string& reason);
 /// Locks the wheels of a robot that turns or drives, at once; one that lifts stands anyway, and a
 /// path on which it stands is over.
-void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason);
+void haltRobot(MotionView& world, int robot, const std::string& by, const std::string& reason);
 /// Sets what the robot reports, and records it if it is new.
-void setStatus(WorldState& world, int robot, Status status, State state);
+void setStatus(MotionView& world, int robot, Status status, State state);
 /// Reports what became of a robot's command.
-void reportCommand(WorldState& world, Event::Kind kind, int robot, const std::string& other,
+void reportCommand(MotionView& world, Event::Kind kind, int robot, const std::string& other,
                    const std::string& text);
 /// The robot is in that phase from now on, and reports so.
-void enterPhase(WorldState& world, int robot, Phase phase, Status status, State state);
+void enterPhase(MotionView& world, int robot, Phase phase, Status status, State state);
 
 }  // namespace kiva

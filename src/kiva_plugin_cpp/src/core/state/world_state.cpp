@@ -6,7 +6,26 @@
 namespace kiva {
 
 WorldState::WorldState(const WorldDescription& description, const WorldOptions& options)
-    : physics(description.gravity) {
+    : physics(description.gravity),
+      view{{{{settings, clock, fleet, obstacles, models, storage, floor, physics, people, fallen},
+             fleet,
+             obstacles,
+             storage,
+             jointed_bodies,
+             schedule,
+             report_link,
+             log},
+            physics,
+            models,
+            contact_log,
+            external_inputs},
+           settings,
+           floor,
+           fallen,
+           people,
+           failures,
+           scans,
+           plugins} {
   settings.name = description.name;
   settings.gravity = description.gravity;
   settings.options = options;

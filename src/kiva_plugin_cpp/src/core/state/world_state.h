@@ -5,27 +5,10 @@
 
 #include <memory>
 
-#include "core/geometry/obstacles.h"
-#include "core/physics/physics.h"
 #include "core/state/chargers.h"
-#include "core/state/clock.h"
 #include "core/state/command_link.h"
-#include "core/state/contact_log.h"
-#include "core/state/event_log.h"
-#include "core/state/failure_state.h"
-#include "core/state/fallen_items.h"
-#include "core/state/fleet_state.h"
-#include "core/state/floor_state.h"
 #include "core/state/inbox.h"
-#include "core/state/jointed_bodies.h"
-#include "core/state/model_table.h"
-#include "core/state/people.h"
-#include "core/state/plugins.h"
-#include "core/state/report_link.h"
-#include "core/state/scans.h"
-#include "core/state/settings.h"
-#include "core/state/step_schedule.h"
-#include "core/state/storage.h"
+#include "core/state/model_view.h"
 #include "kiva_plugin_cpp/world.h"
 
 namespace kiva {
@@ -34,7 +17,6 @@ struct WorldState {
   explicit WorldState(const WorldDescription& description, const WorldOptions& options);
   ~WorldState();
 
-  World* owner = nullptr;
   Settings settings;
   Clock clock;
 
@@ -60,6 +42,10 @@ struct WorldState {
   Chargers chargers;
   People people;
   StepSchedule schedule;
+
+  /// All of these that the rooms below `control` work on, each through the view of it that its room
+  /// has.
+  ModelView view;
 };
 
 /// The door for tests that look at what clients don't see.
