@@ -236,7 +236,7 @@ void World::post(const Command& command) {
   if (command.kind == Command::Kind::kFollow) {
     throw std::invalid_argument("a path is posted as a FollowPath");
   }
-  send(state_->command_link, state_->inbox, state_->view, command);
+  send(state_->command_link, state_->inbox, state_->view, {command, {}});
 }
 
 void World::post(FollowPath path) {
@@ -249,7 +249,7 @@ void World::post(FollowPath path) {
   Command command;
   command.kind = Command::Kind::kFollow;
   command.kiva_id = path.kiva_id;
-  send(state_->command_link, state_->inbox, state_->view, command, std::move(path));
+  send(state_->command_link, state_->inbox, state_->view, {command, std::move(path)});
 }
 
 void World::fail(int kiva_id, Failure failure, double repair_after) {

@@ -113,11 +113,41 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
   }
 }
 
+/// Gives each command that is to follow a path its own. Throws ArchiveError.
+void pairUp(std::deque<Command> commands, std::deque<FollowPath> paths, Inbox* inbox) {
+  const auto follow = static_cast<std::size_t>(
+      std::count_if(commands.begin(), commands.end(),
+                    [](const Command& command) { return command.kind == Command::Kind::kFollow; }));
+  if (follow != paths.size()) {
+    throw ArchiveError("there is one for every command that follows one",
+                       "paths[" + std::to_string(paths.size()) + "]");
+  }
+  for (const Command& command : commands) {
+    inbox->pending.push_back({command, {}});
+    if (command.kind != Command::Kind::kFollow) continue;
+    inbox->pending.back().path = std::move(paths.front());
+    paths.pop_front();
+  }
+}
+
+/// Pending commands are stored apart from the paths that some of them stand for.
+template <class A>
+void describeInbox(A& a, Inbox& inbox) {
+  std::deque<Command> commands;
+  std::deque<FollowPath> paths;
+  for (const PendingCommand& pending : inbox.pending) {
+    commands.push_back(pending.command);
+    if (pending.command.kind == Command::Kind::kFollow) paths.push_back(pending.path);
+  }
+  FIELDS(inbox.last_number, commands, paths);
+  if constexpr (A::kReads) pairUp(std::move(commands), std::move(paths), &inbox);
+}
+
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  FIELDS(world.inbox.last_number, world.inbox.commands, world.inbox.paths,
-         world.command_link.messages, world.command_link.sent, world.log.events,
+  describeInbox(a, world.inbox);
+  FIELDS(world.command_link.messages, world.command_link.sent, world.log.events,
          world.log.status_changes);
 }
 

@@ -377,11 +377,6 @@ void checkLists(const WorldState& world) {
     require(modelAt(world, pair.model_a) && modelAt(world, pair.model_b), "touching", i, "model_a",
             "there is no such model");
   }
-  const auto follow =
-      std::count_if(world.inbox.commands.begin(), world.inbox.commands.end(),
-                    [](const Command& command) { return command.kind == Command::Kind::kFollow; });
-  require(follow == static_cast<std::ptrdiff_t>(world.inbox.paths.size()), "paths",
-          world.inbox.paths.size(), "", "there is one for every command that follows one");
   const std::size_t robots = world.fleet.robots.size();
   for (std::size_t i = 0; i < world.scans.due.size(); ++i) {
     require(isIn(world.scans.due[i], robots), "scans_due", i, "", "there is no such robot");

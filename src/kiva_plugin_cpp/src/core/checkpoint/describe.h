@@ -417,8 +417,8 @@ void describe(A& a, FollowPath& p) {
 
 template <class A>
 void describe(A& a, CommandMessage& m) {
-  DESCRIBED(CommandMessage, 3);
-  FIELDS(m.due, m.command, m.path);
+  DESCRIBED(CommandMessage, 2);
+  FIELDS(m.due, m.pending.command, m.pending.path);
 }
 
 template <class A>

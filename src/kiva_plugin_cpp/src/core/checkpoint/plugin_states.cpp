@@ -82,12 +82,12 @@ std::vector<PluginState> savePlugins(const WorldState& world) {
 
 void adoptPlugins(WorldState& world, const WorldState& before) {
   // What a plugin does when it is loaded was done long ago.
-  const auto commands = world.inbox.commands;
+  const auto pending = world.inbox.pending;
   const auto events = world.log.events;
   const auto status_changes = world.log.status_changes;
   adoptWorld(world, before);
   for (int slot : world.models.with_plugins) adoptModel(world, before, *world.models[slot]);
-  world.inbox.commands = commands;
+  world.inbox.pending = pending;
   world.log.events = events;
   world.log.status_changes = status_changes;
 }

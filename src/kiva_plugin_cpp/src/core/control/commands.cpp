@@ -230,22 +230,13 @@ void answer(MotionView& world, Inbox& inbox, const Command& command, const Follo
   }
 }
 
-/// The first of the queued paths, which the command stands for; empty if it stands for none.
-FollowPath takePath(Inbox& inbox, const Command& command) {
-  FollowPath path;
-  if (command.kind != Command::Kind::kFollow) return path;
-  path = std::move(inbox.paths.front());
-  inbox.paths.pop_front();
-  return path;
-}
-
 }  // namespace
 
 void acceptCommands(MotionView& world, Inbox& inbox) {
-  while (!inbox.commands.empty()) {
-    const Command& command = inbox.commands.front();
-    answer(world, inbox, command, takePath(inbox, command));
-    inbox.commands.pop_front();
+  while (!inbox.pending.empty()) {
+    const PendingCommand& next = inbox.pending.front();
+    answer(world, inbox, next.command, next.path);
+    inbox.pending.pop_front();
   }
 }
 

@@ -9,11 +9,6 @@
 namespace kiva {
 namespace {
 
-void arrive(Inbox& inbox, const Command& command, FollowPath path) {
-  inbox.commands.push_back(command);
-  if (command.kind == Command::Kind::kFollow) inbox.paths.push_back(std::move(path));
-}
-
 bool isWired(const Command& command) {
   return command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
 }
@@ -27,7 +22,7 @@ std::uint64_t arrival(const CommandLink& link, const Scene& world, int kiva_id,
   std::uint64_t due =
       world.clock.total_steps + world.clock.stepsIn(real.latency_least + random->exponential(rest));
   for (const CommandMessage& other : link.messages) {
-    if (other.command.kiva_id == kiva_id) due = std::max(due, other.due);
+    if (other.pending.command.kiva_id == kiva_id) due = std::max(due, other.due);
   }
   return due;
 }
@@ -40,23 +35,22 @@ void put(CommandLink& link, CommandMessage message) {
 
 }  // namespace
 
-void send(CommandLink& link, Inbox& inbox, const Scene& world, const Command& command,
-          FollowPath path) {
+void send(CommandLink& link, Inbox& inbox, const Scene& world, PendingCommand command) {
   const RadioRealism& real = world.settings.realism.radio;
-  if (!real.enabled || isWired(command)) return arrive(inbox, command, std::move(path));
+  if (!real.enabled || isWired(command.command)) {
+    return inbox.pending.push_back(std::move(command));
+  }
   RandomStream random(world.settings.options.seed, Matter::kCommand, 0, link.sent++);
   if (random.chance(real.lost)) return;
   const bool is_repeated = random.chance(real.repeated);
-  put(link, {arrival(link, world, command.kiva_id, &random), command, path});
-  if (is_repeated) {
-    put(link, {arrival(link, world, command.kiva_id, &random), command, std::move(path)});
-  }
+  const int kiva_id = command.command.kiva_id;
+  put(link, {arrival(link, world, kiva_id, &random), command});
+  if (is_repeated) put(link, {arrival(link, world, kiva_id, &random), std::move(command)});
 }
 
 void receive(CommandLink& link, Inbox& inbox, const Clock& clock) {
   while (!link.messages.empty() && link.messages.front().due <= clock.total_steps) {
-    CommandMessage& message = link.messages.front();
-    arrive(inbox, message.command, std::move(message.path));
+    inbox.pending.push_back(std::move(link.messages.front().pending));
     link.messages.pop_front();
   }
 }

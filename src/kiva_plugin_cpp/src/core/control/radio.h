@@ -11,8 +11,7 @@ namespace kiva {
 
 /// Sends a command; `path` is what it stands for, if it is to follow one. What stops robots or lets
 /// them go on has a wire of its own, and is never late.
-void send(CommandLink& link, Inbox& inbox, const Scene& world, const Command& command,
-          FollowPath path = {});
+void send(CommandLink& link, Inbox& inbox, const Scene& world, PendingCommand command);
 /// Takes in what has come by now.
 void receive(CommandLink& link, Inbox& inbox, const Clock& clock);
 

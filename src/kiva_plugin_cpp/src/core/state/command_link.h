@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <deque>
 
-#include "kiva_plugin_cpp/command.h"
+#include "core/state/pending_command.h"
 
 namespace kiva {
 
 /// A command on its way to its robot.
 struct CommandMessage {
   std::uint64_t due = 0;  ///< The total step at which it arrives.
-  Command command;
-  FollowPath path;  ///< If it stands for one.
+  PendingCommand pending;
 };
 
 /// The radio by which commands reach the robots.

@@ -4,14 +4,13 @@
 #include <cstdint>
 #include <deque>
 
-#include "kiva_plugin_cpp/command.h"
+#include "core/state/pending_command.h"
 
 namespace kiva {
 
 /// Commands that have arrived and are answered at the next step.
 struct Inbox {
-  std::deque<Command> commands;
-  std::deque<FollowPath> paths;   ///< Of those that are kFollow, in the same order.
+  std::deque<PendingCommand> pending;
   std::uint32_t last_number = 0;  ///< Of the command that was answered last.
 };
 
