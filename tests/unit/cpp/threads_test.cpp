@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
 

@@ -9,9 +9,9 @@
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
-#include "core/control/energy.h"
-#include "core/control/failures.h"
-#include "core/control/protective_fields.h"
+#include "core/disturbances/batteries.h"
+#include "core/disturbances/failures.h"
+#include "core/people/protective_fields.h"
 #include "core/sensing/scans.h"
 #include "core/state/path_progress.h"
 

@@ -9,8 +9,8 @@
 #include "core/motion/clearance.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/traction.h"
+#include "core/parallel/workers.h"
 #include "core/state/footprints.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {

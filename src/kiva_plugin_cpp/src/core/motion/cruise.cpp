@@ -10,8 +10,8 @@
 #include "core/motion/drives.h"
 #include "core/motion/ground.h"
 #include "core/motion/stretches.h"
+#include "core/parallel/workers.h"
 #include "core/state/path_progress.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {

@@ -12,9 +12,9 @@
 #include "core/motion/joints.h"
 #include "core/motion/self_location.h"
 #include "core/motion/traction.h"
+#include "core/parallel/workers.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {

@@ -6,11 +6,11 @@
 #include <limits>
 #include <vector>
 
+#include "core/parallel/workers.h"
 #include "core/sensing/room.h"
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/state/localisation.h"
+#include "core/estimation/localisation.h"
 #include "core/state/profile.h"
 #include "core/state/released_path.h"
 #include "kiva_plugin_cpp/fleet.h"

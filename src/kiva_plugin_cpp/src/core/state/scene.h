@@ -14,8 +14,8 @@
 
 namespace kiva {
 
-/// What is where in a world, for reading. The views below it in the list of rooms are built on it:
-/// each names what its room may write as well, and hides what is const here by that.
+/// What is where in a world, for reading. The views of the rooms add what a room may write: a
+/// member of a view hides the const one of the same name here.
 struct Scene {
   const Settings& settings;
   const Clock& clock;

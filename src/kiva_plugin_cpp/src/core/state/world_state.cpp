@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/state/world_state.h"
 
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 
 namespace kiva {
 

@@ -1,6 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of a world: its parts, each with a header of its own.
+// The state of a world: its parts, each with a header of its own. The rooms are functions over
+// those parts; none includes a room that is named after it here, which scripts/check_includes holds
+// them to:
+//   parallel       the threads that share loops
+//   estimation     the Kalman filter by which a robot locates itself
+//   state          the parts, and what follows from them alone
+//   sensing        scans, and what lies ahead of a robot
+//   motion         wheels on the floor, references that drives follow, until when a way is free
+//   contact        what Bullet steps and what arrays do, collisions, forces from outside
+//   models         robots, storage units, items and all else, which come and go
+//   control        commands, and the routes that robots take for them
+//   communication  the links by which commands reach robots and reports reach clients
+//   people         persons who walk, and robots that keep a distance from them
+//   disturbances   failures, batteries that run low, loads that tip, items that fall
+//   checkpoint     all of it as bytes, and back
 #pragma once
 
 #include <memory>
@@ -43,8 +57,7 @@ struct WorldState {
   People people;
   StepSchedule schedule;
 
-  /// All of these that the rooms below `control` work on, each through the view of it that its room
-  /// has.
+  /// What the rooms work on; each takes the part of the view that it writes.
   ModelView view;
 };
 

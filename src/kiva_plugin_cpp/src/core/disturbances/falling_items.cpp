@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/falling.h"
+#include "core/disturbances/falling_items.h"
 
 #include <algorithm>
 #include <cmath>

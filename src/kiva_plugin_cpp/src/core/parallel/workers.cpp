@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 
 #include <unistd.h>
 

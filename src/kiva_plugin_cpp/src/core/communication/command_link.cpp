@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/radio.h"
+#include "core/communication/command_link.h"
 
 #include <algorithm>
 #include <utility>

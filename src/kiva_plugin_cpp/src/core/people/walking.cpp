@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/walking.h"
+#include "core/people/walking.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
-#include "core/control/footing.h"
-#include "core/control/way_around.h"
 #include "core/geometry/solid.h"
+#include "core/people/footing.h"
+#include "core/people/way_around.h"
 #include "core/state/floors.h"
 #include "core/state/footprints.h"
 #include "core/state/people.h"

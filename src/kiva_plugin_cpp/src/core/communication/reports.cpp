@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/reports.h"
+#include "core/communication/reports.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/tipping.h"
+#include "core/disturbances/load_tipping.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/failures.h"
+#include "core/disturbances/failures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/control/energy.h"
+#include "core/communication/reports.h"
 #include "core/control/interruptions.h"
-#include "core/control/reports.h"
+#include "core/disturbances/batteries.h"
 #include "core/state/random_stream.h"
 #include "core/state/tasks.h"
 

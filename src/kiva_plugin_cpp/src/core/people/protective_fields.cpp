@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/protective_fields.h"
+#include "core/people/protective_fields.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/way_around.h"
+#include "core/people/way_around.h"
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
 #include <unordered_map>
 
-#include "core/control/footing.h"
+#include "core/people/footing.h"
 
 namespace kiva {
 namespace {

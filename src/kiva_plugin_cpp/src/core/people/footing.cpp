@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/footing.h"
+#include "core/people/footing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/control/energy.h"
+#include "core/disturbances/batteries.h"
 
 #include <algorithm>
 #include <cmath>

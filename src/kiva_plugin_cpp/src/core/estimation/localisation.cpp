@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/state/localisation.h"
+#include "core/estimation/localisation.h"
 
 #include <cmath>
 
