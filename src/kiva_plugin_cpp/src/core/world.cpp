@@ -112,11 +112,11 @@ void forEachUserPlugin(WorldState& world, Call call) {
 /// Decides upon what was seen: who brakes, who stops, who begins what.
 void decide(WorldState& world) {
   findFloorParts(world.view);
-  haltCrashed(world.view, world.contact_log);
-  wearOut(world.view, world.failures);
-  useEnergy(world.view, world.chargers);
-  exchangeReports(world.view);
-  keepFromPeople(world.view, world.people, world.scans.due);
+  haltCollidedRobots(world.view, world.contact_log);
+  sampleFailures(world.view, world.failures);
+  updateBatteries(world.view, world.chargers);
+  deliverReports(world.view);
+  applyProtectiveFields(world.view, world.people, world.scans.due);
   for (const auto& plugin : world.plugins.fleet) plugin->react(world.view, world.scans.sighted);
   world.scans.sighted.clear();
   receive(world.command_link, world.inbox, world.clock);
@@ -138,7 +138,7 @@ int linkIndex(const Model* model, const std::string& name) {
 }
 
 /// Whatever robots foresaw holds no more.
-void beginAnew(WorldState& world) {
+void discardForesight(WorldState& world) {
   invalidateClearance(world.fleet);
   for (int i = 0; i < world.fleet.size(); ++i) {
     if (world.fleet.awake[i]) moved(world.fleet, i);
@@ -175,12 +175,12 @@ void World::step() {
   actuate(world.view);
   world.physics.step(world.clock.dt);
   integrate(world.view);
-  walkOn(world.view, world.people);
+  stepPeople(world.view, world.people);
   world.clock.advance();
   sense(world);
   observeCollisions(world.view);
-  swayLoads(world.view);
-  dropItems(world.view);
+  stepLoadTipping(world.view);
+  stepFallingItems(world.view);
   forEachUserPlugin(world, [&](Plugin& plugin) { plugin.afterStep(*this, world.clock.dt); });
 }
 
@@ -200,7 +200,7 @@ void World::setStepSize(double seconds) {
   state_->clock.setStepSize(seconds);
   state_->fleet.applyRealism(state_->settings.realism, seconds);
   state_->scans.rounds_revision = ~0ull;  // those were counted in the old steps, as was
-  beginAnew(*state_);                     // when to look around again
+  discardForesight(*state_);              // when to look around again
 }
 
 void World::setGravity(const Vector3& gravity) {
@@ -212,7 +212,7 @@ void World::setGravity(const Vector3& gravity) {
   state_->physics.setGravity(gravity);
   letAllTip(state_->view);
   wakeBodies(state_->view.models);
-  beginAnew(*state_);
+  discardForesight(*state_);
 }
 
 void World::reset(bool time_too) {
@@ -223,7 +223,7 @@ void World::reset(bool time_too) {
   world.report_link.messages.clear();
   putAllBack(world.view);
   for (int slot : world.models.inOrder()) resetModel(world.view, *world.models[slot]);
-  for (int i = 0; i < world.fleet.size(); ++i) knowWhereabouts(world.view, world.failures, i);
+  for (int i = 0; i < world.fleet.size(); ++i) recordPlacement(world.view, world.failures, i);
   world.external_inputs.wrenches.clear();
   world.external_inputs.efforts.clear();
   world.failures = {};
@@ -253,7 +253,7 @@ void World::post(FollowPath path) {
 }
 
 void World::fail(int kiva_id, Failure failure, double repair_after) {
-  breakDown(state_->view, state_->failures, kiva_id, failure, repair_after);
+  injectFailure(state_->view, state_->failures, kiva_id, failure, repair_after);
 }
 void World::repair(int kiva_id) { kiva::repair(state_->view, state_->failures, kiva_id); }
 std::optional<RobotReport> World::lastHeard(int robot) const {
@@ -273,7 +273,7 @@ void World::keepMode(int kiva_id, int mode) {
 void World::walk(const std::string& person, const Walk& walk) {
   kiva::walk(state_->view, state_->people, person, walk);
 }
-std::vector<Person> World::people() const { return peopleIn(state_->view); }
+std::vector<Person> World::people() const { return listPeople(state_->view); }
 void World::setLightCurtain(const LightCurtain& curtain) {
   kiva::setLightCurtain(state_->people, curtain);
 }
@@ -282,7 +282,7 @@ bool World::removeLightCurtain(const std::string& name) {
 }
 const std::vector<LightCurtain>& World::lightCurtains() const { return state_->people.curtains; }
 
-std::vector<FallenItem> World::fallenItems() const { return fallenIn(state_->view); }
+std::vector<FallenItem> World::fallenItems() const { return listFallenItems(state_->view); }
 void World::pickUp(const std::string& item) { kiva::pickUp(state_->view, item); }
 
 void World::spawn(const ModelInstance& instance) {
@@ -343,7 +343,7 @@ bool World::setState(const std::string& model, const EntityState& state) {
   if (!found) return false;
   placeModel(state_->view, *found, state);
   const int robot = found->owner->robot(state_->view, *found);
-  if (robot >= 0) knowWhereabouts(state_->view, state_->failures, robot);
+  if (robot >= 0) recordPlacement(state_->view, state_->failures, robot);
   return true;
 }
 

@@ -107,8 +107,8 @@ void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
     FIELDS(world.fleet.heard, world.report_link.messages, world.report_link.sent,
            world.report_link.changed);
   }
-  if (!std::is_same_v<A, Hasher> || minds(world.people)) {
-    FIELDS(world.people.walkers, world.people.slowed_for_people, world.people.curtains,
+  if (!std::is_same_v<A, Hasher> || world.people.slowsRobots()) {
+    FIELDS(world.people.walkers, world.people.field_was_occupied, world.people.curtains,
            within(world.fleet.allowed_speed, 0, kEndless), within(world.fleet.curtained, 0, 1));
   }
 }
@@ -161,8 +161,8 @@ void indexModels(WorldState& world) {
   }
   for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
   for (Robot& robot : world.fleet.robots) setRays(world.scans, &robot);
-  markDefects(world.fleet, world.settings.realism, world.failures);
-  markCharge(world.fleet, world.settings.realism.energy);
+  restoreDefects(world.fleet, world.settings.realism, world.failures);
+  restoreCharge(world.fleet, world.settings.realism.energy);
   world.fleet.sway.resize(world.fleet.size());
   world.fleet.heard.resize(world.fleet.size());
   world.fleet.command_speed.resize(world.fleet.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The way of commands to the robots: at once, or as a radio brings them.
+// Carries commands to the robots: at once, or delayed by a radio.
 #pragma once
 
 #include "core/state/command_link.h"
@@ -9,10 +9,9 @@
 
 namespace kiva {
 
-/// Sends a command; `path` is what it stands for, if it is to follow one. What stops robots or lets
-/// them go on has a wire of its own, and is never late.
+/// Sends a command. Commands that stop robots or let them go on are wired, and never late.
 void send(CommandLink& link, Inbox& inbox, const Scene& world, PendingCommand command);
-/// Takes in what has come by now.
+/// Moves the commands that have arrived by now into the inbox.
 void receive(CommandLink& link, Inbox& inbox, const Clock& clock);
 
 }  // namespace kiva

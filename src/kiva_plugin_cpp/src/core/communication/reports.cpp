@@ -35,7 +35,7 @@ bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
   return a.status == b.status && a.state == b.state && a.shelf_id == b.shelf_id;
 }
 
-/// A report that was overtaken by a newer one tells nothing.
+/// Takes in a report, unless a newer one has overtaken it.
 void hear(MotionView& world, int robot, std::uint64_t number, const RobotReport& report) {
   Heard& heard = world.fleet.heard[robot];
   if (number < heard.number) return;
@@ -70,14 +70,14 @@ RobotReport reportOf(const Scene& world, int robot) {
           f.last_end[robot]};
 }
 
-void exchangeReports(MotionView& world) {
+void deliverReports(MotionView& world) {
   if (!world.settings.realism.radio.delaysReports()) return;
   std::vector<int> changed;
   changed.swap(world.report_link.changed);
   for (const int id : changed) {
     const int robot = world.fleet.find(id);
     if (robot < 0) continue;
-    // Whoever puts a robot there knows where.
+    // The client that spawns a robot knows its pose.
     if (world.fleet.heard[robot].number == 0) {
       hear(world, robot, ++world.report_link.sent, reportOf(world, robot));
     } else {
@@ -90,7 +90,7 @@ void exchangeReports(MotionView& world) {
   receiveReports(world);
 }
 
-void knowWhereabouts(MotionView& world, FailureState& failures, int robot) {
+void recordPlacement(MotionView& world, FailureState& failures, int robot) {
   const RobotReport report = reportOf(world, robot);
   if (world.fleet.heard[robot].number > 0) hear(world, robot, ++world.report_link.sent, report);
   const int id = world.fleet.robots[robot].id;

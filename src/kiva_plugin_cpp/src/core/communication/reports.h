@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The way of what robots report to who listens: at once, or as a radio brings it, late or not at
-// all.
+// Carries the robots' reports to clients: at once, or by a radio that delays and loses them.
 #pragma once
 
 #include "core/state/failure_state.h"
@@ -9,12 +8,12 @@
 
 namespace kiva {
 
-/// What the robot would report now.
+/// Returns what the robot would report now.
 RobotReport reportOf(const Scene& world, int robot);
-/// Robots report ten times a second, and when their status changes; takes in what has come by now.
-/// Nothing while the world's realism has no radio.
-void exchangeReports(MotionView& world);
-/// Whoever has put a robot somewhere knows where it is, heard or not.
-void knowWhereabouts(MotionView& world, FailureState& failures, int robot);
+/// Sends reports, ten times a second and when a status changes, and takes in those that have
+/// arrived by now. Does nothing while the world's realism has no radio.
+void deliverReports(MotionView& world);
+/// Records the pose of a robot that a client has placed; the client knows it without a report.
+void recordPlacement(MotionView& world, FailureState& failures, int robot);
 
 }  // namespace kiva

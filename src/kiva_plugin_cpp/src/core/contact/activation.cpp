@@ -107,7 +107,7 @@ bool isSlow(const Model& model) {
 }
 
 /// A body that moves by itself: what it could hit enters Bullet too.
-void lookAroundBody(ContactView& world, Model& model) {
+void activateNearBody(ContactView& world, Model& model) {
   if (!isAwake(model)) return;
   const bool is_due = (world.clock.total_steps + model.slot) % world.clock.stepsIn(kSeldom) == 0;
   if (model.upright && !is_due && isSlow(model)) return;
@@ -204,10 +204,10 @@ void updateActivation(ContactView& world) {
   findSteppedSingly(world);
   const std::size_t before = world.models.activated.size();
   lookAround(world);
-  for (int slot : world.models.bodies) lookAroundBody(world, *world.models[slot]);
+  for (int slot : world.models.bodies) activateNearBody(world, *world.models[slot]);
   const std::vector<int> activated = world.models.activated;  // it grows meanwhile
   for (int slot : activated) {
-    if (world.models[slot]->disturbed) lookAroundBody(world, *world.models[slot]);
+    if (world.models[slot]->disturbed) activateNearBody(world, *world.models[slot]);
   }
   updateUprightness(world);
   const bool has_more = world.models.activated.size() > before;

@@ -13,7 +13,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kLookAgain = 0.5;  // [s] after which a robot looks for a way back again
+constexpr double kLookAgain = 0.5;  // [s] between two searches for a way back
 
 struct Plan {
   std::deque<MotionSegment> segments;
@@ -92,7 +92,7 @@ void checkCarry(const Scene& world, int robot, int unit) {
   }
 }
 
-/// What a drop that names no unit means.
+/// Returns the unit that a drop without a number means. Throws Refusal.
 int carriedUnit(const FleetState& fleet, int robot) {
   const int unit = fleet.unit[robot];
   if (unit < 0) throw Refusal("it carries nothing");
@@ -154,7 +154,7 @@ void start(MotionView& world, int robot, std::uint32_t number, Plan plan) {
 
 using Order = void (*)(MotionView&, int robot);
 
-/// Of the command kinds that are obeyed whatever a robot is at.
+/// Returns the order for a kind of command that a robot obeys at any time; null for other kinds.
 Order orderOf(Command::Kind kind) {
   switch (kind) {
     case Command::Kind::kCancel:
@@ -179,19 +179,19 @@ int findListening(const FleetState& fleet, int id) {
   return robot;
 }
 
-void obeyAll(MotionView& world, Order order) {
+void commandAll(MotionView& world, Order order) {
   for (int robot = 0; robot < world.fleet.size(); ++robot) {
     if (hears(world.fleet, robot)) order(world, robot);
   }
 }
 
-/// Gives the command to its robot; `path` is what it stands for, if it is to follow one. Counts it,
-/// unless it only changes what the robot is at. Throws Refusal.
+/// Gives the command to its robot; `path` is what it stands for, if it is kFollow. Numbers the
+/// command, unless it only changes the present one. Throws Refusal.
 void obey(MotionView& world, Inbox& inbox, const Command& command, const FollowPath& path) {
   if (!path.fault.empty()) throw Refusal(path.fault);
   const bool is_stop = command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
   const Order order = orderOf(command.kind);
-  if (is_stop && command.kiva_id == 0) return obeyAll(world, order);
+  if (is_stop && command.kiva_id == 0) return commandAll(world, order);
   const int robot = findListening(world.fleet, command.kiva_id);
   if (order) return order(world, robot);
   const bool follows = command.kind == Command::Kind::kFollow;
@@ -206,9 +206,9 @@ void obey(MotionView& world, Inbox& inbox, const Command& command, const FollowP
   inbox.last_number = number;
 }
 
-/// A client may tell an idle robot something at each step; to find that there is no way back takes
-/// longer than all else that a step does for it.
-void restFromLooking(MotionView& world, int kiva_id) {
+/// Postpones the next search for a way back: a client may command an idle robot at each step, and a
+/// search that fails takes longer than all else that a step does for it.
+void backOff(MotionView& world, int kiva_id) {
   double& until = world.fleet.wedged_until[world.fleet.find(kiva_id)];
   const auto now = static_cast<double>(world.clock.total_steps);
   if (until <= now) until = now + static_cast<double>(world.clock.stepsIn(kLookAgain));
@@ -218,7 +218,7 @@ void answer(MotionView& world, Inbox& inbox, const Command& command, const Follo
   try {
     obey(world, inbox, command, path);
   } catch (const Refusal& refusal) {
-    if (dynamic_cast<const Wedged*>(&refusal)) restFromLooking(world, command.kiva_id);
+    if (dynamic_cast<const Wedged*>(&refusal)) backOff(world, command.kiva_id);
     const bool is_fleets = command.kiva_id == 0 && !path.fault.empty();
     world.log.events.push_back({world.clock.time(),
                                 Event::Kind::kRefused,
@@ -240,7 +240,7 @@ void acceptCommands(MotionView& world, Inbox& inbox) {
   }
 }
 
-void haltCrashed(MotionView& world, ContactLog& contacts) {
+void haltCollidedRobots(MotionView& world, ContactLog& contacts) {
   for (const Crash& crash : contacts.crashes) {
     const int robot = world.fleet.find(crash.kiva_id);
     if (robot >= 0) haltRobot(world, robot, crash.with, "collision with " + crash.with);

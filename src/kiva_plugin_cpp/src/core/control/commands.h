@@ -9,7 +9,7 @@ namespace kiva {
 
 /// Answers all queued commands, and gives the accepted ones to their robots.
 void acceptCommands(MotionView& world, Inbox& inbox);
-/// Robots that were in a collision stop.
-void haltCrashed(MotionView& world, ContactLog& contacts);
+/// Stops the robots that were in a collision.
+void haltCollidedRobots(MotionView& world, ContactLog& contacts);
 
 }  // namespace kiva

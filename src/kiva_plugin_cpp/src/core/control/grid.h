@@ -7,14 +7,14 @@
 
 namespace kiva {
 
-/// In world [m].
+/// A point in world [m].
 struct Point {
   double x = 0, y = 0;
   double& operator[](int axis) { return axis == 0 ? x : y; }
 };
 
 double nearestGrid(const Settings& settings, double coordinate);
-/// Whether the cell around the grid point lies on the floor as a whole.
+/// Returns whether the whole cell around the grid point lies on the floor.
 bool isOnFloor(const Scene& world, const Point& p);
 
 }  // namespace kiva

@@ -11,7 +11,7 @@
 namespace kiva {
 namespace {
 
-/// How many of its segments bring a robot that was off the grid back to it; at least the present
+/// Returns how many segments bring a robot that was off the grid back to it; at least the present
 /// one.
 std::size_t segmentsToGrid(const Task& task) {
   for (std::size_t k = task.segments.size(); k > 1; --k) {
@@ -24,7 +24,7 @@ bool lifts(const MotionSegment& segment) {
   return segment.kind == MotionSegment::Kind::kRaise || segment.kind == MotionSegment::Kind::kLower;
 }
 
-/// Lets a drive end on the next grid point where the robot can stop.
+/// Ends a drive on the next grid point where the robot can stop.
 void shortenDrive(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
   const double cell = world.settings.grid_spacing;
@@ -67,16 +67,16 @@ void goOn(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   if (!f.stopped[robot]) return;
   f.stopped[robot] = 0;
-  if (!isHeld(f, robot)) planAnew(world, robot);
+  if (!isHeld(f, robot)) replan(world, robot);
 }
 
-void planAnew(MotionView& world, int robot) {
+void replan(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   moved(f, robot);
   const bool resumes = task.phase == Phase::kDriving || task.phase == Phase::kTurning ||
                        task.phase == Phase::kLifting;
-  if (resumes) task.phase = Phase::kStarting;  // planned anew, from where it stands
+  if (resumes) task.phase = Phase::kStarting;  // planned again, from its present pose
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
 }

@@ -16,8 +16,8 @@
 namespace kiva {
 namespace {
 
-constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch what it passes
-constexpr double kCentred = 0.001;  // [m]: a robot within stands on its point
+constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch an obstacle
+constexpr double kCentred = 0.001;  // [m] within which a robot is on its point
 constexpr std::uint64_t kMostPoints = 100000;
 
 /// `known`: points of the path so far, of which `forgotten` have been left.
@@ -48,8 +48,8 @@ bool isSame(const PathPoint& a, const PathPoint& b) {
   return std::abs(a.x - b.x) < kGoalTolerance && std::abs(a.y - b.y) < kGoalTolerance;
 }
 
-/// Whether a model is a part of the building, or one of its belts: it will not go. What is not
-/// as long as a cell and stands for itself, as a person does, may.
+/// Returns whether a model is a part of the building, or one of its belts, and will not move. A
+/// model shorter than a cell that stands alone, such as a person, may.
 bool isBuilding(const Scene& world, const Model& model) {
   const std::uint8_t as = model.owner->occupies(world, model);
   if (as == Occupancy::kBelt) return true;
@@ -120,8 +120,8 @@ void checkTurns(const FleetState& fleet, int robot, const std::vector<PathPoint>
 
 // --- a change of the path under way
 
-/// The message's points that are new. Throws Refusal if a released one is to become another, or a
-/// new one can't be driven to.
+/// Returns the message's points that are new. Throws Refusal if it changes a released point, or the
+/// robot can't drive to a new one.
 std::vector<PathPoint> checkedChange(const Scene& world, int robot, const FollowPath& m) {
   const ReleasedPath& path = world.fleet.tasks[robot].path;
   const std::uint32_t committed = std::min(path.released, m.released);
@@ -144,14 +144,14 @@ std::vector<PathPoint> checkedChange(const Scene& world, int robot, const Follow
   return points;
 }
 
-/// Where the present run would end, and how far along it.
+/// End of the present run, and the distance along it.
 struct RunEnd {
   std::uint32_t point;
   double along;
 };
 
-/// How far the run reaches if that much of the path is released; the robot can stop there, or it
-/// throws Refusal.
+/// Returns the end of the run if that much of the path is released. Throws Refusal if the robot
+/// can't stop there.
 RunEnd checkedRunEnd(const Scene& world, int robot, std::uint32_t released) {
   const FleetState& f = world.fleet;
   const Task& task = f.tasks[robot];
@@ -161,7 +161,7 @@ RunEnd checkedRunEnd(const Scene& world, int robot, std::uint32_t released) {
   };
   if (released <= task.path.origin) throw tooLate();
   const std::uint32_t end = std::min(task.path.end, released - 1);
-  if (!task.isOnRun()) return {end, 0};  // it stands, turns, or is on its way to the path
+  if (!task.isOnRun()) return {end, 0};  // the robot stands, turns, or drives to the path
   const double along = alongRun(task, end);
   if (end == task.path.end) return {end, along};
   if (task.drives()) {

@@ -10,10 +10,10 @@
 namespace kiva {
 namespace {
 
-constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
-constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
-constexpr double kNearGrid = 0.02;             // [m], [rad]: of one that has to find out
-constexpr double kAside = 0.05;                // [m]: who can't get back may go on from there
+constexpr double kOnGrid = 0.001;              // [m] within which a robot is on its grid point
+constexpr double kSquare = 0.01 * M_PI / 180;  // [rad] within which a heading is along the grid
+constexpr double kNearGrid = 0.02;  // [m], [rad]: both, of a robot that estimates its pose
+constexpr double kAside = 0.05;  // [m] off its line from which a robot without a way back may go on
 
 }  // namespace
 
@@ -92,14 +92,14 @@ MotionSegment Route::makeDrive(State state) const {
   return segment;
 }
 
-/// Who finds no way back and stands but a little aside goes on from there: its next drive leads it
-/// back to its line.
+/// Plans the way back to the grid. A robot without one that stands but a little aside goes on from
+/// there: its next drive leads it back to its line.
 void Route::recover(const Point* back) {
   Point from{here_.x, here_.y};
   const bool is_wedged =
       world_.fleet.wedged_until[robot_] > static_cast<double>(world_.clock.total_steps);
   if (is_wedged) throw Wedged();
-  const std::vector<Point> way = wayBack(world_, robot_, back);
+  const std::vector<Point> way = findWayBack(world_, robot_, back);
   if (way.empty() && std::hypot(from.x - at_.x, from.y - at_.y) > kAside) throw Wedged();
   yaw_ = here_.yaw;
   for (const Point& to : way) {
@@ -111,7 +111,7 @@ void Route::recover(const Point* back) {
   yaw_ = square;
 }
 
-/// Straight from one place to another, off the grid.
+/// Drives straight from one place to another, off the grid.
 void Route::driveOff(const Point& from, const Point& to) {
   const StraightWay way = straightWay({from.x, from.y, yaw_}, to);
   if (std::abs(way.length) < kOnGrid) return;

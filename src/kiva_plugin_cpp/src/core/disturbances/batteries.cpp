@@ -12,7 +12,7 @@ namespace kiva {
 namespace {
 
 constexpr double kBatteryPeriod = 0.1;  // [s]
-constexpr double kJoule = 3600;         // in a watt hour
+constexpr double kJoule = 3600;         // [J] in a watt hour
 constexpr double kLeastCharge = 0.05;   // share of the power that a nearly full battery takes
 constexpr double kRestarts = 0.02;      // state of charge from which an empty robot works again
 constexpr double kStandstill = 1e-3;    // [m/s]
@@ -21,7 +21,8 @@ constexpr char kChargingLink[] = "charging";
 
 double capacityOf(const EnergyRealism& e) { return e.capacity * e.health * kJoule; }
 
-/// What is painted: a static model's links of that name, each visual a rectangle along the axes.
+/// Adds the chargers that a static model shows: each visual of its charging links is a rectangle
+/// along the axes.
 void addChargers(const Model& model, std::vector<Charger>* out) {
   for (const Link& link : model.description->links) {
     if (link.name != kChargingLink) continue;
@@ -57,14 +58,14 @@ double kineticEnergy(const Fleet& f, int i) {
   return ((r.mass + r.load_mass) * v2 + (r.inertia + r.load_inertia) * w * w) / 2;
 }
 
-/// What rolling is reckoned from the next time.
+/// Notes the wheel angles from which the next rolling resistance is counted.
 void markWheels(FleetState& f, int i) {
   for (int wheel = 0; wheel < 2; ++wheel) {
     f.battery[i].wheel_angle[wheel] = f.wheel_angle[wheel][i];
   }
 }
 
-/// Its battery as it is at the beginning.
+/// Draws the battery's initial charge.
 void begin(MotionView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
@@ -89,9 +90,9 @@ void show(FleetState& f, const EnergyRealism& e, int i) {
   f.charge[i] = static_cast<float>(charge);
 }
 
-/// In one step [J]: speeding up less what braking gives back, lifting. A turn is over within a few
-/// readings of a battery, and a load is taken up within one.
-void drawForMotion(MotionView& world, int i) {
+/// Drains what one step of motion takes: speeding up less what braking gives back, and lifting.
+/// Each step counts, since a turn lasts only a few battery readings, and taking up a load only one.
+void drainForMotion(MotionView& world, int i) {
   const EnergyRealism& e = world.settings.realism.energy;
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
@@ -109,13 +110,13 @@ void drawForMotion(MotionView& world, int i) {
   show(world.fleet, world.settings.realism.energy, i);
 }
 
-/// Since the last time [J]: electronics, rolling.
+/// Returns what electronics and rolling took since the last reading [J].
 double drawnSteadily(const Scene& world, int i, double seconds) {
   const EnergyRealism& e = world.settings.realism.energy;
   const FleetState& f = world.fleet;
   const Battery& before = f.battery[i];
   const Robot& r = f.robots[i];
-  double rolled = 0;  // [m], of both wheels in the mean
+  double rolled = 0;  // [m], mean of both wheels
   for (int wheel = 0; wheel < 2; ++wheel) {
     rolled += std::abs(f.wheel_angle[wheel][i] - before.wheel_angle[wheel]);
   }
@@ -125,7 +126,7 @@ double drawnSteadily(const Scene& world, int i, double seconds) {
   return e.electronics * seconds + rolling / e.drive_efficiency;
 }
 
-/// Into its battery in that time [J].
+/// Returns what a charger puts into the battery in that time [J].
 double takenUp(const Scene& world, const Chargers& chargers, int i, double seconds) {
   const EnergyRealism& e = world.settings.realism.energy;
   if (!isOnCharger(chargers, world.fleet, i)) return 0;
@@ -141,10 +142,10 @@ void setEmpty(MotionView& world, int i, bool is_empty, const std::string& text) 
   const auto kind = is_empty ? Event::Kind::kFailed : Event::Kind::kRepaired;
   world.log.report(kind, f.robots[i].name, "", text);
   if (is_empty && f.awake[i]) moved(f, i);
-  if (!is_empty && !isHeld(f, i)) planAnew(world, i);
+  if (!is_empty && !isHeld(f, i)) replan(world, i);
 }
 
-void reckon(MotionView& world, const Chargers& chargers, int i, double seconds) {
+void updateBattery(MotionView& world, const Chargers& chargers, int i, double seconds) {
   FleetState& f = world.fleet;
   Battery& battery = f.battery[i];
   const double most = capacityOf(world.settings.realism.energy);
@@ -161,24 +162,24 @@ void reckon(MotionView& world, const Chargers& chargers, int i, double seconds) 
 
 }  // namespace
 
-void useEnergy(MotionView& world, Chargers& chargers) {
+void updateBatteries(MotionView& world, Chargers& chargers) {
   if (!world.settings.realism.energy.enabled) return;
-  for (int i = 0; i < world.fleet.size(); ++i) drawForMotion(world, i);
+  for (int i = 0; i < world.fleet.size(); ++i) drainForMotion(world, i);
   const auto period = std::max<std::uint64_t>(1, std::llround(kBatteryPeriod / world.clock.dt));
   if (world.clock.total_steps % period != 0) return;
   findChargers(world.models, chargers);
   for (int i = 0; i < world.fleet.size(); ++i) {
-    reckon(world, chargers, i, static_cast<double>(period) * world.clock.dt);
+    updateBattery(world, chargers, i, static_cast<double>(period) * world.clock.dt);
   }
 }
 
-void exchangeBattery(MotionView& world, int robot) {
+void swapBattery(MotionView& world, int robot) {
   world.fleet.battery[robot].energy = capacityOf(world.settings.realism.energy);
   show(world.fleet, world.settings.realism.energy, robot);
   setEmpty(world, robot, false, "repaired: it has a full battery");
 }
 
-void markCharge(FleetState& f, const EnergyRealism& realism) {
+void restoreCharge(FleetState& f, const EnergyRealism& realism) {
   f.charge.assign(f.size(), 1);
   f.battery.resize(f.size());
   if (!realism.enabled) return;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What robots take from their batteries, and where those are charged; nothing while the world's
-// realism has no energy.
+// Drains and charges the robots' batteries; does nothing while the world's realism has no energy.
 #pragma once
 
 #include "core/state/chargers.h"
@@ -9,12 +8,12 @@
 
 namespace kiva {
 
-/// At each step what motion and lifting take, ten times a second what electronics and rolling take
-/// and chargers give. A robot whose battery is empty stands from then on.
-void useEnergy(MotionView& world, Chargers& chargers);
-/// An empty battery becomes a full one; the robot goes on.
-void exchangeBattery(MotionView& world, int robot);
-/// Robots of a world that was read show the charge that their batteries have.
-void markCharge(FleetState& fleet, const EnergyRealism& realism);
+/// Accounts for motion and lifting at each step, and for electronics, rolling and charging ten
+/// times a second. A robot stops when its battery is empty.
+void updateBatteries(MotionView& world, Chargers& chargers);
+/// Replaces an empty battery by a full one; the robot goes on.
+void swapBattery(MotionView& world, int robot);
+/// Derives the charge that robots show from their batteries, after a checkpoint was read.
+void restoreCharge(FleetState& fleet, const EnergyRealism& realism);
 
 }  // namespace kiva

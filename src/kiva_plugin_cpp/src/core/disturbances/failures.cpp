@@ -58,16 +58,16 @@ std::string within(double seconds) {
   return text;
 }
 
-/// Its motion goes on with what it can do now. Who stands has nothing to do anew.
+/// Replans the robot's motion with what it can do now; a robot at rest has nothing to replan.
 void adapt(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   const Phase phase = f.tasks[robot].phase;
   const bool moves = phase == Phase::kDriving || phase == Phase::kTurning;
-  if (moves && !isHeld(f, robot)) planAnew(world, robot);
+  if (moves && !isHeld(f, robot)) replan(world, robot);
   if (f.awake[robot]) moved(f, robot);
 }
 
-void mend(MotionView& world, const Defect& defect) {
+void repairDefect(MotionView& world, const Defect& defect) {
   FleetState& f = world.fleet;
   const int robot = f.find(defect.kiva_id);
   const bool was_held = isHeld(f, robot);
@@ -76,10 +76,10 @@ void mend(MotionView& world, const Defect& defect) {
     f.robots[robot].grip = 1;
     adapt(world, robot);
   }
-  if (was_held && !isHeld(f, robot)) planAnew(world, robot);
+  if (was_held && !isHeld(f, robot)) replan(world, robot);
   tell(world, Event::Kind::kRepaired, robot, std::string("repaired: ") + nameOf(defect.failure));
   if (defect.failure != Failure::kRadio) return;
-  // What nobody heard of meanwhile.
+  // Clients missed the status changes in the meantime.
   f.tasks[robot].reported_shelf = -1;
   setStatus(world, robot, f.status[robot], f.state[robot]);
 }
@@ -92,36 +92,36 @@ Failure drawFailure(const FailureRealism& r, double chance) {
   return static_cast<Failure>(kind + static_cast<int>(Failure::kMotor));
 }
 
-void breakSomething(MotionView& world, FailureState& failures, RandomStream& random) {
+void failAtRandom(MotionView& world, FailureState& failures, RandomStream& random) {
   const FailureRealism& realism = world.settings.realism.failures;
   const int robots = world.fleet.size();
   const int robot = std::min(robots - 1, static_cast<int>(random.uniform() * robots));
   const Failure failure = drawFailure(realism, random.uniform());
   const double repair = std::max(world.clock.dt, random.exponential(realism.repair_time));
-  breakDown(world, failures, world.fleet.robots[robot].id, failure, repair);
+  injectFailure(world, failures, world.fleet.robots[robot].id, failure, repair);
 }
 
-/// Mends all defects of which is_meant(defect) holds, in order.
+/// Repairs all defects for which is_meant(defect) holds, in order.
 template <typename IsMeant>
-void mendWhere(MotionView& world, FailureState& failures, IsMeant is_meant) {
+void repairWhere(MotionView& world, FailureState& failures, IsMeant is_meant) {
   auto& defects = failures.defects;
   auto at = defects.begin();
   while ((at = std::find_if(at, defects.end(), is_meant)) != defects.end()) {
     const Defect defect = *at;
     at = defects.erase(at);
-    mend(world, defect);
+    repairDefect(world, defect);
   }
 }
 
-void repairWhoIsDue(MotionView& world, FailureState& failures) {
+void repairDue(MotionView& world, FailureState& failures) {
   for (Defect& defect : failures.defects) defect.left -= world.clock.dt;
-  mendWhere(world, failures, [](const Defect& defect) { return defect.left <= 0; });
+  repairWhere(world, failures, [](const Defect& defect) { return defect.left <= 0; });
 }
 
 }  // namespace
 
-void breakDown(MotionView& world, FailureState& failures, int kiva_id, Failure failure,
-               double repair_after) {
+void injectFailure(MotionView& world, FailureState& failures, int kiva_id, Failure failure,
+                   double repair_after) {
   const int robot = findRobot(world.fleet, kiva_id);
   if (!(repair_after >= 0 && std::isfinite(repair_after))) {
     throw std::invalid_argument("repair_after must be finite and at least 0 s");
@@ -141,8 +141,9 @@ void breakDown(MotionView& world, FailureState& failures, int kiva_id, Failure f
 
 void repair(MotionView& world, FailureState& failures, int kiva_id) {
   const int robot = findRobot(world.fleet, kiva_id);
-  if (world.fleet.failures[robot] & kEmptyBattery) exchangeBattery(world, robot);
-  mendWhere(world, failures, [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; });
+  if (world.fleet.failures[robot] & kEmptyBattery) swapBattery(world, robot);
+  repairWhere(world, failures,
+              [kiva_id](const Defect& defect) { return defect.kiva_id == kiva_id; });
 }
 
 std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& failures, int robot) {
@@ -157,15 +158,15 @@ std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& fai
   return std::nullopt;
 }
 
-void wearOut(MotionView& world, FailureState& failures) {
-  if (!failures.defects.empty()) repairWhoIsDue(world, failures);
+void sampleFailures(MotionView& world, FailureState& failures) {
+  if (!failures.defects.empty()) repairDue(world, failures);
   const FailureRealism& realism = world.settings.realism.failures;
   if (!realism.enabled || realism.per_robot_hour == 0 || world.fleet.size() == 0) return;
-  const bool is_first = failures.count == 0;  // then only the time of the next one is drawn
+  const bool is_first = failures.count == 0;  // then only the time of the next failure is drawn
   failures.exposure -= is_first ? 0 : world.fleet.size() * world.clock.dt;
   if (failures.exposure > 0) return;
   RandomStream random(world.settings.options.seed, Matter::kFailure, 0, failures.count++);
-  if (!is_first) breakSomething(world, failures, random);
+  if (!is_first) failAtRandom(world, failures, random);
   failures.exposure = random.exponential(kHour / realism.per_robot_hour);
 }
 
@@ -173,7 +174,7 @@ bool mayFail(const Realism& realism, const FailureState& failures) {
   return realism.failures.enabled || !failures.defects.empty();
 }
 
-void markDefects(FleetState& f, const Realism& realism, const FailureState& failures) {
+void restoreDefects(FleetState& f, const Realism& realism, const FailureState& failures) {
   f.failures.assign(f.size(), 0);
   for (const Defect& defect : failures.defects) {
     apply(f, realism, f.find(defect.kiva_id), defect.failure);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What breaks in robots, by order or by chance, and is repaired. A sound fleet that is not to break
-// costs a comparison a step.
+// Breaks and repairs parts of robots, by order or by chance. A sound fleet without failures costs a
+// comparison a step.
 #pragma once
 
 #include "core/state/failure_state.h"
@@ -9,17 +9,17 @@
 
 namespace kiva {
 
-/// As World::fail, World::repair and World::lastHeard say.
-void breakDown(MotionView& world, FailureState& failures, int kiva_id, Failure failure,
-               double repair_after);
+/// Implement World::fail, World::repair and World::lastHeard.
+void injectFailure(MotionView& world, FailureState& failures, int kiva_id, Failure failure,
+                   double repair_after);
 void repair(MotionView& world, FailureState& failures, int kiva_id);
 std::optional<RobotReport> lastHeard(const Scene& world, const FailureState& failures, int robot);
 
-/// A step of time goes by: who is due is repaired, and what is to break by chance does.
-void wearOut(MotionView& world, FailureState& failures);
-/// Whether something is broken, or may break by chance.
+/// Repairs the robots that are due, and draws the next failures by chance, for one step of time.
+void sampleFailures(MotionView& world, FailureState& failures);
+/// Returns whether a part is broken, or may break by chance.
 bool mayFail(const Realism& realism, const FailureState& failures);
-/// Robots of a world that was read have what is broken in them.
-void markDefects(FleetState& fleet, const Realism& realism, const FailureState& failures);
+/// Gives robots their defects again, after a checkpoint was read.
+void restoreDefects(FleetState& fleet, const Realism& realism, const FailureState& failures);
 
 }  // namespace kiva

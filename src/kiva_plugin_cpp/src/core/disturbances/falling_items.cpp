@@ -15,21 +15,21 @@
 namespace kiva {
 namespace {
 
-constexpr double kClear = 0.002;  // [m] between an item that falls and the edge
-constexpr double kSlip = 0.001;   // [m/s]
-constexpr double kWaits = 0.5;    // [s] for which something may stand where it is to fall
-constexpr double kUpright =
-    0.99;  // cosine of a unit's tilt up to which items stay where one puts them
-constexpr double kNextTry = 10;  // [s] after which somebody comes again to a unit that lies
+constexpr double kClear = 0.002;   // [m] between an item that falls and the edge
+constexpr double kSlip = 0.001;    // [m/s]
+constexpr double kWaits = 0.5;     // [s] for which an item waits while its landing place is taken
+constexpr double kUpright = 0.99;  // cosine of the tilt of a unit up to which items stay on it
+constexpr double kNextTry = 10;    // [s] between attempts to put items back on a unit that lies
 
-/// Of an item on its board: its own, whenever it slides.
+/// Returns the friction of an item on its board, the same each time it slides.
 double frictionOf(const Settings& settings, const Item& item) {
   const LoadRealism& r = settings.realism.loads;
   RandomStream random(settings.options.seed, Matter::kItem, item.id, 0);
   return r.item_friction_least + (r.item_friction_most - r.item_friction_least) * random.uniform();
 }
 
-/// How far it is from `at` to the end of `box` in the direction of `way`, a level unit vector.
+/// Returns the distance from `at` to the end of `box` in the direction of `way`, a level unit
+/// vector.
 double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
   const auto along = [](double from, double min, double max, double step) {
     return step == 0 ? 1e9 : ((step > 0 ? max : min) - from) / step;
@@ -38,7 +38,7 @@ double wayOut(const Bounds& box, const Vector3& at, const Vector3& way) {
                   along(at.Y(), box.min.Y(), box.max.Y(), way.Y()));
 }
 
-/// Calls visit(item) for those that stand still on that unit.
+/// Calls visit(item) for the items that stand still on that unit.
 template <typename Visit>
 void forEachOn(ModelView& world, const Model& unit, Visit visit) {
   for (const Item& item : world.storage.items) {
@@ -46,8 +46,8 @@ void forEachOn(ModelView& world, const Model& unit, Visit visit) {
   }
 }
 
-/// A unit that is suddenly faster by v leaves behind what stands on it: against friction that
-/// slides v² / 2 μ g far.
+/// Lets items slide off a unit whose velocity suddenly changes by v: against friction they slide
+/// v² / 2 μ g far.
 void slide(ModelView& world, const Jolt& jolt) {
   const Model& unit = *world.models[jolt.unit];
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(-jolt.change);
@@ -67,7 +67,7 @@ void slide(ModelView& world, const Jolt& jolt) {
   });
 }
 
-/// Boards that are steeper than friction holds: over their lower edge, as slowly as can be.
+/// Lets items slide over the lower edge of boards that are steeper than friction holds.
 void tilt(ModelView& world, const Model& unit) {
   Vector3 way = unitPose(world, unit.index).Rot().RotateVectorReverse(world.settings.gravity);
   const double down = -way.Z();
@@ -89,7 +89,7 @@ void tiltAll(ModelView& world) {
   }
 }
 
-/// Whether nothing but its unit is there, above the floor.
+/// Returns whether only its unit is near that pose, which lies above the floor.
 bool isFree(const Scene& world, const Model& item, const Pose& pose, int unit) {
   bool is_free = true;
   for (const Link& link : item.description->links) {
@@ -105,7 +105,7 @@ bool isFree(const Scene& world, const Model& item, const Pose& pose, int unit) {
   return is_free;
 }
 
-/// Just outside of its unit, the way it slides; in the unit's frame.
+/// Returns the pose just outside of the unit in the direction of sliding, in the unit's frame.
 Pose outside(const Model& unit, const Model& item, const Pose& in_unit, const Vector3& way) {
   Bounds box = bounds(*unit.description);
   const Bounds own = bounds(*item.description, in_unit);
@@ -121,8 +121,8 @@ std::string placeOf(const Pose& pose) {
   return text;
 }
 
-/// Returns whether it has fallen; else something stands where it would.
-bool goOver(ModelView& world, OffShelf& one) {
+/// Drops an item over the edge of its board. Returns false if its landing place is taken.
+bool dropOverEdge(ModelView& world, OffShelf& one) {
   Model& item = *world.models[one.item];
   const Model& unit = *world.models[one.unit];
   const EntityState below = modelState(world, unit);
@@ -145,7 +145,7 @@ bool isUpright(const Scene& world, const OffShelf& one) {
   return unitPose(world, unit.index).Rot().ZAxis().Z() > kUpright;
 }
 
-/// From the floor to its place.
+/// Puts an item back from the floor in its place.
 void lift(ModelView& world, const OffShelf& one) {
   Model& item = *world.models[one.item];
   const Model& unit = *world.models[one.unit];
@@ -155,10 +155,10 @@ void lift(ModelView& world, const OffShelf& one) {
                    item.name + " is picked up at " + from + " and is back on " + unit.name);
 }
 
-/// What is due for one of them; returns whether that was the last.
+/// Does what is due for one item. Returns whether the item is back, or stays where it was.
 bool attend(ModelView& world, OffShelf& one) {
   if (!one.lies) {
-    if (one.due > world.clock.total_steps || goOver(world, one)) return false;
+    if (one.due > world.clock.total_steps || dropOverEdge(world, one)) return false;
     return one.due + world.clock.stepsIn(kWaits) < world.clock.total_steps;
   }
   if (one.due == 0 || one.due > world.clock.total_steps) return false;
@@ -172,7 +172,7 @@ bool attend(ModelView& world, OffShelf& one) {
 
 }  // namespace
 
-void dropItems(ModelView& world) {
+void stepFallingItems(ModelView& world) {
   if (!world.settings.realism.loads.enabled) return;
   for (const Jolt& jolt : world.contact_log.jolts) slide(world, jolt);
   world.contact_log.jolts.clear();
@@ -187,7 +187,7 @@ void dropItems(ModelView& world) {
   }
 }
 
-std::vector<FallenItem> fallenIn(const Scene& world) {
+std::vector<FallenItem> listFallenItems(const Scene& world) {
   std::vector<FallenItem> out;
   for (const OffShelf& one : world.fallen.items) {
     if (!one.lies) continue;

@@ -11,16 +11,17 @@
 namespace kiva {
 namespace {
 
-constexpr double kTips = 0.1;  // [rad] from which on it is Bullet's
+constexpr double kTips = 0.1;  // [rad] from which on Bullet steps the load
 
-/// About the edge towards which it leans [rad/s²]: a rigid body on a base that moves.
+/// Returns the angular acceleration about the edge towards which the load leans [rad/s²]: a rigid
+/// body on a base that moves.
 double tiltAcceleration(const Robot& r, double gravity, double tilt, double pushed) {
   const double h = r.load_height, d = r.load_foothold, c = std::cos(tilt), s = std::sin(tilt);
   const double torque = pushed * (h * c + d * s) - gravity * (d * c - h * s);
   return r.load_mass * torque / r.load_tipping_inertia;
 }
 
-/// Where its feet go one way, the load leans the other.
+/// Leans the load against the acceleration of its feet.
 void lean(Sway* sway, const Robot& r, double gravity, double ax, double ay, double dt) {
   if (sway->tilt == 0) {
     const double size = std::hypot(ax, ay);
@@ -35,7 +36,7 @@ void lean(Sway* sway, const Robot& r, double gravity, double ax, double ay, doub
   sway->tilt = sway->rate = 0;
 }
 
-/// From here on Bullet has it, as it is: tilted about the edge of what it stood on, and turning.
+/// Hands the load over to Bullet as it is: tilted about the edge of its plate, and turning.
 void tipOff(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   const Sway sway = f.sway[robot];
@@ -57,7 +58,7 @@ void tipOff(ModelView& world, int robot) {
   haltRobot(world, robot, unit.name, "has lost its load");
 }
 
-void swayOne(ModelView& world, int robot) {
+void stepOne(ModelView& world, int robot) {
   FleetState& f = world.fleet;
   Sway& sway = f.sway[robot];
   const double ax = (f.vx[robot] - sway.vx) / world.clock.dt,
@@ -66,19 +67,19 @@ void swayOne(ModelView& world, int robot) {
   sway.vx = f.vx[robot];
   sway.vy = f.vy[robot];
   sway.step = world.clock.total_steps;
-  if (!is_next) return;  // it stood, or cruised
+  if (!is_next) return;  // the robot stood, or cruised
   lean(&sway, f.robots[robot], world.settings.gravityDown(), ax, ay, world.clock.dt);
   if (sway.tilt > kTips) tipOff(world, robot);
 }
 
 }  // namespace
 
-void swayLoads(ModelView& world) {
+void stepLoadTipping(ModelView& world) {
   if (!world.settings.realism.loads.enabled) return;
   const std::vector<int> stepped =
-      world.schedule.stepped_singly;  // who tips a load may be deleted by it
+      world.schedule.stepped_singly;  // a robot that loses its load may be deleted by that
   for (const int robot : stepped) {
-    if (robot < world.fleet.size() && world.fleet.unit[robot] >= 0) swayOne(world, robot);
+    if (robot < world.fleet.size() && world.fleet.unit[robot] >= 0) stepOne(world, robot);
   }
 }
 

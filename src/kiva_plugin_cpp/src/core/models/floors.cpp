@@ -71,7 +71,7 @@ std::optional<double> floorHeight(const Scene& world) {
   return height;
 }
 
-void tellIce(EventLog& log, double friction) {
+void warnOfSlipperyFloor(EventLog& log, double friction) {
   std::ostringstream text;
   text << "the floor: its friction for wheels is " << friction << "; below " << kLeastGrip
        << " robots take minutes for a cell or can't move at all. The <mu> of the floor's <surface> "
@@ -129,7 +129,7 @@ void findFloorParts(ModelView& world) {
   double holds = 0;  // what the best wheels grip with where the floor lets them
   for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
   const double usual = std::min(holds, world.floor.friction);
-  if (holds > 0 && usual < kLeastGrip) tellIce(world.log, usual);
+  if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(world.log, usual);
   bool is_alike = true;
   forSurfaces(world, [&](const LevelSurface& surface) {
     const bool differs = std::min(holds, surface.friction) != usual;

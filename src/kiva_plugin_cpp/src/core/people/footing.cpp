@@ -9,9 +9,9 @@
 namespace kiva {
 namespace {
 
-constexpr double kFromRobots = 0.1;   // [m] that people keep off,
-constexpr double kFromOthers = 0.05;  // and off what does not drive [m]
-constexpr double kFar = 1;            // [m]: no matter how much farther
+constexpr double kFromRobots = 0.1;   // [m] that people keep from robots,
+constexpr double kFromOthers = 0.05;  // and from all else [m]
+constexpr double kFar = 1;            // [m] beyond which distances do not matter
 
 Footprint discOf(const ModelTable& models, const Walker& walker, double x, double y) {
   Footprint disc = circleAt(x, y, walker.radius);
@@ -23,7 +23,7 @@ Footprint discOf(const ModelTable& models, const Walker& walker, double x, doubl
 
 }  // namespace
 
-double roomAt(const Scene& world, const Walker& walker, double x, double y) {
+double clearanceAt(const Scene& world, const Walker& walker, double x, double y) {
   const Footprint disc = discOf(world.models, walker, x, y);
   double least = kFar;
   const auto other = [&](const Footprint& thing) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where on the floor a person finds room.
+// Tells where on the floor a person has room to stand.
 #pragma once
 
 #include "core/state/scene.h"
 
 namespace kiva {
 
-/// How much farther off than they want the nearest thing would be if they stood at (x, y) [m];
-/// negative: it is too near. Of robots the circle counts in which they turn.
-double roomAt(const Scene& world, const Walker& walker, double x, double y);
+/// Returns by how much the nearest obstacle of a person at (x, y) is farther away than the distance
+/// that the person keeps [m]; negative: it is too near. A robot counts as its turning circle.
+double clearanceAt(const Scene& world, const Walker& walker, double x, double y);
 
 }  // namespace kiva

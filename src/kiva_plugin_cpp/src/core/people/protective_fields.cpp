@@ -15,39 +15,40 @@ namespace kiva {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMargin = 0.15;      // [m] ahead of where it stands
-constexpr double kTurnMargin = 0.05;  // [m] to the circle in which it turns
-constexpr double kBeside = 2;     // [m]: farther off nobody is within reach of a robot's corners
-constexpr double kCreep = 0.05;   // [m/s]: more slowly it does not drive,
-constexpr double kSetOff = 0.15;  // [m/s] and it sets off again for no less
-constexpr int kHalvings = 20;     // of top speed: to a micrometre a second
+constexpr double kMargin = 0.15;      // [m] ahead of the point where the robot stops
+constexpr double kTurnMargin = 0.05;  // [m] around its turning circle
+constexpr double kBeside = 2;         // [m] beyond the reach of any robot's corners
+constexpr double kCreep = 0.05;       // [m/s]: a robot that may only be slower stops,
+constexpr double kSetOff = 0.15;      // [m/s] and starts again from this speed on
+constexpr int kHalvings = 20;         // of the top speed: to a micrometre a second
 
-/// What a robot needs to stand.
+/// Reaction time and deceleration with which a robot stops.
 struct Braking {
-  double reaction = 0;      // until it notices [s]
-  double deceleration = 0;  // [m/s²]; +inf = at once
+  double reaction = 0;      // before it brakes [s]
+  double deceleration = 0;  // [m/s²]; +inf = stops at once
   double way(double speed) const { return speed * reaction + speed * speed / (2 * deceleration); }
   double time(double speed) const { return reaction + speed / deceleration; }
 };
 
 /// A person seen from a robot that drives.
 struct Seen {
-  double ahead = 0;   // of its front [m]
-  double beside = 0;  // its sides [m]; 0 = within its lane
+  double ahead = 0;   // distance ahead of its front [m]
+  double beside = 0;  // distance from its sides [m]; 0 = within its lane
   double radius = 0;  // [m]
-  /// From the person to that much of the floor ahead of the robot; < 0: they overlap.
+  /// Returns the distance between the person and the floor that the robot sweeps within `way` [m];
+  /// negative: they overlap.
   double distance(double way) const {
     const double along = ahead < 0 ? -ahead : std::max(0.0, ahead - way);
     return std::hypot(along, beside) - radius;
   }
 };
 
-/// Whether it stands before anybody who comes nearer could be touched.
+/// Returns whether the robot stops before it can touch a person walking towards it (ISO 13855).
 bool isSafe(const Seen& person, const Braking& braking, double speed) {
   return person.distance(braking.way(speed) + kMargin) >= kMostWalkingSpeed * braking.time(speed);
 }
 
-/// The highest safe speed up to `top` [m/s].
+/// Returns the highest safe speed up to `top` [m/s]; +inf if `top` is safe.
 double safeSpeed(const Seen& person, const Braking& braking, double top) {
   if (isSafe(person, braking, top)) return kInfinity;
   double low = 0, high = top;
@@ -81,7 +82,7 @@ double whileDriving(MotionView& world, int robot, const Walker& walker) {
   return safeSpeed(seenFrom(world, robot, segment, walker), brakingOf(world, robot), top);
 }
 
-/// Farther off nobody matters, however it drives [m].
+/// Returns the distance beyond which a person does not limit the robot's speed [m].
 double farthestOf(MotionView& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const Braking braking = brakingOf(world, robot);
@@ -95,7 +96,7 @@ bool isWithin(const Scene& world, int robot, const Walker& walker, double reach)
   return dx * dx + dy * dy < (reach + walker.radius) * (reach + walker.radius);
 }
 
-/// It turns where nobody is within reach of its corners.
+/// Returns the speed allowed to a turning robot: 0 if the person is within reach of its corners.
 double whileTurning(const Scene& world, int robot, const Walker& walker) {
   const double reach = cornerRadius(world.fleet.robots[robot]) + kTurnMargin;
   return isWithin(world, robot, walker, reach) ? 0 : kInfinity;
@@ -116,13 +117,13 @@ double allowedSpeed(MotionView& world, int robot) {
   return least < (stands ? kSetOff : kCreep) ? 0 : least;
 }
 
-/// `change` alters what the robot may do.
+/// Applies `change` to what the robot may do, and lets it replan if it may go on.
 template <typename Change>
 void restrain(MotionView& world, int robot, Change change) {
   FleetState& f = world.fleet;
   const bool was_held = isHeld(f, robot);
   change();
-  if (was_held && !isHeld(f, robot)) return planAnew(world, robot);
+  if (was_held && !isHeld(f, robot)) return replan(world, robot);
   if (f.awake[robot]) moved(f, robot);
 }
 
@@ -131,7 +132,7 @@ void allow(MotionView& world, int robot, double speed) {
   if (speed != allowed) restrain(world, robot, [&] { allowed = speed; });
 }
 
-/// A turn is fast: nobody waits for a scan before it.
+/// Holds turns at once, since a turn is over before the next scan.
 void holdTurns(MotionView& world) {
   const FleetState& f = world.fleet;
   for (const Walker& walker : world.people.walkers) {
@@ -155,7 +156,7 @@ bool isInterrupted(const Scene& world, const LightCurtain& curtain) {
                      });
 }
 
-/// Whether any of the robot and its load may be inside.
+/// Returns whether a part of the robot or its load may be inside.
 bool reachesInto(const FleetState& f, int robot, const LightCurtain& curtain) {
   const Robot& r = f.robots[robot];
   const double c = std::abs(std::cos(f.yaw[robot])), s = std::abs(std::sin(f.yaw[robot]));
@@ -180,8 +181,8 @@ void watchCurtains(MotionView& world) {
 
 }  // namespace
 
-void keepFromPeople(MotionView& world, People& people, const std::vector<int>& scans_due) {
-  if (!minds(people)) return;
+void applyProtectiveFields(MotionView& world, People& people, const std::vector<int>& scans_due) {
+  if (!people.slowsRobots()) return;
   if (people.walkers.empty()) {
     for (int i = 0; i < world.fleet.size(); ++i) allow(world, i, kInfinity);
   } else {
@@ -189,10 +190,8 @@ void keepFromPeople(MotionView& world, People& people, const std::vector<int>& s
   }
   holdTurns(world);
   watchCurtains(world);
-  people.slowed_for_people = !people.walkers.empty();
+  people.field_was_occupied = !people.walkers.empty();
 }
-
-bool minds(const People& people) { return !people.walkers.empty() || people.slowed_for_people; }
 
 void setLightCurtain(People& people, const LightCurtain& curtain) {
   if (curtain.name.empty()) throw std::invalid_argument("a light curtain needs a name");

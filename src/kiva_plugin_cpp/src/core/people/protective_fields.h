@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How robots keep away from people: what each scanner's protective field allows, and light
-// curtains. Where nobody is it costs a comparison a step.
+// Keeps robots away from people: the speed that each scanner's protective field allows, and light
+// curtains. Without people it costs a comparison a step.
 #pragma once
 
 #include "core/state/motion_view.h"
 
 namespace kiva {
 
-/// Before robots are controlled: those whose scan has come slow down, stand, or go on.
-void keepFromPeople(MotionView& world, People& people, const std::vector<int>& scans_due);
-/// Whether anybody is there to keep from, or was a moment ago.
-bool minds(const People& people);
+/// Slows, stops and releases the robots whose scans are due, before robots are controlled.
+void applyProtectiveFields(MotionView& world, People& people, const std::vector<int>& scans_due);
 
-/// As World::setLightCurtain and World::removeLightCurtain say.
+/// Implement World::setLightCurtain and World::removeLightCurtain.
 void setLightCurtain(People& people, const LightCurtain& curtain);
 bool removeLightCurtain(People& people, const std::string& name);
 

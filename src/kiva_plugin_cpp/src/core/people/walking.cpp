@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/geometry/solid.h"
+#include "core/people/detour.h"
 #include "core/people/footing.h"
-#include "core/people/way_around.h"
 #include "core/state/floors.h"
 #include "core/state/footprints.h"
 #include "core/state/people.h"
@@ -16,11 +16,11 @@
 namespace kiva {
 namespace {
 
-constexpr double kLargest = 1;        // [m]: who is longer or wider is no person
-constexpr double kLook = 0.02;        // between two looks ahead [s],
-constexpr double kLookAhead = 0.35;   // so far: half a step [m]
-constexpr double kPatience = 2;       // before they look for a way around the first time,
-constexpr double kMostPatience = 30;  // and the last [s]
+constexpr double kLargest = 1;        // [m]: a longer or wider model is no person
+constexpr double kLook = 0.02;        // [s] between two looks ahead,
+constexpr double kLookAhead = 0.35;   // [m] that they reach: half a pace
+constexpr double kPatience = 2;       // [s] before the first search for a detour,
+constexpr double kMostPatience = 30;  // [s] at most before a later one
 constexpr double kThere = 1e-9;       // [m]
 
 [[noreturn]] void refuse(const std::string& person, const std::string& why) {
@@ -73,8 +73,8 @@ Walker& walkerOf(People& people, const Model& model) {
   return people.walkers.back();
 }
 
-/// Whoever reckoned with somebody who stands looks again.
-void setOut(FleetState& fleet, Walker* walker, const Walk& walk) {
+/// Starts the walk; robots that counted on a person at rest look around again.
+void startWalk(FleetState& fleet, Walker* walker, const Walk& walk) {
   walker->walk = walk;
   walker->next = 0;
   walker->pause = walker->held_up = walker->vx = walker->vy = 0;
@@ -86,24 +86,24 @@ void setOut(FleetState& fleet, Walker* walker, const Walk& walk) {
 
 // --- a step
 
-/// What part of the way (dx, dy) [m] so many metres are, up to all of it.
+/// Returns the share of the way (dx, dy) [m] that `metres` make up, at most 1.
 double partOf(double metres, double dx, double dy) {
   return std::min(1.0, metres / std::max(std::hypot(dx, dy), kThere));
 }
 
-/// Whether there is room half a step ahead, or at least more of it than here.
+/// Returns whether there is room half a pace ahead, or at least more of it than here.
 bool isFreeAhead(const Scene& world, const Walker& walker, const Pose& at, const PathPoint& to) {
   const double dx = to.x - at.X(), dy = to.y - at.Y();
   const double part = partOf(kLookAhead, dx, dy);
-  const double there = roomAt(world, walker, at.X() + part * dx, at.Y() + part * dy);
-  return there >= 0 || there > roomAt(world, walker, at.X(), at.Y()) + kThere;
+  const double there = clearanceAt(world, walker, at.X() + part * dx, at.Y() + part * dy);
+  return there >= 0 || there > clearanceAt(world, walker, at.X(), at.Y()) + kThere;
 }
 
-void waitOrTurnAside(ContactView& world, Walker* walker) {
+void waitOrDetour(ContactView& world, Walker* walker) {
   walker->held_up += world.clock.dt;
   if (walker->held_up < walker->patience) return;
   const Waypoint& to = walker->walk.waypoints[walker->next];
-  walker->detour = wayAround(world, *walker, to.x, to.y);
+  walker->detour = findDetour(world, *walker, to.x, to.y);
   walker->look_at = 0;
   walker->held_up = 0;
   const bool is_none = walker->detour.empty();
@@ -113,7 +113,7 @@ void waitOrTurnAside(ContactView& world, Walker* walker) {
 void arrive(Walker* walker) {
   walker->look_at = 0;
   if (walker->detour.size() > 1) return walker->detour.pop_back();
-  walker->detour.clear();  // its last one is the waypoint itself
+  walker->detour.clear();  // its last point is the waypoint itself
   walker->pause = walker->walk.waypoints[walker->next].pause;
   ++walker->next;
   if (walker->walk.loops && !walker->walks()) walker->next = 0;
@@ -151,7 +151,7 @@ void walkOn(ContactView& world, Walker* walker) {
     walker->look_at = world.clock.total_steps + world.clock.stepsIn(kLook);
   }
   if (walker->is_free) return stepTowards(world, walker, to);
-  waitOrTurnAside(world, walker);
+  waitOrDetour(world, walker);
 }
 
 }  // namespace
@@ -161,27 +161,27 @@ void walk(ContactView& world, People& people, const std::string& person, const W
   if (!model) throw std::invalid_argument("there is no model '" + person + "'");
   if (!isPerson(*model)) refuse(person, "it is no person");
   checkOnFloor(world, walk, person);
-  setOut(world.fleet, &walkerOf(people, *model), walk);
+  startWalk(world.fleet, &walkerOf(people, *model), walk);
 }
 
 void beginScript(ContactView& world, People& people, int model, const Walk& script) {
   Walker& walker = walkerOf(people, *world.models[model]);
   walker.script = script;
-  setOut(world.fleet, &walker, script);
+  startWalk(world.fleet, &walker, script);
 }
 
 void restartScripts(FleetState& fleet, People& people) {
   auto& walkers = people.walkers;
   const auto has_none = [](const Walker& walker) { return !walker.script; };
   walkers.erase(std::remove_if(walkers.begin(), walkers.end(), has_none), walkers.end());
-  for (Walker& walker : walkers) setOut(fleet, &walker, *walker.script);
+  for (Walker& walker : walkers) startWalk(fleet, &walker, *walker.script);
 }
 
-void walkOn(ContactView& world, People& people) {
+void stepPeople(ContactView& world, People& people) {
   for (Walker& walker : people.walkers) walkOn(world, &walker);
 }
 
-std::vector<Person> peopleIn(const Scene& world) {
+std::vector<Person> listPeople(const Scene& world) {
   std::vector<Person> people;
   for (const Walker& walker : world.people.walkers) {
     const Model& model = *world.models[walker.model];

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// People who walk: from waypoint to waypoint, and not into anything.
+// Moves people from waypoint to waypoint, around obstacles.
 #pragma once
 
 #include "core/state/contact_view.h"
 
 namespace kiva {
 
-/// As World::walk and World::people say.
+/// Implement World::walk and World::people.
 void walk(ContactView& world, People& people, const std::string& person, const Walk& walk);
-std::vector<Person> peopleIn(const Scene& world);
+std::vector<Person> listPeople(const Scene& world);
 
-/// A model that has just come is an actor, who walks so.
+/// Makes a model that was just spawned an actor with that script.
 void beginScript(ContactView& world, People& people, int model, const Walk& script);
-/// Actors begin anew, everybody else is no person any more.
+/// Restarts the scripts of actors; all other models stop being people.
 void restartScripts(FleetState& fleet, People& people);
-/// A step of time goes by.
-void walkOn(ContactView& world, People& people);
+/// Moves all people by one step.
+void stepPeople(ContactView& world, People& people);
 
 }  // namespace kiva

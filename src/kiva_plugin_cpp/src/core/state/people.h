@@ -13,8 +13,10 @@ namespace kiva {
 struct People {
   std::vector<Walker> walkers;  ///< In the order in which they came.
   std::vector<LightCurtain> curtains;
-  bool slowed_for_people = false;  ///< A person or curtain was there when robots looked last.
+  bool field_was_occupied = false;  ///< There were people when protective fields were applied last.
 
+  /// Returns whether robots have a person to slow down for, or had one a step ago.
+  bool slowsRobots() const { return !walkers.empty() || field_was_occupied; }
   /// Returns the person that the model in that slot is; null: it is none.
   Walker* find(int model);
   const Walker* find(int model) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/people/way_around.h"
+#include "core/people/detour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,25 +11,25 @@
 namespace kiva {
 namespace {
 
-constexpr double kPace = 0.25;                 // [m] between two places that are looked at
-constexpr int kMostPlaces = 20000;             // that are
+constexpr double kPace = 0.25;                 // [m] between two neighbouring places
+constexpr int kMostPlaces = 20000;             // that a search visits
 constexpr int kDiagonal = 99, kStraight = 70;  // costs as whole numbers, so that none is rounded
-constexpr int kFarthest = 1000;                // paces from where they stand
+constexpr int kFarthest = 1000;                // paces from the person
 
 struct Place {
-  int i = 0, j = 0;  // in paces from where they stand
+  int i = 0, j = 0;  // [paces] from the person
   bool operator==(const Place& o) const { return i == o.i && j == o.j; }
 };
 
 int keyOf(const Place& p) { return (p.i + kFarthest) * (2 * kFarthest + 1) + p.j + kFarthest; }
 
-/// What it costs at least to get from one to the other.
+/// Returns a lower bound of the cost from one place to another.
 int estimate(const Place& a, const Place& b) {
   const int di = std::abs(a.i - b.i), dj = std::abs(a.j - b.j);
   return kStraight * std::max(di, dj) + (kDiagonal - kStraight) * std::min(di, dj);
 }
 
-/// A* over places a pace apart (Hart, Nilsson, Raphael 1968).
+/// Searches a detour by A* over places a pace apart (Hart, Nilsson, Raphael 1968).
 class Search {
  public:
   Search(const Scene& world, const Walker& walker, double x, double y)
@@ -38,7 +38,8 @@ class Search {
              static_cast<int>(std::lround((y - from_.Y()) / kPace))};
   }
 
-  /// The places from the goal back to where they stand, without that; empty: there is no way.
+  /// Returns the places from the goal back to the person, the last one left out; empty: there is no
+  /// way.
   std::vector<Place> run() {
     if (std::max(std::abs(goal_.i), std::abs(goal_.j)) >= kFarthest) return {};
     reach({0, 0}, {0, 0}, 0);
@@ -95,7 +96,7 @@ class Search {
     const auto [at, is_new] = has_room_.try_emplace(keyOf(place), false);
     if (is_new) {
       const PathPoint p = pointOf(place);
-      at->second = roomAt(world_, walker_, p.x, p.y) >= 0;
+      at->second = clearanceAt(world_, walker_, p.x, p.y) >= 0;
     }
     return at->second;
   }
@@ -110,7 +111,7 @@ class Search {
   const Walker& walker_;
   const Pose from_;
   Place goal_;
-  // For looking up only: their order is none.
+  // For lookups only: their order is undefined.
   std::unordered_map<int, Known> known_;
   std::unordered_map<int, bool> has_room_;
   std::priority_queue<Open> open_;
@@ -122,7 +123,7 @@ bool isStraight(const Place& a, const Place& b, const Place& c) {
 
 }  // namespace
 
-std::vector<PathPoint> wayAround(const Scene& world, const Walker& walker, double x, double y) {
+std::vector<PathPoint> findDetour(const Scene& world, const Walker& walker, double x, double y) {
   Search search(world, walker, x, y);
   const std::vector<Place> way = search.run();
   std::vector<PathPoint> points;
