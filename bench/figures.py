@@ -5,7 +5,7 @@ bare arrays' loop of the same run, which takes a slow or crowded machine out of 
 from dataclasses import dataclass
 from statistics import median
 
-LISTENING, UNHEARD = "one client hears all robots", "nobody listens"
+LISTENING, UNHEARD = "one client hears all robots", "no subscriber"
 
 # The bare arrays that do the same work as a robot, with as many rays.
 ARRAYS = {"default": "arrays, 121 rays", "at_once": "arrays", "jointed": "arrays"}

@@ -148,7 +148,7 @@ double meanSpeed(const kiva::Fleet& fleet) {
   return sum / fleet.size();
 }
 
-/// Lasers are read by somebody: every scan that is due is taken.
+/// A client reads the lasers: every scan that is due is taken.
 void readLasers(const kiva::World& world, std::vector<std::vector<float>>* ranges) {
   world.scan(world.scansDue(), ranges);
 }

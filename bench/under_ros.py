@@ -21,9 +21,9 @@ import rospy
 import rosservice
 
 from gazebo_msgs.srv import GetModelState
+from warehouse_layout import request
 from warehouse_msgs.msg import WarehouseState
 from warehouse_msgs.srv import CreateWarehouse
-from warehouse_sim import request
 from warehouse_sim.tracker import topics_allowed
 
 PATIENCE = 120  # [s]
@@ -224,7 +224,7 @@ def listening(seconds):
 
 
 def unheard(seconds):
-    """The same as fast as it goes, while nobody listens to a single robot."""
+    """The same as fast as it goes, while no client subscribes to single robots."""
     with Session(size="huge", rtf=0) as session:
         session.item_topics_stand()
         return client(session, seconds, "--no-listen")

@@ -4,5 +4,4 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-packages = ["warehouse_sim", "warehouse_sim.viewer"]
-setup(**generate_distutils_setup(packages=packages, package_dir={"": "src"}))
+setup(**generate_distutils_setup(packages=["warehouse_sim"], package_dir={"": "python"}))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checkpoints that somebody has been at: a few bytes are others, and the seal is made good again,
+// Checkpoints that were tampered with: a few bytes are others, and the seal is made good again,
 // so that it is the content that has to be refused.
 #pragma once
 

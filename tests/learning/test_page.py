@@ -19,11 +19,11 @@ import warehouse_learning  # noqa: E402
 from warehouse_learning import episodes, watch  # noqa: E402
 from warehouse_learning.page import Page  # noqa: E402
 from warehouse_learning.warehouses import Warehouses  # noqa: E402
-from warehouse_sim.viewer import protocol  # noqa: E402
+from warehouse_viewer import protocol  # noqa: E402
 
 PATIENCE = 60  # with a machine that has much to do [s, wall]
 PAUSED = 0.3  # that nothing happens [s, wall]
-STAMP, COUNT, HEAD = 8, 20, 40  # places in an update, of warehouse_sim.viewer.protocol
+STAMP, COUNT, HEAD = 8, 20, 40  # places in an update, of warehouse_viewer.protocol
 FORWARD, LEFT = 1, 2
 
 

@@ -10,9 +10,9 @@ from node_test import call, create, latched
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import GetModelState, GetPhysicsProperties, GetWorldProperties
+from warehouse_client.routes import point
+from warehouse_layout.models import KINDS, kind_and_number
 from warehouse_msgs.msg import WarehouseObjects
-from warehouse_sim.models import KINDS, kind_and_number
-from warehouse_sim.routes import point
 
 
 def standing():

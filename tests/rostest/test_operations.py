@@ -12,8 +12,6 @@ from sqlalchemy import func, select, update
 from std_srvs.srv import Empty
 
 from gazebo_msgs.srv import DeleteModel
-from warehouse_fleet.operations import check, schema
-from warehouse_fleet.operations.database import open_engine
 from warehouse_msgs.msg import (
     Kpis,
     OrderEvent,
@@ -32,6 +30,8 @@ from warehouse_msgs.srv import (
     SubmitOrder,
     Transport,
 )
+from warehouse_operations import check, schema
+from warehouse_operations.database import open_engine
 
 AUTOMATIC, MANUAL = SetStationRequest.AUTOMATIC, SetStationRequest.MANUAL
 LONG = 120.0  # [s, wall]

@@ -14,8 +14,8 @@ from prometheus_client.parser import text_string_to_metric_families
 from sqlalchemy import insert
 from work_page import CARD, LONG, TASK, WorkPageTest, pieces, station, submit
 
-from warehouse_fleet.operations import schema
-from warehouse_fleet.operations.database import open_engine
+from warehouse_operations import schema
+from warehouse_operations.database import open_engine
 
 MANY = 10_000  # orders
 FIRST = 10**6  # their ids

@@ -12,10 +12,10 @@ from geometry_msgs.msg import PoseStamped
 from node_test import Listener, Robot, call, create, latched, wait_until
 
 from gazebo_msgs.srv import DeleteModel
+from warehouse_layout import poses
+from warehouse_layout.layout import plan
+from warehouse_layout.request import resolve
 from warehouse_msgs.msg import Lift, TrackedObjects
-from warehouse_sim import poses
-from warehouse_sim.layout import plan
-from warehouse_sim.request import resolve
 
 
 def named(message, name):

@@ -2,7 +2,7 @@
 //
 // The planner at work on floors with two decks: nobody in anybody's way, and everybody arrives.
 #include "planner_shift.h"
-#include "warehouse_fleet/layout_check.h"
+#include "warehouse_layout/layout_check.h"
 
 namespace fleet::test {
 namespace {

@@ -2,9 +2,10 @@
 //
 // Which floors loaded robots can always drive on, and which are refused with their cells.
 #include "planner_shift.h"
-#include "warehouse_fleet/layout_check.h"
+#include "warehouse_layout/layout_check.h"
 
 namespace fleet::test {
+using layout::LayoutFault;
 namespace {
 
 std::string faults(const std::vector<std::string>& rows) {

@@ -2,7 +2,7 @@
 // Hooks of setup.mjs.
 
 const THREE = 'file:///usr/share/javascript/three/';
-const PAGE = new URL('../../../src/warehouse_sim/web/', import.meta.url).href;
+const PAGE = new URL('../../../src/warehouse_viewer/web/', import.meta.url).href;
 
 export function resolve(specifier, context, next) {
   return next(specifier.startsWith('/three/') ? THREE + specifier.slice('/three/'.length) : specifier, context);

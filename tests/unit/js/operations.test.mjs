@@ -3,11 +3,11 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { ratesOf, ticksOf } from '../../../src/warehouse_sim/web/js/chart.js';
-import { coloursOf, topOf } from '../../../src/warehouse_sim/web/js/heat.js';
-import { lateness } from '../../../src/warehouse_sim/web/js/order_row.js';
-import { waitingOf } from '../../../src/warehouse_sim/web/js/stations.js';
-import { piecesByUnit, skuIn } from '../../../src/warehouse_sim/web/js/where.js';
+import { ratesOf, ticksOf } from '../../../src/warehouse_viewer/web/js/chart.js';
+import { coloursOf, topOf } from '../../../src/warehouse_viewer/web/js/heat.js';
+import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
+import { waitingOf } from '../../../src/warehouse_viewer/web/js/stations.js';
+import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
 
 test('rates are of the time that an interval really had', () => {
   const told = { interval: 60, begin: 90, end: 200 };

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import { beforeEach, test } from 'node:test';
-import { HURRIED, Pace, SHARE } from '../../../src/warehouse_sim/web/js/pace.js';
+import { HURRIED, Pace, SHARE } from '../../../src/warehouse_viewer/web/js/pace.js';
 
 let now, told, pace;
 

@@ -9,7 +9,8 @@ from fake_ros import FakeRos
 from geometry_msgs.msg import Pose
 from nav_msgs.srv import GetMapResponse
 
-from warehouse_sim import models, poses, tracking
+from warehouse_client import tracking
+from warehouse_layout import models, poses
 
 
 class FakeWorld(FakeRos):

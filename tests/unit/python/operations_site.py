@@ -3,9 +3,9 @@
 
 import numpy as np
 
-from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_fleet.operations.site import Site
-from warehouse_fleet.stations import PICK, REPLENISH, Station
+from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.stations import PICK, REPLENISH, Station
+from warehouse_operations.site import Site
 
 BLOCK, LANE = 5, 5  # cells
 

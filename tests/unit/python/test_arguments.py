@@ -6,8 +6,8 @@ import subprocess
 import pytest
 from operations_site import site
 
-from warehouse_fleet.locks import FileLock
-from warehouse_fleet.operations import Operations
+from warehouse_operations import Operations
+from warehouse_operations.locks import FileLock
 
 
 def checked(folder, name, value):

@@ -10,9 +10,9 @@ import pytest
 from operations_site import site
 from sqlalchemy import text
 
-from warehouse_fleet.operations import Operations, check
-from warehouse_fleet.operations.database import DatabaseError, open_engine
-from warehouse_fleet.operations.returning import SiteError
+from warehouse_operations import Operations, check
+from warehouse_operations.database import DatabaseError, open_engine
+from warehouse_operations.returning import SiteError
 
 PAGE = 4096
 

@@ -15,8 +15,8 @@ from operations_site import site
 from postgres import USER, running, server
 from sqlalchemy import func, select
 
-from warehouse_fleet.operations import Operations, check, schema
-from warehouse_fleet.operations.database import DatabaseError, open_engine
+from warehouse_operations import Operations, check, schema
+from warehouse_operations.database import DatabaseError, open_engine
 
 # Dies when its writer has sent all rows of a transaction and is about to commit it.
 KILLED = """
@@ -24,7 +24,7 @@ import os, signal, sys
 sys.path.insert(0, sys.argv[1])
 from operations_site import site
 from sqlalchemy import event
-from warehouse_fleet.operations import Operations
+from warehouse_operations import Operations
 ops = Operations(site=site(), database=sys.argv[2], orders="fill:40")
 ops.run(seconds=200)
 ops.database.flush()

@@ -15,9 +15,9 @@ from faults import BadConnection, Stops
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.stations import PICK
 from warehouse_fleet.traffic import Mode
 from warehouse_fleet.transports import Kind
+from warehouse_layout.stations import PICK
 
 BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
   <collision name="body"><pose>0 0 0.3 0 0 0</pose>

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import yaml
 
-from warehouse_sim import files, first_view
-from warehouse_sim.layout import plan
-from warehouse_sim.request import PRESETS, resolve
+from warehouse_layout.layout import plan
+from warehouse_layout.request import PRESETS, resolve
+from warehouse_viewer import first_view
 
-CONFIG = (files.share() / "launch" / "warehouse.rviz").read_text(encoding="utf-8")
+CONFIG = first_view.CONFIG.read_text(encoding="utf-8")
 
 
 def seen(view, points):

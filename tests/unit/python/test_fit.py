@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from nav_msgs.msg import OccupancyGrid
 
-from warehouse_sim.cells import Cells
-from warehouse_sim.fit import fit
-from warehouse_sim.request import PRESETS, Request, RequestError, resolve
-from warehouse_sim.routes import STEPS
+from warehouse_client.routes import STEPS
+from warehouse_layout.cells import Cells
+from warehouse_layout.fit import fit
+from warehouse_layout.request import PRESETS, Request, RequestError, resolve
 
 
 def cells(width, height, taken=()):

@@ -9,10 +9,10 @@ import pytest
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.random_transports import RandomTransports
 from warehouse_fleet.traffic import NOWHERE
 from warehouse_fleet.transports import STAY, Kind, Step
+from warehouse_layout.floor_plan import FloorPlan
 
 EXAMPLES = pathlib.Path(__file__).parents[3] / "src/warehouse_fleet/examples"
 

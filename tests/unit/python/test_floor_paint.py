@@ -7,12 +7,12 @@ from nav_msgs.msg import OccupancyGrid
 from test_floor_plan import same
 
 from kiva_plugin_cpp import World
-from warehouse_fleet import floor_markings
-from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_layout import floor_markings, painted
+from warehouse_layout.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
-from warehouse_sim import markers, painted
-from warehouse_sim.drawing import Drawing, Moment
-from warehouse_sim.viewer.model import Model
+from warehouse_viewer import markers
+from warehouse_viewer.drawing import Drawing, Moment
+from warehouse_viewer.model import Model
 
 
 def look_of(world, name):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from kiva_plugin_cpp import World
-from warehouse_fleet import Fleet, FloorError, Rules, epibt, floor_markings
-from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_sim import models
-from warehouse_sim.layout import plan
-from warehouse_sim.request import PRESETS, resolve
-from warehouse_sim.world_file import insertable
+from warehouse_fleet import Fleet, Rules, epibt
+from warehouse_layout import FloorError, floor_markings, models
+from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.layout import plan
+from warehouse_layout.request import PRESETS, resolve
+from warehouse_layout.world_file import insertable
 
 STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
 REQUESTS = {name: resolve(name) for name in STATIONED} | {

@@ -8,12 +8,12 @@ import pytest
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.operations import Operations
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_sim import rooms
-from warehouse_sim.cells import Cells
-from warehouse_sim.fit import fit, fit_largest
-from warehouse_sim.request import RequestError, resolve
+from warehouse_layout import rooms
+from warehouse_layout.cells import Cells
+from warehouse_layout.fit import fit, fit_largest
+from warehouse_layout.request import RequestError, resolve
+from warehouse_operations import Operations
 
 WORLDS = Path(__file__).resolve().parents[2] / "worlds"
 # Where the walls are: x from, to, y from, to [m].

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 import yaml
 
+from warehouse_client.routes import Grid, covered, elbow, point
+from warehouse_client.survey import BELT, Survey, of_models
+from warehouse_layout.layout import plan
+from warehouse_layout.request import PRESETS, resolve
 from warehouse_sim import hints
-from warehouse_sim.layout import plan
-from warehouse_sim.request import PRESETS, resolve
-from warehouse_sim.routes import Grid, covered, elbow, point
-from warehouse_sim.survey import BELT, Survey, of_models
 
 
 def survey_of(layout):

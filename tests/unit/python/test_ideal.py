@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from operations_site import site
 
-from warehouse_fleet.ideal import IdealFleet
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.transports import STAY, Kind
-from warehouse_fleet.travel import Travel
+from warehouse_operations.ideal import IdealFleet
+from warehouse_operations.travel import Travel
 
 
 def run(fleet, until):

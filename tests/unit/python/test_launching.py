@@ -6,20 +6,21 @@ from pathlib import Path
 
 import pytest
 
-from warehouse_sim import files, launch_arguments, launching
+from warehouse_layout import files
+from warehouse_sim import launch_arguments, launching
 from warehouse_sim.launching import Caller, LaunchError, master_of
 
 ROSLAUNCH = ["/usr/bin/python3", "/usr/bin/roslaunch"]
-LAUNCH = files.share() / "launch"
+LAUNCH = launching.SHARE / "launch"
 
 
 def caller(*words, program=ROSLAUNCH, cwd="/"):
-    return Caller([*program, *words], cwd, files.share())
+    return Caller([*program, *words], cwd, launching.SHARE)
 
 
 @pytest.fixture
 def place(tmp_path):
-    return launch_arguments.Place(tmp_path, files.share() / "worlds")
+    return launch_arguments.Place(tmp_path, files.worlds())
 
 
 @pytest.mark.parametrize("port", [["-p", "4711"], ["-p4711"], ["--port", "4711"], ["--port=4711"]])
@@ -45,7 +46,7 @@ def of_ours():
 
 @pytest.mark.parametrize("path", of_ours(), ids=lambda path: path.name)
 def test_every_argument_of_a_launch_file_has_a_check(path):
-    assert launching.known_arguments(path, files.share()) <= launch_arguments.ARGUMENTS.keys()
+    assert launching.known_arguments(path, launching.SHARE) <= launch_arguments.ARGUMENTS.keys()
 
 
 def test_what_a_launch_file_is_given_by_another_is_checked_too():

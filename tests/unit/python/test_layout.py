@@ -9,10 +9,10 @@ import random
 import numpy as np
 import pytest
 
-from warehouse_sim.items import BOARDS, CAPACITY, PLACES, spread
-from warehouse_sim.layout import plan
-from warehouse_sim.request import LIMITS, PRESETS, resolve
-from warehouse_sim.routes import Grid, covered, point
+from warehouse_client.routes import Grid, covered, point
+from warehouse_layout.items import BOARDS, CAPACITY, PLACES, spread
+from warehouse_layout.layout import plan
+from warehouse_layout.request import LIMITS, PRESETS, resolve
 
 BELT = (1.8, 0.8)  # length and width of models/conveyor_belt [m]
 

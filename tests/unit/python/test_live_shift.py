@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from operations_site import site
 
-from warehouse_fleet.changes import ChangeJournal
-from warehouse_fleet.floor_heat import GAP, SLICES, TRAFFIC, WAITING, WINDOW, FloorHeat
-from warehouse_fleet.operations import Operations, check
-from warehouse_fleet.operations.database import open_engine
-from warehouse_fleet.operations.queries import find_orders
-from warehouse_fleet.operations.stations import Mode
+from warehouse_operations import Operations, check
+from warehouse_operations.changes import ChangeJournal
+from warehouse_operations.database import open_engine
+from warehouse_operations.floor_heat import GAP, SLICES, TRAFFIC, WAITING, WINDOW, FloorHeat
+from warehouse_operations.queries import find_orders
+from warehouse_operations.stations import Mode
 
 REPLENISH = "replenish3"
 

@@ -12,16 +12,16 @@ import pytest
 from operations_site import site
 from postgres import server
 
-from warehouse_fleet.locks import FileLock, InUseError
-from warehouse_fleet.operations import Operations, check
-from warehouse_fleet.operations.database import DatabaseError, open_engine
+from warehouse_operations import Operations, check
+from warehouse_operations.database import DatabaseError, open_engine
+from warehouse_operations.locks import FileLock, InUseError
 
 SINCE = r"since \d{4}-\d\d-\d\d \d\d:\d\d:\d\d"
 HOLDER = """
 import sys
 sys.path.insert(0, sys.argv[1])
 from operations_site import site
-from warehouse_fleet.operations import Operations
+from warehouse_operations import Operations
 ops = Operations(site=site(), database=sys.argv[2], orders="fill:40")
 while True:
     ops.run(seconds=20)

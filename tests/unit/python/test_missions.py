@@ -8,11 +8,11 @@ import random
 import pytest
 from test_hints import survey_of
 
-from warehouse_sim.layout import Floor, plan
+from warehouse_client.routes import Grid, NoRouteError, point
+from warehouse_client.survey import Survey
+from warehouse_layout.layout import Floor, plan
+from warehouse_layout.request import resolve
 from warehouse_sim.missions import CORRIDOR, Map, meeting, two_missions
-from warehouse_sim.request import resolve
-from warehouse_sim.routes import Grid, NoRouteError, point
-from warehouse_sim.survey import Survey
 
 
 def paper_world():

@@ -12,10 +12,10 @@ from instance_file import write_instance
 from mutations import mutated
 
 from kiva_plugin_cpp import DescriptionError, World
-from warehouse_fleet.operations import sweep
-from warehouse_fleet.operations.demand import DemandError, read_csv
-from warehouse_fleet.operations.policies import Policies, PolicyError
-from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
+from warehouse_operations import sweep
+from warehouse_operations.demand import DemandError, read_csv
+from warehouse_operations.policies import Policies, PolicyError
+from warehouse_operations.rawsim import InstanceError, read_instance, read_settings
 
 COUNT = int(os.environ.get("MUTATIONS", "60"))
 SETTINGS = """<?xml version="1.0"?>

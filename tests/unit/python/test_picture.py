@@ -11,6 +11,7 @@ from geometry_msgs.msg import Point, PointStamped, PoseStamped
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
 
+from warehouse_layout import poses
 from warehouse_msgs.msg import (
     Event,
     FleetPaths,
@@ -21,8 +22,8 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_sim import markers, poses
-from warehouse_sim.picture import Picture
+from warehouse_viewer import markers
+from warehouse_viewer.picture import Picture
 
 
 def look(**links):

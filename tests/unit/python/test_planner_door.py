@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from warehouse_fleet import Action, Fleet, Floor, FloorError, Rules, epibt, validate
-from warehouse_fleet.door import PlannerError, PlanRefusedError, make_planner, read_spec
+from warehouse_fleet import Action, Fleet, Rules, epibt, validate
+from warehouse_fleet.planner_plugins import PlannerError, PlanRefusedError, make_planner, read_spec
+from warehouse_layout import Floor, FloorError
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"

@@ -4,8 +4,8 @@
 import pytest
 from operations_site import site
 
-from warehouse_fleet.operations import Operations, Policies, PolicyError
-from warehouse_fleet.operations.policies import ROLES
+from warehouse_operations import Operations, Policies, PolicyError
+from warehouse_operations.policies import ROLES
 
 CHOICES = [(role, name) for role, names in ROLES.items() for name in names]
 

@@ -6,10 +6,10 @@ import time
 import pytest
 from operations_site import site
 
-from warehouse_fleet.operations import Operations
-from warehouse_fleet.operations.database import open_engine
-from warehouse_fleet.operations.orders import OrderState
-from warehouse_fleet.operations.queries import find_orders, find_stock
+from warehouse_operations import Operations
+from warehouse_operations.database import open_engine
+from warehouse_operations.orders import OrderState
+from warehouse_operations.queries import find_orders, find_stock
 
 
 @pytest.fixture(scope="module")

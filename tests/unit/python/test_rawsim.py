@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from instance_file import write_hall_instance, write_instance
 
-from warehouse_fleet.operations import Operations
-from warehouse_fleet.operations.simulation import Description, open_operations, simulate
-from warehouse_fleet.rawsim import InstanceError, read_instance, read_settings
+from warehouse_operations import Operations
+from warehouse_operations.rawsim import InstanceError, read_instance, read_settings
+from warehouse_operations.simulation import Description, open_operations, simulate
 
 
 @pytest.mark.parametrize("spacing, old", [(1.0, False), (1.04, True), (1.0571, False)])

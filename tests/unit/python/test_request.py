@@ -3,8 +3,8 @@
 
 import pytest
 
-from warehouse_sim.items import CAPACITY
-from warehouse_sim.request import LIMITS, PRESETS, Request, RequestError, resolve
+from warehouse_layout.items import CAPACITY
+from warehouse_layout.request import LIMITS, PRESETS, Request, RequestError, resolve
 
 
 def test_presets_are_those_of_the_interface():

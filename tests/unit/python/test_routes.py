@@ -5,8 +5,8 @@ import math
 
 import pytest
 
-from warehouse_sim.layout import Floor
-from warehouse_sim.routes import Grid, NoRouteError, covered, elbow, goals, route
+from warehouse_client.routes import Grid, NoRouteError, covered, elbow, goals, route
+from warehouse_layout.layout import Floor
 
 FLOOR = Floor(-0.5, 5.5, -0.5, 4.5)  # points 0…5 x 0…4
 

@@ -5,10 +5,10 @@ rest."""
 import numpy as np
 import pytest
 
-from warehouse_fleet import FloorError
-from warehouse_fleet.floor_plan import PICK, FloorPlan, Station
-from warehouse_fleet.served_part import served_part
 from warehouse_fleet.transports import Transports
+from warehouse_layout import FloorError
+from warehouse_layout.floor_plan import PICK, FloorPlan, Station
+from warehouse_layout.served_part import served_part
 
 EVERY_WAY = 0b1111
 

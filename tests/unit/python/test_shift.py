@@ -17,12 +17,12 @@ from postgres import server
 from sqlalchemy import text
 
 from kiva_plugin_cpp import World
-from warehouse_fleet.operations import Operations, check, demand, queries, stored
-from warehouse_fleet.operations.database import DatabaseError, open_engine
-from warehouse_fleet.operations.inventory import Reason
-from warehouse_fleet.operations.orders import OrderEventKind, OrderState
-from warehouse_fleet.operations.returning import SiteError
-from warehouse_fleet.operations.stations import Mode
+from warehouse_operations import Operations, check, demand, queries, stored
+from warehouse_operations.database import DatabaseError, open_engine
+from warehouse_operations.inventory import Reason
+from warehouse_operations.orders import OrderEventKind, OrderState
+from warehouse_operations.returning import SiteError
+from warehouse_operations.stations import Mode
 
 PICK, REPLENISH = "pick1", "replenish3"
 
@@ -107,7 +107,7 @@ sys.path.insert(0, sys.argv[1])
 from kiva_plugin_cpp import World
 from operations_site import site
 from postgres import server
-from warehouse_fleet.operations import Operations
+from warehouse_operations import Operations
 ops = Operations(site=site(), physics=False, database=sys.argv[2], orders="fill:40")
 while True:
     print("running", flush=True)
@@ -291,7 +291,7 @@ def test_a_bin_that_is_gone_from_the_floor_is_written_off(tmp_path):
 
 
 def test_an_older_database_is_brought_up_to_date_and_a_newer_one_refused(tmp_path):
-    from warehouse_fleet.operations import schema
+    from warehouse_operations import schema
 
     engine = open_engine(tmp_path / "run.db")
     steps = {schema.VERSION: lambda c: c.execute(text("ALTER TABLE unit ADD COLUMN colour TEXT"))}

@@ -7,8 +7,8 @@ import pytest
 import rospy
 from fake_ros import FakeRos
 
+from warehouse_layout import poses
 from warehouse_msgs.msg import FleetState, KivaStatus, UnitStates, WarehouseObjects
-from warehouse_sim import poses
 from warehouse_sim.state import StatePublisher
 
 

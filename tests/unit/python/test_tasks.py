@@ -4,11 +4,11 @@
 import pytest
 from operations_site import site
 
-from warehouse_fleet.operations import Operations, check
-from warehouse_fleet.operations.database import open_engine
-from warehouse_fleet.operations.orders import OrderState
-from warehouse_fleet.operations.stations import Mode
-from warehouse_fleet.operations.tasks import UNDO_WITHIN, Outcome, Report
+from warehouse_operations import Operations, check
+from warehouse_operations.database import open_engine
+from warehouse_operations.orders import OrderState
+from warehouse_operations.stations import Mode
+from warehouse_operations.tasks import UNDO_WITHIN, Outcome, Report
 
 PICK, REPLENISH = "pick1", "replenish3"
 

@@ -10,9 +10,11 @@ from fake_ros import FakeRos
 from geometry_msgs.msg import PoseStamped
 from rospy.topics import _PublisherImpl
 
+from warehouse_client import tracking
+from warehouse_client.latest import LatestMessages, LazyPublisher
+from warehouse_layout import poses
 from warehouse_msgs.msg import TrackedObjects, UnitStates, WarehouseObjects
-from warehouse_sim import poses, tracker, tracking
-from warehouse_sim.latest import LatestMessages, LazyPublisher
+from warehouse_sim import tracker
 
 
 @pytest.fixture

@@ -6,8 +6,9 @@ import math
 import numpy as np
 import pytest
 
+from warehouse_client import tracking
+from warehouse_layout import poses
 from warehouse_msgs.msg import UnitStates, WarehouseObjects
-from warehouse_sim import poses, tracking
 
 
 def scene(angle=0.0, carrier=0):

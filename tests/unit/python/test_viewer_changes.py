@@ -19,12 +19,12 @@ from test_viewer_model import fleet
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs import msg, srv
-from warehouse_sim.viewer import changes, sockets
-from warehouse_sim.viewer.change_book import ChangeBook
-from warehouse_sim.viewer.metrics import Metrics
-from warehouse_sim.viewer.shift_feed import ShiftFeed
-from warehouse_sim.viewer.simulation import AwayError
-from warehouse_sim.viewer.work import Work
+from warehouse_viewer import changes, sockets
+from warehouse_viewer.change_book import ChangeBook
+from warehouse_viewer.metrics import Metrics
+from warehouse_viewer.shift_feed import ShiftFeed
+from warehouse_viewer.simulation import AwayError
+from warehouse_viewer.work import Work
 
 DASHBOARD = Path(__file__).parents[3] / "doc" / "grafana.json"
 

@@ -15,15 +15,14 @@ from test_viewer_hub import Socket, hub_of
 from test_viewer_model import World, fleet
 
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, TransportEvent
-from warehouse_sim import fleet_ways
-from warehouse_sim.picture import way_shapes
-from warehouse_sim.viewer import feed as feeds
-from warehouse_sim.viewer import protocol, schemas
-from warehouse_sim.viewer.coordination import NONE_RUNS, Coordination
-from warehouse_sim.viewer.feed import Feed
-from warehouse_sim.viewer.hub import Page
-from warehouse_sim.viewer.simulation import RefusedError
-from warehouse_sim.viewer.transport_book import TransportBook
+from warehouse_viewer import feed as feeds
+from warehouse_viewer import fleet_ways, protocol, schemas
+from warehouse_viewer.coordination import NONE_RUNS, Coordination
+from warehouse_viewer.feed import Feed
+from warehouse_viewer.hub import Page
+from warehouse_viewer.picture import way_shapes
+from warehouse_viewer.simulation import RefusedError
+from warehouse_viewer.transport_book import TransportBook
 
 
 def paths(stamp=1.0):

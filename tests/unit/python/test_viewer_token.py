@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from warehouse_sim.viewer import token
+from warehouse_viewer import token
 
 SECRET = "0123456789abcdef"
 

@@ -7,13 +7,14 @@ import pytest
 from fake_world import FakeWorld
 from geometry_msgs.msg import Pose
 
+from warehouse_client import warehouse_builder
+from warehouse_client.build_transaction import BUILDING
+from warehouse_client.engine import Engine, EngineError
+from warehouse_layout import poses
+from warehouse_layout.layout import plan
+from warehouse_layout.models import FLOOR, kind_and_number
+from warehouse_layout.request import PRESETS, resolve
 from warehouse_msgs.srv import CreateWarehouseRequest
-from warehouse_sim import poses, warehouse_builder
-from warehouse_sim.build_transaction import BUILDING
-from warehouse_sim.engine import Engine, EngineError
-from warehouse_sim.layout import plan
-from warehouse_sim.models import FLOOR, kind_and_number
-from warehouse_sim.request import PRESETS, resolve
 from warehouse_sim.service import WarehouseService
 
 

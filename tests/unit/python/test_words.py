@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
-from warehouse_sim import statuses, words
-from warehouse_sim.viewer import schemas, work_schemas
+from warehouse_viewer import catalogue, schemas, statuses, work_schemas
 
-WEB = Path(__file__).parents[3] / "src/warehouse_sim/web/js/words.js"
+WEB = Path(__file__).parents[3] / "src/warehouse_viewer/web/js/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
 
 
@@ -27,22 +27,22 @@ def page():
 
 def test_the_page_has_the_words_of_the_api():
     told = page()
-    assert [one.upper() for one in told["ACTIVITY"]] == list(words.ACTIVITY.values())
-    assert list(words.ACTIVITY) == list(range(len(words.ACTIVITY)))
-    assert len(told["STATE"]) == len(words.STATE)
-    assert told["FAILURE"] == list(words.FAILURES)
-    assert told["WORK"] == list(words.WORK)
-    assert list(told["MODE"]) == list(words.MODE.values())
+    assert [one.upper() for one in told["ACTIVITY"]] == list(catalogue.ACTIVITY.values())
+    assert list(catalogue.ACTIVITY) == list(range(len(catalogue.ACTIVITY)))
+    assert len(told["STATE"]) == len(message_names.STATE)
+    assert told["FAILURE"] == list(message_names.FAILURES)
+    assert told["WORK"] == list(message_names.WORK)
+    assert list(told["MODE"]) == list(message_names.MODE.values())
     assert [mode.replace(" ", "_").upper() for mode in told["MODE"].values()] == list(told["MODE"])
-    assert set(told["TROUBLE"]) < set(words.EVENT.values())
+    assert set(told["TROUBLE"]) < set(message_names.EVENT.values())
     assert tuple(told["ORDER_STATES"]) == work_schemas.STATES
 
 
 def test_the_api_has_the_words_of_the_messages():
-    assert set(schemas.RobotsByWork.__fields__) == set(words.WORK)
-    assert set(words.WORK) <= set(CoordinatorState.__slots__)
+    assert set(schemas.RobotsByWork.__fields__) == set(message_names.WORK)
+    assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
     allowed = schemas.Robot.__fields__["activity"].type_.__args__
-    assert set(allowed) == set(words.ACTIVITY.values())
+    assert set(allowed) == set(catalogue.ACTIVITY.values())
 
 
 def test_a_robot_that_carries_is_not_idle():

@@ -126,8 +126,8 @@ def worlds_folder():
     """The folder of world files and models: of the installation, else of the source tree."""
     package = Path(__file__).parent
     places = (
-        package.parent / "warehouse_sim" / "share" / "worlds",  # of a wheel
-        package.parents[3] / "share" / "warehouse_sim" / "worlds",
+        package.parent / "warehouse_layout" / "share" / "worlds",  # of a wheel
+        package.parents[3] / "share" / "warehouse_layout" / "worlds",
         package.joinpath("__init__.py").resolve().parents[4] / "worlds",
     )
     return next((place for place in places if place.is_dir()), places[-1])
@@ -225,7 +225,7 @@ class World(_core.World):
 
         ValueError if items find no room or a number is negative or beyond the limits.
         """
-        from warehouse_sim import layout, request
+        from warehouse_layout import layout, request
 
         wanted = request.resolve(name, robots=robots, items=items, shelves=shelves)
         plan = layout.plan(wanted, options.get("seed", layout.SEED))
@@ -233,11 +233,11 @@ class World(_core.World):
 
     @classmethod
     def of_layout(cls, laid, *, own_models=False, **options):
-        """A warehouse as warehouse_sim.layout.plan() lays it out; options as of World.
+        """A warehouse as warehouse_layout.layout.plan() lays it out; options as of World.
 
         Robots and units are those that model_paths have, if they have some, unless own_models.
         """
-        from warehouse_sim import models
+        from warehouse_layout import models
 
         world = cls(**options)
         if laid.has_own_floor:

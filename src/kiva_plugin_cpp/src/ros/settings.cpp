@@ -147,9 +147,9 @@ int threads(const ros::NodeHandle& node) {
   return asked > 0 ? asked : std::clamp(cores - 1, 1, kiva::kMostThreads);
 }
 
-/// Where the worlds of package warehouse_sim are: in the source tree, or where it was installed.
+/// Where the worlds of package warehouse_layout are: in the source tree, or where it was installed.
 std::string packagedWorlds() {
-  const std::string package = ros::package::getPath("warehouse_sim");
+  const std::string package = ros::package::getPath("warehouse_layout");
   return package.empty() ? "" : package + "/worlds";
 }
 

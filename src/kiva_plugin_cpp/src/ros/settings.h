@@ -17,7 +17,7 @@ namespace kiva_ros {
 ///
 ///   ~world                   SDF file: its path, or its name in a world folder, with or without
 ///                            .sdf; empty: an empty floor
-///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_sim
+///   ~world_paths             folders of worlds, a:b; default: those of package warehouse_layout
 ///   ~model_paths             folders of models, a:b; default: the same package's. Those that
 ///                            GAZEBO_MODEL_PATH lists, those that packages export to Gazebo,
 ///                            those of GAZEBO_RESOURCE_PATH and those around a world file are

@@ -18,16 +18,14 @@ from enum import IntEnum
 from warehouse_fleet._core import (
     Execution,
     Fleet,
-    Floor,
-    FloorError,
     Planner,
     Rules,
     Violation,
-    check_layout,
     epibt,
     load_planner,
     validate,
 )
+from warehouse_layout import Floor, FloorError, check_layout
 
 __all__ = [
     "Action",
@@ -49,7 +47,7 @@ def __getattr__(name):
     """Orders and stock stand on the fleet, and are imported by those alone who want them."""
     if name != "Operations":
         raise AttributeError(f"module {__name__} has no attribute {name}")
-    from warehouse_fleet.operations import Operations
+    from warehouse_operations import Operations
 
     return Operations
 

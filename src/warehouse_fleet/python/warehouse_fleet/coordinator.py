@@ -14,18 +14,18 @@ from std_msgs.msg import Header
 
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
-from warehouse_fleet import FloorError, floor_markings
+from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_fleet.failures import names_of
 from warehouse_fleet.fleet_driver import square
-from warehouse_fleet.floor_plan import CONVEYOR, FloorPlan, occupancy_of
 from warehouse_fleet.ledger import Ledger
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.served_part import served_part
 from warehouse_fleet.takeover import ON_ITS_WAY, Takeover
 from warehouse_fleet.traffic import REPORTED, STAYS, Mode, Traffic
 from warehouse_fleet.transports import ENDS, NOWHERE, Answer, Kind, Step, TransportEvent, Transports
-from warehouse_fleet.unit_messages import unit_ids, unit_poses
 from warehouse_fleet.waiting import DOES, Waiting
+from warehouse_layout import FloorError, floor_markings
+from warehouse_layout.floor_plan import CONVEYOR, FloorPlan, occupancy_of
+from warehouse_layout.served_part import served_part
 from warehouse_msgs.msg import (
     Cancel,
     CoordinatorPaths,

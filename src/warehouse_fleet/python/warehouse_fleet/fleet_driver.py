@@ -9,11 +9,11 @@ driver.step_until(3600)
 import numpy as np
 
 from warehouse_fleet.failures import FailureLog, heard
-from warehouse_fleet.floor_plan import FloorPlan
 from warehouse_fleet.people import PeopleLog, people_in
 from warehouse_fleet.towing import Towing
 from warehouse_fleet.traffic import STAYS, Traffic
 from warehouse_fleet.transports import Transports
+from warehouse_layout.floor_plan import FloorPlan
 
 UPDATE = 0.1  # between two releases [s]
 REFUSED, COLLISION, FELL, PICKED_UP = 1, 6, 13, 14  # EventKind

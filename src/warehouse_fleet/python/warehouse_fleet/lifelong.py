@@ -5,7 +5,8 @@ import time
 
 import numpy as np
 
-from warehouse_fleet import Fleet, Floor
+from warehouse_fleet import Fleet
+from warehouse_layout import Floor
 
 NOWHERE = -1
 LETTERS = np.array(["W", "F", "R", "C"])  # by Action; rows go down, so R is towards +y

@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from warehouse_fleet.stations import PICK
 from warehouse_fleet.transports import Kind
+from warehouse_layout.stations import PICK
 
 
 class RandomTransports:

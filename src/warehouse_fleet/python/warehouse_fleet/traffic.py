@@ -19,11 +19,11 @@ from types import SimpleNamespace
 import numpy as np
 
 from warehouse_fleet import Execution, Rules, epibt
-from warehouse_fleet.door import PlanRefusedError, make_planner
 from warehouse_fleet.failures import LIFTS_NOT, STANDS
-from warehouse_fleet.floor_plan import is_taken
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.people import zone_around
+from warehouse_fleet.planner_plugins import PlanRefusedError, make_planner
+from warehouse_layout.floor_plan import is_taken
 
 NOWHERE = -1
 IDLE = 0  # KivaStatus.STATUS_IDLE
@@ -64,9 +64,10 @@ class Traffic:
     Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
     work: it stays), `mode`, `gone` (it was deleted: its mode counts for nothing), `broken` (it
     stands, or is not heard) and `lifts_not`, by what it reports of itself, `minds` (it is slow, or
-    waits, for people's sake). `planner` is what a YAML file says of one, see warehouse_fleet.door;
-    None: the one of the house. `latency` [s] passes from a report until what is released for it has
-    reached the robot. While it `takes_over` all robots are obstacles: what others told them is not
+    waits, for people's sake). `planner` is what a YAML file says of one, see
+    warehouse_fleet.planner_plugins; None: the one of the house. `latency` [s] passes from a report
+    until what is released for it has reached the robot. While it `takes_over` all robots are
+    obstacles: what others told them is not
     over yet. A plan is begun every tick on a thread of its own, and taken up `lag` seconds later,
     whenever it is ready: so a run does not depend on the machine.
     """

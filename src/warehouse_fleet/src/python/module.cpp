@@ -14,7 +14,6 @@
 #include "arrays.h"
 #include "execution.h"
 #include "warehouse_fleet/epibt.h"
-#include "warehouse_fleet/layout_check.h"
 #include "warehouse_fleet/validator.h"
 
 namespace py = pybind11;
@@ -23,19 +22,6 @@ namespace fleet::python {
 namespace {
 
 using Flags = std::optional<Array<std::uint8_t>>;
-
-std::shared_ptr<Floor> makeFloor(const Array<std::uint8_t>& passable, const Flags& storage,
-                                 const Flags& lane, const Flags& exits) {
-  if (passable.ndim() != 2) throw py::value_error("passable must have two dimensions, (y, x)");
-  FloorDescription description;
-  description.height = static_cast<int>(passable.shape(0));
-  description.width = static_cast<int>(passable.shape(1));
-  description.passable = copied<std::uint8_t>(passable);
-  description.storage = copied(storage);
-  description.lane = copied(lane);
-  description.exits = copied(exits);
-  return std::make_shared<Floor>(description);
-}
 
 Fleet makeFleet(const Array<Cell>& cell, const Array<Heading>& heading, const Array<Cell>& goal,
                 const Flags& loaded, const std::optional<Array<Cell>>& home, const Flags& stopped,
@@ -84,31 +70,6 @@ py::array plan(Started& started, const Fleet& fleet, double seconds, int attempt
   }
   if (plan.horizon < 1) throw FloorError("the planner answered without a plan");
   return actionsOf(plan);
-}
-
-void bindFloor(py::module_& module) {
-  py::class_<Floor, std::shared_ptr<Floor>>(module, "Floor")
-      .def(py::init(&makeFloor), py::arg("passable"), py::arg("storage") = py::none(),
-           py::arg("lane") = py::none(), py::arg("exits") = py::none())
-      .def_property_readonly("width", &Floor::width)
-      .def_property_readonly("height", &Floor::height)
-      .def_property_readonly("size", &Floor::size)
-      .def("name", &Floor::name)
-      .def(
-          "shortest",
-          [](const Floor& floor, Cell begin, Cell end, bool loaded) {
-            if (!floor.has(begin) || !floor.has(end)) throw FloorError("a cell off the floor");
-            return shortest(floor, loaded ? Deck::kAisles : Deck::kUnder, begin, end);
-          },
-          py::arg("begin"), py::arg("end"), py::arg("loaded") = false)
-      .def(
-          "edges",
-          [](const py::object& self, bool loaded) {
-            const auto& floor = self.cast<const Floor&>();
-            return view(floor.edges(loaded ? Deck::kAisles : Deck::kUnder), self,
-                        {floor.size(), kHeadings});
-          },
-          py::arg("loaded") = false);
 }
 
 void bindFleet(py::module_& module) {
@@ -213,33 +174,6 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
   return std::make_unique<Started>(makeEpibt(options), std::move(floor), rules, seed);
 }
 
-void bindLayout(py::module_& module) {
-  module.def(
-      "check_layout",
-      [](const Floor& floor, double x, double y, double spacing) {
-        std::vector<std::string> texts;
-        for (const LayoutFault& fault : checkLayout(floor)) {
-          texts.push_back(describe(fault, floor, {x, y, spacing}));
-        }
-        return texts;
-      },
-      py::arg("floor"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("spacing") = 1.0);
-}
-
-void bindLayoutFaults(py::module_& module) {
-  module.def(
-      "layout_faults",
-      [](const Floor& floor) {
-        std::vector<std::pair<std::string, std::vector<Cell>>> faults;
-        for (const LayoutFault& fault : checkLayout(floor)) {
-          const bool is_dead_end = fault.kind == LayoutFault::Kind::kDeadEnd;
-          faults.emplace_back(is_dead_end ? "dead end" : "cut off", fault.cells);
-        }
-        return faults;
-      },
-      py::arg("floor"));
-}
-
 void bindPlanners(py::module_& module) {
   py::class_<Started>(module, "Planner")
       .def("plan", &plan, py::arg("fleet"), py::arg("seconds") = 0.0, py::arg("attempts") = -1);
@@ -261,13 +195,10 @@ void bindPlanners(py::module_& module) {
 
 PYBIND11_MODULE(_core, module) {
   using namespace fleet::python;
-  py::register_exception<fleet::FloorError>(module, "FloorError", PyExc_ValueError);
-  bindFloor(module);
+  py::module_::import("warehouse_layout._core");  // knows Floor, and FloorError
   bindRules(module);
   bindFleet(module);
   bindValidator(module);
-  bindLayout(module);
-  bindLayoutFaults(module);
   bindPlanners(module);
   bindExecution(module);
 }

@@ -5,8 +5,8 @@
 import numpy as np
 
 from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.stations import PICK
 from warehouse_fleet.transports import Kind
+from warehouse_layout.stations import PICK
 from warehouse_learning import building, fields
 from warehouse_learning.observing import Observer
 from warehouse_learning.options import Options

@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 from kiva_plugin_cpp import World, Worlds, worlds_folder
-from warehouse_sim import layout, request
+from warehouse_layout import layout, request
 
 
 def build(n, options, threads=0):

@@ -9,9 +9,9 @@ import numpy as np
 from gymnasium import spaces
 
 from warehouse_fleet.fleet_driver import FleetDriver
-from warehouse_fleet.floor_plan import FloorPlan
-from warehouse_fleet.stations import PICK
 from warehouse_fleet.transports import NOWHERE, Kind
+from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.stations import PICK
 from warehouse_learning import building, fields
 from warehouse_learning.fields import Field
 from warehouse_learning.grid import Grid

@@ -7,7 +7,7 @@ enter: so every neighbourhood lies inside. Headings count quarter turns from +x 
 
 import numpy as np
 
-from warehouse_fleet.stations import PICK
+from warehouse_layout.stations import PICK
 from warehouse_learning._core import Floor
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A world of this process as the warehouse's page wants to hear of it: laid out as the messages
-that warehouse_sim.viewer gets under ROS, which define each field."""
+that warehouse_viewer gets under ROS, which define each field."""
 
 from types import SimpleNamespace
 
 import numpy as np
 
-from warehouse_sim.models import FLOOR, kind_and_number
+from warehouse_layout.models import FLOOR, kind_and_number
 
 PLACES = ("x", "y", "yaw", "vx", "vy", "yaw_rate")
 COLUMNS = (*PLACES, "kiva_id", "shelf_id", "status", "state", "last_end", "failures", "charge")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Serves the warehouse's page, warehouse_sim/web, without ROS: the files, what is to be shown, and
+"""Serves the page of warehouse_viewer without ROS: the files, what is to be shown, and
 the few requests of the HTTP API that a program which steps its own world can meet."""
 
 import asyncio
@@ -10,12 +10,11 @@ from starlette.applications import Starlette
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
-from warehouse_sim import files
-from warehouse_sim.viewer.access import AccessControl
-from warehouse_sim.viewer.connections import listen
-from warehouse_sim.viewer.hub import Hub
-from warehouse_sim.viewer.model import Model
-from warehouse_sim.viewer.static_files import THREE, Files, FreshFiles
+from warehouse_viewer.access import AccessControl
+from warehouse_viewer.connections import listen
+from warehouse_viewer.hub import Hub
+from warehouse_viewer.model import Model
+from warehouse_viewer.static_files import THREE, WEB, Files, FreshFiles
 
 HOST, TRIES = "127.0.0.1", 20
 PATIENCE = 10.0  # with a server that begins or ends [s, wall]
@@ -60,7 +59,7 @@ class PageServer:
 
     # --- over HTTP
     def _application(self):
-        web = FreshFiles(directory=files.share() / "web")
+        web = FreshFiles(directory=WEB)
 
         async def page(request):
             return await web.get_response("index.html", request.scope)

@@ -10,7 +10,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from warehouse_fleet.floor_plan import FloorPlan
+from warehouse_layout.floor_plan import FloorPlan
 from warehouse_learning import building
 from warehouse_learning._core import Task
 from warehouse_learning.grid import Grid

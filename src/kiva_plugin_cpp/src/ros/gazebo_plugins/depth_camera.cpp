@@ -50,7 +50,7 @@ void DepthCamera::load(kiva::World& world, const std::string& model, const kiva:
   openTopics(p);
   world.warn(p.where() + ": depth only: nothing is rendered here, so there is no colour image on " +
              node().resolveName(p.text("imageTopicName", "image_raw")) +
-             "; the web page and 'rosrun warehouse_sim render' draw the world");
+             "; the web page and 'rosrun warehouse_viewer render' draw the world");
 }
 
 void DepthCamera::readImage(const kiva::SensorDescription& from, const kiva::Parameters& p) {

@@ -6,7 +6,7 @@ namespace {
 
 constexpr const char* kNoPictures =
     "nothing is rendered here, so it has no pictures to publish; the web page and 'rosrun "
-    "warehouse_sim render' draw the world, and libgazebo_ros_depth_camera.so and "
+    "warehouse_viewer render' draw the world, and libgazebo_ros_depth_camera.so and "
     "libgazebo_ros_openni_kinect.so measure depth";
 constexpr const char* kNoControllers =
     "there are no ros_control controllers here, so nothing moves its joints; drive wheels by "

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The running world as its services offer it: models come and go, physics pauses."""
+
+from geometry_msgs.msg import Pose
+from nav_msgs.srv import GetMap
+from std_srvs.srv import Empty
+
+from gazebo_msgs.srv import (
+    DeleteModel,
+    GetModelState,
+    GetPhysicsProperties,
+    GetWorldProperties,
+    SpawnModel,
+)
+from warehouse_layout import poses
+
+WAIT = 30.0  # for the world to come up [s, wall]
+
+
+class EngineError(RuntimeError):
+    """The world refused something; the message is its own, with the model's name before it."""
+
+
+class Engine:
+    """One client of the world. Its connections persist, so one thread at a time; close it after.
+
+    `ros` is rospy, or what stands in for it in a test.
+    """
+
+    def __init__(self, ros):
+        self._ros, self._proxies = ros, {}
+
+    def __enter__(self):
+        try:
+            self._ros.wait_for_service("/gazebo/spawn_sdf_model", WAIT)
+        except self._ros.ROSException as error:
+            raise EngineError(f"the world does not answer: {error}") from error
+        return self
+
+    def __exit__(self, *_):
+        for proxy in self._proxies.values():
+            proxy.close()
+
+    def _call(self, service, kind, *args):
+        if service not in self._proxies:
+            name = service if service.startswith("/") else f"/gazebo/{service}"
+            self._proxies[service] = self._ros.ServiceProxy(name, kind, persistent=True)
+        try:
+            return self._proxies[service](*args)
+        except self._ros.ServiceException as error:
+            raise EngineError(f"{service}: {error}") from error
+
+    def names(self):
+        """All models that stand in the world."""
+        return self._call("get_world_properties", GetWorldProperties).model_names
+
+    def pose(self, name):
+        """(x, y, yaw) of a model in world [m, rad]. Raises EngineError."""
+        answer = self._call("get_model_state", GetModelState, name, "world")
+        if not answer.success:
+            raise EngineError(f"{name}: {answer.status_message}")
+        return tuple(poses.planar_of([answer.pose])[0])
+
+    def map(self):
+        """nav_msgs/OccupancyGrid of the floor, one cell a grid point: what others' models take."""
+        return self._call("/warehouse/map", GetMap).map
+
+    def spawn(self, xml, name=""):
+        """Adds all models of an SDF text, or none. Raises EngineError.
+
+        They keep the names that the text gives them; one alone goes by `name`, which may be left
+        out where the text is of a world.
+        """
+        answer = self._call("spawn_sdf_model", SpawnModel, name, xml, "", Pose(), "world")
+        if not answer.success:
+            raise EngineError(answer.status_message)
+
+    def delete(self, name):
+        """Takes a model away. Raises EngineError."""
+        answer = self._call("delete_model", DeleteModel, name)
+        if not answer.success:
+            raise EngineError(f"{name}: {answer.status_message}")
+
+    def is_paused(self):
+        """Whether physics stands still."""
+        return self._call("get_physics_properties", GetPhysicsProperties).pause
+
+    def pause(self):
+        self._call("pause_physics", Empty)
+
+    def resume(self):
+        self._call("unpause_physics", Empty)

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Stations and storage places as messages, told by the world's scenery and its map."""
+
+from nav_msgs.srv import GetMap
+
+from warehouse_layout.floor_plan import FloorError, FloorPlan
+from warehouse_msgs.msg import Station
+
+
+def station_messages(plan):
+    """Station messages of a FloorPlan."""
+    return [
+        Station(
+            name=station.name,
+            kind=station.kind,
+            **dict(zip("xy", plan.point_of(station.cells))),
+            service=station.service,
+            belt=station.belt,
+        )
+        for station in plan.stations
+    ]
+
+
+class FloorReader:
+    """Of the warehouse that stands. `ros` is rospy.
+
+    `stations` are Station messages, `places` are the x and the y of storage places [m].
+    """
+
+    def __init__(self, ros):
+        self._ros = ros
+        self._scenery, self._told = None, None
+        self.stations, self.places = [], ([], [])
+
+    def take(self, scenery):
+        """Reads the floor anew where a Scenery, or None, tells of other things. True if it did."""
+        if scenery is None or same_things(scenery, self._scenery):
+            return False
+        try:
+            grid = self._ros.ServiceProxy("/warehouse/map", GetMap)().map
+            plan = FloorPlan.of_messages(grid, scenery) if grid.data else None
+        except self._ros.ServiceException:
+            return False  # the world comes or goes; there is another time
+        except FloorError as error:
+            self._tell(f"the floor has no stations: {error}")
+            plan = None
+        self._scenery = scenery
+        self._take(plan)
+        return True
+
+    def _take(self, plan):
+        """A FloorPlan; None where there is no floor."""
+        self.stations = station_messages(plan) if plan else []
+        self.places = plan.point_of(plan.storage.ravel().nonzero()[0]) if plan else ([], [])
+        for reason in plan.without_lane if plan else ():
+            self._tell(reason)
+
+    def _tell(self, text):
+        if text != self._told:
+            self._ros.logwarn(text)
+        self._told = text
+
+
+def same_things(a, b):
+    """Whether two sceneries tell of the same models on the same floor, wherever they are now."""
+    if a is b or a is None or b is None:
+        return a is b
+    floors = list(a.floor) == list(b.floor) and a.grid_spacing == b.grid_spacing
+    return floors and a.models == b.models and a.model_look == b.model_look and a.looks == b.looks

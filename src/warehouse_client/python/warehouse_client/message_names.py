@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers in messages as the words that the messages define for them.
+
+The pages show the same words: web/js/words.js, which a test compares with these.
+"""
+
+from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
+from warehouse_msgs.srv import SetRobotModeRequest, TransportRequest
+
+
+def _constants(kind, prefix=""):
+    """{value: name} of a message type's constants that begin so, without the beginning."""
+    named = {n: v for n, v in vars(kind).items() if n.isupper() and isinstance(v, int)}
+    return {v: n.removeprefix(prefix) for n, v in named.items() if n.startswith(prefix)}
+
+
+EVENT = _constants(Event)
+STATUS = _constants(KivaStatus, "STATUS_")
+STATE = _constants(KivaStatus, "STATE_")
+TRANSPORT = _constants(TransportEvent)
+MODE = _constants(SetRobotModeRequest)
+THEN = _constants(TransportRequest)
+WORK = ("fetching", "ready", "lifting", "bringing", "waiting", "storing", "dropping", "idle")
+
+
+# Bits of FleetState.failures.
+FAILURES = ("battery empty", "drive", "lift stuck", "laser blind", "radio lost", "wheels slip")
+
+
+def failures_of(bits):
+    """What is broken in a robot, as words."""
+    return [name for bit, name in enumerate(FAILURES) if bits >> bit & 1]

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where one more robot can stand."""
+
+import math
+from itertools import count
+
+from warehouse_client import survey
+from warehouse_layout import models
+from warehouse_layout.cells import Cells
+from warehouse_layout.request import LIMITS, RequestError
+
+NEAR = 0.95  # [m]: another robot that is no further along x and y is on the same cell
+OFF = 1e-3  # as much as a place may be off the grid [m], or a heading off a quarter turn [rad]
+
+
+class PlaceError(ValueError):
+    """Why no robot can stand there."""
+
+
+def add_robot(engine, x, y, heading):
+    """Puts one on a free grid point (x, y) [m], turned by quarters [rad]; returns its number.
+
+    It gets the lowest free one. Raises PlaceError, EngineError.
+    """
+    found = survey.of_engine(engine, without=("item", "storage_unit"))
+    if len(found.kiva) >= LIMITS["robots"]:
+        raise PlaceError(f"there are {len(found.kiva)} robots; that is the limit")
+    point = _grid_point(x, y)
+    _check_free(point, found, _cells(engine))
+    quarters = round(heading / (math.pi / 2))
+    if abs(heading - quarters * math.pi / 2) > OFF:
+        raise PlaceError(f"heading {heading:g} rad is no whole number of quarter turns")
+    number = next(n for n in count(1) if n not in found.kiva)
+    part = models.include("kiva", number, *point, yaw=quarters * math.pi / 2)
+    engine.spawn(models.document([part]), part.name)
+    return number
+
+
+def _grid_point(x, y):
+    point = round(x), round(y)
+    if max(abs(x - point[0]), abs(y - point[1])) > OFF:
+        raise PlaceError(f"({x:g}, {y:g}) is off the grid")
+    return point
+
+
+def _cells(engine):
+    try:
+        return Cells.of_map(engine.map())
+    except RequestError as error:
+        raise PlaceError(str(error)) from error
+
+
+def _check_free(point, found, cells):
+    """Beneath a storage unit is free: a robot drives there as well."""
+    i, j = point[0] - cells.x, point[1] - cells.y
+    if not (0 <= i < cells.taken.shape[0] and 0 <= j < cells.taken.shape[1]):
+        raise PlaceError(f"{point} is outside the floor")
+    for number, (x, y, _) in found.kiva.items():
+        if max(abs(point[0] - x), abs(point[1] - y)) < NEAR:
+            raise PlaceError(f"{point} is taken by kiva{number}")
+    if point in found.obstacles():
+        raise PlaceError(f"{point} is taken by something that no robot can pass")

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Puts a warehouse in place of the one that stands."""
+
+import time
+
+from warehouse_client.engine import EngineError
+from warehouse_layout import models
+
+PROGRESS_EVERY = 3.0  # [s, wall]
+
+# Models in one document. A call for each takes forty times as long; one for all leaves the world
+# no time for anybody else.
+BATCH = 500
+
+
+class UndoneError(EngineError):
+    """The world refused a part of a warehouse; what was built so far was taken away again."""
+
+
+class WarehouseBuilder:
+    """`engine` is an engine.Engine; `report(text)` tells a person how far it is."""
+
+    def __init__(self, engine, report, clock=time.monotonic):
+        self._engine, self._report, self._clock = engine, report, clock
+        self._next_report = clock() + PROGRESS_EVERY
+
+    def replace(self, layout):
+        """All of the layout, or nothing but its floor.
+
+        Raises UndoneError, and EngineError where the world does not answer any more.
+        Best while physics is paused: what is half-built shall not begin to move.
+        """
+        self.clear(floor=layout.has_own_floor)
+        try:
+            self._spawn(models.of_layout(layout))
+        except EngineError as error:
+            self._report(f"refused: {error}; taking away what was built so far")
+            self.clear(floor=False)
+            raise UndoneError(f"{error}; the half-made warehouse was taken away") from error
+
+    def clear(self, floor=True):
+        """Takes away the models of any warehouse; those with other names stay."""
+        for kind in (*models.KINDS, models.MARKINGS):
+            # Asked for anew each time: items go with the storage unit on which they lie.
+            names = self._engine.names()
+            self._delete([name for name in names if models.kind_and_number(name)[0] == kind])
+        if floor and models.FLOOR in self._engine.names():
+            self._engine.delete(models.FLOOR)
+
+    def _spawn(self, parts):
+        for i in range(0, len(parts), BATCH):
+            batch = parts[i : i + BATCH]
+            self._progress("built", i, parts)
+            self._engine.spawn(models.document(batch), batch[0].name)
+
+    def _delete(self, names):
+        for i, name in enumerate(names):
+            self._progress("taken away", i, names)
+            self._engine.delete(name)
+
+    def _progress(self, what, done, all_):
+        if self._clock() >= self._next_report:
+            self._report(f"{what} {done} of {len(all_)} models")
+            self._next_report = self._clock() + PROGRESS_EVERY

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The grid that a fleet drives on: cells, and the two static graphs over them. A robot without a
+// load drives on the deck beneath the storage units, one with a load on the aisles alone.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace layout {
+
+/// Row-major index of a cell: y * width + x.
+using Cell = std::int32_t;
+constexpr Cell kNowhere = -1;
+
+/// Quarter turns from the grid's x axis towards its y axis: +x, +y, -x, -y.
+using Heading = std::uint8_t;
+constexpr int kHeadings = 4;
+
+constexpr Heading turned(int heading, int quarters) {
+  return static_cast<Heading>((heading + quarters) & 3);
+}
+
+/// Which graph a robot drives on.
+enum class Deck : std::uint8_t {
+  kUnder = 0,   ///< unloaded: the whole floor, beneath storage units too
+  kAisles = 1,  ///< loaded: all but storage places; its own is allowed besides
+};
+
+/// What can't be planned with: the message says where and what was expected.
+struct FloorError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What a floor is made from. All vectors have width * height elements, or none where a default is
+/// named.
+struct FloorDescription {
+  int width = 0;                       ///< cells along x
+  int height = 0;                      ///< cells along y
+  std::vector<std::uint8_t> passable;  ///< 1 where a robot can stand
+  std::vector<std::uint8_t> storage;   ///< 1 where a storage unit can stand (default: nowhere)
+  std::vector<std::uint8_t> lane;      ///< 1 in the one-way lane of a station (default: nowhere)
+  std::vector<std::uint8_t> exits;     ///< bit h: may be left towards heading h (default: all)
+};
+
+/// Cells and who is whose neighbour. Never changes; what comes and goes (a dead robot, a closed
+/// cell) is told at each planning step.
+class Floor {
+ public:
+  /// Throws FloorError.
+  explicit Floor(const FloorDescription& description);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Cell size() const { return width_ * height_; }
+  int x(Cell cell) const { return cell % width_; }
+  int y(Cell cell) const { return cell / width_; }
+  bool has(Cell cell) const { return cell >= 0 && cell < size(); }
+  bool isPassable(Cell cell) const { return passable_[cell]; }
+  bool isStorage(Cell cell) const { return storage_[cell]; }
+  bool isLane(Cell cell) const { return lane_[cell]; }
+
+  /// The cell in front of one who stands in `cell`; kNowhere where the deck has no such edge.
+  Cell next(Deck deck, Cell cell, int heading) const {
+    return next_[static_cast<int>(deck)][cell * kHeadings + heading];
+  }
+  /// All of them, size() * kHeadings, by cell and heading.
+  const std::vector<Cell>& edges(Deck deck) const { return next_[static_cast<int>(deck)]; }
+
+  /// The neighbour on the grid, wall or not; kNowhere beyond the edge.
+  Cell beside(Cell cell, int heading) const;
+
+  /// "(x, y)", for messages.
+  std::string name(Cell cell) const;
+
+ private:
+  int width_, height_;
+  std::vector<std::uint8_t> passable_, storage_, lane_;
+  std::vector<Cell> next_[2];
+};
+
+/// Whether one on its way to `goal` would enter a station's lane there without having to: nobody
+/// takes lanes for short cuts.
+inline bool isPassingThrough(const Floor& floor, Cell from, Cell to, Cell goal) {
+  return floor.isLane(to) && !floor.isLane(from) && (goal == kNowhere || !floor.isLane(goal));
+}
+
+/// Cells from one to another on the shortest way over a deck; a storage place may be its begin and
+/// its end. -1: there is none.
+int shortest(const Floor& floor, Deck deck, Cell from, Cell to);
+
+}  // namespace layout

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which warehouse is asked for: presets, limits, and what is refused."""
+
+import math
+from dataclasses import dataclass
+
+from warehouse_layout.items import CAPACITY
+
+
+class RequestError(ValueError):
+    """A request that can't be met; the message tells a person why."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """How many of each kind shall stand in the warehouse."""
+
+    robots: int = 0
+    shelves: int = 0
+    items: int = 0
+    belts: int = 0
+
+    def __str__(self):
+        counts = (
+            (self.robots, "robot"),
+            (self.shelves, "storage unit"),
+            (self.items, "item"),
+            (self.belts, "conveyor belt"),
+        )
+        return ", ".join(f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in counts)
+
+
+PRESETS = {
+    "empty": Request(0, 0, 0, 0),
+    "small": Request(4, 24, 96, 2),
+    "medium": Request(20, 160, 800, 4),
+    "large": Request(100, 800, 4000, 10),
+    "huge": Request(1000, 4000, 20000, 40),
+}
+
+# Beyond these nobody has tried; the floor would be wider than a real warehouse.
+LIMITS = {"robots": 5000, "shelves": 20000, "items": 100000}
+MAX_BELTS = 60
+
+
+# The name for as much as there is room for in a world that is given.
+FIT = "fit"
+SPARE, TIGHT = 0.15, 20  # share of places that stay empty; of fewer places none does
+
+
+def proportioned(places, most_robots=LIMITS["robots"], belts=0):
+    """The Request of a warehouse in sensible proportions that takes up to so many places for robots
+    and storage units. belts: how many there are; 0: as many as it takes."""
+    robots = min(places // 8 + 2, max(1, places // 3), most_robots, LIMITS["robots"])
+    spare = int(SPARE * places) if places >= TIGHT else 0
+    units = max(0, min(places - robots - spare, LIMITS["shelves"]))
+    items = min(4 * units, units * CAPACITY, LIMITS["items"])
+    return Request(robots, units, items, belts or _belts_for(robots, units))
+
+
+def resolve(name, robots=0, items=0, shelves=0):
+    """The Request behind a preset's name (all counts 0) or explicit counts.
+
+    Raises RequestError for an unknown preset, a negative count, a count above LIMITS, and items
+    that find no place: each storage unit holds CAPACITY of them.
+    """
+    counts = {"robots": robots, "shelves": shelves, "items": items}
+    if not any(counts.values()):
+        return _preset(name)
+    _check_counts(counts)
+    _check_items(items, shelves)
+    return Request(robots, shelves, items, _belts_for(robots, shelves))
+
+
+def _preset(name):
+    try:
+        return PRESETS[name]
+    except KeyError:
+        known = ", ".join(PRESETS)
+        raise RequestError(
+            f"'{name}' is no preset and all counts are 0; give counts, or one of: {known}"
+        ) from None
+
+
+def _check_counts(counts):
+    for what, count in counts.items():
+        if count < 0:
+            raise RequestError(f"{what} is {count}; it can't be negative")
+        if count > LIMITS[what]:
+            raise RequestError(f"{what} is {count}; the limit is {LIMITS[what]}")
+
+
+def _check_items(items, shelves):
+    if items and not shelves:
+        raise RequestError(f"{items} items, but no shelves to lay them on")
+    if items > shelves * CAPACITY:
+        needed = math.ceil(items / CAPACITY)
+        raise RequestError(
+            f"{items} items don't fit on {shelves} shelves: one holds {CAPACITY},"
+            f" so {needed} shelves are needed"
+        )
+
+
+def _belts_for(robots, shelves):
+    """One belt for every 100 storage units or 25 robots, whichever asks for more."""
+    return min(MAX_BELTS, max(1, math.ceil(shelves / 100), math.ceil(robots / 25)))

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The floor and its check inside a Python process. This file translates; python/warehouse_layout
+// adds what is easier said in Python.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "warehouse_layout/layout_check.h"
+#include "warehouse_layout/python_arrays.h"
+
+namespace layout::python {
+namespace {
+
+using Flags = std::optional<Array<std::uint8_t>>;
+
+std::shared_ptr<Floor> makeFloor(const Array<std::uint8_t>& passable, const Flags& storage,
+                                 const Flags& lane, const Flags& exits) {
+  if (passable.ndim() != 2) throw py::value_error("passable must have two dimensions, (y, x)");
+  FloorDescription description;
+  description.height = static_cast<int>(passable.shape(0));
+  description.width = static_cast<int>(passable.shape(1));
+  description.passable = copied<std::uint8_t>(passable);
+  description.storage = copied(storage);
+  description.lane = copied(lane);
+  description.exits = copied(exits);
+  return std::make_shared<Floor>(description);
+}
+
+void bindFloor(py::module_& module) {
+  py::class_<Floor, std::shared_ptr<Floor>>(module, "Floor")
+      .def(py::init(&makeFloor), py::arg("passable"), py::arg("storage") = py::none(),
+           py::arg("lane") = py::none(), py::arg("exits") = py::none())
+      .def_property_readonly("width", &Floor::width)
+      .def_property_readonly("height", &Floor::height)
+      .def_property_readonly("size", &Floor::size)
+      .def("name", &Floor::name)
+      .def(
+          "shortest",
+          [](const Floor& floor, Cell begin, Cell end, bool loaded) {
+            if (!floor.has(begin) || !floor.has(end)) throw FloorError("a cell off the floor");
+            return shortest(floor, loaded ? Deck::kAisles : Deck::kUnder, begin, end);
+          },
+          py::arg("begin"), py::arg("end"), py::arg("loaded") = false)
+      .def(
+          "edges",
+          [](const py::object& self, bool loaded) {
+            const auto& floor = self.cast<const Floor&>();
+            return view(floor.edges(loaded ? Deck::kAisles : Deck::kUnder), self,
+                        {floor.size(), kHeadings});
+          },
+          py::arg("loaded") = false);
+}
+
+void bindLayout(py::module_& module) {
+  module.def(
+      "check_layout",
+      [](const Floor& floor, double x, double y, double spacing) {
+        std::vector<std::string> texts;
+        for (const LayoutFault& fault : checkLayout(floor)) {
+          texts.push_back(describe(fault, floor, {x, y, spacing}));
+        }
+        return texts;
+      },
+      py::arg("floor"), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("spacing") = 1.0);
+}
+
+void bindLayoutFaults(py::module_& module) {
+  module.def(
+      "layout_faults",
+      [](const Floor& floor) {
+        std::vector<std::pair<std::string, std::vector<Cell>>> faults;
+        for (const LayoutFault& fault : checkLayout(floor)) {
+          const bool is_dead_end = fault.kind == LayoutFault::Kind::kDeadEnd;
+          faults.emplace_back(is_dead_end ? "dead end" : "cut off", fault.cells);
+        }
+        return faults;
+      },
+      py::arg("floor"));
+}
+
+}  // namespace
+}  // namespace layout::python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace layout::python;
+  py::register_exception<layout::FloorError>(module, "FloorError", PyExc_ValueError);
+  bindFloor(module);
+  bindLayout(module);
+  bindLayoutFaults(module);
+}

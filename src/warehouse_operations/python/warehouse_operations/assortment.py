@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a warehouse deals in: SKUs, how often each is asked for, and the stock at first."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from warehouse_operations.inventory import Bin
+
+SKUS = 1000
+BINS_A_SKU = 4  # at least, on the average: a small warehouse deals in fewer SKUs
+CAPACITY = 24  # pieces a bin
+INITIAL_LEVEL = 0.7
+
+
+@dataclass(frozen=True)
+class Assortment:
+    """SKUs and the share of the demand that each has, (n,), their sum 1."""
+
+    skus: tuple
+    popularity: np.ndarray
+
+    @classmethod
+    def draw(cls, count, rng):
+        """Gamma(1) distributed weights: the top fifth of many SKUs takes about 52 to 58 %."""
+        weights = rng.gamma(1.0, size=count)
+        return cls(tuple(f"sku-{i}" for i in range(1, count + 1)), weights / weights.sum())
+
+
+def stocked(items, rng, skus=None, capacity=CAPACITY, level=INITIAL_LEVEL):
+    """An Assortment, and Bins with pieces of it: (assortment, [(bin, pieces)]).
+
+    items: (name, unit) of each bin. Each SKU has a bin; the others are shared out by popularity.
+    """
+    count = min(skus or SKUS, max(len(items) // (1 if skus else BINS_A_SKU), 1))
+    assortment = Assortment.draw(count, rng)
+    skus_of = np.concatenate(
+        [
+            np.arange(min(count, len(items))),
+            rng.choice(count, size=max(len(items) - count, 0), p=assortment.popularity),
+        ]
+    )
+    rng.shuffle(skus_of)
+    spread = min(level, 1 - level)
+    fill = np.round(capacity * rng.uniform(level - spread, level + spread, len(items)))
+    result = []
+    for i, ((item, unit), sku, pieces) in enumerate(zip(items, skus_of, fill)):
+        one = Bin(i + 1, item, unit, capacity, assortment.skus[sku])
+        result.append((one, int(pieces)))
+    return assortment, result

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A Site that came from elsewhere, built as a world with physics."""
+
+import re
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+
+def world_of(site, seed=1, realism=""):
+    """A kiva_plugin_cpp.World of a Site, and the Site as it stands there: (world, site).
+
+    Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x.
+    """
+    from kiva_plugin_cpp import World, worlds_folder
+    from warehouse_layout import layout
+
+    plan = replace(site.plan, origin=(0.0, 0.0))
+    (height, width), spacing = plan.shape, plan.spacing
+
+    def points(cells):
+        return np.column_stack(plan.point_of(np.array(list(cells.values()), int)))
+
+    low = -spacing / 2
+    laid = layout.Layout(
+        floor=layout.Floor(low, low + width * spacing, low, low + height * spacing),
+        robots=np.pad(points(site.robots), ((0, 0), (0, 1))),
+        units=points(site.units),
+        plan=plan,
+    )
+    folder = worlds_folder()
+    with tempfile.TemporaryDirectory() as made:
+        world_file = Path(made, "instance.sdf")
+        text = (folder / "empty.sdf").read_text(encoding="utf-8")
+        world_file.write_text(_with(text, spacing=spacing), encoding="utf-8")
+        robot = Path(made, "kiva")
+        robot.mkdir()
+        for part in (folder / "models" / "kiva").iterdir():
+            (robot / part.name).write_bytes(part.read_bytes())
+        _set_kinematics(robot / "model.sdf", site.kinematics)
+        world = World.of_layout(
+            laid, world=world_file, seed=seed, model_paths=[made], realism=realism or None
+        )
+    return world, replace(site, plan=plan)
+
+
+def _set_kinematics(path, kinematics):
+    text = _with(
+        path.read_text(encoding="utf-8"),
+        speed=kinematics.speed,
+        acceleration=kinematics.acceleration,
+        quarter_turn_time=kinematics.quarter_turn,
+        time=kinematics.lift,
+    )
+    path.write_text(text, encoding="utf-8")
+
+
+def _with(text, **values):
+    """An SDF text whose elements of these names, each but once there, have other values."""
+    for name, value in values.items():
+        text, count = re.subn(rf"<{name}>[^<]*</{name}>", f"<{name}>{value!r}</{name}>", text)
+        if count != 1:
+            raise ValueError(f"<{name}> is there {count} times; once was expected")
+    return text

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Databases by their URL or path: opened, checked, and locked against a second program."""
+
+import contextlib
+from pathlib import Path
+
+from sqlalchemy import create_engine, event, select, text
+from sqlalchemy.engine import make_url
+from sqlalchemy.exc import SQLAlchemyError
+
+from warehouse_operations import schema
+from warehouse_operations.locks import FileLock, InUseError, holder
+
+MAGIC = b"SQLite format 3\0"
+LOCK = 0x6B697661  # of this program among those of a server's database
+
+
+class DatabaseError(Exception):
+    """The database can't be opened or written; the text says why."""
+
+
+def url_of(text):
+    """A URL as it is; anything else is the path of an SQLite file."""
+    return text if "://" in str(text) else f"sqlite:///{text}"
+
+
+def shown(text):
+    """The same as a message may have it: without a password."""
+    with contextlib.suppress(SQLAlchemyError):
+        return make_url(text).render_as_string() if "://" in str(text) else str(text)
+    return "the database"
+
+
+def open_engine(text, makes=True):
+    """An engine on a database, its tables ready; raises DatabaseError.
+
+    makes: whether a database without tables gets them.
+    """
+    engine = make_engine(text)
+    prepare(engine, text, makes)
+    return engine
+
+
+def make_engine(text):
+    """An engine that has not looked at its database yet; raises DatabaseError."""
+    try:
+        url = make_url(url_of(text))
+    except (SQLAlchemyError, ValueError) as error:
+        kind = str(text).partition("://")[0]
+        raise DatabaseError(f"{kind}://…: is no URL of a database") from error
+    try:
+        is_file = url.get_backend_name() == "sqlite"
+        options = {} if is_file else {"connect_args": {"application_name": holder()[:63]}}
+        engine = create_engine(url, future=True, **options)
+    except (SQLAlchemyError, ImportError, KeyError, ValueError) as error:
+        raise DatabaseError(f"{shown(text)}: {reason(error)}") from error
+    if is_file:
+        event.listen(engine, "connect", _sqlite)
+    return engine
+
+
+def prepare(engine, text, makes=True):
+    """Looks whether the database is whole, and makes its tables ready; raises DatabaseError."""
+    path = path_of(engine)
+    try:
+        if path:
+            _check_file(path)
+        with engine.begin() as connection:
+            if path:
+                _check_pages(connection)
+            schema.prepare(connection, makes=makes)
+    except (SQLAlchemyError, schema.SchemaError, OSError) as error:
+        raise DatabaseError(f"{shown(text)}: {reason(error)}") from error
+
+
+def path_of(engine):
+    """The file of an SQLite database; None of another one, or one in memory."""
+    name = engine.url.database
+    if engine.dialect.name != "sqlite" or not name or name.startswith((":memory:", "file:")):
+        return None
+    return Path(name)
+
+
+def reason(error):
+    """Why, in one line and without what SQLAlchemy adds to it."""
+    text = str(getattr(error, "orig", None) or getattr(error, "strerror", None) or error)
+    return " ".join(text.split()) or type(error).__name__
+
+
+def _sqlite(connection, _record):
+    cursor = connection.cursor()
+    cursor.execute("PRAGMA journal_mode=WAL")
+    cursor.execute("PRAGMA synchronous=NORMAL")  # nothing is lost when a program is killed
+    cursor.execute("PRAGMA foreign_keys=ON")
+    cursor.execute("PRAGMA busy_timeout=30000")
+    cursor.close()
+
+
+def _check_file(path):
+    if path.is_dir():
+        raise schema.SchemaError("is a folder; the path of an SQLite file was expected")
+    if path.exists():
+        with path.open("rb") as file:
+            begin = file.read(len(MAGIC))
+        if begin and begin != MAGIC:
+            raise schema.SchemaError("is no SQLite database; another file was expected")
+
+
+def _check_pages(connection):
+    found = connection.execute(text("PRAGMA quick_check(1)")).scalar()
+    if found != "ok":
+        told = " ".join(str(found).replace("*", "").split())
+        raise schema.SchemaError(f"is damaged ({told}); go on with another one, or with a copy")
+
+
+def lock(engine, text):
+    """A context in which no other program may write the database; raises DatabaseError."""
+    try:
+        if path := path_of(engine):
+            return FileLock(path)
+        if engine.dialect.name == "postgresql":
+            return _server_lock(engine, shown(text))
+    except InUseError as error:
+        raise DatabaseError(f"{error}; end that first, or choose another database") from error
+    except OSError as error:
+        raise DatabaseError(
+            f"{shown(text)}: unable to open database file: {error.strerror}"
+        ) from error
+    except SQLAlchemyError as error:
+        raise DatabaseError(f"{shown(text)}: {reason(error)}") from error
+    return contextlib.nullcontext()
+
+
+def _server_lock(engine, name):
+    """An advisory lock: the server drops it as soon as this process, or the way to it, is gone."""
+    connection = engine.connect().execution_options(isolation_level="AUTOCOMMIT")
+    in_schema = connection.execute(
+        text("SELECT oid::int FROM pg_namespace WHERE nspname = current_schema()")
+    ).scalar()
+    keys = {"program": LOCK, "place": in_schema or 0}
+    taken = select(text("pg_try_advisory_lock(:program, :place)")).params(keys)
+    if connection.execute(taken).scalar():
+        return contextlib.closing(connection)
+    by = connection.execute(
+        text(
+            """SELECT application_name, date_trunc('second', backend_start) FROM pg_locks l
+               JOIN pg_stat_activity a ON a.pid = l.pid WHERE locktype = 'advisory' AND granted
+               AND classid = :program AND objid = :place AND objsubid = 2
+               AND l.database = (SELECT oid FROM pg_database WHERE datname = current_database())"""
+        ).bindparams(**keys)
+    ).first()
+    connection.close()
+    told = f"{by[0] or 'another program'}, since {by[1]:%Y-%m-%d %H:%M:%S}" if by else "another one"
+    raise DatabaseError(f"{name}: is in use by {told}; end that first, or choose another database")

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a database is asked by people: orders, and where pieces lie. Rows of the schema's tables."""
+
+from sqlalchemy import and_, exists, func, or_, select
+
+from warehouse_operations import schema
+from warehouse_operations.orders import OrderState
+
+MOST_ROWS = 10_000  # in an answer
+LARGEST = 2**63 - 1  # number that a database can be asked for
+
+
+def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0, late_at=None):
+    """(how many there are, [(row of orders, rows of its lines)]), the newest first, MOST_ROWS of
+    them at most.
+
+    search: a part of the reference, or a whole SKU. late_at: those alone that are past their due
+    time at this one [s], or were completed after it.
+    """
+    if not (0 <= order_id <= LARGEST and search.isprintable()):
+        return 0, []
+    orders, lines = schema.orders, schema.order_line
+    query = select(orders)
+    if order_id:
+        query = query.where(orders.c.id == order_id)
+    if state is not None:
+        query = query.where(orders.c.state == state)
+    if late_at is not None:
+        query = query.where(_late(orders.c, late_at))
+    if search:
+        with_sku = exists().where(lines.c.order_id == orders.c.id, lines.c.sku == search)
+        query = query.where(or_(orders.c.reference.contains(search, autoescape=True), with_sku))
+    with engine.connect() as connection:
+        total = connection.execute(select(func.count()).select_from(query.subquery())).scalar()
+        newest = _page(query.order_by(orders.c.id.desc()), limit, offset)
+        rows = connection.execute(newest).all()
+        of_them = select(lines).where(lines.c.order_id.in_([row.id for row in rows]))
+        by_order = {row.id: [] for row in rows}
+        for line in connection.execute(of_them.order_by(lines.c.order_id, lines.c.number)):
+            by_order[line.order_id].append(line)
+    return total, [(row, by_order[row.id]) for row in rows]
+
+
+def _page(query, limit, offset):
+    return query.limit(min(max(limit, 0), MOST_ROWS)).offset(min(max(offset, 0), LARGEST))
+
+
+def _late(order, now):
+    waits = order.state.in_((int(OrderState.OPEN), int(OrderState.ASSIGNED)))
+    return and_(order.due > 0, or_(order.completed > order.due, and_(waits, order.due < now)))
+
+
+def find_stock(engine, sku="", limit=100, offset=0):
+    """(how many bins, pieces in all of them, rows of bin), the fullest first, MOST_ROWS of them at
+    most."""
+    if not sku.isprintable():
+        return 0, 0, []
+    bins = schema.bin_
+    query = select(bins).where(bins.c.capacity > 0)
+    if sku:
+        query = query.where(bins.c.sku == sku, bins.c.quantity > 0)
+    with engine.connect() as connection:
+        found = query.subquery()
+        counts = select(func.count(), func.coalesce(func.sum(found.c.quantity), 0))
+        total, pieces = connection.execute(counts.select_from(found)).one()
+        fullest = query.order_by(bins.c.quantity.desc(), bins.c.id)
+        return total, pieces, connection.execute(_page(fullest, limit, offset)).all()

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Replenishing: bundles that arrive, bins for them, and units brought to put them in."""
+
+from collections import deque
+from itertools import islice
+
+from warehouse_operations.orders import Bundle
+from warehouse_operations.stations import Mode
+from warehouse_operations.tasks import Answer, Outcome
+
+PERIOD = 10.0  # between two looks at what is to be ordered [s]
+RETRY = 1.0  # after the fleet refused a unit [s]
+LOOK_AHEAD = 30  # bundles at the door that are tried for a place
+
+
+class Replenishing:
+    """The part of a Shift that works at its replenishing stations."""
+
+    def __init__(self, shift, stations):
+        self.shift, self.stations = shift, stations
+        self.bundles = {}  # those without a bin yet, by id
+        self.ordered = 0  # pieces in them
+        self.ordered_of = {}  # by SKU
+        self._count = 0
+        self._look = True
+
+    def order(self, sku, quantity):
+        """A bundle comes to the door."""
+        self._count += 1
+        self.bundles[self._count] = Bundle(self._count, sku, quantity, self.shift.now)
+        self._ordered(sku, quantity)
+        self._look = True
+
+    def refill(self):
+        """Orders what the policy says; called every PERIOD."""
+        if self.stations:
+            for sku, quantity in self.shift.policies.replenishment.bundles(self.shift):
+                self.order(sku, quantity)
+
+    def unit_free(self):
+        self._look = True
+
+    def work(self):
+        """Asks for units that bundles at the door have a place on."""
+        if not self._look:
+            return
+        self._look = False
+        limit = -(-self.shift.units_per_station // 2)  # their units have more work with them
+        stations = [s for s in self.stations if s.is_open and len(s.coming) < limit]
+        while self.bundles and stations:
+            station = min(stations, key=lambda one: len(one.coming))
+            if not self._fetch(station):
+                return
+            stations = [s for s in stations if len(s.coming) < limit]
+
+    def _fetch(self, station):
+        for bundle in islice(self.bundles.values(), LOOK_AHEAD):
+            candidates = self._candidates(bundle)
+            if candidates:
+                one = self.shift.policies.bins.choose(bundle, candidates, self.shift)
+                visit = self.shift.request(one.unit, station)
+                if visit:
+                    self._place(bundle, one, visit)
+                    self._fill_up(visit)
+                    return True
+                self.shift.at(self.shift.now + RETRY, self._retry, None)
+                return False
+        return False
+
+    def _retry(self, _):
+        self._look = True
+
+    def _candidates(self, bundle):
+        """Bins with room for it, on units that are free."""
+        inventory, free = self.shift.inventory, self.shift.free_units
+        both = (inventory.with_sku(bundle.sku), inventory.empty.values())
+        return [
+            one
+            for bins in both
+            for one in bins
+            if one.unit in free and inventory.takes(one, bundle.sku, bundle.quantity)
+        ]
+
+    def _fill_up(self, visit):
+        """Other bundles at the door that find a place on the same unit come with it."""
+        inventory = self.shift.inventory
+        bins = inventory.of_unit[visit.unit]
+        for bundle in list(self.bundles.values()):
+            places = [one for one in bins if inventory.takes(one, bundle.sku, bundle.quantity)]
+            same = [one for one in places if one.sku == bundle.sku]
+            if same:
+                self._place(bundle, min(same, key=lambda one: one.room), visit)
+            elif places and self.shift.stock_of(bundle.sku) < bundle.quantity:
+                self._place(bundle, places[0], visit)
+
+    def _place(self, bundle, one, visit):
+        del self.bundles[bundle.bundle_id]
+        self._ordered(bundle.sku, -bundle.quantity)
+        bundle.bin, bundle.sequence = one, self.shift.tasks.number()
+        self.shift.inventory.expect(one, bundle.sku, bundle.quantity)
+        visit.puts.append(bundle)
+
+    def _ordered(self, sku, quantity):
+        self.ordered += quantity
+        self.ordered_of[sku] = self.ordered_of.get(sku, 0) + quantity
+
+    # At the station.
+
+    def arrived(self, visit):
+        self.next_bundle(visit.station)
+        self._leave_if_done(visit.station)
+
+    def next_bundle(self, station):
+        visit = station.here
+        if station.at_work or not visit or not visit.puts or station.mode == Mode.MANUAL:
+            return
+        station.at_work = True
+        self.shift.at(
+            self.shift.now + station.seconds_a_piece, self._put_in, (station, visit, self.shift.now)
+        )
+
+    def _put_in(self, argument):
+        station, visit, began = argument
+        station.at_work = False
+        station.busy_s += self.shift.now - began
+        if visit.here and visit.puts:
+            self.put(visit, visit.puts[0])
+        self.next_bundle(station)
+        self._leave_if_done(station)
+
+    def put(self, visit, bundle):
+        """A bundle is in its bin."""
+        visit.puts.remove(bundle)
+        self.shift.inventory.put(
+            bundle.bin, bundle.sku, bundle.quantity, station=visit.station, visit=visit
+        )
+        visit.pieces += bundle.quantity
+        station = visit.station
+        station.pieces += bundle.quantity
+        self.shift.tally.stored(self.shift.now, bundle)
+
+    def confirm(self, station, sku, quantity):
+        """A person has put in the bundle of a SKU; returns success and why not."""
+        visit, bundle = self._asked(station, sku)
+        if not bundle or bundle.quantity != quantity:
+            asked = f"{bundle.quantity} of {sku}" if bundle else f"none of {sku}"
+            return False, f"{asked} are to be put in at {station.name} now"
+        self.put(visit, bundle)
+        self._leave_if_done(station)
+        return True, ""
+
+    def short(self, station, sku, lacking, _reason):
+        """So many pieces of a bundle did not come, or are damaged: they were never in the stock."""
+        visit, bundle = self._asked(station, sku)
+        there = bundle.quantity if bundle else 0
+        if not 0 < lacking <= there:
+            return False, f"{there} of {sku} are to be put in at {station.name} now"
+        self._shorten(visit, bundle, lacking)
+        return True, ""
+
+    def _shorten(self, visit, bundle, lacking):
+        """So many pieces of a bundle stay out."""
+        self.shift.inventory.unexpect(bundle.bin, bundle.sku, lacking)
+        bundle.quantity -= lacking
+        bundle.sequence = self.shift.tasks.number()  # what is left is another task
+        if not bundle.quantity:
+            visit.puts.remove(bundle)
+        self._leave_if_done(visit.station)
+
+    def task(self, station, report):
+        """The Bundle for the unit that is there which a tasks.Report names, or None."""
+        visit, named = station.here, (0, report.item, report.sequence)
+        puts = visit.puts if visit and not report.order_id else ()
+        return next((b for b in puts if (0, b.bin.item, b.sequence) == named), None)
+
+    def asks(self, station):
+        """What a person is asked for now."""
+        visit = station.here
+        if not visit or not visit.puts:
+            return f"{station.name} asks for nothing now"
+        bundle = visit.puts[0]
+        return (
+            f"{station.name} asks for {bundle.quantity} of {bundle.sku} into {bundle.bin.item} now"
+        )
+
+    def report(self, station, bundle, report):
+        """Carries out what a person says of a Bundle; returns a tasks.Answer."""
+        visit, there = station.here, bundle.quantity
+        if report.outcome == Outcome.DONE:
+            if report.quantity != there:
+                return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
+            self.put(visit, bundle)
+            self._leave_if_done(station)
+            return Answer(True, "", there)
+        lacking = report.quantity
+        if not 0 < lacking <= there:
+            return Answer(False, f"{there} of {bundle.sku} are to be put in")
+        self._shorten(visit, bundle, lacking)
+        undo = lambda: self._lengthen(visit, bundle, lacking)  # noqa: E731
+        return Answer(True, f"{lacking} of {bundle.sku} are not put in", lacking, undo)
+
+    def _lengthen(self, visit, bundle, pieces):
+        """Pieces that stayed out are put in after all: with their bundle, or as another one."""
+        is_there = visit.here and (bundle in visit.puts or not bundle.quantity)
+        if is_there and self.shift.inventory.takes(bundle.bin, bundle.sku, pieces):
+            self.shift.inventory.expect(bundle.bin, bundle.sku, pieces)
+            if not bundle.quantity:
+                visit.puts.appendleft(bundle)
+            bundle.quantity += pieces
+            bundle.sequence = self.shift.tasks.number()
+        else:
+            self.order(bundle.sku, pieces)
+        return ""
+
+    def _asked(self, station, sku):
+        visit = station.here
+        return visit, next((b for b in visit.puts if b.sku == sku), None) if visit else None
+
+    def drop_visit(self, visit):
+        """The unit does not come, or leaves early: its bundles are at the door again."""
+        for bundle in visit.puts:
+            self._return(bundle)
+        visit.puts = deque()
+
+    def drop_bin(self, one):
+        """Nothing can be put into a bin any more: its bundles are at the door again."""
+        for visit in [v for s in self.stations for v in s.inbound.values() if v.unit == one.unit]:
+            dropped = [bundle for bundle in visit.puts if bundle.bin is one]
+            for bundle in dropped:
+                visit.puts.remove(bundle)
+                self._return(bundle)
+            if dropped:
+                self._leave_if_done(visit.station)
+
+    def _return(self, bundle):
+        self.shift.inventory.unexpect(bundle.bin, bundle.sku, bundle.quantity)
+        bundle.bin = None
+        self.bundles[bundle.bundle_id] = bundle
+        self._ordered(bundle.sku, bundle.quantity)
+        self._look = True
+
+    def close(self, station):
+        for visit in list(station.coming):
+            self.drop_visit(visit)
+            if not visit.here:
+                self.shift.cancel_visit(visit)
+        self._leave_if_done(station)
+
+    def _leave_if_done(self, station):
+        visit = station.here
+        if visit and not visit.puts:
+            self.shift.release(visit)
+            self._look = True
+            self.next_bundle(station)

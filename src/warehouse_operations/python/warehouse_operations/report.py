@@ -1,0 +1,277 @@
+# SPDX-License-Identifier: Apache-2.0
+"""report.html: one page, its pictures inside, about one run or several side by side."""
+
+import itertools
+from html import escape
+from pathlib import Path
+
+import numpy as np
+
+from warehouse_operations import comparison, plots
+from warehouse_operations.runs import REPORT
+
+# What of kpis.json the table tells: name, words, unit, factor, digits.
+ROWS = (
+    ("item_throughput_per_hour", "Pieces picked an hour", "", 1, 0),
+    ("item_score", "Of what the stations can at most", "%", 100, 1),
+    ("order_throughput_per_hour", "Orders completed an hour", "", 1, 0),
+    ("order_turnover_s.median", "Order: arrival to completion, median", "min", 1 / 60, 1),
+    ("order_turnover_s.p95", "Order: arrival to completion, 95 %", "min", 1 / 60, 1),
+    ("order_throughput_s.median", "Order: at its station, median", "min", 1 / 60, 1),
+    ("late_orders_fraction", "Late orders", "%", 100, 1),
+    ("pile_on", "Pieces a unit at a station (pile-on)", "", 1, 2),
+    ("station_idle_fraction", "Picking stations idle", "%", 100, 1),
+    ("bundles_stored", "Bundles put into stock", "", 1, 0),
+    ("trips", "Units brought to stations", "", 1, 0),
+    ("distance_per_item_m", "Robots drive for a piece", "m", 1, 1),
+    ("distance_m", "Robots drive in all", "km", 1e-3, 1),
+    ("collisions", "Collisions", "", 1, 0),
+    ("blocked", "Times a robot was blocked", "", 1, 0),
+    ("watchdog", "Times a deadlock was resolved", "", 1, 0),
+    ("plan_ms.p99", "Planning a step, 99 %", "ms", 1, 1),
+    ("executed_over_planned", "Driven time over planned time", "", 1, 3),
+    ("real_time_factor", "Faster than real time", "times", 1, 1),
+)
+# Ideal robots have none of it, by definition: no figures to compare.
+OF_TRAFFIC = {"collisions", "blocked", "watchdog", "plan_ms.p99", "executed_over_planned"}
+TROUBLES = (
+    ("availability", "Availability: robot hours at work", "%", 100, 2),
+    ("mtbf_h", "Robot hours between failures (MTBF)", "h", 1, 1),
+    ("mttr_s", "Time to repair, mean (MTTR)", "min", 1 / 60, 1),
+    ("items_lost_to_failures", "Pieces not picked for want of robots", "", 1, 0),
+    ("items_fallen", "Items that fell off their storage units", "", 1, 0),
+    ("items_on_floor", "Items that lie on the floor at the end", "", 1, 0),
+    ("pieces_on_floor", "Pieces out of stock with them", "", 1, 0),
+    ("person_hours", "Hours of people on the floor", "h", 1, 2),
+    ("slowed_fraction", "Robot hours slowed down for people", "%", 100, 2),
+    ("stopped_fraction", "Robot hours standing for people", "%", 100, 2),
+    ("items_lost_to_people", "Pieces not picked meanwhile", "", 1, 0),
+    ("charging_fraction", "Robot hours at a charging place", "%", 100, 1),
+    ("charge_mean", "Charge of batteries at the end, mean", "%", 100, 0),
+    ("charge_least", "Charge of the emptiest at the end", "%", 100, 0),
+)
+COMPARED = (
+    ("item_throughput_per_hour", "pieces an hour"),
+    ("order_throughput_per_hour", "orders an hour"),
+    ("pile_on", "pieces a unit at a station"),
+    ("distance_per_item_m", "metres driven for a piece"),
+)
+INTERVALS = "Means of the runs with 95 % confidence intervals."
+NO_INTERVALS = (
+    "Where there is one run alone nothing tells how much of a difference is chance: simulate with"
+    " several seeds."
+)
+QUEUES = (
+    "Counted alike for simulated and ideal robots. Queue: the wait for a station, in its lane or"
+    " beneath the unit until the lane has room."
+)
+STYLE = """
+body { font: 15px/1.45 system-ui, sans-serif; color: #222; max-width: 960px; margin: 2em auto; }
+h1 { font-size: 1.6em } h2 { font-size: 1.15em; margin-top: 2em; border-top: 1px solid #ddd;
+padding-top: 1em } table { border-collapse: collapse } td, th { padding: .2em .9em .2em 0;
+text-align: right; vertical-align: top } td:first-child, th:first-child { text-align: left }
+tr:nth-child(even) { background: #f6f6f4 } .big { display: flex; gap: 2.5em; margin: 1.2em 0 }
+.big b { display: block; font-size: 1.9em } .note { color: #666; font-size: .9em }
+.row { display: flex; flex-wrap: wrap; gap: 1em } svg { max-width: 100%; height: auto }
+.bad { color: #b00 }
+"""
+
+
+def page(runs):
+    """The HTML of the report about Runs."""
+    groups = comparison.grouped(runs)
+    first = groups[0]
+    parts = [_head(runs, groups), _headline(first) if len(groups) == 1 else _verdicts(groups)]
+    note = "Bands reach from the least to the most of the runs." if _several(groups) else ""
+    parts += [_section("Throughput over the shift", plots.throughput(groups), note)]
+    parts += [_section("Figures", _table(groups))]
+    if len(groups) > 1:
+        pictures = [plots.comparison(groups, kpi, label) for kpi, label in COMPARED]
+        note = INTERVALS if all(len(group.runs) > 1 for group in groups) else NO_INTERVALS
+        parts += [_section("Side by side", _row(pictures), note)]
+    parts += [_section("Orders: how long they take", plots.turnover(groups))]
+    parts += [_section("Where the robots' time goes", plots.robots(groups), QUEUES)]
+    for group in groups[:4]:
+        name = f": {group.label}" if len(groups) > 1 else ""
+        parts += [_section(f"Stations{escape(name)}", plots.stations(group))]
+        troubles = _troubles(group)
+        if troubles:
+            note = (
+                "Pieces not picked are estimated from those picked in the robot hours at work: what"
+                " is lost if stations wait for robots."
+            )
+            parts += [_section(f"Troubles of the day{escape(name)}", troubles, note)]
+        maps = _maps(group.runs[0])
+        if maps:
+            parts += [_section(f"The floor{escape(name)}", _row(maps))]
+    return "\n".join(parts) + "</body></html>\n"
+
+
+def write(path, runs):
+    """Writes the report about Runs; returns its path."""
+    Path(path).write_text(page(runs), encoding="utf-8")
+    return Path(path)
+
+
+def default_path(folders):
+    """Where a report about folders goes: into the one, or into a new file of its own in the working
+    directory, for each of several has a report already."""
+    if len(folders) == 1:
+        return Path(folders[0], REPORT)
+    names = itertools.chain(
+        ["comparison.html"], map("comparison-{}.html".format, itertools.count(2))
+    )
+    return next(path for path in map(Path, names) if not path.exists())
+
+
+def table(runs):
+    """The figures as text for a terminal."""
+    groups = comparison.grouped(runs)
+    width = max(len(words) for _, words, *_ in ROWS) + 2
+    lines = [" " * width + "".join(f"{group.label[:26]:>28}" for group in groups)]
+    for kpi, words, unit, factor, digits in ROWS:
+        cells = [_cell(group, kpi, factor, digits, unit) for group in groups]
+        lines.append(f"{words:<{width}}" + "".join(f"{cell:>28}" for cell in cells))
+    return "\n".join([*lines, *(f"\n{text}" for text in verdicts(groups))])
+
+
+def verdicts(groups):
+    """How much each configuration differs from the first in throughput, in words."""
+    for group in groups[1:]:
+        found = comparison.difference(groups[0], group, "item_throughput_per_hour")
+        if found is None:
+            ratio = (
+                group.estimate("item_throughput_per_hour").mean
+                / max(groups[0].estimate("item_throughput_per_hour").mean, 1e-9)
+                - 1
+            )
+            yield (
+                f"{group.label}: {100 * ratio:+.1f} % pieces an hour against {groups[0].label} "
+                "(too few runs to tell it from chance)"
+            )
+            continue
+        sure = "significant" if found.significant else "not significant"
+        yield (
+            f"{group.label}: {100 * found.relative:+.1f} % pieces an hour against "
+            f"{groups[0].label} ({sure}, p = {found.p_value:.2g}, {found.estimate.count} runs"
+            f"{', seed by seed' if found.paired else ''})"
+        )
+
+
+def _head(runs, groups):
+    count = f"{len(runs)} runs, {len(groups)} configurations" if len(runs) > 1 else ""
+    return (
+        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+        f"<title>Shift report</title><style>{STYLE}</style></head><body>"
+        f"<h1>Shift report</h1><p>{escape(', '.join(_common(runs)))}. {count}</p>"
+    )
+
+
+def _common(runs):
+    """What holds for all of the runs: words."""
+    told = [list(_what(run)) for run in runs]
+    return [words for words in told[0] if all(words in one for one in told)]
+
+
+def _what(run):
+    yield run.config.get("site", "")
+    yield f"{run.kpis['simulated_s'] / 3600:.2g} h"
+    yield f"orders {run.config.get('orders', '')}"
+    yield "simulated robots" if run.config.get("physics") else "ideal robots"
+
+
+def _headline(group):
+    tell = (
+        ("item_throughput_per_hour", "pieces an hour", 1, 0, ""),
+        ("item_score", "of the stations' upper bound", 100, 0, " %"),
+        ("late_orders_fraction", "orders late", 100, 1, " %"),
+        ("distance_per_item_m", "driven for a piece", 1, 1, " m"),
+    )
+    cells = [
+        f"<div><b>{group.estimate(kpi).mean * factor:,.{digits}f}{unit}</b>{words}</div>"
+        for kpi, words, factor, digits, unit in tell
+    ]
+    collisions = group.estimate("collisions").mean
+    warning = f'<p class="bad">{collisions:g} collisions.</p>' if collisions else ""
+    return f'<div class="big">{"".join(cells)}</div>{warning}'
+
+
+def _verdicts(groups):
+    return "".join(f"<p>{escape(text)}</p>" for text in verdicts(groups))
+
+
+def _table(groups):
+    head = "".join(f"<th>{escape(group.label)}</th>" for group in groups)
+    rows = []
+    for kpi, words, unit, factor, digits in ROWS:
+        cells = (_cell(group, kpi, factor, digits, unit) for group in groups)
+        rows.append(f"<tr><td>{words}</td>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
+    header = f"<tr><th></th>{head}</tr>" if len(groups) > 1 else ""
+    return f"<table>{header}{''.join(rows)}</table>"
+
+
+def _troubles(group):
+    """What befell the first run's robots and what each of it cost; what it came to in all runs."""
+    cost = [
+        f"<tr><td>{words}</td><td>{_number(group.estimate(kpi), factor, digits, unit)}</td></tr>"
+        for kpi, words, unit, factor, digits in TROUBLES
+        if all(kpi in run.kpis for run in group.runs)
+    ]
+    rows = [
+        f"<tr><td>{escape(words)}</td>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+        for words, *cells in _each_trouble(group.runs[0])
+    ]
+    if not cost and not rows:
+        return ""
+    columns = ("Robots", "times", "repaired after, mean", "robot hours", "pieces not picked")
+    head = "".join(f"<th>{words}</th>" for words in columns)
+    table = f"<table><tr>{head}</tr>{''.join(rows)}</table><p></p>" if rows else ""
+    return f"{table}<table>{''.join(cost)}</table>"
+
+
+def _each_trouble(run):
+    """(words, times, mean time to repair, robot hours, pieces not picked) of each, as text."""
+    all_h = run.data.get("robot_h", 0.0)
+    failures = run.data.get("failures") or []
+    charging_h = run.kpis.get("charging_fraction", 0.0) * all_h
+    at_work_h = all_h - charging_h - sum(one["down_h"] for one in failures)
+    an_hour = run.kpis["items_picked"] / at_work_h if at_work_h > 0 else 0.0
+    for one in failures:
+        repair = f"{one['mean_repair_s'] / 60:.1f} min" if one["repairs"] else ""
+        pieces = f"{one['down_h'] * an_hour:.0f}"
+        yield one["kind"], one["count"], repair, f"{one['robot_h']:.2f}", pieces
+    if charging_h:
+        yield "charge", "", "", f"{charging_h:.2f}", f"{charging_h * an_hour:.0f}"
+    for words, count in (run.data.get("mishaps") or {}).items():
+        yield words, count, "", "", ""
+
+
+def _cell(group, kpi, *shown):
+    if kpi in OF_TRAFFIC and not group.runs[0].config.get("physics", True):
+        return "–"
+    return _number(group.estimate(kpi), *shown)
+
+
+def _number(estimate, factor, digits, unit):
+    text = f"{estimate.mean * factor:,.{digits}f}"
+    if not np.isnan(estimate.half):
+        text += f" ± {estimate.half * factor:,.{digits}f}"
+    return f"{text} {unit}".strip()
+
+
+def _maps(run):
+    names = {"traffic": "Loaded robots through a cell", "waiting": "Waiting [robot-seconds]"}
+    return [plots.heat_map(run.data[key], name) for key, name in names.items() if run.data[key]]
+
+
+def _several(groups):
+    return any(len(group.runs) > 1 for group in groups)
+
+
+def _row(pictures):
+    return f'<div class="row">{"".join(f"<div>{one}</div>" for one in pictures)}</div>'
+
+
+def _section(title, content, note=""):
+    note = f'<p class="note">{note}</p>' if note else ""
+    return f"<h2>{title}</h2>{note}{content}"

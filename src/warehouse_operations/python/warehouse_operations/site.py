@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A warehouse before a shift: its floor, and who stands where."""
+
+from dataclasses import dataclass, field
+
+from warehouse_fleet.kinematics import Kinematics
+from warehouse_layout.floor_plan import FloorPlan
+from warehouse_operations.assortment import INITIAL_LEVEL
+from warehouse_operations.shift import Settings
+
+
+@dataclass(frozen=True)
+class Site:
+    """Cells by id of the robots and the storage units; the bins by name, each with its unit."""
+
+    plan: FloorPlan
+    robots: dict
+    units: dict
+    items: list  # of (name, unit)
+    name: str = ""
+    kinematics: Kinematics = field(default_factory=Kinematics)
+    settings: Settings = field(default_factory=Settings)
+    skus: int = None  # how many; None: by the number of bins
+    level: float = INITIAL_LEVEL  # of the stock at first, over its room
+
+    @classmethod
+    def of_world(cls, world, name=""):
+        """That of an in-process kiva_plugin_cpp.World."""
+        plan = FloorPlan.of_world(world)
+        fleet, units, fallen = world.fleet, world.storage_units, world.fallen_items
+        unit_of = {int(i["item_id"]): int(i["shelf_id"]) for i in world.items}
+        unit_of |= {int(i["item_id"]): int(i["shelf_id"]) for i in fallen}
+        return cls(
+            plan,
+            {int(i): plan.cell_of(x, y) for i, x, y in zip(fleet.kiva_id, fleet.x, fleet.y)},
+            {int(u["shelf_id"]): plan.cell_of(u["x"], u["y"]) for u in units},
+            [(f"item{item}", unit) for item, unit in unit_of.items() if unit],
+            name,
+        )

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a person at a station is asked to do: each thing by a number of its own, done but once."""
+
+import itertools
+from dataclasses import dataclass
+from enum import IntEnum
+
+from warehouse_operations.stations import Mode
+
+KEPT = 1000  # reports that are known when they come again
+UNDO_WITHIN = 60.0  # after a report [s], simulated: ten seconds of a person where time runs faster
+
+
+class Outcome(IntEnum):
+    """Of a task."""
+
+    DONE = 0
+    SHORT = 1
+    DAMAGED = 2
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a person says of a task, which station, order, item and sequence name."""
+
+    station: str
+    order_id: int
+    item: str
+    sequence: int
+    quantity: int
+    outcome: Outcome
+
+
+@dataclass
+class Answer:
+    """What became of a Report; `undo()` takes a write-off back, and returns why it can't."""
+
+    success: bool
+    message: str = ""
+    quantity: int = 0
+    undo: object = None
+
+
+@dataclass
+class Done:
+    """A Report that was carried out, and its Answer; `time` [s] as it came."""
+
+    report: Report
+    answer: Answer
+    time: float
+    undone: bool = False
+
+
+class Tasks:
+    """The part of a Shift that hears from people at its stations."""
+
+    def __init__(self, shift):
+        self._shift, self._done = shift, {}
+        self._numbers = itertools.count(1)
+
+    def number_from(self, first):
+        """Numbers tasks from `first` on: none is that of a task of an earlier run."""
+        self._numbers = itertools.count(first)
+
+    def number(self):
+        """That of a new task, or of what is left of one."""
+        return next(self._numbers)
+
+    def report(self, report):
+        """Carries out a Report; returns an Answer. One that comes again changes nothing."""
+        done = self._done.get(report.sequence)
+        if done:
+            same = done.report == report
+            text = f"that was reported as {done.report.outcome.name} already"
+            return done.answer if same else Answer(False, text)
+        station, refusal = self._station(report.station)
+        if refusal:
+            return Answer(False, refusal)
+        part, now = self._shift.part_of(station), self._shift.now
+        task = part.task(station, report)
+        if task is None:
+            return Answer(False, f"that is no longer asked for; {part.asks(station)}")
+        answer = part.report(station, task, report)
+        if answer.success:
+            station.attended = now
+            self._keep(Done(report, answer, now))
+        return answer
+
+    def undo(self, station, sequence):
+        """Takes back what was written off; returns success and why not."""
+        done = self._done.get(sequence)
+        if not done or done.report.station != station or not done.answer.undo:
+            return False, f"nothing was written off at {station} under {sequence}"
+        if done.undone:
+            return True, ""
+        if self._shift.now - done.time > UNDO_WITHIN:
+            return False, f"it was written off more than {UNDO_WITHIN:g} s ago"
+        refusal = done.answer.undo()
+        done.undone = not refusal
+        return done.undone, refusal
+
+    def _station(self, name):
+        station = self._shift.find_station(name)
+        if not station:
+            return None, f"there is no station '{name}'"
+        return station, "" if station.mode == Mode.MANUAL else f"{name} works by itself"
+
+    def _keep(self, done):
+        self._done[done.report.sequence] = done
+        if len(self._done) > KEPT:
+            del self._done[next(iter(self._done))]

@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read by catkin_python_setup; not meant to be run."""
+
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+packages = ["warehouse_operations", "warehouse_operations.policies"]
+setup(**generate_distutils_setup(packages=packages, package_dir={"": "python"}))

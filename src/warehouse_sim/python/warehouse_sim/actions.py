@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The actions Move and Carry of warehouse_msgs, made of the commands that robots know.
+
+A robot works on one goal at a time. Who cancels a goal gets the robot back once the command that it
+executes has ended: no further one is sent.
+"""
+
+import queue
+import time
+from dataclasses import dataclass
+
+from actionlib import ActionServer
+from actionlib_msgs.msg import GoalStatus
+from geometry_msgs.msg import Pose2D
+from rospy.numpy_msg import numpy_msg
+
+from warehouse_client import tracking
+from warehouse_client.commands import COMMANDS
+from warehouse_client.latest import LatestMessages
+from warehouse_client.routes import point
+from warehouse_msgs.msg import (
+    CarryAction,
+    CarryFeedback,
+    CarryResult,
+    Event,
+    FleetState,
+    Lift,
+    MoveAction,
+    MoveFeedback,
+    MoveResult,
+    UnitStates,
+    WarehouseObjects,
+)
+from warehouse_sim.script_executor import Command, command
+
+FEEDBACK_GAP = 0.2  # [s, wall]
+PATIENCE = 3.0  # for where a storage unit is that may just have come [s, wall]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One command of a goal; on its way the robot goes to `target` (x, y) [m]."""
+
+    command: Command
+    target: tuple
+    phase: int = 0
+
+
+def move(goal):
+    """The Steps of a MoveGoal."""
+    target = (goal.x, goal.y)
+    return [Step(command("/mov", goal.kiva_id, x=goal.x, y=goal.y), target)]
+
+
+def carry(goal, unit):
+    """The Steps of a CarryGoal, whose storage unit stands at the grid point `unit`."""
+    kiva, target = goal.kiva_id, (goal.x, goal.y)
+    lift, drop = (
+        command("/lift", kiva, status=status, shelf_id=goal.shelf_id)
+        for status in (Lift.CARRY, Lift.DROP)
+    )
+    return [
+        Step(command("/mov", kiva, x=unit[0], y=unit[1]), unit, CarryFeedback.FETCHING),
+        Step(lift, unit, CarryFeedback.LIFTING),
+        Step(command("/mov", kiva, x=goal.x, y=goal.y), target, CarryFeedback.CARRYING),
+        Step(drop, target, CarryFeedback.DROPPING),
+    ]
+
+
+class Work:
+    """A goal on which a robot works: `handle` is actionlib's, `steps` are what is left to do."""
+
+    def __init__(self, handle, steps, feedback, result):
+        self.handle, self.steps = handle, steps
+        self.feedback, self.result = feedback, result
+        self.command = None  # the number of the first step's, once it was accepted
+
+    @property
+    def robot(self):
+        return f"kiva{self.handle.get_goal().kiva_id}"
+
+    def hears(self, event):
+        """Takes an event of its robot in; True if it ends the command that was sent."""
+        if self.command is None:
+            if event.kind == Event.ACCEPTED:
+                self.command = event.command
+            return event.kind == Event.REFUSED
+        return event.command == self.command and event.kind in (Event.DONE, Event.BLOCKED)
+
+
+def _is_cancelled(handle):
+    return handle.get_goal_status().status == GoalStatus.PREEMPTING
+
+
+class RobotActions:
+    """Serves /warehouse/move and /warehouse/carry. `ros` is rospy."""
+
+    def __init__(self, ros):
+        self._ros, self._inbox, self._works = ros, queue.Queue(), {}
+        self._fleet, self._hearing = None, None
+        self._publishers = {t: ros.Publisher(t, k, queue_size=10) for t, k in COMMANDS.items()}
+        self._places = LatestMessages(
+            ros,
+            objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
+            states=("/warehouse/unit_states", numpy_msg(UnitStates)),
+        )
+        ros.Subscriber("/warehouse/events", Event, self._on_event, queue_size=1000)
+        self._servers = [
+            ActionServer(name, kind, self._on_goal(begin), auto_start=False)
+            for name, kind, begin in (
+                ("/warehouse/move", MoveAction, self._begin_move),
+                ("/warehouse/carry", CarryAction, self._begin_carry),
+            )
+        ]
+        ros.set_param("~actionlib_status_frequency", 0)  # its timer ends when time goes back
+        for server in self._servers:
+            server.start()
+
+    # --- ROS's threads only put down what came; one worker does it
+    def _on_goal(self, begin):
+        return lambda handle: self._inbox.put((begin, handle))
+
+    def _on_event(self, event):
+        if event.model in self._works:
+            self._inbox.put((self._take, event))
+
+    def _on_fleet(self, fleet):
+        self._fleet = fleet
+
+    def run(self):
+        """Until shutdown."""
+        while not self._ros.is_shutdown():
+            try:
+                act, what = self._inbox.get(timeout=FEEDBACK_GAP)
+                act(what)
+            except queue.Empty:
+                self._tell()
+                for server in self._servers:
+                    server.publish_status()
+
+    # --- goals
+    def _begin_move(self, handle):
+        self._begin(handle, move(handle.get_goal()), MoveFeedback(), MoveResult())
+
+    def _begin_carry(self, handle):
+        goal = handle.get_goal()
+        unit = self._place(f"storage_unit{goal.shelf_id}")
+        if unit is None:
+            self._reject(handle, CarryResult(), f"there is no storage_unit{goal.shelf_id}")
+        else:
+            self._begin(handle, carry(goal, unit), CarryFeedback(), CarryResult())
+
+    def _place(self, name):
+        """The grid point of a storage unit, or None."""
+        end = time.monotonic() + PATIENCE
+        while (place := self._told_place(name)) is None and time.monotonic() < end:
+            self._places.wait(end - time.monotonic())
+        return place
+
+    def _told_place(self, name):
+        known = self._places.units_and_objects
+        units = tracking.storage_units(*known) if known else tracking.Tracked()
+        return point(units.pose[units.names.index(name)]) if name in units.names else None
+
+    def _begin(self, handle, steps, feedback, result):
+        work = Work(handle, steps, feedback, result)
+        if work.robot in self._works:
+            self._reject(handle, result, f"{work.robot} works on another goal")
+            return
+        handle.set_accepted()
+        self._works[work.robot] = work
+        self._hear_fleet()
+        self._send(work)
+
+    @staticmethod
+    def _reject(handle, result, text):
+        result.text, result.kind = text, Event.REFUSED
+        handle.set_rejected(result, text)
+
+    def _send(self, work):
+        work.command = None
+        wanted = work.steps[0].command
+        self._publishers[wanted.topic].publish(wanted.message)
+
+    def _take(self, event):
+        work = self._works.get(event.model)
+        if not work or not work.hears(event):
+            return
+        work.steps.pop(0)
+        is_cancelled = bool(work.steps) and _is_cancelled(work.handle)
+        if event.kind == Event.DONE and work.steps and not is_cancelled:
+            self._send(work)
+        else:
+            self._end(work, event, is_cancelled)
+
+    def _end(self, work, event, is_cancelled):
+        del self._works[work.robot]
+        work.result.kind, work.result.text = event.kind, event.text
+        work.result.pose = self._pose(work) or Pose2D()
+        self._hear_fleet()
+        if event.kind == Event.DONE and is_cancelled:
+            work.handle.set_canceled(work.result, "cancelled before all of it was done")
+        elif event.kind == Event.DONE:
+            work.handle.set_succeeded(work.result)
+        else:
+            work.handle.set_aborted(work.result, event.text)
+
+    # --- feedback, and what goes on between two events
+    def _hear_fleet(self):
+        """The fleet is heard while anybody works."""
+        if self._works and not self._hearing:
+            self._hearing = self._ros.Subscriber(
+                "/warehouse/fleet", FleetState, self._on_fleet, queue_size=1
+            )
+        elif not self._works and self._hearing:
+            self._hearing.unregister()
+            self._hearing = self._fleet = None
+
+    def _pose(self, work):
+        fleet, kiva = self._fleet, work.handle.get_goal().kiva_id
+        if fleet is None or kiva not in fleet.kiva_id:
+            return None
+        i = fleet.kiva_id.index(kiva)
+        return Pose2D(fleet.x[i], fleet.y[i], fleet.yaw[i])
+
+    def _tell(self):
+        for work in self._works.values():
+            pose = self._pose(work)
+            if pose is None:
+                continue
+            step, feedback = work.steps[0], work.feedback
+            feedback.pose = pose
+            feedback.distance = abs(step.target[0] - pose.x) + abs(step.target[1] - pose.y)
+            if hasattr(feedback, "phase"):
+                feedback.phase = step.phase
+            work.handle.publish_feedback(feedback)

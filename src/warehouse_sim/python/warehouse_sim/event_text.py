@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Events as lines for a person at a terminal."""
+
+import os
+import re
+from collections import Counter
+
+from warehouse_client.message_names import EVENT
+from warehouse_layout.models import kind_and_number
+from warehouse_msgs.msg import Event
+
+_GREEN, _YELLOW, _RED, _BLUE, _DIM = 32, 33, 31, 34, 2
+COLOURS = {
+    Event.REFUSED: _YELLOW,
+    Event.DONE: _GREEN,
+    Event.BLOCKED: _RED,
+    Event.COLLISION: _RED,
+    Event.LOST: _RED,
+    Event.LIFTED: _BLUE,
+    Event.DROPPED: _BLUE,
+    Event.FAILED: _RED,
+    Event.REPAIRED: _GREEN,
+    Event.TIPPED: _RED,
+    Event.FELL: _RED,
+    Event.PICKED_UP: _GREEN,
+}
+# What a terminal would obey rather than show; models have the names that their files give them.
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
+
+
+def word(event):
+    return EVENT.get(event.kind, str(event.kind))
+
+
+def line(event, coloured=False):
+    """Time [s, simulated], model, what happened, which command, who else took part, and why."""
+    number = f"#{event.command}" if event.command else ""
+    kind = _kind(event, coloured)
+    model, other, text = map(_plain, (event.model, event.other, event.text))
+    why = ": ".join(filter(None, (other, text)))
+    return f"{event.header.stamp.to_sec():10.3f} s  {model:<14} {kind} {number:<6} {why}".rstrip()
+
+
+def _kind(event, coloured):
+    kind = f"{word(event):<9}"
+    return f"\033[{COLOURS.get(event.kind, _DIM)}m{kind}\033[0m" if coloured else kind
+
+
+SUMMED = (Event.SPAWNED, Event.DELETED)
+FEW = 3  # in a row that are told one by one
+_NOUNS = {
+    "kiva": "robot",
+    "storage_unit": "storage unit",
+    "item": "item",
+    "conveyor_belt": "conveyor belt",
+}
+
+
+class Teller:
+    """Lines of events as they come; of many models that come or go in a row, one line of all.
+
+    take() and rest() return the lines that are to be told now; rest() is for when nothing has come
+    for a while. `each`: every event is told by itself.
+    """
+
+    def __init__(self, coloured=False, each=False):
+        self._coloured, self._each, self._row = coloured, each, []
+
+    def take(self, event):
+        """The lines of what is over now that this Event has come."""
+        if self._each or event.kind not in SUMMED:
+            return [*self.rest(), line(event, self._coloured)]
+        told = self.rest() if self._row and self._row[0].kind != event.kind else []
+        self._row.append(event)
+        return told
+
+    def rest(self):
+        """The lines of what has been kept."""
+        row, self._row = self._row, []
+        if len(row) <= FEW:
+            return [line(event, self._coloured) for event in row]
+        models = f"{len(row)} models"
+        time, kind = row[-1].header.stamp.to_sec(), _kind(row[-1], self._coloured)
+        return [f"{time:10.3f} s  {models:<14} {kind} {'':<6} {_counted(row)}"]
+
+
+def _counted(row):
+    """How many of each kind, as "4 robots, 24 storage units"."""
+    nouns = (_NOUNS.get(kind_and_number(event.model)[0], "other model") for event in row)
+    counts = Counter(nouns)
+    order = [*_NOUNS.values(), "other model"]
+    found = ((counts[noun], noun) for noun in order if counts[noun])
+    return ", ".join(f"{n} {noun}{'' if n == 1 else 's'}" for n, noun in found)
+
+
+def _plain(text):
+    return _CONTROL.sub("?", text)
+
+
+def fits(event, models=(), kinds=()):
+    """Whether it is about one of the models, if any are named, and of one of these kinds."""
+    about = not models or event.model in models or event.other in models
+    return about and (not kinds or word(event).lower() in kinds)
+
+
+def wants_colour(choice, file, environment=os.environ):
+    """`choice` is always, never, or auto: on a terminal that shall have some."""
+    if choice != "auto":
+        return choice == "always"
+    return file.isatty() and "NO_COLOR" not in environment and environment.get("TERM") != "dumb"

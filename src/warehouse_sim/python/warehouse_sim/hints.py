@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Commands to try first: such as work in the very warehouse that stands."""
+
+import math
+
+from warehouse_client.routes import elbow, point
+
+NEAREST = 20  # units tried for each robot
+
+_CREATE = "rosservice call /warehouse/create_warehouse_models '{warehouse_name: small}'"
+_WITHOUT_ROBOTS = [
+    (_CREATE, "build a warehouse here"),
+    ("rostopic echo -n 1 /warehouse/state", "what stands in it"),
+    ("rosservice call /gazebo/get_world_properties", "the same as the engine sees it"),
+]
+
+
+def commands(survey):
+    """Three pairs (shell command, what it does) for a survey.Survey."""
+    if not survey.kiva:
+        return _WITHOUT_ROBOTS
+    return _fetch(survey) or _stroll(survey)
+
+
+def _fetch(survey):
+    """Take up a unit that some robot reaches with one command; None if there is no such pair."""
+    units = {number: point(pose) for number, pose in survey.storage_unit.items()}
+    fixed = survey.obstacles() | {point(pose) for pose in survey.kiva.values()}
+    for kiva, unit in _nearest(survey.kiva, units):
+        way = elbow(survey.kiva[kiva], units[unit])
+        # The load must get out the way the robot came in, where it came past no other unit.
+        if len(way) > 1 and fixed.isdisjoint(way[1:]) and way[-2] not in units.values():
+            return _carry(kiva, unit, way[-1], way[-2])
+    return None
+
+
+def _nearest(robots, units):
+    """Pairs of a robot's and a unit's number, the nearest units of each robot."""
+    for kiva in sorted(robots):
+        x, y = point(robots[kiva])
+        far = {number: abs(x - ux) + abs(y - uy) for number, (ux, uy) in units.items()}
+        yield from ((kiva, unit) for unit in sorted(far, key=far.get)[:NEAREST])
+
+
+def _carry(kiva, unit, at, back):
+    axis, distance = ("x", back[0] - at[0]) if back[0] != at[0] else ("y", back[1] - at[1])
+    return [
+        (_pub("mov", "MoveTo", x=at[0], y=at[1], kiva_id=kiva), f"beneath storage_unit{unit}"),
+        (_pub("lift", "Lift", status=1, kiva_id=kiva, shelf_id=unit), "take it up"),
+        (_pub(f"mov{axis}", "MoveAlong", distance=distance, kiva_id=kiva), "carry it out"),
+    ]
+
+
+def _stroll(survey):
+    """A step ahead, where a parked robot has a street; a turn; and back."""
+    kiva, (x, y, yaw) = min(survey.kiva.items())
+    dx, dy = round(math.cos(yaw)), round(math.sin(yaw))
+    axis, distance = ("x", dx) if dx else ("y", dy)
+    home = point((x, y))
+    return [
+        (_pub(f"mov{axis}", "MoveAlong", distance=distance, kiva_id=kiva), "a step ahead"),
+        (_pub("rot", "Rotate", direction=1, kiva_id=kiva), "a quarter turn to the left"),
+        (_pub("mov", "MoveTo", x=home[0], y=home[1], kiva_id=kiva), "home again"),
+    ]
+
+
+def _pub(topic, kind, **fields):
+    text = ", ".join(f"{name}: {value}" for name, value in fields.items())
+    return f"rostopic pub -1 /{topic} warehouse_msgs/{kind} '{{{text}}}'"
+
+
+def greeting(title, pairs):
+    """What a person reads once the warehouse stands."""
+    wide = max(len(command) for command, _ in pairs)
+    lines = [f"    {command:{wide}}   # {meaning}" for command, meaning in pairs]
+    how = "Try in another terminal, each line once the one before is done:"
+    return "\n".join(["", title, "", how, "", "    source devel/setup.bash", *lines, ""])

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lets robots act: each follows a script of commands and waits for what becomes of each.
+
+A script is a generator. It yields Commands; each `yield` returns the Event that ended the command:
+DONE, BLOCKED or REFUSED. All scripts of a scene run at once, driven by the robots' events alone.
+"""
+
+import queue
+import time
+from dataclasses import dataclass
+
+from warehouse_client.commands import COMMANDS
+from warehouse_client.message_names import EVENT
+from warehouse_msgs.msg import Event, KivaStatus
+
+ENDS = (Event.DONE, Event.BLOCKED, Event.REFUSED)
+SILENT = (Event.ACCEPTED, Event.SPAWNED, Event.DELETED)
+
+
+class DeadlineError(TimeoutError):
+    """The scene did not end in time; the message says who was still waiting for what."""
+
+
+class Interrupted(Exception):  # noqa: N818 (nothing went wrong)
+    """ROS shuts down."""
+
+
+@dataclass(frozen=True)
+class Command:
+    """A message for a robot, and the topic it goes to."""
+
+    topic: str
+    message: object
+
+    def __str__(self):
+        fields = (f"{n} {getattr(self.message, n):g}" for n in self.message.__slots__)
+        return f"{self.topic} {', '.join(f for f in fields if not f.startswith('kiva_id'))}"
+
+
+def command(topic, kiva, **fields):
+    """A Command for the robot number `kiva`; fields as in interface messages."""
+    return Command(topic, COMMANDS[topic](kiva_id=kiva, **fields))
+
+
+class ScriptExecutor:
+    """`ros` is rospy. `say(seconds, who, text)` tells what happens; seconds are simulated."""
+
+    def __init__(self, ros, say, deadline):
+        """`deadline` [s, wall] bounds each scene."""
+        self._ros, self._say, self._deadline = ros, say, deadline
+        self._inbox, self._publishers, self._status = queue.Queue(), {}, {}
+        self._scripts, self._pending, self._ended = {}, {}, {}
+        self._now = 0.0  # [s, simulated]
+        self.events = []
+        ros.Subscriber("/warehouse/events", Event, self._inbox.put, queue_size=1000)
+        for topic, kind in COMMANDS.items():
+            self._publishers[topic] = ros.Publisher(topic, kind, queue_size=10)
+
+    def watch(self, kiva):
+        """Follows the status of a robot, so that it can take part."""
+        self._ros.Subscriber(f"/kiva{kiva}/status", KivaStatus, self._inbox.put, queue_size=100)
+
+    def status(self, kiva):
+        """The robot's newest KivaStatus; None if none has come yet."""
+        return self._status.get(kiva)
+
+    def play(self, scripts):
+        """Runs scripts, {kiva: generator}, until all have ended. Raises DeadlineError."""
+        end = time.monotonic() + self._deadline
+        self._scripts = dict(scripts)
+        self._pump(end, lambda: self._heard() and all(map(self._idle, scripts)))
+        for kiva in scripts:
+            self._advance(kiva, None)
+        self._pump(end, lambda: not self._scripts)
+
+    def _heard(self):
+        """Whether somebody receives the commands."""
+        return all(p.get_num_connections() for p in self._publishers.values())
+
+    def until(self, condition, patience=10.0):
+        """Takes in what happens until condition(), at most so many wall seconds. Its last value."""
+        try:
+            self._pump(time.monotonic() + patience, condition)
+        except DeadlineError:
+            return condition()
+        return True
+
+    def _pump(self, end, done):
+        while not done():
+            if self._ros.is_shutdown():
+                raise Interrupted
+            if time.monotonic() > end:
+                waiting = ", ".join(f"kiva{k} for {c}" for k, c in self._pending.items())
+                raise DeadlineError(f"out of time; waiting: {waiting or 'nobody'}")
+            try:
+                self._take(self._inbox.get(timeout=0.1))
+            except queue.Empty:
+                continue
+
+    def _take(self, message):
+        self._now = max(self._now, message.header.stamp.to_sec())
+        if isinstance(message, KivaStatus):
+            self._status[message.kiva_id] = message
+            self._go_on(message.kiva_id)
+            return
+        self.events.append(message)
+        if message.kind not in SILENT:
+            parts = (EVENT[message.kind], message.other, message.text)
+            self._say(message.header.stamp.to_sec(), message.model, " ".join(filter(None, parts)))
+        kiva = next((k for k in self._pending if message.model == f"kiva{k}"), None)
+        if kiva and message.kind in ENDS:
+            self._ended[kiva] = message
+            self._go_on(kiva)
+
+    def _go_on(self, kiva):
+        """A command has ended once its event came and the robot may take the next."""
+        event = self._ended.get(kiva)
+        if event and self._idle(kiva, since=event):
+            del self._ended[kiva], self._pending[kiva]
+            self._advance(kiva, event)
+
+    def _idle(self, kiva, since=None):
+        status = self._status.get(kiva)
+        if not status or status.status != KivaStatus.STATUS_IDLE:
+            return False
+        # A refusal does not change the status.
+        known = not since or since.kind == Event.REFUSED
+        return known or status.header.stamp >= since.header.stamp
+
+    def _advance(self, kiva, event):
+        try:
+            wanted = self._scripts[kiva].send(event)
+        except StopIteration:
+            del self._scripts[kiva]
+            return
+        self._pending[kiva] = wanted
+        self._say(self._now, f"kiva{kiva}", str(wanted))
+        self._publishers[wanted.topic].publish(wanted.message)

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Answers requests for a warehouse."""
+
+import threading
+from dataclasses import astuple
+
+from std_msgs.msg import Header
+
+from warehouse_client import identity, survey
+from warehouse_client.build_transaction import BuildTransaction
+from warehouse_client.engine import Engine, EngineError
+from warehouse_client.warehouse_builder import UndoneError, WarehouseBuilder
+from warehouse_layout import models
+from warehouse_layout.cells import Cells
+from warehouse_layout.fit import fit, fit_largest
+from warehouse_layout.layout import SEED, plan
+from warehouse_layout.request import FIT, RequestError, resolve
+from warehouse_msgs.srv import CreateWarehouseResponse
+from warehouse_sim import hints
+
+GREETED = "~greeted"
+
+
+class WarehouseService:
+    """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
+
+    In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
+    that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
+    `seed` decides what in a layout is left to chance.
+    """
+
+    def __init__(self, ros, tell, keeps_floor=False, seed=SEED, at=None):
+        self._ros, self._tell, self._lock = ros, tell, threading.Lock()
+        self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
+
+    def handle(self, request):
+        """CreateWarehouse: a refused request changes nothing."""
+        try:
+            message = self.create(
+                request.warehouse_name,
+                request.warehouse_id,
+                (request.robots, request.items, request.shelves),
+            )
+            success = True
+        except (RequestError, EngineError) as error:
+            message, success = str(error), False
+        header = Header(stamp=self._ros.Time.now(), frame_id="world")
+        return CreateWarehouseResponse(header, success, message)
+
+    def create(self, name, number=0, counts=(0, 0, 0)):
+        """Returns what stands then. Raises RequestError, EngineError."""
+        fits = name == FIT and not any(counts)
+        wanted = None if fits else resolve(name, *counts)
+        with self._lock, Engine(self._ros) as engine:
+            wanted, layout = self._layout(wanted, engine)
+            transaction = BuildTransaction(self._ros, engine)
+            transaction.begin(name)
+            try:
+                WarehouseBuilder(engine, self._tell).replace(layout)
+            except UndoneError:
+                self._finish(transaction, "", 0, layout.floor)
+                raise
+            self._finish(transaction, name, number, layout.floor)
+        title = f"{name}: " if name else ""
+        return f"{title}{wanted} {_where(layout)}"
+
+    def _layout(self, wanted, engine):
+        """(Request, Layout); `wanted` is None where as much is wanted as fits."""
+        cells = Cells.of_map(engine.map()) if self._keeps_floor else None
+        if cells is None or not cells.taken.size:
+            if wanted is None:
+                raise RequestError(f"size {FIT} is for a world that is given (world:=…)")
+            return wanted, plan(wanted, self._seed)
+        if wanted is None:
+            return fit_largest(cells, self._seed, self._at)
+        return wanted, fit(wanted, cells, self._seed, self._at)
+
+    def _finish(self, transaction, name, number, floor):
+        identity.write(self._ros, name, number)
+        self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
+        transaction.commit()
+
+    def start(self, size):
+        """Finds the warehouse as it stands; builds the preset `size`, if any, where none does.
+
+        What a node that died has left half-built is taken away first, and its pause with it.
+        """
+        try:
+            self._find_or_build("" if size == "none" else size)
+        except RequestError as error:
+            self._tell(f"nothing was built: {error}")
+
+    def _find_or_build(self, size):
+        with Engine(self._ros) as engine:
+            undone = self._undo(engine)
+            standing = {models.kind_and_number(name)[0] for name in engine.names()} - {None}
+        if undone or (size and not standing):
+            self._greet(self.create(size or "empty"))
+        elif not self._ros.has_param(GREETED):
+            self._greet()
+
+    def _undo(self, engine):
+        """Takes away what a builder left half-built. True if one did."""
+        transaction = BuildTransaction(self._ros, engine)
+        if not transaction.is_unfinished:
+            return False
+        self._tell("a warehouse was left half-built; taking it away")
+        WarehouseBuilder(engine, self._tell).clear(floor=False)
+        identity.write(self._ros, "", 0)
+        transaction.commit()
+        return True
+
+    def _greet(self, title=""):
+        """Tells what stands there and what to try."""
+        with Engine(self._ros) as engine:
+            found = survey.of_engine(engine)
+        title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
+        self._tell(hints.greeting(title, hints.commands(found)))
+        self._ros.set_param(GREETED, True)
+
+
+def _where(layout):
+    """On which floor, and how its stations are served if otherwise than usual."""
+    if layout.has_own_floor:
+        width, length = layout.floor.size
+        return f"on a {width:g} x {length:g} m floor"
+    if not len(layout.drops):
+        return layout.where
+    if layout.plan is None:
+        return f"{layout.where}; there is no room for stations"
+    queues = any(len(station.queue) for station in layout.plan.stations)
+    return layout.where if queues else f"{layout.where}; no room for queues before its stations"

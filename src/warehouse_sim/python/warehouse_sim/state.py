@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse at a glance: one message with every robot's status and every unit's carrier."""
+
+from geometry_msgs.msg import Pose2D
+from rospy.numpy_msg import numpy_msg
+from std_msgs.msg import Header
+
+from warehouse_client import identity, tracking
+from warehouse_client.commands import COMMANDS
+from warehouse_client.floor_reader import FloorReader
+from warehouse_client.latest import LatestMessages, LazyPublisher
+from warehouse_msgs.msg import (
+    FleetState,
+    KivaStatus,
+    Scenery,
+    UnitStates,
+    WarehouseObjects,
+    WarehouseState,
+)
+
+PERIOD = 1.0  # [s, simulated]
+
+
+def statuses(fleet):
+    """KivaStatus of every robot in a FleetState."""
+    header = Header(stamp=fleet.stamp, frame_id="world")
+    poses = map(Pose2D, fleet.x, fleet.y, fleet.yaw)
+    columns = (fleet.kiva_id, fleet.status, fleet.state, fleet.shelf_id, poses)
+    return [KivaStatus(header, *robot) for robot in zip(*columns)]
+
+
+def glance(fleet, objects, states):
+    """A WarehouseState without name and id; `fleet` is None until robots have reported."""
+    units = tracking.storage_units(objects, states)
+    stamp = max([states.header.stamp] + ([fleet.stamp] if fleet else []))
+    return WarehouseState(
+        header=Header(stamp=stamp, frame_id="world"),
+        robots=len(objects.kiva_id),
+        items=len(objects.items),
+        shelves=len(objects.storage_units),
+        belts=len(objects.belts),
+        kivas=statuses(fleet) if fleet else [],
+        storage_units=[units.message(i) for i in range(len(units.names))],
+    )
+
+
+class StatePublisher:
+    """Publishes /warehouse/state. `ros` is rospy."""
+
+    def __init__(self, ros):
+        self._ros, self._shown, self._next = ros, None, None
+        self._newest = LatestMessages(
+            ros,
+            fleet=("/warehouse/fleet", FleetState),
+            objects=("/warehouse/objects", numpy_msg(WarehouseObjects)),
+            states=("/warehouse/unit_states", numpy_msg(UnitStates)),
+            scenery=("/warehouse/scenery", Scenery),
+        )
+        self._floor = FloorReader(ros)
+        self._topic = LazyPublisher(ros, "/warehouse/state", WarehouseState, self.message)
+
+    def message(self):
+        """The newest WarehouseState, or None if nothing is known yet."""
+        if not self._newest.units_and_objects:
+            return None
+        out = glance(self._newest["fleet"], *self._newest.units_and_objects)
+        out.warehouse_name, out.warehouse_id = identity.read(self._ros)
+        out.stations = self._floor.stations
+        out.place_x, out.place_y = self._floor.places
+        return out
+
+    def turn(self, patience=1.0):
+        """Waits for news, at most `patience` wall seconds, and publishes them where it is time."""
+        news = self._newest.wait(patience)
+        now, fit = self._ros.Time.now().to_sec(), self._newest.units_and_objects
+        if not fit:
+            return
+        new_floor = self._floor.take(self._newest["scenery"])
+        # The name is asked for when little happens; it comes last when a warehouse is built.
+        shown = (fit[0].revision, None if news else identity.read(self._ros))
+        due = self._next is None or not self._next - PERIOD <= now < self._next
+        if due or new_floor or self._differs(shown):
+            self._topic.publish()
+            self._shown, self._next = (shown[0], identity.read(self._ros)), now + PERIOD
+
+    def _differs(self, shown):
+        revision, name = shown
+        return revision != self._shown[0] or name not in (None, self._shown[1])
+
+
+def follow(ros):
+    """Until shutdown; the body of create_warehouse_topics."""
+    for topic, kind in COMMANDS.items():
+        ros.Publisher(topic, kind, queue_size=10)
+    publisher = StatePublisher(ros)
+    while not ros.is_shutdown():
+        publisher.turn()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The coordinator as its services offer it: transports, and who commands a robot."""
+
+from warehouse_client.message_names import MODE, THEN
+from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
+from warehouse_viewer.simulation import RefusedError, is_offered, request
+
+SERVICES = {
+    Transport: "/warehouse/transport",
+    ReleaseTransport: "/warehouse/release_transport",
+    SetRobotMode: "/warehouse/set_robot_mode",
+}
+NONE_RUNS = "no coordinator runs: start with coordinator:=true"
+_MODES = {name: number for number, name in MODE.items()}
+_THEN = {name: number for number, name in THEN.items()}
+
+
+class Coordination:
+    """One client of those services; calls block. `ros` is rospy.
+
+    What is asked of the coordinator raises RefusedError, AwayError.
+    """
+
+    def __init__(self, ros):
+        self._ros = ros
+
+    def runs(self):
+        """Whether there is a coordinator. Raises AwayError."""
+        return is_offered(self._ros, SERVICES[Transport])
+
+    def submit(self, storage_unit, station, x, y, then, priority):
+        """The number of a new transport."""
+        answer = self._call(
+            Transport,
+            shelf_id=storage_unit,
+            station=station,
+            x=x or 0.0,
+            y=y or 0.0,
+            then=_THEN[then],
+            priority=priority,
+        )
+        if not answer.accepted:
+            raise RefusedError(answer.message)
+        return answer.transport_id
+
+    def release(self, transport):
+        """The station is done with the unit; returns what the coordinator says."""
+        return self._done(self._call(ReleaseTransport, transport_id=transport))
+
+    def set_mode(self, robot, mode):
+        """Gives a robot to the coordinator, to a person or to nobody, by the mode's name."""
+        return self._done(self._call(SetRobotMode, kiva_id=robot, mode=_MODES[mode]))
+
+    def _call(self, kind, **fields):
+        if not self.runs():
+            raise RefusedError(NONE_RUNS)
+        return request(self._ros, SERVICES[kind], kind, fields)
+
+    def _done(self, answer):
+        if not answer.success:
+            raise RefusedError(answer.message)
+        return answer.message

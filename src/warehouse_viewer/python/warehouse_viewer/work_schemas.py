@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the HTTP API takes and gives of orders, stock, stations and figures."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field, StrictBool, conint, conlist, constr
+
+from warehouse_viewer import schemas
+
+STATES = ("OPEN", "ASSIGNED", "COMPLETED", "CANCELLED")
+MODES = ("AUTOMATIC", "MANUAL")
+OUTCOMES = ("DONE", "SHORT", "DAMAGED")
+
+Sku = constr(min_length=1, max_length=80, regex=r"^[ -~]+$", strict=True)
+Pieces = conint(ge=1, le=schemas.INT32, strict=True)
+
+
+class Moment(schemas.Number):
+    ge, le = 0, 4e9
+
+
+class Line(schemas._Body):
+    sku: Sku
+    quantity: Pieces
+
+
+class NewOrder(schemas._Body):
+    """An order; `due` in simulated time, 0 = none."""
+
+    reference: constr(max_length=200, regex=r"^[ -~]*$", strict=True) = ""
+    lines: conlist(Line, min_items=1, max_items=100)
+    due: Moment = Field(0.0, description="[s], simulated time")
+    priority: conint(ge=0, le=255, strict=True) = 0
+
+
+class Accepted(BaseModel):
+    order_id: int
+    message: str
+
+
+class OrderLine(BaseModel):
+    sku: str
+    quantity: int
+    picked: int
+
+
+class Order(BaseModel):
+    """Times are simulated seconds of the run in which it came; 0 = none, not yet."""
+
+    order_id: int
+    reference: str
+    state: Literal[STATES]
+    station: str
+    priority: int
+    created: float
+    due: float
+    completed: float
+    lines: list[OrderLine]
+
+
+class Orders(BaseModel):
+    total: int
+    orders: list[Order]
+
+
+class Place(BaseModel):
+    item: str
+    shelf_id: int
+    sku: str
+    quantity: int
+    reserved: int
+    capacity: int
+
+
+class Stock(BaseModel):
+    total: int
+    pieces: int
+    places: list[Place]
+
+
+class Pick(BaseModel):
+    sku: str
+    quantity: int
+    item: str
+    order_id: int
+    reference: str
+    sequence: int = Field(
+        description="another one for each thing to be done, and what is left of it"
+    )
+
+
+class Station(BaseModel):
+    name: str
+    kind: str
+    open: bool
+    mode: Literal[MODES]
+    shelf_id: int
+    inbound: list[int]
+    orders: list[int]
+    slots: int
+    picks: list[Pick]
+    pieces: int
+    busy_fraction: float
+    waiting: float = Field(description="for so long a person has been waited for [s]; 0: none is")
+
+
+class Stations(BaseModel):
+    stations: list[Station]
+
+
+class SetStation(schemas._Body):
+    open: StrictBool
+    mode: Literal[MODES] = "AUTOMATIC"
+
+
+class Confirmation(Line):
+    """So many pieces were taken out, or a bundle of so many was put in."""
+
+
+class Short(Line):
+    """So many pieces are not there, or are damaged; those to be put in stay out."""
+
+    damaged: StrictBool = False
+
+
+class PickReport(schemas._Body):
+    """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
+    bin is empty; DAMAGED: so many are."""
+
+    order_id: conint(ge=0, le=2**53, strict=True) = 0
+    item: Sku
+    quantity: conint(ge=0, le=schemas.INT32, strict=True)
+    outcome: Literal[OUTCOMES] = "DONE"
+
+
+class Reported(BaseModel):
+    message: str
+    quantity: int = Field(description="pieces taken, put in or written off")
+
+
+class Throughput(BaseModel):
+    """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
+    whole multiples of their length; the last one goes on."""
+
+    interval: float = Field(description="[s], simulated")
+    begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")
+    end: float = Field(description="up to which the last one goes so far [s]")
+    items_picked: list[int]
+    pieces_stored: list[int]
+    orders_completed: list[int]
+
+
+class Notices(BaseModel):
+    notices: list[str]
+
+
+class Heat(BaseModel):
+    """Where robots drive and wait, by cell, row after row from the smallest y on."""
+
+    seconds: float = Field(description="that it covers, an hour at most")
+    x: float = Field(description="[m] of the first cell's centre")
+    y: float
+    spacing: float = Field(description="[m] of the cells")
+    width: int = Field(description="cells in a row")
+    traffic: list[float] = Field(description="robots that came into the cell")
+    waiting: list[float] = Field(description="[s] that robots waited there for their way")

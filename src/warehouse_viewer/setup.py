@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Read by catkin_python_setup; not meant to be run."""
+
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+setup(**generate_distutils_setup(packages=["warehouse_viewer"], package_dir={"": "python"}))
