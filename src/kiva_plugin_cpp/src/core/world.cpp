@@ -109,7 +109,7 @@ void forEachUserPlugin(WorldState& world, Call call) {
   }
 }
 
-/// Decides upon what was seen: who brakes, who stops, who begins what.
+/// Decides by what was seen which robots brake, stop, or begin a command.
 void decide(WorldState& world) {
   findFloorParts(world.view);
   haltCollidedRobots(world.view, world.contact_log);
@@ -137,7 +137,7 @@ int linkIndex(const Model* model, const std::string& name) {
   return model ? linkIndex(*model->description, name) : -1;
 }
 
-/// Whatever robots foresaw holds no more.
+/// Discards what robots know of their ways ahead.
 void discardForesight(WorldState& world) {
   invalidateClearance(world.fleet);
   for (int i = 0; i < world.fleet.size(); ++i) {

@@ -25,8 +25,8 @@ double approachSpeed(const Sighting& before, const Sighting& now, double between
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
 
-/// How far along the segment the robot may go: a grid point before the cell of what is ahead, or,
-/// off the grid, a little before it.
+/// Returns how far along the segment the robot may go: a grid point before the cell of what is
+/// ahead, or, off the grid, a little before it.
 double farthestStop(const Scene& world, int robot, double obstacle) {
   if (!world.fleet.tasks[robot].segments.front().on_grid) {
     return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
@@ -80,14 +80,14 @@ double usualBraking(MotionView& world, int i) {
   return usual > 0 ? usual : 1e9;
 }
 
-/// Where the obstacle is to be met: the other one comes on until it has seen this robot too, then
-/// brakes as this one does, with `braking` [m/s²].
+/// Returns where the obstacle is to be met: the other one comes on until it has seen this robot
+/// too, then brakes as this one does, with `braking` [m/s²].
 double expectedObstacle(const View& view, double braking) {
   return view.obstacle - 2 * view.approach * view.scan_time -
          view.approach * view.approach / (2 * braking);
 }
 
-/// Where the robot has to plan its stop now, if it has to; else its goal.
+/// Returns where the robot has to plan its stop now, if it has to; else its goal.
 double firstStop(MotionView& world, int robot, const View& view) {
   const auto isBehindGoal = [&](double stop) { return stop >= view.goal - kSoon; };
   // Most looks end here: how it can brake is worked out for the others alone.
@@ -103,8 +103,8 @@ double firstStop(MotionView& world, int robot, const View& view) {
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
-/// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
-/// by now, or even two hard stops would hardly do.
+/// Returns the same for a robot that is stopping already: it keeps to its plan unless the place is
+/// taken by now, or even two hard stops would hardly do.
 double revisedStop(MotionView& world, int robot, const View& view) {
   const Robot& r = world.fleet.robots[robot];
   const double hardest = plannedBraking(world, robot);
@@ -116,7 +116,7 @@ double revisedStop(MotionView& world, int robot, const View& view) {
   return std::min(view.goal, farthestStop(world, robot, view.obstacle));
 }
 
-/// Whether a robot that brakes or stands on its path can go farther than to where it does.
+/// Returns whether a robot that brakes or stands on its path can go farther than to where it does.
 bool mayResume(MotionView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   const View view = viewOf(world, i);

@@ -29,7 +29,7 @@ struct OnLine {
   double heading;  // off the line's [rad]
 };
 
-/// As the robot believes.
+/// Returns where the robot believes to be on that line.
 OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
   const PlanarPose at = f.believed(i);
@@ -65,7 +65,7 @@ bool giveUp(MotionView& world, int i, const OnLine& at) {
   return true;
 }
 
-/// What it may drive for the sake of people now, on its way down to what is allowed.
+/// Returns what it may drive for the sake of people now, on its way down to what is allowed.
 double allowedSpeed(MotionView& world, int i) {
   const FleetState& f = world.fleet;
   const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
@@ -73,8 +73,8 @@ double allowedSpeed(MotionView& world, int i) {
   return std::max(allowed, speed - plannedBraking(world, i) * world.clock.dt);
 }
 
-/// Where it has come to its goal by its own estimate, what it was put aside by the last code is
-/// left for the next drive or turn to mend: to turn it out would take half a second of each stop.
+/// Returns the heading error to correct. At its goal a robot leaves the error that the last code
+/// showed to the next drive or turn: to correct it would take half a second of each stop.
 double headingToMend(const FleetState& f, int i, double heading) {
   const bool is_there = f.localises && f.reference[i] == f.goal[i];
   return is_there && std::abs(heading) < kSquare ? 0 : heading;

@@ -77,7 +77,7 @@ void describeSetting(A& a, WorldState& world) {
   FIELDS(world.models.free_slots, world.models.next_serial, world.plugins.world_descriptions);
 }
 
-/// Whether a model has a state of its own; what is static or lies on a unit has none.
+/// Returns whether a model has a state of its own; what is static or lies on a unit has none.
 bool hasState(const Model& model) {
   return model.owner->isActivatedWhenNear() || (model.in_physics && !model.isStatic());
 }
@@ -185,7 +185,7 @@ std::string sealed(const std::string& content) {
   return header.bytes + content;
 }
 
-/// What is under the seal. Throws ArchiveError if it is broken.
+/// Returns what is under the seal. Throws ArchiveError if it is broken.
 Reader opened(const std::string& bytes) {
   Reader reader(bytes);
   char magic[8];

@@ -96,7 +96,7 @@ bool isActivatable(const Model& model) {
   return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
 }
 
-/// Whether the entry of that index in the table of its kind is about that model.
+/// Returns whether the entry of that index in the table of its kind is about that model.
 bool isListed(const WorldState& world, const Model& model) {
   const auto leads_back = [&](const auto& list) {
     return isIn(model.index, list.size()) && list[model.index].model == model.slot;
@@ -268,7 +268,7 @@ bool fits(const Task& task, std::size_t units) {
   }
 }
 
-/// Whether every point that its numbers lead to is one of the path's.
+/// Returns whether every point that its numbers lead to is one of the path's.
 bool fits(const ReleasedPath& path, std::uint32_t reached, std::uint32_t left) {
   if (!path.isUnderWay()) return path.points.empty();
   constexpr std::size_t kMost = 0xffffffffu;

@@ -382,7 +382,7 @@ void describe(A& a, Solid& s) {
   FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
 }
 
-/// Of a mover: it has no body of its own, and no triangles.
+/// Describes a mover's footprint: it has no body of its own, and no triangles.
 template <class A>
 void describe(A& a, Footprint& f) {
   DESCRIBED(Footprint, 14);

@@ -19,7 +19,7 @@ void save(const std::string& model, const PluginList& plugins, std::vector<Plugi
   }
 }
 
-/// The descriptions of those that are a user's.
+/// Returns the descriptions of those that are a user's.
 Descriptions usersOwn(const WorldState& world, const Descriptions& all) {
   Descriptions own;
   for (const PluginDescription& plugin : all) {

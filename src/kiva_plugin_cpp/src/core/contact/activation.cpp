@@ -64,8 +64,8 @@ bool looksAround(const Scene& world, int robot) {
   return (is_hasty || !is_known) && isMoving(world.fleet, robot);
 }
 
-/// For how long the way of each robot that looks around is free [s], as all stand now; 0 for
-/// others. By place in the list of those that are stepped singly.
+/// Returns for how long the way of each robot that looks around is free [s], as all stand now; 0
+/// for others. By place in the list of those that are stepped singly.
 std::vector<double> clearTimes(const ContactView& world) {
   const std::vector<int>& robots = world.schedule.stepped_singly;
   std::vector<double> times(robots.size(), 0);
@@ -82,7 +82,7 @@ std::vector<double> clearTimes(const ContactView& world) {
   return times;
 }
 
-/// One by one, since who enters Bullet changes what the next one finds.
+/// Looks around one by one, since a model that enters Bullet changes what the next one finds.
 void lookAround(ContactView& world) {
   const FleetState& f = world.fleet;
   const auto asks = [&](int robot) { return looksAround(world, robot); };
@@ -99,7 +99,7 @@ void lookAround(ContactView& world) {
   }
 }
 
-/// Whether no point of a storage unit that slides is fast.
+/// Returns whether no point of a storage unit that slides is fast.
 bool isSlow(const Model& model) {
   constexpr double kFarthest = 1;  // [m] from its centre of mass
   const btRigidBody& body = *model.bodies.links.front().body;
@@ -212,7 +212,7 @@ void updateActivation(ContactView& world) {
   updateUprightness(world);
   const bool has_more = world.models.activated.size() > before;
   release(world);
-  if (has_more) findSteppedSingly(world);  // who was activated has woken
+  if (has_more) findSteppedSingly(world);  // activated robots have woken
 }
 
 }  // namespace kiva

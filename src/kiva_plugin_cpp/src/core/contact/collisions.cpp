@@ -22,7 +22,7 @@ constexpr double kShare = 0.01, kNearing = 0.001;
 
 int robotIn(const Scene& world, const Model& model) { return model.owner->robot(world, model); }
 
-/// Whether one is an item that slides, or has fallen, off the other.
+/// Returns whether one is an item that slides, or has fallen, off the other.
 bool isFall(const FallenItems& fallen, const Contact& contact) {
   const auto is_off = [&](int item, int unit) {
     const OffShelf* off = fallen.find(item);

@@ -5,10 +5,10 @@
 
 namespace kiva {
 
-/// Tells each contact that should not be once, when its impact is over, and notes the robots in it
-/// as WorldState::crashes.
+/// Reports each collision once, when its impact is over, and notes the robots in it
+/// as ContactLog::crashes.
 void observeCollisions(ContactView& world);
-/// Forgets a model that is going, -1 = all; what has not been told yet is.
+/// Forgets the contacts of a model that is removed, -1 = all, and reports pending ones.
 void forgetContacts(ContactView& world, int slot);
 
 }  // namespace kiva

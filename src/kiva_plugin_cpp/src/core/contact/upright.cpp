@@ -14,7 +14,7 @@ namespace kiva {
 namespace {
 
 constexpr double kFootHeight = 0.005;  // [m] above the floor, up to which a shape is a foot
-constexpr double kVisible = 0.01;      // [rad]: who rocks farther is a whole body
+constexpr double kVisible = 0.01;      // [rad]: a unit that rocks farther is a whole body
 constexpr double kCalm = 0.25;         // share of that energy with which it is planar again
 constexpr double kAbove = 0.002;       // [m] that it may hang above the floor then
 constexpr double kRising = 0.02;       // [m/s] with which it may move up or down then
@@ -23,14 +23,14 @@ constexpr double kBurden = 0.1;        // share of its weight that may press on 
 /// What of a body's weight and shape matters for rocking.
 struct Rocking {
   double weight = 0;   // [N]
-  double height = 0;   // of the centre of mass [m]
+  double height = 0;   // height of the centre of mass [m]
   double support = 0;  // the least distance from there to where it tips over [m]
   double inertia = 0;  // about that edge, of feet that slide [kg m²]
 
   double energy() const { return weight * support * kVisible; }  // [J]
 };
 
-/// The floor's height under the centre of mass, in its frame; feet by description.
+/// Returns the feet that the description has, in the frame of the centre of mass.
 std::vector<Foot> feetOf(const FloorState& floor, const Model& model, double weight) {
   std::vector<Foot> feet;
   const Link& link = model.description->links.front();
@@ -61,7 +61,7 @@ const SlidingFriction& frictionOf(const Model& model) {
   return static_cast<const SlidingFriction&>(*model.bodies.joints.front());
 }
 
-/// How far the feet reach from the centre of mass that way.
+/// Returns how far the feet reach from the centre of mass that way.
 double supportAlong(const std::vector<Foot>& feet, const btVector3& way_in_body) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Foot& foot : feet) most = std::max(most, foot.at.dot(way_in_body));
@@ -96,7 +96,7 @@ Rocking rockingOf(const Settings& settings, const btRigidBody& body,
   return r;
 }
 
-/// How far from the centre of mass the edge is over which that momentum turns it [m].
+/// Returns how far from the centre of mass the edge is over which that momentum turns it [m].
 double armOf(const Model& model, const Vector3& momentum) {
   const double size = momentum.Length();
   const btVector3 way(momentum.Y() / size, -momentum.X() / size, 0);  // where it would tip to
@@ -119,7 +119,7 @@ void rockOne(const Scene& world, Model& model, const Push& push) {
   model.tips = model.tips || momentum.SquaredLength() > 2 * r.inertia * r.energy();
 }
 
-/// Whether it bears a load, or is lifted.
+/// Returns whether it bears a load, or is lifted.
 bool isBurdened(const Scene& world, const Model& model, const Push& push) {
   const double weight = model.bodies.links.front().body->getMass() * world.settings.gravityDown();
   return std::abs(push.load) > kBurden * weight * world.clock.dt;
@@ -139,14 +139,14 @@ void exchange(ContactView& world, Model& model, const EntityState& state, bool i
   moved(world, model);
 }
 
-/// Of the centre of mass; the pose is the model's.
+/// Returns the velocity of the centre of mass, with the model's pose.
 EntityState stateOf(const Model& model) {
   const btRigidBody& body = *model.bodies.links.front().body;
   return {canonicalState(model).pose,
           {fromBullet(body.getLinearVelocity()), fromBullet(body.getAngularVelocity())}};
 }
 
-/// Whether what is whole stands on its feet, and rocks so little that nobody sees it.
+/// Returns whether a whole body stands on its feet again, and rocks invisibly little.
 bool hasCalmed(const Scene& world, const Model& model) {
   const EntityState state = canonicalState(model);
   const double tilt = std::acos(std::min(1.0, state.pose.Rot().ZAxis().Z()));

@@ -10,9 +10,9 @@
 
 namespace kiva {
 
-/// Whether the floor is such that a unit may be planar where it stands on its feet.
+/// Returns whether the floor is such that a unit may be planar where it stands on its feet.
 bool canSlideUpright(const Scene& world, const Model& model);
-/// The planar body of a unit that is like `description`, at model.pose.
+/// Returns the planar body of a unit that is like `description`, at model.pose.
 ModelBodies buildUpright(const Scene& world, const Model& model, ModelDescription description);
 
 /// Adds what pushed the units over in the last step.

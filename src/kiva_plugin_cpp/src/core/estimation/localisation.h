@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a robot believes to be: odometry of its wheels, corrected by the codes on the floor in an
+// Estimates a robot's pose: odometry of its wheels, corrected by the codes on the floor in an
 // extended Kalman filter that learns the wheels' radii on the way (Martinelli and Siegwart 2003).
 #pragma once
 
@@ -27,7 +27,7 @@ struct Stretch {
   double from = 0;            ///< Reference at its beginning,
   double until = 0;           ///< and at its end.
   double curvature = 0;       ///< To the left [1/m].
-  double next_curvature = 0;  ///< Of the arc that comes after it,
+  double next_curvature = 0;  ///< The next arc's curvature,
   double next_length = 0;     ///< and its length [m]; 0 = none.
 };
 
@@ -36,19 +36,19 @@ struct Localisation {
 
   PlanarPose pose;  ///< Believed; while a stretch is under way, that at its beginning.
   DriveSizes believed;
-  double covariance[kStates * kStates] = {};  ///< As of when it was last propagated.
+  double covariance[kStates * kStates] = {};  ///< When it was last propagated.
   double way = 0, turn = 0;                   ///< Believed to have gone since then [m, rad].
   double wheel_angle[2] = {0, 0};             ///< Up to which the wheels' way is in the pose [rad].
-  double slip[2] = {0, 0};                    ///< Of the wheels now, as a share of their way.
+  double slip[2] = {0, 0};                    ///< The wheels' slip now, as a share of their way.
   double slip_for = 0;                        ///< [m] for which it stays so.
   double since_code = 0;                      ///< Way since the last code that it read [m].
   double lost_at = 0;                         ///< [m] of that at which it is lost next.
   bool lost = false;
   std::int32_t code_column = 0, code_row = 0;  ///< The last code that it passed, read or not.
-  std::uint32_t draws = 0;                     ///< Of random numbers so far.
+  std::uint32_t draws = 0;                     ///< Random numbers drawn so far.
   Stretch stretch;
 
-  /// Where it believes to be, its reference being there if a stretch is under way.
+  /// Returns where it believes to be, its reference being there if a stretch is under way.
   PlanarPose at(double reference) const;
   /// Ends the stretch, if one is under way: the pose is that of now.
   void settle(double reference, double left_angle, double right_angle);

@@ -35,19 +35,20 @@ void forSurfaces(const Scene& world, Visit visit) {
   }
 }
 
-/// Whether wheels get from the floor onto it.
+/// Returns whether wheels get from the floor onto it.
 bool isAtFloor(const FloorState& floor, const LevelSurface& surface) {
   return std::abs(surface.z - floor.extent.z) <= kStep + 1e-9;
 }
 
-/// By which the floor's own surface is chosen among those near its height; 0 for all others.
+/// Returns by which the floor's own surface is chosen among those near its height; 0 for all
+/// others.
 double extentAt(double height, const LevelSurface& surface) {
   if (std::abs(surface.z - height) > kSameHeight) return 0;
   return surface.is_plane ? std::numeric_limits<double>::infinity() : surface.area;
 }
 
-/// The height of the largest surface. Of two about as large, the undersides of slabs for one, the
-/// upper one.
+/// Returns the height of the largest surface. Of two about as large, the undersides of slabs for
+/// one, the upper one.
 std::optional<double> floorHeight(const Scene& world) {
   std::optional<double> plane;
   std::map<long long, std::pair<double, double>> bounded;  // by height: area, height

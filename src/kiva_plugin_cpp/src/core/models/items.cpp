@@ -21,8 +21,8 @@ Model& unitBelow(const Scene& world, const Model& model) {
   return *world.models[world.storage.units[world.storage.items[model.index].unit].model];
 }
 
-/// The unit that an item lies on. One that was raised onto the floor takes along what would lie on
-/// it had the floor been where it was thought to be.
+/// Returns the unit that an item lies on. One that was raised onto the floor takes along what would
+/// lie on it had the floor been where it was thought to be.
 int findUnit(const Scene& world, Model& item) {
   const Vector3 lift(0, 0, std::max(0.0, world.floor.extent.z));
   const int raised = unitAt(world, item.pose.Pos() + lift);

@@ -17,8 +17,8 @@ namespace {
 constexpr char kTowerLink[] = "tower";
 constexpr double kGuided = 0.02;  // [m] off its middle, [rad] off square: the tower's guide centres
 
-/// How far the plate on which loads stand reaches from the middle, at least [m]; the chassis where
-/// there is none.
+/// Returns how far the plate on which loads stand reaches from the middle, at least [m]; the
+/// chassis where there is none.
 double plateReach(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   Bounds box;

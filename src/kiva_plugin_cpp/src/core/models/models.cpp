@@ -74,7 +74,7 @@ Model& addModel(ModelTable& models, const ModelInstance& instance) {
   return models.add(std::move(model));
 }
 
-/// Whether a plugin of that file comes with the world and is dealt with elsewhere.
+/// Returns whether a plugin of that file comes with the world and is dealt with elsewhere.
 bool isOurs(const Plugins& plugins, const Model& model, const PluginDescription& plugin) {
   const std::string& where = plugin.parameters.where();
   if (const FleetPlugin* ours = findFleetPlugin(plugins, plugin.filename)) {

@@ -84,7 +84,7 @@ void OrdinaryModels::place(ModelView& world, Model& model, const EntityState& st
 
 void OrdinaryModels::reset(ModelView& world, Model& model) const {
   if (!followsBodies(model)) return place(world, model, {model.spawn_pose, {}});
-  world.physics.remove(model.bodies);  // joints too: a model is put together anew
+  world.physics.remove(model.bodies);  // joints too: the model is rebuilt
   model.pose = model.spawn_pose;
   insertBodies(world, model);
   initJoints(model);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models that are in Bullet for as long as they stand: obstacles, belts, floors, and whatever moves
-// by its own joints.
+// Models that are in Bullet for as long as they exist: obstacles, belts, floors, and machines with
+// joints of their own.
 #pragma once
 
 #include "core/state/model_view.h"
@@ -26,7 +26,7 @@ class OrdinaryModels : public ModelOwner {
   int group(const Model& model) const override { return kMaxKivaId + 1 + model.slot; }
 };
 
-/// They are in the way like any other, but somebody put them there for robots to come to.
+/// Obstacles that robots are meant to drive up to.
 class ConveyorBelts : public OrdinaryModels {
  public:
   std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const override {

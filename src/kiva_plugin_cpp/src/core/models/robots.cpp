@@ -62,7 +62,7 @@ Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   return shape;
 }
 
-/// What its motion plugin says of the real world, if it says anything.
+/// Returns what its motion plugin says of the real world, if it says anything.
 std::optional<Realism> realismOf(const Parameters& parameters) {
   const auto below = parameters.values().lower_bound("realism");
   if (below == parameters.values().end() || below->first.rfind("realism", 0) != 0) {
@@ -126,7 +126,7 @@ void weigh(const ModelDescription& description, Robot* robot) {
   robot->centre[1] = whole.centre().Y();
 }
 
-/// Of the tyres, where the model has wheels.
+/// Reads the tyres' friction, where the model has wheels.
 void setTyres(const ModelDescription& description, Robot* robot) {
   const char* const wheels[] = {"left_wheel", "right_wheel"};
   for (int side = 0; side < 2; ++side) {
@@ -267,7 +267,7 @@ void Robots::reweigh(ModelView& world, Model& model, double /*added*/) const {
   rebuildBody(world, model);
 }
 
-/// The wheels' grip answers in the same step.
+/// Pushes the robot; the grip of its wheels answers in the same step.
 bool Robots::push(ContactView& world, Model& model, int /*link*/, const Vector3& at,
                   const Vector3& force, const Vector3& torque) const {
   FleetState& f = world.fleet;

@@ -30,7 +30,7 @@ class Robots : public ModelOwner {
   int group(const Model& model) const override { return model.index; }
 };
 
-/// Whether the description is a Kiva robot's: it names the motion plugin.
+/// Returns whether the description is a Kiva robot's: it names the motion plugin.
 bool isRobot(const ModelDescription& description);
 
 }  // namespace kiva

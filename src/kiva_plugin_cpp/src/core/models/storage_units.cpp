@@ -30,7 +30,7 @@ bool standsStill(const Scene& world, const Model& model) {
          unitPose(world, model.index).Z() - world.floor.extent.z < kAbove;
 }
 
-/// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
+/// Replaces the index `from` of a unit by `to` wherever it is stored; -1 = the unit is gone.
 void reindexUnit(ModelView& world, int from, int to) {
   for (Item& item : world.storage.items) {
     if (item.unit == from) item.unit = to;
@@ -47,7 +47,7 @@ void reindexUnit(ModelView& world, int from, int to) {
   if (unit.carrier >= 0) world.fleet.unit[unit.carrier] = to;
 }
 
-/// Off its robot, and out of Bullet.
+/// Takes the unit off its robot, and out of Bullet.
 void takeAway(ModelView& world, Model& model) {
   const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) putDown(world, carrier);
@@ -186,7 +186,7 @@ int StorageUnits::robot(const Scene& world, const Model& model) const {
   return world.storage.units[model.index].carrier;
 }
 
-/// A robot without a load passes beneath one that stands.
+/// Returns whether the unit stops that robot: one without a load passes beneath a standing unit.
 bool StorageUnits::stops(const Scene& world, const Model& model, int robot) const {
   return world.fleet.unit[robot] >= 0 || world.storage.units[model.index].carrier >= 0;
 }

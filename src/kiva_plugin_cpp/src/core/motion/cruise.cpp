@@ -16,14 +16,14 @@
 namespace kiva {
 namespace {
 
-/// Whether the chassis is just as fast as its reference says.
+/// Returns whether the chassis is just as fast as its reference says.
 bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
   const double v = f.reference_speed[i];
   return isExact(f.vx[i] - per.x * v) && isExact(f.vy[i] - per.y * v) &&
          isExact(f.yaw_rate[i] - per.yaw * v);
 }
 
-/// Of the reference, from now to its goal, at most.
+/// Returns the highest speed of the reference from now to its goal.
 double peakSpeed(const FleetState& f, int i, const ReferenceMotion& per) {
   const double way = std::abs(f.goal[i] - f.reference[i]), v = f.reference_speed[i];
   const double peak = std::sqrt(v * v / 2 + per.acceleration * way);
@@ -42,8 +42,8 @@ bool hasForce(const FleetState& f, int i, const ReferenceMotion& per, const Grou
          1;
 }
 
-/// What a reference with an acceleration leaves of its way to the robot's motors [m, rad]: its last
-/// steps, which are uneven.
+/// Returns what a reference with an acceleration leaves of its way to the robot's motors [m, rad]:
+/// its last steps, which are uneven.
 inline double endOf(double acceleration, double deceleration, double speed, double dt) {
   const double end = std::abs(speed) * dt + deceleration * dt * dt;
   return acceleration > 0 ? end : 0.0;
@@ -58,7 +58,7 @@ constexpr int kBlock = 16;           // robots that are stepped together
 constexpr int kBlocksTogether = 96;  // on one thread: less is not worth waking another
 constexpr int kLooksTogether = 32;   // the same
 
-/// As advance() says, of robots whose motors lag or don't.
+/// Implements advance() for robots whose motors lag, or don't.
 template <bool kLags>
 __attribute__((always_inline)) inline bool advanceAll(FleetState& f, int begin, int end, double dt,
                                                       double now) {
@@ -135,8 +135,8 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
                         : advanceAll<true>(f, begin, end, dt, now);
 }
 
-/// How many steps the robot's reference needs at least to come to `place`: speeding up all the way,
-/// or at top speed all the way.
+/// Returns how many steps the robot's reference needs at least to come to `place`: speeding up all
+/// the way, or at top speed all the way.
 double stepsTo(const FleetState& f, int i, double place, double dt) {
   const double way = place - f.reference[i];
   const double faster = f.acceleration[i] * dt * dt;  // a step goes that much farther than the last
@@ -148,7 +148,7 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
   return std::max(1.0, std::ceil(steps - 1e-6));
 }
 
-/// Of a robot that is to cruise on after step number `after`.
+/// Plans when a robot that cruises on after step number `after` needs its next look.
 void planAttention(MotionView& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
@@ -167,7 +167,7 @@ void replanAttention(MotionView& world, int i) {
   planAttention(world, i, static_cast<double>(world.clock.total_steps));
 }
 
-/// Of a robot that has come to where there is something to count.
+/// Counts the points that the robot has come to or left.
 void count(MotionView& world, int i) {
   countPoints(world, i, world.fleet.reference[i]);
   world.fleet.count_at[i] = nextCount(world, i);
@@ -187,7 +187,7 @@ void attend(MotionView& world, const Attention& due, double now) {
   if (f.reference[i] >= f.count_at[i]) count(world, i);
   if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.clock.dt);
   if (ended) return moved(f, i);
-  // Who has just read a code may go elsewhere.
+  // A robot that has just read a code may take another way.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
   if (f.clear_until[i] <= now && !noteClearance(world, i, time())) return moved(f, i);
   planAttention(world, i, now);

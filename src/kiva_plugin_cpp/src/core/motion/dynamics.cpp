@@ -39,7 +39,7 @@ void pushBody(const Scene& world, int robot) {
 void readBody(MotionView& world, int robot) {
   Fleet& f = world.fleet;
   const btRigidBody& body = bodyOf(world, robot);
-  // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
+  // The robot's origin before it moved, as the integration in arrays leaves it.
   const btVector3 arm = toBullet(centreFromOrigin(f, robot));
   const btVector3 velocity = body.getLinearVelocity() - body.getAngularVelocity().cross(arm);
   const btTransform pose =
@@ -56,7 +56,7 @@ void readBody(MotionView& world, int robot) {
   }
 }
 
-/// Nothing is to move on it before somebody else does something.
+/// Puts a robot at rest to sleep, until a command or another model moves it.
 bool hasNothingToDo(const FleetState& f, int robot) {
   const Phase phase = f.tasks[robot].phase;
   if (phase == Phase::kIdle || phase == Phase::kWaiting) return true;

@@ -7,12 +7,12 @@
 
 namespace kiva {
 
-/// Motors, floor and joints act: velocities change, positions stay.
+/// Applies motors, floor and joints: velocities change, positions stay.
 void actuate(MotionView& world);
-/// After Bullet's step: everybody's new poses, by arrays or from bodies.
+/// Updates all poses after Bullet's step, by arrays or from bodies.
 void integrate(MotionView& world);
 
-/// Bodies that sleep look again whether they should.
+/// Wakes sleeping bodies.
 void wakeBodies(const ModelTable& models);
 
 }  // namespace kiva

@@ -31,19 +31,19 @@ bool isSlippery(const Settings& settings, const Cell& cell) {
   return random.chance(settings.realism.floor.slippery_cells);
 }
 
-/// What the surface at (x, y) grips with as it was built.
+/// Returns what the surface at (x, y) grips with as it was built.
 double builtFriction(const Scene& world, double x, double y) {
   const double usual = world.floor.friction;
   return world.floor.cover ? world.floor.cover->frictionAt(x, y, usual) : usual;
 }
 
-/// The least of it in a rectangle [m].
+/// Returns the least of it in a rectangle [m].
 double leastBuiltFriction(const FloorState& floor, const FloorPatch& area) {
   const double usual = floor.friction;
   return floor.cover ? floor.cover->leastFriction(area, usual) : usual;
 }
 
-/// The last of the patches there counts; a slippery cell where there is none.
+/// Returns the friction of the uppermost patch at (x, y), or, without one, of the cell.
 double frictionAt(const Scene& world, double x, double y) {
   for (auto patch = world.floor.patches.rbegin(); patch != world.floor.patches.rend(); ++patch) {
     if (patch->has(x, y)) return patch->friction;
@@ -54,7 +54,7 @@ double frictionAt(const Scene& world, double x, double y) {
   return std::min(real.friction, built);
 }
 
-/// The least friction in a rectangle [m].
+/// Returns the least friction in a rectangle [m].
 double leastFriction(const Scene& world, const FloorPatch& area) {
   double least = leastBuiltFriction(world.floor, area);
   for (const FloorPatch& patch : world.floor.patches) {
@@ -72,7 +72,7 @@ double leastFriction(const Scene& world, const FloorPatch& area) {
   return least;
 }
 
-/// What a robot's wheels will have stood on when its reference has come to its goal.
+/// Returns what a robot's wheels will have stood on when its reference has come to its goal.
 FloorPatch areaAhead(const FleetState& f, int robot) {
   const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
   const double way = drives ? f.goal[robot] - f.reference[robot] : 0;

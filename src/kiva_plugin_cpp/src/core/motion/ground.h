@@ -14,16 +14,17 @@ constexpr char kFloorPatchPlugin[] = "libkiva_floor_patch.so";
 /// Throws DescriptionError.
 FloorPatch readFloorPatch(const Parameters& parameters);
 
-/// The floor as it is where nothing is said of it.
+/// Returns the floor as it is where nothing is said of it.
 Ground groundOf(const Scene& world);
-/// Whether it is not the same everywhere.
+/// Returns whether it is not the same everywhere.
 bool isPatchy(const Scene& world);
-/// What the robot's wheels stand on.
+/// Returns what the robot's wheels stand on.
 Ground groundUnder(const Scene& world, int robot);
-/// What a robot may count on until its reference has come to its goal: the floor as it was built,
-/// which it knows; not what is slippery for a time.
+/// Returns what a robot may count on until its reference has come to its goal: the floor as it was
+/// built, which it knows; not what is slippery for a time.
 double knownFriction(const Scene& world, int robot);
-/// The most slippery of what they will have stood on when its reference has come to its goal.
+/// Returns the most slippery of what they will have stood on when its reference has come to its
+/// goal.
 Ground groundAhead(const Scene& world, int robot);
 
 }  // namespace kiva

@@ -36,7 +36,7 @@ struct Tilt {
     return {s.roll_rate, s.pitch_rate,
             (heading_rate * cos_pitch - s.pitch_rate * sin_roll) / cos_roll};
   }
-  /// The rate of the heading, and so of yaw, of a chassis that turns like that.
+  /// Returns the rate of the heading, and so of yaw, of a chassis that turns like that.
   double headingRate(const btVector3& turning) const {
     return (turning.y() * sin_roll + turning.z() * cos_roll) / cos_pitch;
   }
@@ -46,9 +46,9 @@ struct Tilt {
 
 /// All in the chassis frame.
 struct Velocities {
-  btVector3 linear;   // of the centre of mass [m/s]
+  btVector3 linear;   // velocity of the centre of mass [m/s]
   btVector3 turning;  // [rad/s]
-  double spin[2];     // of the wheels against the chassis [rad/s]
+  double spin[2];     // rates of the wheels against the chassis [rad/s]
 };
 
 /// One direction at a contact, as the velocities see it.
@@ -279,7 +279,7 @@ class Step {
     for (int wheel = 0; wheel < 2; ++wheel) after_.spin[wheel] += r.turning[3 + wheel] * impulse;
   }
 
-  /// What the motor of a held wheel had to give in this step [Nm s].
+  /// Returns what the motor of a held wheel had to give in this step [Nm s].
   double motorImpulse(int wheel) const {
     const btVector3 turned = after_.turning - before_.turning;
     double needed =
@@ -302,7 +302,7 @@ class Step {
   const double dt_, gravity_, floor_friction_;
   const Ground ground_;  // under its wheels
   double cos_yaw_ = 1, sin_yaw_ = 0;
-  double target_[2];  // of the spins
+  double target_[2];  // targets of the spins
   Velocities before_, after_;
   btVector3 springs_push_{0, 0, 0};   // what they change of the velocity [m/s]
   btVector3 springs_twist_{0, 0, 0};  // their angular impulse [Nm s]

@@ -16,8 +16,8 @@ namespace kiva {
 /// Changes velocities and wheel speeds of robot `i` by one step's gravity, motors and floor;
 /// positions stay.
 void driveJointed(MotionView& world, int robot);
-/// As a jointed robot is: what casters bear that stand ahead of or behind the axle, and what leans
-/// on them when it speeds up or brakes, is not on the wheels.
+/// Returns the vehicle that a jointed robot is: casters ahead of and behind the axle bear a part of
+/// the weight, and more of it when the robot speeds up or brakes.
 Vehicle jointedVehicle(MotionView& world, int robot, const Ground& ground);
 
 /// Moves the chassis up, down and about by one step; its place in the plane has been found.

@@ -28,7 +28,7 @@ const Link& findWheel(const Model& model, int side) {
                          std::string(kWheelNames[side]) + "'");
 }
 
-/// The wheel's first round shape; null if it has none.
+/// Returns the wheel's first round shape; null if it has none.
 const Collision* tyreOf(const Link& wheel) {
   for (const Collision& collision : wheel.collisions) {
     const Shape::Kind kind = collision.shape.kind;
@@ -121,7 +121,7 @@ void measureCasters(const Robot& robot, JointedBody* body) {
   body->spring_share = casters > 0 ? (1 - robot.drive.drive_wheel_load) / casters : 0;
 }
 
-/// Where the unit is on its robot; upright on the floor plane, as far as this goes.
+/// Returns where the unit is on its robot; upright on the floor plane, as far as this goes.
 Pose unitInModel(const Scene& world, int robot, int unit) {
   const double height = world.fleet.robots[robot].height + world.fleet.tower[robot];
   return Pose(0, 0, height, 0, 0, 0) * world.storage.units[unit].pose_on_carrier;
@@ -144,7 +144,7 @@ SpatialInertia addUp(const Scene& world, int robot, JointedBody* body) {
   return sum;
 }
 
-/// Moment of the wheels' links about their axle.
+/// Returns the moment of the wheels' links about their axle.
 double axialMoment(const Model& model, const Vector3& axle) {
   double moment = 0;
   for (int side = 0; side < 2; ++side) {
@@ -243,7 +243,7 @@ bool isFor(const JointedBody& body, const FleetState& fleet, int robot) {
   return body.tower == fleet.tower[robot] && hasLoadOf(body, fleet, robot);
 }
 
-/// What it carries, summed up anew only if it is something else than before.
+/// Returns the inertia of the load, summed up again only if the load has changed.
 SpatialInertia loadOf(const Scene& world, int robot) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return SpatialInertia();

@@ -12,7 +12,7 @@ namespace kiva {
 namespace {
 
 constexpr double kNoLimit = 1e15;      // what is beyond is none
-constexpr double kFastestMotor = 1e6;  // of a motor [rad/s, m/s]
+constexpr double kFastestMotor = 1e6;  // speed of a motor [rad/s, m/s]
 constexpr double kMostPush = 1e9;      // [Nm, N]
 
 bool isSlider(const Joint& joint) { return joint.kind == Joint::Kind::kPrismatic; }
@@ -55,7 +55,7 @@ double rateOf(const Mount& mount, bool slides) {
   return (velocity(mount.child) - velocity(mount.parent)).dot(mount.axis);
 }
 
-/// What resists a change of the joint's rate [kg m²] or [kg].
+/// Returns what resists a change of the joint's rate [kg m²] or [kg].
 double inertiaOf(const Mount& mount, bool slides) {
   const auto yields = [&](const btRigidBody& body) {
     if (body.isStaticObject()) return 0.0;

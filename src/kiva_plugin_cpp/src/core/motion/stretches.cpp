@@ -35,7 +35,7 @@ OnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
   return {c * dx + s * dy, c * dy - s * dx, at.yaw - segment.yaw};
 }
 
-/// Where along the segment the next code comes into view.
+/// Returns where along the segment the next code comes into view.
 double nextCode(const Settings& settings, double along) {
   const double cell = settings.grid_spacing;
   return std::ceil((along + kReadBefore + kJustRead) / cell) * cell - kReadBefore;
@@ -85,7 +85,7 @@ void steerBack(Stretch* stretch, const OnLine& at, double room) {
   stretch->next_curvature *= share;
 }
 
-/// The way to the next code, the goal, or where it would be lost.
+/// Returns the way to the next code, the goal, or where it would be lost.
 double roomAhead(const Scene& world, int i, double along) {
   const FleetState& f = world.fleet;
   const Localisation& l = f.localisation[i];
@@ -109,7 +109,7 @@ void brakeFor(MotionView& world, int i) {
   }
 }
 
-/// The next arc of its way back; straight on after those.
+/// Begins the next arc of the way back. Returns false if there is none: straight on then.
 bool nextArc(MotionView& world, int i, double along) {
   Stretch& stretch = world.fleet.localisation[i].stretch;
   if (stretch.next_length == 0) return false;

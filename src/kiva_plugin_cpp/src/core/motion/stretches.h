@@ -9,9 +9,10 @@
 
 namespace kiva {
 
-/// Whether errors [m, rad], of the reference and off the line, are small enough to begin with.
+/// Returns whether errors [m, rad], of the reference and off the line, are small enough to begin
+/// with.
 bool isOnCourse(double lag, double heading, double across);
-/// Whether the chassis moves as its reference says, but for what motors mend in a step.
+/// Returns whether the chassis moves as its reference says, but for what motors mend in a step.
 bool keepsUpByEstimate(const FleetState& fleet, int robot, bool turns);
 /// Plans the robot's next stretch from where it believes to be. The reference follows the estimate.
 void beginStretch(MotionView& world, int robot, bool turns);

@@ -18,16 +18,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::microseconds;
 
-// Between two loops a thread stays awake for so long: to wake it takes 20 µs, and who wakes it 7,
-// and the loops of a step, with what lies between them, last no longer.
+// Between two loops a thread stays awake for so long: to wake it takes 20 µs, and costs its waker
+// 7, and the loops of a step, with what lies between them, last no longer.
 constexpr microseconds kPatience{50};
-// Who is offered the core and takes it for longer than this, an interrupt's time, wants it: it is
+// A program that is offered the core and takes it for longer than an interrupt wants it: it is
 // left to others at once for so many times what they took.
 constexpr microseconds kInterrupt{100};
 constexpr int kLeft = 5;
 constexpr int kPieces = 4;  // that a thread takes its turns in, at least
 
-/// Whether others want the calling thread's core.
+/// Returns whether others want the calling thread's core.
 bool isCoreWanted() {
   static thread_local Clock::time_point left_until;
   const auto before = Clock::now();
@@ -50,7 +50,7 @@ bool awaitAwake(IsOver isOver) {
 
 }  // namespace
 
-/// What one thread begins with; who has done with its own goes on with another's. So the same
+/// The part of a loop that one thread begins with, before it goes on with another's. So the same
 /// robots mostly stay in the same core's cache. In a cache line of its own.
 struct alignas(64) Workers::Part {
   std::atomic<int> next{0};
@@ -95,7 +95,7 @@ struct Workers::Board {
 void Workers::Board::post(int others) {
   state = kOpen;
   if (asleep == 0) return;
-  { const std::lock_guard<std::mutex> lock(mutex); }  // who did not see it sleeps by then
+  { const std::lock_guard<std::mutex> lock(mutex); }  // a thread that did not see it sleeps by then
   for (int i = 0; i < others; ++i) posted.notify_one();
 }
 
@@ -150,7 +150,7 @@ void Workers::quit() {
   board_->posted.notify_all();
 }
 
-/// Detached: in a forked child there would be nobody to join.
+/// Starts detached threads: in a forked child there are none to join.
 void Workers::start(int others) {
   if (board_ && process_ == getpid() && board_->hands >= others) return;
   quit();

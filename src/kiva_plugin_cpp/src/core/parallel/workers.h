@@ -2,7 +2,7 @@
 //
 // The threads that share loops: over the robots of a world, or over many worlds. A loop's turns
 // touch nothing that another one reads, so that its result does not depend on how many threads
-// there are or who takes which.
+// there are or which of them takes a turn.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 namespace kiva {
 
 /// The caller and `threads` − 1 others, which are started when there is work for them. Between the
-/// loops of a step they stay awake, for microseconds and if nobody else wants their core, since a
-/// step is over before one has woken; then they sleep. In a forked child, where they are gone,
-/// others are started.
+/// loops of a step they stay awake, for microseconds and if no other program wants their core,
+/// since a step is over before one has woken; then they sleep. In a forked child, where they are
+/// gone, others are started.
 class Workers {
  public:
   /// A callable (int begin, int end), referred to for as long as it is called: a world makes

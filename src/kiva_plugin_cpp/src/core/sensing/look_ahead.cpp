@@ -24,20 +24,20 @@ constexpr double kEndMargin = 0.02;  // [m]
 constexpr int kLooksTogether = 16;   // on one thread
 constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
 
-/// What noise alone may seem to bring nearer is not yet an obstacle.
+/// Returns the margin at a path's end, less what noise alone may seem to bring nearer.
 double endMargin(const Settings& settings) {
   const LaserRealism& real = settings.realism.lasers;
   return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
 }
 
-/// A unit that stands askew is none that the robot can pass beneath.
+/// Returns whether the model stops the robot: a unit that stands askew can't be passed beneath.
 bool stops(const Scene& world, int model, int robot) {
   const Model& other = *world.models[model];
   if (other.owner->stops(world, other, robot)) return true;
   return other.kind == ModelKind::kStorageUnit && standsInLane(world, other, robot);
 }
 
-/// The nearest obstacle in the corridor that the robot would sweep.
+/// Returns the nearest obstacle in the corridor that the robot would sweep.
 Sighting look(const Scene& world, const Scans& scans, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const RayFan& fan = scans.fans[r.ray_fan];

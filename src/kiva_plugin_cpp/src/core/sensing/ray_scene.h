@@ -19,19 +19,20 @@ class RayScene {
   /// `but`: a model that rays pass, with its load; null = none.
   RayScene(const Scene& world, const Vector3& from, double range, const Model* but);
 
-  /// Distance [m] along that unit vector to the first surface; +inf = none within range.
+  /// Returns the distance [m] along that unit vector to the first surface; +inf = none within
+  /// range.
   double cast(const Vector3& direction) const;
 
  private:
   struct Target {
     Bounds box;
-    Vector3 centre;  ///< Of `solid`.
+    Vector3 centre;  ///< The centre of `solid`.
     Solid solid;
     const btCollisionObject* body = nullptr;  ///< In place of it, where a shape is no solid.
   };
   struct Plane {
     Vector3 normal;
-    double height = 0;  ///< Of the rays' origin above it [m].
+    double height = 0;  ///< Height of the rays' origin above the plane [m].
   };
   struct Node {
     Bounds box;

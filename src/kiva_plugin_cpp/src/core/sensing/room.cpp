@@ -18,7 +18,7 @@ constexpr double kTouch = 0.001;
 constexpr double kFine = 1e-3;    // [rad] to which its end is known
 constexpr double kNearer = 1e-6;  // [m]
 
-/// Whether it is part of a storage unit that no robot carries.
+/// Returns whether it is part of a storage unit that no robot carries.
 bool isOfUnit(const Scene& world, const Footprint& other) {
   const Model& model = *world.models[other.model];
   return model.kind == ModelKind::kStorageUnit && world.storage.units[model.index].carrier < 0;
@@ -46,7 +46,7 @@ int touchedBy(const std::vector<Footprint>& then, const std::vector<Footprint>& 
   return -1;
 }
 
-/// What is within reach of its corners, or of its load's.
+/// Returns what is within reach of its corners, or of its load's.
 std::vector<Footprint> thingsAround(const Scene& world, int robot, double x, double y,
                                     Among among) {
   std::vector<Footprint> things;
@@ -78,7 +78,7 @@ Footprint lane(const Scene& world, int robot, const PlanarPose& from, double way
   return out;
 }
 
-/// Where the robot would be, were it on the line of its segment.
+/// Returns where the robot would be, were it on the line of its segment.
 PlanarPose onLine(const FleetState& f, int robot) {
   const MotionSegment& segment = f.tasks[robot].segments.front();
   const PlanarPose at = f.believed(robot);

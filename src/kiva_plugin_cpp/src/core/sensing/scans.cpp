@@ -16,9 +16,9 @@ double rayAngle(const LaserParameters& laser, int ray) {
   return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
 }
 
-/// How many robots with successive ids scan in the same step, where more than one has to: they
-/// mostly stand side by side and see the same, which then is in the processor's cache. A power of
-/// two, so that it seldom changes as robots come and go, and with it when a robot scans.
+/// Returns how many robots with successive ids scan in the same step, where more than one has to:
+/// they mostly stand side by side and see the same, which then is in the processor's cache. A power
+/// of two, so that it seldom changes as robots come and go, and with it when a robot scans.
 int scanTogether(int robots, std::uint64_t period) {
   int together = 1;
   while (together < kMostTogether && 2 * together * period <= static_cast<std::uint64_t>(robots)) {
@@ -49,7 +49,7 @@ void arrangeScans(const Scene& world, Scans& scans) {
   }
 }
 
-/// As the laser tells it: each ray's error depends on robot, step and ray alone, whoever looks.
+/// Adds the laser's errors. A ray's error depends on robot, step and ray alone, not on the reader.
 void disturb(const Scene& world, const Robot& robot, FanHits* hits) {
   constexpr std::uint64_t kMostRays = 1 << 14;
   const LaserRealism& real = world.settings.realism.lasers;

@@ -9,13 +9,13 @@
 
 namespace kiva {
 
-/// Steps between two scans of a robot.
+/// Returns the number of steps between two scans of a robot.
 std::uint64_t scanPeriod(const Clock& clock, const Robot& robot);
-/// Fills Scans::due: whose lasers turn in a scan at this step, in the fleet's order. The
+/// Fills Scans::due with the robots whose scans are due at this step, in the fleet's order. The
 /// fleet's scans are spread over the period.
 void findDueScans(const Scene& world, const FailureState& failures, Scans& scans);
 
-/// Whether its laser is broken.
+/// Returns whether its laser is broken.
 bool isBlind(const FleetState& fleet, int robot);
 
 /// Gives the robot the directions of its laser's rays, shared with others of the same kind.

@@ -14,7 +14,7 @@ struct Charger {
 /// The chargers of a world, as its floor markings show them.
 struct Chargers {
   std::vector<Charger> areas;
-  std::uint64_t models_revision = ~0ull;  ///< Of the models that they were found among.
+  std::uint64_t models_revision = ~0ull;  ///< The models' revision when they were found.
 };
 
 }  // namespace kiva

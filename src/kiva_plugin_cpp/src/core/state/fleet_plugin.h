@@ -16,7 +16,7 @@ namespace kiva {
 class FleetPlugin {
  public:
   virtual ~FleetPlugin() = default;
-  /// The file name by which an SDF asks for it.
+  /// Returns the file name by which an SDF asks for it.
   virtual const char* filename() const = 0;
   /// Reads one robot's parameters, before the robot joins the fleet. Throws DescriptionError.
   virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
@@ -27,7 +27,7 @@ class FleetPlugin {
   virtual void control(ContactView& /*world*/) const {}
 };
 
-/// The plugin with that file name, or null.
+/// Returns the plugin with that file name, or null.
 const FleetPlugin* findFleetPlugin(const Plugins& plugins, const std::string& filename);
 
 /// The file name by which a world asks for its grid.

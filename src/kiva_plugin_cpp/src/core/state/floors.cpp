@@ -134,7 +134,7 @@ class Halves {
   std::map<Key, Entry> known_;
 };
 
-/// The part of a collision that is low, or the other one; nothing if there is none.
+/// Returns the part of a collision that is low, or the other one; nothing if there is none.
 std::optional<Collision> partOf(const Collision& whole, const Pose& link, const Floor& floor,
                                 bool low) {
   const Pose pose = link * whole.pose_in_link;
@@ -315,8 +315,8 @@ bool FloorCover::meets(const Piece& piece, const FloorPatch& area) {
   return true;
 }
 
-/// Whether what a rectangle has of a piece lies beneath one other piece, which is convex: it does
-/// if its corners do.
+/// Returns whether what a rectangle has of a piece lies beneath one other piece, which is convex:
+/// it does if its corners do.
 bool FloorCover::isCovered(const Piece& piece, const FloorPatch& area) const {
   const double min_x = std::max(piece.min_x, area.min_x), max_x = std::min(piece.max_x, area.max_x);
   const double min_y = std::max(piece.min_y, area.min_y), max_y = std::min(piece.max_y, area.max_y);

@@ -10,7 +10,7 @@
 namespace kiva {
 namespace {
 
-/// What belongs to the floor, in the mesh of a building say, is in nobody's way.
+/// Adds the triangles of a building's mesh that stand in the way; those of its floor do not.
 void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) {
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
@@ -36,7 +36,7 @@ void appendFootprints(const Scene& world, const Model& model, const Pose& to_fra
                       std::vector<Footprint>* out) {
   constexpr int kNone = -2;  // -1 is a robot's base
   int link = kNone;
-  Pose link_in_frame;  // of several geometries, mostly
+  Pose link_in_frame;  // shared by several geometries, mostly
   out->reserve(out->size() + model.geometries.size());
   for (const CollisionGeometry& geometry : model.geometries) {
     if (geometry.link != link) {
@@ -122,7 +122,7 @@ void moved(MotionView& world, Model& model) {
   if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0))
     world.storage.noteMove();
   if (mover < 0) return updateStanding(world, model);
-  hideFootprints(world.obstacles, model);  // of a unit that was taken up
+  hideFootprints(world.obstacles, model);  // those of a unit that was taken up
   updateMover(world, mover);
 }
 

@@ -11,7 +11,7 @@ namespace kiva {
 /// Commands that have arrived and are answered at the next step.
 struct Inbox {
   std::deque<PendingCommand> pending;
-  std::uint32_t last_number = 0;  ///< Of the command that was answered last.
+  std::uint32_t last_number = 0;  ///< The number of the last answered command.
 };
 
 }  // namespace kiva

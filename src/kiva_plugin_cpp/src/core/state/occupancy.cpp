@@ -47,7 +47,8 @@ Floor withoutFloor(const Scene& world) {
   return all.min_x < all.max_x ? all : Floor();
 }
 
-/// A building leaves room for a loaded robot to turn; belts and storage units were placed so.
+/// Returns whether a footprint reaches into the cell. Near a building a loaded robot needs room to
+/// turn; belts and storage units were placed so that it has it.
 bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, double spacing) {
   Footprint cell;
   cell.x = x;
@@ -59,7 +60,8 @@ bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, do
   return gap(cell, other) < 0 || (as == Occupancy::kTaken && gap(turn, other) < 0);
 }
 
-/// Where a footprint may reach within a strip along x: of a triangle, much less than its box.
+/// Returns where a footprint may reach within a strip along x: of a triangle, much less than its
+/// box.
 std::pair<double, double> extentWithin(const Footprint& f, double min_y, double max_y) {
   if (f.kind != Footprint::Kind::kTriangle) return {f.x - radiusOf(f), f.x + radiusOf(f)};
   std::pair<double, double> extent{1e300, -1e300};

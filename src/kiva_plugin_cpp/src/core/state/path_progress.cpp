@@ -44,7 +44,8 @@ class Run {
   double cosine_, sine_;
 };
 
-/// How far the middle of a robot must be from that of a cell to be out of it, ahead and aside [m].
+/// Returns how far the middle of a robot must be from that of a cell to be out of it, ahead and
+/// aside [m].
 OnRun outOfCell(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const double half = world.settings.grid_spacing / 2 - kCellRounding;
@@ -61,7 +62,7 @@ MotionSegment turnTo(double heading) {
   return turn;
 }
 
-/// The run from its origin along a heading.
+/// Returns the run from its origin along a heading.
 MotionSegment driveAlong(const Settings& settings, const ReleasedPath& path, double heading) {
   const PathPoint &from = path[path.origin], &to = path[path.end];
   MotionSegment run;

@@ -16,7 +16,7 @@ struct Plugins {
   World* owner = nullptr;                                 ///< What all plugins are loaded into.
   std::vector<std::shared_ptr<const FleetPlugin>> fleet;  ///< Those that come with the world.
   std::vector<std::shared_ptr<Plugin>> world;
-  std::vector<PluginDescription> world_descriptions;  ///< Of those, in the same order.
+  std::vector<PluginDescription> world_descriptions;  ///< Descriptions of those, in the same order.
 };
 
 }  // namespace kiva

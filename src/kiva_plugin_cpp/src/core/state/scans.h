@@ -18,7 +18,7 @@ struct ScanRound {
 struct Scans {
   std::vector<RayFan> fans;
   std::vector<ScanRound> rounds;
-  std::uint64_t rounds_revision = ~0ull;  ///< Of the models that the rounds were made for.
+  std::uint64_t rounds_revision = ~0ull;  ///< The models' revision when the rounds were made.
   std::vector<int> due;                   ///< Robots whose scan is due at this step.
   std::vector<int> sighted;               ///< Robots whose lasers looked ahead in the last step.
 };

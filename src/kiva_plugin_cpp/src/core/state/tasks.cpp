@@ -11,7 +11,7 @@ namespace kiva {
 namespace {
 
 constexpr double kAstray = 0.05;             // [m] from its point: it can't begin its next run
-constexpr std::uint32_t kPointsToKeep = 64;  // of a path that were left, before they are forgotten
+constexpr std::uint32_t kPointsToKeep = 64;  // left points of a path before they are forgotten
 
 void becomeIdle(MotionView& world, int robot) {
   FleetState& f = world.fleet;

@@ -61,7 +61,7 @@ struct WorldState {
   ModelView view;
 };
 
-/// The door for tests that look at what clients don't see.
+/// Returns the world's state, for tests and for plugins that come with the world.
 WorldState& insideOf(World& world);
 const WorldState& insideOf(const World& world);
 
