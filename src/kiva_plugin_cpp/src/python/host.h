@@ -10,7 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
@@ -51,12 +53,34 @@ class Host {
 
 using HostPtr = std::shared_ptr<Host>;
 
+/// Returns a function of the world as a method that no second thread gets into.
+template <typename Call>
+auto guarded(Call call) {
+  return [call](Host& host) {
+    const auto lock = host.use();
+    return call(host.world);
+  };
+}
+
+/// Issues each text as a UserWarning of Python.
+void warn(const std::vector<std::string>& warnings);
+
+/// Throws ValueError unless there is a robot of that number.
+void checkRobot(const Host& host, std::int32_t id);
+/// Returns the number of the robot at that index of the fleet's arrays, 0 for -1.
+std::int32_t idOf(const World& world, int robot);
 /// Throws ValueError with the number of the command in its row.
 void checkCommand(const Host& host, const Command& command, std::size_t i);
 /// Commands of dtype COMMAND, or TypeError and ValueError.
 py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 
+// Each adds its part to the module or to the class World.
+void defineFleet(py::module_& m);
+void defineWorld(py::module_& m);
+void defineCommands(py::class_<Host, HostPtr>& world);
+void defineRobots(py::class_<Host, HostPtr>& world);
+void defineModels(py::class_<Host, HostPtr>& world);
 void definePeople(py::class_<Host, HostPtr>& world);
 void defineFallenItems(py::class_<Host, HostPtr>& world);
 void defineWorlds(py::module_& m);
