@@ -17,6 +17,12 @@
 
 namespace kiva {
 
+// What a world takes, wherever it is said.
+constexpr double kLeastStep = 1e-6, kMostStep = 1;                 ///< [s]
+constexpr double kMostGravity = 1000;                              ///< Its length [m/s²].
+constexpr double kMostFriction = 10;                               ///< Coulomb coefficient.
+constexpr double kLeastGridSpacing = 0.1, kMostGridSpacing = 100;  ///< [m]
+
 using Pose = ignition::math::Pose3d;
 using Quaternion = ignition::math::Quaterniond;
 using Vector3 = ignition::math::Vector3d;

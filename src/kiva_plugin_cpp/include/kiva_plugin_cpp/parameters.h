@@ -35,6 +35,14 @@ class Parameters {
   int whole(const std::string& key, int fallback, int lower, int upper) const;
   std::string text(const std::string& key, const std::string& fallback) const;
 
+  /// Returns what a struct's fields() calls to have each number read from `prefix` + its name; one
+  /// that is not given keeps its value. Throws as number() and whole() do.
+  auto reader(const std::string& prefix = "") const {
+    return [this, prefix](const char* name, auto& value, double least, double most) {
+      read(prefix + name, &value, least, most);
+    };
+  }
+
   /// `true`, `false`, 1 or 0 at `key`, or `fallback`.
   bool flag(const std::string& key, bool fallback) const;
   /// That many numbers with blanks between them at `key`, or `fallback`; all finite.
@@ -46,6 +54,12 @@ class Parameters {
   void rejectUnread() const;
 
  private:
+  void read(const std::string& key, double* value, double least, double most) const {
+    *value = number(key, *value, least, most);
+  }
+  void read(const std::string& key, int* value, double least, double most) const {
+    *value = whole(key, *value, static_cast<int>(least), static_cast<int>(most));
+  }
   const std::string* find(const std::string& key) const;
 
   std::string where_;

@@ -9,6 +9,7 @@
 
 #include <string>
 
+#include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/parameters.h"
 
 namespace kiva {
@@ -74,7 +75,7 @@ struct FloorRealism {
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
     field("slippery_cells", s.slippery_cells, 0, 1);
-    field("friction", s.friction, 0, 10);
+    field("friction", s.friction, 0, kMostFriction);
   }
 };
 
@@ -92,8 +93,8 @@ struct LoadRealism {
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
     field("tipping_share", s.tipping_share, 0.05, 100);
-    field("item_friction_least", s.item_friction_least, 0, 10);
-    field("item_friction_most", s.item_friction_most, 0, 10);
+    field("item_friction_least", s.item_friction_least, 0, kMostFriction);
+    field("item_friction_most", s.item_friction_most, 0, kMostFriction);
     field("pick_up_after", s.pick_up_after, 0, 1e6);
   }
 };

@@ -70,7 +70,8 @@ void describeSetting(A& a, WorldState& world) {
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
   FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models,
-         within(world.dt, 1e-6, 1), within(world.grid_spacing, 0.1, 100), world.floor,
+         within(world.dt, kLeastStep, kMostStep),
+         within(world.grid_spacing, kLeastGridSpacing, kMostGridSpacing), world.floor,
          within(world.floor_friction, 0, 1e6), world.floor_patches);
   if constexpr (A::kReads) world.applyRealism();
   FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
