@@ -53,7 +53,7 @@ py::array_t<Command, py::array::c_style> commandRows(const py::array& commands) 
 
 namespace {
 
-/// All or none.
+/// Posts all commands, or none if one of them is wrong.
 void postAll(Host& host, const Command* commands, std::size_t count) {
   const auto lock = host.use();
   for (std::size_t i = 0; i < count; ++i) checkCommand(host, commands[i], i);
@@ -65,18 +65,18 @@ void post(Host& host, const py::array& commands) {
   postAll(host, rows.data(), static_cast<std::size_t>(rows.size()));
 }
 
-/// How many commands the columns make: the one length that isn't 1.
+/// Returns how many commands the columns make: the one length that is not 1.
 template <typename... Columns>
 std::size_t lengthOf(const Columns&... columns) {
   py::ssize_t length = 1;
-  const char* whose = nullptr;
+  const char* longest = nullptr;
   const auto check = [&](const auto& column) {
     if (column.isOne()) return;
-    if (whose && column.size() != length) {
+    if (longest && column.size() != length) {
       throw py::value_error(std::string(column.name()) + " has " + std::to_string(column.size()) +
-                            " entries and " + whose + " has " + std::to_string(length));
+                            " entries and " + longest + " has " + std::to_string(length));
     }
-    whose = column.name();
+    longest = column.name();
     length = column.size();
   };
   (check(columns), ...);
@@ -97,7 +97,7 @@ using Ids = Numbers<std::int32_t>;
 using Counts = Numbers<std::uint32_t>;
 using Reals = Numbers<double>;
 
-void mov(Host& host, const py::object& kiva_id, const py::object& x, const py::object& y) {
+void mov(Host& host, const ArrayLike& kiva_id, const ArrayLike& x, const ArrayLike& y) {
   const auto fill = [](Command& c, int id, double to_x, double to_y) {
     c.kiva_id = id;
     c.x = to_x;
@@ -107,8 +107,7 @@ void mov(Host& host, const py::object& kiva_id, const py::object& x, const py::o
               Reals("y", y));
 }
 
-void movAlong(Host& host, Command::Kind kind, const py::object& kiva_id,
-              const py::object& distance) {
+void movAlong(Host& host, Command::Kind kind, const ArrayLike& kiva_id, const ArrayLike& distance) {
   const auto fill = [kind](Command& c, int id, double way) {
     c.kiva_id = id;
     (kind == Command::Kind::kMoveX ? c.x : c.y) = way;
@@ -116,7 +115,7 @@ void movAlong(Host& host, Command::Kind kind, const py::object& kiva_id,
   postColumns(host, kind, fill, Ids("kiva_id", kiva_id), Reals("distance", distance));
 }
 
-void rot(Host& host, const py::object& kiva_id, const py::object& direction) {
+void rot(Host& host, const ArrayLike& kiva_id, const ArrayLike& direction) {
   const auto fill = [](Command& c, int id, int way) {
     c.kiva_id = id;
     c.direction = way;
@@ -125,8 +124,8 @@ void rot(Host& host, const py::object& kiva_id, const py::object& direction) {
               Ids("direction", direction));
 }
 
-void lift(Host& host, const py::object& kiva_id, const py::object& status,
-          const py::object& shelf_id) {
+void lift(Host& host, const ArrayLike& kiva_id, const ArrayLike& status,
+          const ArrayLike& shelf_id) {
   const auto fill = [](Command& c, int id, int what, int shelf) {
     c.kiva_id = id;
     c.lift = what;
@@ -136,18 +135,18 @@ void lift(Host& host, const py::object& kiva_id, const py::object& status,
               Ids("shelf_id", shelf_id));
 }
 
-void cancel(Host& host, const py::object& kiva_id) {
+void cancel(Host& host, const ArrayLike& kiva_id) {
   const auto fill = [](Command& c, int id) { c.kiva_id = id; };
   postColumns(host, Command::Kind::kCancel, fill, Ids("kiva_id", kiva_id));
 }
 
-void stop(Host& host, const py::object& kiva_id, bool stop) {
+void stop(Host& host, const ArrayLike& kiva_id, bool stop) {
   const auto fill = [](Command& c, int id) { c.kiva_id = id; };
   postColumns(host, stop ? Command::Kind::kStop : Command::Kind::kGoOn, fill,
               Ids("kiva_id", kiva_id));
 }
 
-/// `kind` 0: it is repaired.
+/// Breaks what `kind` says in a robot; kind 0 repairs it.
 void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
   const auto lock = host.use();
   if (kind == 0) return host.world.repair(kiva_id);
@@ -156,10 +155,10 @@ void fail(Host& host, std::int32_t kiva_id, int kind, double repair_after) {
   host.world.fail(kiva_id, static_cast<Failure>(kind), repair_after);
 }
 
-/// Rows of which each has `points[i]` entries of x and y, one after the other. All or none.
-void follow(Host& host, const py::object& kiva_id, const py::object& path_id,
-            const py::object& first, const py::object& points, const py::object& x,
-            const py::object& y, const py::object& released) {
+/// Posts a path a row, or none if one is wrong; row i has the next `points[i]` entries of x and y.
+void follow(Host& host, const ArrayLike& kiva_id, const ArrayLike& path_id, const ArrayLike& first,
+            const ArrayLike& points, const ArrayLike& x, const ArrayLike& y,
+            const ArrayLike& released) {
   const Ids ids("kiva_id", kiva_id);
   const Counts paths("path_id", path_id), firsts("first", first), counts("points", points),
       releases("released", released);
@@ -199,54 +198,58 @@ void defineCommands(py::class_<Host, HostPtr>& world) {
   world.def("post", &post, py::arg("commands"),
             R"(Posts commands: a row, or an array of shape (n,), of dtype COMMAND.
 
-They are answered by an ACCEPTED or REFUSED event each at the next step. TypeError for another
+An ACCEPTED or REFUSED event answers each at the next step. TypeError for another
 dtype; ValueError, and none is posted, for another shape, an unknown kind or robot, NaN or
 infinity.)");
   world.def("mov", &mov, py::arg("kiva_id"), py::arg("x"), py::arg("y"),
-            R"(Go to (x, y) in world [m]: along x first, then along y, turning as needed.
+            R"(Orders robots to (x, y) in world [m]: along x first, then along y, turning as needed.
 
 Each argument is a number or an array of shape (n,), one command an entry; numbers go with every
-entry. TypeError for what holds no numbers; ValueError, and nothing is posted, for shapes that
-don't match, an unknown robot, NaN or infinity. What a robot can't do is refused by an event.)");
+entry. TypeError unless they are numbers; ValueError, and nothing is posted, for shapes that don't
+match, an unknown robot, NaN or infinity. An event refuses what a robot can't do.)");
   world.def(
       "movx",
-      [](Host& host, const py::object& id, const py::object& distance) {
+      [](Host& host, const ArrayLike& id, const ArrayLike& distance) {
         movAlong(host, Command::Kind::kMoveX, id, distance);
       },
       py::arg("kiva_id"), py::arg("distance"),
-      "Go so far [m] along the world's x, a whole number of cells. Arguments and errors as of "
+      "Orders robots to drive so far [m] along the world's x, a whole number of cells. Arguments "
+      "and errors as of "
       "mov().");
   world.def(
       "movy",
-      [](Host& host, const py::object& id, const py::object& distance) {
+      [](Host& host, const ArrayLike& id, const ArrayLike& distance) {
         movAlong(host, Command::Kind::kMoveY, id, distance);
       },
       py::arg("kiva_id"), py::arg("distance"),
-      "Go so far [m] along the world's y, a whole number of cells. Arguments and errors as of "
+      "Orders robots to drive so far [m] along the world's y, a whole number of cells. Arguments "
+      "and errors as of "
       "mov().");
-  world.def(
-      "rot", &rot, py::arg("kiva_id"), py::arg("direction"),
-      "Turn by 90 degrees: 1 counterclockwise, -1 clockwise. Arguments and errors as of mov().");
+  world.def("rot", &rot, py::arg("kiva_id"), py::arg("direction"),
+            "Orders robots to turn by 90 degrees: 1 counterclockwise, -1 clockwise. Arguments and "
+            "errors as of mov().");
   world.def("lift", &lift, py::arg("kiva_id"), py::arg("status"), py::arg("shelf_id"),
-            "Carry (1) or drop (0) storage unit shelf_id; drop, 0: whichever it carries. Arguments "
-            "and errors as of mov().");
+            "Orders robots to carry (1) or drop (0) storage unit shelf_id; 0 drops the one that is "
+            "carried. Arguments and errors as of mov().");
   world.def("follow", &follow, py::arg("kiva_id"), py::arg("path_id"), py::arg("first"),
             py::arg("points"), py::arg("x"), py::arg("y"), py::arg("released"));
-  world.def("cancel", &cancel, py::arg("kiva_id"),
-            R"(End what it does in DONE, "cancelled", at the next grid point where it can stop.
+  world.def(
+      "cancel", &cancel, py::arg("kiva_id"),
+      R"(Ends a robot's command in DONE, "cancelled", at the next grid point where it can stop.
 
-A lift ends when it is over. Refused by an event if the robot is idle. Arguments and errors as of
+A lift is completed first. An event refuses it if the robot is idle. Arguments and errors as of
 mov().)");
   world.def("stop", &stop, py::arg("kiva_id"), py::arg("stop") = true,
-            R"(Stop wheels and lift as hard as they can; stop=False: go on with what was stopped.
+            R"(Stops wheels and lift as hard as they can; stop=False resumes what was stopped.
 
-Kiva_id 0 means every robot. What is commanded meanwhile begins when they go on. Arguments and
+Kiva_id 0 means every robot. A command that comes meanwhile begins on resuming. Arguments and
 errors as of mov().)");
-  world.def("fail", &fail, py::arg("kiva_id"), py::arg("kind"), py::arg("repair_after") = 0.0,
-            R"(Breaks something in a robot now, a FailureKind; FailureKind.REPAIRED mends all of it.
+  world.def(
+      "fail", &fail, py::arg("kiva_id"), py::arg("kind"), py::arg("repair_after") = 0.0,
+      R"(Causes a failure of a robot now, a FailureKind; FailureKind.REPAIRED repairs all of them.
 
-It is repaired after so many seconds; 0: when it is asked for. ValueError for an unknown robot or
-kind, or a time that is negative or not finite.)");
+The failure is repaired after so many seconds; 0: only by FailureKind.REPAIRED. ValueError for an
+unknown robot or kind, or a time that is negative or not finite.)");
 }
 
 }  // namespace kiva::python

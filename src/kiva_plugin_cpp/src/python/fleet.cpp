@@ -14,12 +14,12 @@
 namespace kiva::python {
 namespace {
 
-/// What Python calls World.fleet.
+/// The robots of a world: World.fleet in Python.
 struct FleetView {
   HostPtr host;
 
   template <typename Out, typename Read>
-  py::array column(Read read) const {
+  py::array_t<Out> column(Read read) const {
     const auto lock = host->use();
     return view<Out>(read(host->world.fleet()));
   }
@@ -43,7 +43,7 @@ int indexOf(const Host& host, std::int32_t kiva_id) {
   return host.world.fleet().find(kiva_id);
 }
 
-std::vector<int> robotsOf(const Host& host, const py::object& kiva_id) {
+std::vector<int> robotsOf(const Host& host, const ArrayLike& kiva_id) {
   std::vector<int> robots;
   if (kiva_id.is_none()) {
     for (int i = 0; i < host.world.fleet().size(); ++i) robots.push_back(i);
@@ -54,7 +54,7 @@ std::vector<int> robotsOf(const Host& host, const py::object& kiva_id) {
   return robots;
 }
 
-/// One row a robot, filled up with NaN.
+/// Scans into host.ranges: one row a robot, filled up with NaN.
 void scanInto(Host& host, const std::vector<int>& robots, std::size_t rays) {
   std::vector<int> fitted;
   for (int robot : robots) {
@@ -63,7 +63,7 @@ void scanInto(Host& host, const std::vector<int>& robots, std::size_t rays) {
   std::vector<std::vector<float>> ranges;
   host.world.scan(fitted, &ranges);
   std::fill(host.ranges.begin(), host.ranges.end(), std::numeric_limits<float>::quiet_NaN());
-  std::size_t next = 0;  // of those that scan
+  std::size_t next = 0;  // index in `fitted`
   for (std::size_t row = 0; row < robots.size() && next < fitted.size(); ++row) {
     if (robots[row] != fitted[next]) continue;
     std::copy(ranges[next].begin(), ranges[next].end(), host.ranges.data() + row * rays);
@@ -71,7 +71,7 @@ void scanInto(Host& host, const std::vector<int>& robots, std::size_t rays) {
   }
 }
 
-py::array scans(Host& host, const py::object& kiva_id) {
+py::array_t<float> scans(Host& host, const ArrayLike& kiva_id) {
   const auto lock = host.use();
   const std::vector<int> robots = robotsOf(host, kiva_id);
   std::size_t rays = 0;
@@ -123,8 +123,8 @@ void defineFleet(py::module_& m) {
   py::class_<FleetView> fleet(m, "Fleet", R"(All robots as arrays: entry i of each is robot i.
 
 Arrays but kiva_id and shelf_id are read-only views: nothing is copied, and step() changes what
-they show. They are current until robots come or go, or the world is restored: ask for them anew
-then. An old one stays safe to read, whatever becomes of the world, and shows what was there last.)");
+they show. They are current until robots come or go, or the world is restored: read the property
+again then. An old array stays safe to read, whatever becomes of the world, with its last values.)");
   const auto add = [&fleet](const char* name, auto read, auto zero, const char* doc) {
     const auto get = [read](const FleetView& f) { return f.template column<decltype(zero)>(read); };
     fleet.def_property_readonly(name, get, doc);
@@ -168,28 +168,30 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
       "EventKind.DONE or BLOCKED. A view.");
   add(
       "path_id", [](const Fleet& f) -> auto& { return f.path_id; }, std::uint32_t(),
-      "(n,) uint32: the path that a robot's last command is; 0 if that is none. A view.");
+      "(n,) uint32: the path_id of a robot's last command; 0 if that is not a path. A view.");
   add(
       "reached", [](const Fleet& f) -> auto& { return f.reached; }, std::uint32_t(),
-      "(n,) uint32: how many points of its path a robot's centre has come to, the one where it "
-      "began among them. A view.");
+      "(n,) uint32: how many points of its path a robot's centre has reached, the first one, "
+      "where it began, among them. A view.");
   add(
       "left", [](const Fleet& f) -> auto& { return f.left; }, std::uint32_t(),
-      "(n,) uint32: how many leading points' cells a robot and its load have left wholly. A view.");
+      "(n,) uint32: how many leading cells of its path a robot and its load have left wholly. A "
+      "view.");
   add(
       "stopped", [](const Fleet& f) -> auto& { return f.stopped; }, std::uint8_t(),
       "(n,) uint8: 1 while stop() holds a robot. A view.");
   add(
       "failures", [](const Fleet& f) -> auto& { return f.failures; }, std::uint8_t(),
-      "(n,) uint8: what is broken in a robot, 1 << each FailureKind, added up, 1 for "
-      "an empty battery; 0 nothing. A view.");
+      "(n,) uint8: the failures of a robot as bits, 1 << each FailureKind, and 1 for "
+      "an empty battery; 0 = none. A view.");
   add(
       "allowed_speed", [](const Fleet& f) -> auto& { return f.allowed_speed; }, 0.0,
-      "(n,) float64: what a robot may drive since people are near [m/s]; 0 it stands for them, inf "
-      "nobody is near. A view.");
+      "(n,) float64: speed that its protective field allows a robot [m/s]; 0 = it stands because "
+      "of "
+      "people, inf = no person is near. A view.");
   add(
       "curtained", [](const Fleet& f) -> auto& { return f.curtained; }, std::uint8_t(),
-      "(n,) uint8: 1 while a robot stands in a light curtain where somebody is. A view.");
+      "(n,) uint8: 1 while a robot stands in a light curtain with a person in it. A view.");
   add(
       "charge", [](const Fleet& f) -> auto& { return f.charge; }, 0.0f,
       "(n,) float32: state of charge of the battery, 0 to 1; 1 where realism has no energy. A "
@@ -199,7 +201,7 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
       "(n,) int32: the robots' numbers; kiva7 has 7. A copy.");
   fleet.def_property_readonly(
       "shelf_id", [](const FleetView& f) { return f.numbers(shelfOf); },
-      "(n,) int32: number of the storage unit that each carries, 0 = none. A copy.");
+      "(n,) int32: number of the storage unit that each robot carries, 0 = none. A copy.");
   fleet.def_property_readonly(
       "believed",
       [](const FleetView& f) {
@@ -212,14 +214,15 @@ then. An old one stays safe to read, whatever becomes of the world, and shows wh
         }
         return out;
       },
-      "(n, 3) float64: x, y [m], yaw [rad] where each robot believes to be. A copy.");
+      "(n, 3) float64: x, y [m], yaw [rad] that each robot estimates by itself. A copy.");
   fleet.def(
       "index",
       [](const FleetView& f, std::int32_t id) {
         const auto lock = f.host->use();
         return indexOf(*f.host, id);
       },
-      py::arg("kiva_id"), "Where robot kiva_id is in the arrays. ValueError if there is none.");
+      py::arg("kiva_id"),
+      "Returns the index of robot kiva_id in the arrays. ValueError if there is none.");
   fleet.def("__len__", [](const FleetView& f) {
     const auto lock = f.host->use();
     return f.host->world.fleet().size();
@@ -232,19 +235,18 @@ void defineRobots(py::class_<Host, HostPtr>& world) {
   world.def_property_readonly(
       "fleet", [](const HostPtr& host) { return FleetView{host}; },
       "The robots as arrays, a Fleet.");
-  world.def("last_heard", &lastHeard,
-            R"((n,) of robots whose radio is lost, and of all where reports go by radio: what was
-heard of them last.
-
-Fields: index (in the fleet's arrays), and those of Fleet. A copy.)");
+  world.def(
+      "last_heard", &lastHeard,
+      R"(Returns the last report received of robots whose radio is lost, and of every robot where
+reports go by radio: (n,), with fields index (in the fleet's arrays) and those of Fleet. A copy.)");
   world.def(
       "scans", &scans, py::arg("kiva_id") = py::none(),
-      R"(Laser ranges now, of all robots in the fleet's order or of those given: (n, rays) float32 [m].
+      R"(Returns laser ranges of all robots, or of those given: (n, rays) float32 [m], a row a robot.
 
 +inf = nothing within range, -inf = nearer than the minimum; rays go counterclockwise; NaN fills
 the rows of robots with fewer rays or without a laser. A read-only view of the world's own memory:
 current until the next call of scans(), which may write into it; safe to read ever after.
-ValueError for a robot that isn't.)");
+ValueError for an unknown robot.)");
 }
 
 }  // namespace kiva::python

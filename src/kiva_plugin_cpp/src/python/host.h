@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the bindings of one world and of many share.
+// Shared by the bindings of one world and of many.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -21,7 +21,7 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
-/// So many at a time; then Python is asked whether Ctrl-C was pressed.
+/// Steps made at a time; between them Python is asked whether Ctrl-C was pressed.
 constexpr std::int64_t kStepsBetweenSignals = 256;
 
 /// A row of World.storage_units.
@@ -31,7 +31,7 @@ struct UnitRow {
   std::int32_t kiva_id;
 };
 
-/// A world that one thread uses at a time: a second one is told so.
+/// A world that one thread uses at a time: use() throws in a second one.
 class Host {
  public:
   Host(const WorldDescription& description, const WorldOptions& options, ModelPaths paths)
@@ -53,7 +53,7 @@ class Host {
 
 using HostPtr = std::shared_ptr<Host>;
 
-/// Returns a function of the world as a method that no second thread gets into.
+/// Returns a function of the world as a method that throws while another thread uses the world.
 template <typename Call>
 auto guarded(Call call) {
   return [call](Host& host) {
@@ -69,9 +69,10 @@ void warn(const std::vector<std::string>& warnings);
 void checkRobot(const Host& host, std::int32_t id);
 /// Returns the number of the robot at that index of the fleet's arrays, 0 for -1.
 std::int32_t idOf(const World& world, int robot);
-/// Throws ValueError with the number of the command in its row.
+/// Throws ValueError, with the index `i` of the command, unless the world can take the command.
 void checkCommand(const Host& host, const Command& command, std::size_t i);
-/// Commands of dtype COMMAND, or TypeError and ValueError.
+/// Returns an array of dtype COMMAND as rows. Throws TypeError for another dtype and ValueError for
+/// another shape.
 py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 

@@ -110,7 +110,7 @@ py::array copyOf(const std::vector<T>& values) {
   return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// Of all links, in the model's order.
+/// Returns the visuals of all links, in the model's order.
 py::list visualsOf(Host& host, const std::string& name) {
   const auto lock = host.use();
   checkModel(host, name);
@@ -157,43 +157,46 @@ void defineModels(py::class_<Host, HostPtr>& world) {
   PYBIND11_NUMPY_DTYPE(ItemRow, item_id, x, y, z, mass, shelf_id);
   world.def("spawn", &spawnText, py::arg("sdf"), py::arg("name") = "",
             py::arg("place") = py::none(),
-            R"(Adds the models of an SDF or URDF text, or none; returns their names.
+            R"(Adds all models of an SDF or URDF text, or none of them, and returns their names.
 
 A single one can be given a name and a place, (x, y, z, yaw) in world [m, rad]. DescriptionError
 (a ValueError) names what is wrong.)");
   world.def("delete", &removeModel, py::arg("name"),
-            "Takes a model away; a storage unit goes with its items. KeyError if there is none of "
-            "that name.");
+            "Removes a model; a storage unit goes with its items. KeyError if no model has that "
+            "name.");
   world.def("pose", &poseOf, py::arg("name"),
-            "x y z qx qy qz qw of a model in world [m], (7,) float64. KeyError if there is none.");
+            "Returns x y z qx qy qz qw of a model in world [m], (7,) float64. KeyError if there is "
+            "none.");
   world.def("visuals", &visualsOf, py::arg("name"),
-            R"(What is seen of a model: a list of (link, pose in the model, size).
+            R"(Returns the visuals of a model: a list of (link, pose in the model, size).
 
-The pose is x y z [m] qx qy qz qw, the size a box's edges [m] (0 of other shapes). KeyError if there
-is none of that name.)");
+The pose is x y z [m] qx qy qz qw, the size a box's edges [m] (0 of other shapes). KeyError if no
+model has that name.)");
   world.def(
       "look", &lookOfModel, py::arg("name"),
-      R"(What a model looks like, as a dict of arrays of the names, and the layout, of the fields of
-warehouse_msgs/Look. KeyError if there is none of that name.)");
-  world.def("occupancy", &occupancyOf, R"(What is in the way on the floor: (x, y, spacing, cells).
+      R"(Returns the look of a model as a dict of arrays, with the names and the layout of the fields of
+warehouse_msgs/Look. KeyError if no model has that name.)");
+  world.def("occupancy", &occupancyOf,
+            R"(Returns the obstacles on the floor as a grid: (x, y, spacing, cells).
 
 cells: (rows along y, columns along x) uint8, 0 free, 50 a storage unit, 99 a belt, 100 taken by
-anything else, or no floor; robots are not in it. (x, y) is the centre of cells[0, 0], spacing the
+anything else, or no floor; robots are left out. (x, y) is the centre of cells[0, 0], spacing the
 edge of a cell, in world [m].)");
   world.def("set_pose", &setPose, py::arg("name"), py::arg("x"), py::arg("y"), py::arg("z") = 0.0,
             py::arg("yaw") = 0.0,
-            R"(Puts a model there [m, rad], at rest; a command that it is at ends in BLOCKED.
+            R"(Puts a model at a place in world [m, rad], at rest; a command of it ends in BLOCKED.
 
-KeyError if there is none of that name, DescriptionError if the place is no finite one.)");
+KeyError if no model has that name, DescriptionError if the place is not finite.)");
   world.def_property_readonly(
       "storage_units", &storageUnits,
-      R"((n,) with shelf_id, x y z yaw in world [m, rad], mass with items [kg], kiva_id of its carrier
-(0 = none). A copy.)");
+      R"(The storage units, (n,): shelf_id, x y z yaw in world [m, rad], mass with items [kg], kiva_id of
+the carrier (0 = none). A copy.)");
   world.def_property_readonly(
       "items", &items,
-      "(n,) with item_id, x y z in world [m], mass [kg], shelf_id it lies on (0 = none). A copy.");
+      "The items, (n,): item_id, x y z in world [m], mass [kg], shelf_id of the unit below (0 = "
+      "none). A copy.");
   world.def_property_readonly("names", guarded([](World& w) { return w.modelNames(); }),
-                              "Of all models, in the order in which they came.");
+                              "The names of all models, in the order in which they were added.");
 }
 
 }  // namespace kiva::python

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The world inside a Python process. The files of this folder translate;
-// python/kiva_plugin_cpp/__init__.py adds what is easier said in Python.
+// The world inside a Python process. The files of this folder translate between C++ and Python;
+// python/kiva_plugin_cpp/__init__.py adds methods that are easier to write in Python.
 #include <pybind11/stl.h>
 
 #include "host.h"

@@ -31,7 +31,7 @@ Realism realismOf(const std::map<std::string, std::string>& texts, const std::st
   return out;
 }
 
-/// Sections by name, each with whether it is on and its numbers.
+/// Returns the sections of a world's realism by name, each with `enabled` and its numbers.
 py::dict realismOf(const World& world) {
   py::dict out;
   forEachSection(world.realism(), [&out](const char* name, const auto& section) {
@@ -91,7 +91,7 @@ py::dtype eventType() {
   return py::dtype::from_args(fields);
 }
 
-py::object events(Host& host) {
+py::array events(Host& host) {
   const auto lock = host.use();
   py::list rows;
   for (const Event& e : host.world.takeEvents()) {
@@ -136,47 +136,53 @@ steps. ValueError for a negative number.)");
         const auto lock = host.use();
         host.world.reset(time);
       },
-      py::arg("time") = true, R"(Everything back to where it was spawned, at rest, without commands.
+      py::arg("time") = true,
+      R"(Puts everything back to where it was spawned, at rest, without commands.
 
 Time goes back to 0 too, unless time is False.)");
-  world.def("events", &events, R"(What happened since the last call: (n,) of dtype EVENT, in order.
+  world.def("events", &events,
+            R"(Returns the events since the last call: (n,) of dtype EVENT, in order.
 
-Fields: time [s], kind (values of EventKind), model, other, text, and the number of the command that
-it belongs to (0 = none).)");
-  world.def("checkpoint", &checkpoint, R"(The whole state as bytes.
+Fields: time [s], kind (values of EventKind), model, other, text, and the number of the command
+that the event belongs to (0 = none).)");
+  world.def("checkpoint", &checkpoint, R"(Returns the whole state as bytes.
 
-This world, and any that restores them, go on the same from here, bit by bit, if they are given
-the same commands.)");
+This world, and any that restores the bytes, continue identically from here, bit by bit, if they
+get the same commands.)");
   world.def("restore", &restore, py::arg("checkpoint"),
-            R"(Makes this world the one that was saved, whatever it was before.
+            R"(Replaces the state of this world by a saved one.
 
 CheckpointError (a ValueError), with nothing changed, if the bytes are damaged.)");
-  world.def("state_hash", guarded([](World& w) { return w.stateHash(); }),
-            "64 bits over all that decides what happens next; equal worlds have equal ones.");
+  world.def(
+      "state_hash", guarded([](World& w) { return w.stateHash(); }),
+      "Returns a 64-bit hash over all state that decides what happens next; equal worlds have "
+      "equal hashes.");
   world.def_property_readonly(
       "realism",
       [](Host& host) {
         const auto lock = host.use();
         return realismOf(host.world);
       },
-      "What differs from the ideal: sections by name, each a dict of `enabled` and its numbers.");
-  world.def_property_readonly("time", guarded([](World& w) { return w.time(); }), "Simulated [s].");
+      "The deviations from the ideal: sections by name, each a dict of `enabled` and its numbers.");
+  world.def_property_readonly("time", guarded([](World& w) { return w.time(); }),
+                              "Simulated time [s].");
   world.def_property_readonly("steps", guarded([](World& w) { return w.steps(); }),
-                              "Since time was 0.");
+                              "Steps made since time was 0.");
   world.def_property(
       "step_size", guarded([](World& w) { return w.stepSize(); }),
       [](Host& host, double seconds) {
         const auto lock = host.use();
         host.world.setStepSize(seconds);
       },
-      "How far a step goes [s]; set, from the next one on: 1e-6 to 1, else ValueError.");
+      "Duration of a step [s]. Setting it, from 1e-6 to 1, else ValueError, changes the next "
+      "step.");
   world.def_property_readonly("grid_spacing", guarded([](World& w) { return w.gridSpacing(); }),
-                              "Of the grid points on which robots stand [m].");
+                              "Spacing of the grid points on which robots stand [m].");
   world.def_property_readonly("floor", guarded([](World& w) {
                                 const Floor& f = w.floor();
                                 return py::make_tuple(f.min_x, f.max_x, f.min_y, f.max_y);
                               }),
-                              "(min_x, max_x, min_y, max_y) in world [m].");
+                              "The floor: (min_x, max_x, min_y, max_y) in world [m].");
   defineCommands(world);
   defineRobots(world);
   defineModels(world);
