@@ -25,7 +25,7 @@ static_assert(int(kiva::Event::Kind::kPickedUp) == int(warehouse_msgs::Event::PI
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
-/// The number in `kiva<id>` of the robot at that index, 0 for none.
+/// Returns the number in `kiva<id>` of the robot at that index, 0 for -1.
 int idOf(const kiva::Fleet& fleet, int robot) { return robot < 0 ? 0 : fleet.robots[robot].id; }
 
 int shelfOf(const kiva::World& world, int robot) {
