@@ -160,7 +160,7 @@ struct ModelInstance {
   std::shared_ptr<const ModelDescription> description;
   std::string
       robot_namespace{};       ///< Told to its plugins as `robotNamespace`, unless they have one.
-  std::optional<Walk> walk{};  ///< Of an `<actor>`: it is a person, who walks so.
+  std::optional<Walk> walk{};  ///< The walk of an `<actor>`, which is a person.
 };
 
 struct WorldDescription {

@@ -66,7 +66,7 @@ struct ActuationRealism {
   }
 };
 
-/// Floors that don't grip everywhere: cells that are wet, oily or dusty, anew for each seed.
+/// Floors that don't grip everywhere: cells that are wet, oily or dusty, chosen by the seed.
 struct FloorRealism {
   bool enabled = false;
   double slippery_cells = 0.01;  ///< Share of the grid's cells.
@@ -88,7 +88,7 @@ struct LoadRealism {
   double tipping_share = 0.7;
   double item_friction_least = 0.3;  ///< Coulomb coefficient of an item on its board, evenly
   double item_friction_most = 0.5;   ///< distributed between these.
-  double pick_up_after = 300;  ///< An item lies on the floor until somebody comes [s]; 0: nobody.
+  double pick_up_after = 300;        ///< Until an item is picked up off the floor [s]; 0: never.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -112,7 +112,7 @@ struct RadioRealism {
   double status_latency_mean = 0;   ///< [s]
   double status_lost = 0;           ///< Share of reports that are lost.
 
-  /// Whether reports are not there at once.
+  /// Returns whether reports are delayed or lost.
   bool delaysReports() const {
     return enabled && (status_latency_least > 0 || status_latency_mean > 0 || status_lost > 0);
   }
@@ -221,8 +221,8 @@ void forEachSection(R& realism, Call call) {
 
 /// Reads `prefix` + `section/name` for every number. A section of which anything is given is on,
 /// its other numbers at their defaults; so is one that is `true` itself, and `false` is off.
-/// Throws DescriptionError for what is no number or out of its range; what nobody knows is left to
-/// Parameters::rejectUnread.
+/// Throws DescriptionError for what is no number or out of its range; unknown keys are
+/// left to Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
 
 bool operator==(const Realism& a, const Realism& b);
