@@ -43,6 +43,7 @@ if _only_numpy_1 and int(numpy.__version__.split(".")[0]) > 1:
 
 from kiva_plugin_cpp import _core
 from kiva_plugin_cpp._core import COMMAND, EVENT, CheckpointError, DescriptionError, Fleet
+from kiva_plugin_cpp.message_enums import EventKind, FailureKind, State, Status
 
 if TYPE_CHECKING:
     from warehouse_layout.layout import Layout
@@ -77,57 +78,6 @@ class Kind(IntEnum):
     CANCEL = 5
     STOP = 6
     GO_ON = 7
-
-
-class Status(IntEnum):
-    """The status of a robot: Fleet.status."""
-
-    IDLE = 0
-    BUSY = 1
-    BLOCKED = 2
-
-
-class State(IntEnum):
-    """The activity of a robot: Fleet.state."""
-
-    IDLE = 0
-    MOVING_X = 1
-    MOVING_Y = 2
-    ROTATING = 3
-    LIFTING = 4
-    BLOCKED = 5
-    WAITING = 6
-
-
-class EventKind(IntEnum):
-    """The kinds of events: EVENT's field `kind`."""
-
-    ACCEPTED = 0
-    REFUSED = 1
-    DONE = 2
-    BLOCKED = 3
-    LIFTED = 4
-    DROPPED = 5
-    COLLISION = 6
-    SPAWNED = 7
-    DELETED = 8
-    LOST = 9
-    FAILED = 10
-    REPAIRED = 11
-    TIPPED = 12
-    FELL = 13
-    PICKED_UP = 14
-
-
-class FailureKind(IntEnum):
-    """The failures of a robot; warehouse_msgs/Fail explains each."""
-
-    REPAIRED = 0
-    MOTOR = 1
-    LIFT_STUCK = 2
-    LASER_BLIND = 3
-    RADIO_LOST = 4
-    WHEEL_SLIPS = 5
 
 
 def worlds_folder() -> Path:

@@ -12,16 +12,6 @@ namespace kiva_ros {
 namespace {
 
 using warehouse_msgs::KivaStatus;
-static_assert(int(kiva::Status::kBlocked) == int(KivaStatus::STATUS_BLOCKED));
-static_assert(int(kiva::State::kMovingX) == int(KivaStatus::STATE_MOVING_X));
-static_assert(int(kiva::State::kBlocked) == int(KivaStatus::STATE_BLOCKED));
-static_assert(int(kiva::State::kWaiting) == int(KivaStatus::STATE_WAITING));
-static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
-static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
-static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
-static_assert(int(kiva::Event::Kind::kRepaired) == int(warehouse_msgs::Event::REPAIRED));
-static_assert(int(kiva::Event::Kind::kTipped) == int(warehouse_msgs::Event::TIPPED));
-static_assert(int(kiva::Event::Kind::kPickedUp) == int(warehouse_msgs::Event::PICKED_UP));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
