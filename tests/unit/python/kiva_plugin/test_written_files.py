@@ -3,15 +3,13 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-
-REPOSITORY = Path(__file__).parents[3]
+from paths import ROOT
 
 
 @pytest.mark.parametrize("script", ["stubs", "message_enums"])
 def test_what_scripts_write_is_up_to_date(script):
-    command = [sys.executable, REPOSITORY / "scripts" / script, "--check"]
+    command = [sys.executable, ROOT / "scripts" / script, "--check"]
     done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
