@@ -17,6 +17,12 @@
 
 namespace kiva {
 
+// What a world takes, wherever it is said.
+constexpr double kLeastStep = 1e-6, kMostStep = 1;                 ///< [s]
+constexpr double kMostGravity = 1000;                              ///< Its length [m/s²].
+constexpr double kMostFriction = 10;                               ///< Coulomb coefficient.
+constexpr double kLeastGridSpacing = 0.1, kMostGridSpacing = 100;  ///< [m]
+
 using Pose = ignition::math::Pose3d;
 using Quaternion = ignition::math::Quaterniond;
 using Vector3 = ignition::math::Vector3d;
@@ -154,7 +160,7 @@ struct ModelInstance {
   std::shared_ptr<const ModelDescription> description;
   std::string
       robot_namespace{};       ///< Told to its plugins as `robotNamespace`, unless they have one.
-  std::optional<Walk> walk{};  ///< Given by an `<actor>`: a person that walks so.
+  std::optional<Walk> walk{};  ///< The walk of an `<actor>`, which is a person.
 };
 
 struct WorldDescription {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// People who walk on the floor, and zones that stop robots while a person is inside.
+// People that walk on the floor, and zones that stop robots while a person is inside.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace kiva {
 
-/// The speed with which people are assumed to come nearer (ISO 13855); none walks faster [m/s].
+/// Walking speed of people by ISO 13855, and the most that they walk with [m/s].
 constexpr double kMostWalkingSpeed = 1.6;
 
 /// A place on a person's way.

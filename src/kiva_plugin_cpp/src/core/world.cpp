@@ -44,9 +44,6 @@
 namespace kiva {
 namespace {
 
-constexpr double kMostGravity = 1000;                 // [m/s²]
-constexpr double kLeastStep = 1e-6;                   // [s]
-constexpr double kMostStep = 1;                       // [s]
 constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
 constexpr double kLeastMoment = 1e-12;                // [kg m²]
 constexpr double kMostArm = 1000;                     // [m]
@@ -84,7 +81,8 @@ void addLightCurtain(WorldState& world, const PluginDescription& plugin) {
 
 void loadWorldPlugin(WorldState& world, const PluginDescription& plugin) {
   if (plugin.filename == kGridPlugin) {
-    const double spacing = plugin.parameters.number("spacing", 1.0, 0.1, 100.0);
+    const double spacing =
+        plugin.parameters.number("spacing", 1.0, kLeastGridSpacing, kMostGridSpacing);
     plugin.parameters.rejectUnread();
     world.settings.grid_spacing = spacing;
   } else if (plugin.filename == kFloorPatchPlugin) {

@@ -3,7 +3,7 @@
 
 #include <regex>
 
-// ignition-math keeps a regular expression in each unit that includes it, and thereby has all of
-// what makes one of a text compiled there: two seconds a unit. Who includes this takes it from
-// regex_once.cpp.
+// ignition-math keeps a regular expression in each unit that includes it, and thereby compiles the
+// code of regular expressions there: two seconds a unit. A unit that includes this header takes the
+// expression from regex_once.cpp.
 extern template class std::__detail::_Compiler<std::regex_traits<char>>;

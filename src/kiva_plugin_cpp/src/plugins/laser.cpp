@@ -149,14 +149,7 @@ void brake(MotionView& world, int i) {
 void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   LaserParameters& laser = robot.laser;
   laser.fitted = true;
-  laser.rays = p.whole("rays", laser.rays, 1, 10000);
-  laser.min_angle = p.number("min_angle", laser.min_angle, -M_PI, M_PI);
-  laser.max_angle = p.number("max_angle", laser.max_angle, laser.min_angle, M_PI);
-  laser.min_range = p.number("min_range", laser.min_range, 0, 100);
-  laser.max_range = p.number("max_range", laser.max_range, laser.min_range, 100);
-  laser.rate = p.number("rate", laser.rate, 0.01, 1000);
-  laser.x = p.number("x", laser.x, -10, 10);
-  laser.z = p.number("z", laser.z, 0, 10);
+  laser.fields(laser, p.reader());
 }
 
 void LaserPlugin::react(MotionView& world, const std::vector<int>& sighted) const {

@@ -199,11 +199,8 @@ void lowerEmptyTower(ContactView& world, int i) {
 void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   LiftParameters& lift = robot.lift;
   lift.fitted = true;
-  lift.height = p.number("height", lift.height, 0.001, 10);
-  lift.time = p.number("time", lift.time, 0, 1000);
-  lift.max_load = p.number("max_load", lift.max_load, 0, 1e6);
-  lift.max_force = p.number("max_force", kSpareForce * 9.81 * lift.max_load, 0, 1e9);
-  lift.proximity = p.number("proximity", lift.proximity, 0, 10);
+  lift.fields(lift, p.reader());
+  if (!p.has("max_force")) lift.max_force = kSpareForce * 9.81 * lift.max_load;
 }
 
 void LiftPlugin::control(ContactView& world) const {

@@ -148,16 +148,8 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
                            "'; traction or jointed was expected");
   }
   d.drive = drive == "jointed" ? Drive::kJointed : Drive::kTraction;
-  d.speed = p.number("speed", d.speed, 0.01, 10);
-  d.acceleration = p.number("acceleration", d.acceleration, 0, 100);
-  d.emergency_deceleration = std::max(
-      d.acceleration, p.number("emergency_deceleration", d.emergency_deceleration, 0.01, 100));
-  d.wheel_radius = p.number("wheel_radius", d.wheel_radius, 0.005, 1);
-  d.wheel_separation = p.number("wheel_separation", d.wheel_separation, 0.01, 10);
-  d.wheel_inertia = p.number("wheel_inertia", d.wheel_inertia, 1e-6, 100);
-  d.motor_torque = p.number("motor_torque", d.motor_torque, 0, 1e5);
-  d.friction = p.number("friction", d.friction, 0, 10);
-  d.drive_wheel_load = p.number("drive_wheel_load", d.drive_wheel_load, 0.01, 1);
+  d.motionFields(d, p.reader());
+  d.emergency_deceleration = std::max(d.acceleration, d.emergency_deceleration);
   robot.has_motion = true;
 }
 

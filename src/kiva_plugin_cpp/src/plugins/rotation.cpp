@@ -112,7 +112,7 @@ void turnSegment(MotionView& world, int i) {
 }  // namespace
 
 void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
-  robot.drive.quarter_turn_time = p.number("quarter_turn_time", 0.625, 0, 1000);
+  robot.drive.rotationFields(robot.drive, p.reader());
   robot.has_rotation = true;
 }
 

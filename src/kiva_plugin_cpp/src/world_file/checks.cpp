@@ -29,7 +29,7 @@ void rename(const sdf::ElementPtr& part, Names* names, sdf::Errors* warnings) {
   part->GetAttribute("name")->SetFromString(free);
 }
 
-/// Empty: it has a name of its own, perhaps from now on.
+/// Returns the fault of a name; empty if it is unique, perhaps after adding it.
 std::string faultOfName(const sdf::ElementPtr& part, Names* names, sdf::Errors* warnings) {
   const std::string& kind = part->GetName();
   if (!part->HasAttribute("name") || kind == "plugin") return "";
@@ -42,20 +42,21 @@ std::string faultOfName(const sdf::ElementPtr& part, Names* names, sdf::Errors* 
          "> to have a name of its own";
 }
 
-/// A model that holds nothing, perhaps since what it included is not there.
+/// Returns the fault of a model that holds nothing, perhaps since its include is missing.
 std::string faultOfModel(const sdf::ElementPtr& model) {
   const bool is_empty = !model->HasElement("link") && !model->HasElement("model");
   return is_empty ? "expected a <link> in <model>" : "";
 }
 
-/// What we can build, in one place.
+/// Returns whether joints of a type can be built.
 bool isKnownJoint(const std::string& type) {
   static const std::set<std::string> kTypes = {"fixed", "revolute", "continuous", "prismatic",
                                                "ball"};
   return kTypes.count(type) > 0;
 }
 
-/// The part of that name that poses in a model or a world can be relative to; null: none.
+/// Returns the part of that name that poses in a model or a world can be relative to; null if there
+/// is none.
 sdf::ElementPtr findPart(const sdf::ElementPtr& around, const std::string& name) {
   for (auto part = around->GetFirstElement(); part; part = part->GetNextElement()) {
     const std::string& kind = part->GetName();
@@ -67,7 +68,8 @@ sdf::ElementPtr findPart(const sdf::ElementPtr& around, const std::string& name)
   return nullptr;
 }
 
-/// Whether a model or a world has a frame of that name: `link`, `model::link`, one that always is.
+/// Returns whether a model or a world has a frame of that name: `link`, `model::link`, or a
+/// built-in one.
 bool isThere(const sdf::ElementPtr& around, const std::string& name) {
   if (name.empty() || name == "world" || startsWith(name, "__")) return true;
   if (findPart(around, name)) return true;
@@ -77,7 +79,7 @@ bool isThere(const sdf::ElementPtr& around, const std::string& name) {
   return model && model->GetName() == "model" && isThere(model, name.substr(colons + 2));
 }
 
-/// The model around an element, or the world; null outside of both.
+/// Returns the model around an element, or the world; null outside of both.
 sdf::ElementPtr scopeOf(sdf::ElementPtr element) {
   do {
     element = element->GetParent();
@@ -85,7 +87,7 @@ sdf::ElementPtr scopeOf(sdf::ElementPtr element) {
   return element;
 }
 
-/// The name that an element is placed or turned by, if there is nothing of that name.
+/// Returns the name of the frame that an element is relative to, if no such frame exists.
 std::string missingReference(const sdf::ElementPtr& element, const sdf::ElementPtr& scope) {
   for (const char* attribute : {"relative_to", "attached_to", "expressed_in"}) {
     if (!element->HasAttribute(attribute)) continue;
@@ -95,7 +97,8 @@ std::string missingReference(const sdf::ElementPtr& element, const sdf::ElementP
   return "";
 }
 
-/// What is placed relative to something that is not there, its own parts apart; empty: nothing.
+/// Returns the fault of an element that is relative to a missing frame, its own parts apart; empty
+/// if there is none.
 std::string faultOfPlace(const sdf::ElementPtr& part) {
   const sdf::ElementPtr scope = scopeOf(part);
   if (!scope) return "";
@@ -146,7 +149,7 @@ std::string faultOfJoint(const sdf::ElementPtr& joint) {
   return "";
 }
 
-/// What is wrong with a part that its world can do without; empty: nothing.
+/// Returns the fault of a part that its world can do without; empty if there is none.
 std::string faultOf(const sdf::ElementPtr& part) {
   const std::string& kind = part->GetName();
   const std::string& around = part->GetParent()->GetName();

@@ -50,7 +50,7 @@ Printed sortPrinted(const std::string& printed) {
   for (std::string line; std::getline(lines, line);) {
     line = shortened(line);
     std::smatch match;
-    // The last one speaks of a format older than SDF, which nobody tries.
+    // The last one is about a format older than SDF, which is not tried.
     if (!std::regex_search(line, match, kPrefix) || contains(line, "old deprecated")) continue;
     const std::string text = match.suffix();
     if (match[2] == "Warning") sorted.warnings.push_back(text);
@@ -94,7 +94,7 @@ bool isEcho(const sdf::Error& error) {
          contains(error.Message(), "Unable to parse sdf element");
 }
 
-/// What the user can use of libsdformat's wording.
+/// Returns the part of libsdformat's wording that helps the user.
 std::string plain(std::string message) {
   static const std::regex kTail(R"(\. (Copying\[|Using the first).*)");
   static const std::regex kValue(R"(.*Unable to set value \[(.*?) ?\] ?for key ?\[(.*)\])");

@@ -13,7 +13,7 @@ namespace kiva {
 /// positive, an inertia that no body can have. SDF's defaults of 1 kg and 1 kg m² are left.
 void repairInertial(const sdf::ElementPtr& link, sdf::Errors* warnings);
 
-/// Into mass, principal moments and axes of `link`.
+/// Reads an inertial into mass, principal moments and axes of `link`.
 void setInertia(const ignition::math::Inertiald& inertial, Link* link);
 
 }  // namespace kiva

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUnlimited = 1e16;
 
-/// Other types did not pass the checks.
+/// Returns the kind of a joint; other types don't pass the checks.
 Joint::Kind kindOf(const sdf::Joint& joint) {
   switch (joint.Type()) {
     case sdf::JointType::REVOLUTE:
@@ -28,7 +28,7 @@ Joint::Kind kindOf(const sdf::Joint& joint) {
   }
 }
 
-/// The link's name in the flattened model.
+/// Returns the link's name in the flattened model.
 std::string scopedLink(const std::string& name, const Scope& scope) {
   return name == "world" ? name : scope.prefix + name;
 }

@@ -25,7 +25,7 @@ void holdToWorld(std::size_t first, ModelDescription* description) {
   }
 }
 
-/// The parts of `model`, then those of the models inside it.
+/// Adds the parts of `model`, then those of the models inside it.
 void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* description,
               sdf::Errors* warnings) {
   for (uint64_t i = 0; i < model.LinkCount(); ++i) {
@@ -52,7 +52,7 @@ void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* des
   }
 }
 
-/// A model that only wraps static ones is static.
+/// Returns whether a model is static: itself, or since it only wraps static ones.
 bool isStatic(const sdf::Model& model) {
   if (model.Static()) return true;
   if (model.LinkCount() > 0 || model.ModelCount() == 0) return false;

@@ -126,7 +126,7 @@ SdfDocument parseStrictly(const std::string& text, const ModelPaths& model_paths
       sdf::Error(sdf::ErrorCode::STRING_READ, "libsdformat gave up on this text: " + what));
 }
 
-/// The same, with what libsdformat throws.
+/// Reads a text, and turns exceptions of libsdformat into errors.
 SdfDocument parseOnce(const std::string& text, const ModelPaths& model_paths) {
   try {
     return parseStrictly(text, model_paths);
@@ -177,7 +177,7 @@ std::string faultOfFile(const std::string& text, const std::string& file) {
   return told;
 }
 
-/// How often a text may be read anew without one of its faulty parts.
+/// Returns how often a text may be read again without one of its faulty parts.
 std::size_t mostRepairs(const std::string& text) {
   constexpr std::size_t kMostRead = 50'000'000;  // [byte]
   return std::clamp<std::size_t>(kMostRead / (text.size() + 1), 10, 300);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One faulty part costs that part: libsdformat refuses the whole text.
+// Leaves out faulty parts alone, where libsdformat refuses the whole text.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace kiva {
 
-/// What libsdformat has against a document; nothing if it takes it.
+/// Returns libsdformat's error for a document; nothing if it is accepted.
 using FaultOf = std::function<std::optional<sdf::Error>(const XmlDocument& document)>;
 
 /// Takes the smallest part out of `document` that `fault` is about and that the rest can do

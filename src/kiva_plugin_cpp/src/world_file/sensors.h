@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an SDF link and an SDF world have beyond shapes: sensors, lights.
+// Reads sensors of SDF links, and lights.
 #pragma once
 
 #include <sdf/Light.hh>
@@ -12,11 +12,11 @@
 
 namespace kiva {
 
-/// The sensors of a link.
+/// Returns the sensors of a link.
 void addSensors(const sdf::Link& link, const Scope& scope, ModelDescription* description,
                 sdf::Errors* warnings);
 
-/// A light at that pose in world.
+/// Returns a light at that pose in world.
 Light describeLight(const sdf::Light& light, const Pose& pose);
 
 }  // namespace kiva

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `<collision>` and `<visual>`: what touches and what is seen.
+// Reads `<collision>` and `<visual>`.
 #pragma once
 
 #include <optional>
@@ -27,10 +27,10 @@ enum class MeshUse { kTouched, kSeen };
 /// can't build.
 std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin, MeshUse use);
 
-/// Friction and restitution of a `<collision>`.
+/// Reads friction and restitution of a `<collision>`.
 void readSurface(const sdf::ElementPtr& element, Collision* collision, sdf::Errors* warnings);
 
-/// The colour of a `<visual>`.
+/// Returns the colour of a `<visual>`.
 void readMaterial(const sdf::ElementPtr& element, Visual* visual, sdf::Errors* warnings);
 
 }  // namespace kiva

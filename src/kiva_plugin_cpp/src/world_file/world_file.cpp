@@ -25,10 +25,6 @@
 namespace kiva {
 namespace {
 
-// What World::setStepSize and World::setGravity take.
-constexpr double kLeastStep = 1e-6, kMostStep = 1;  // [s]
-constexpr double kMostGravity = 1000;               // [m/s²]
-
 /// What libsdformat's part of a text came to.
 struct ParsedText {
   bool is_world = false;

@@ -31,16 +31,16 @@ std::string textOf(const XmlDocument& document);
 /// The text of one element on one line; `but`, if given, is left out.
 std::string textOf(const XmlElement& element, const XmlElement* but = nullptr);
 
-/// A message at the line and entity of `element`.
+/// Returns an error at the line and entity of `element`.
 sdf::Error noteAt(const XmlElement& element, const std::string& message);
 
 /// The element that libsdformat's `/sdf/model[@name="m"]/link` names, at that line if it is above
 /// 0; null if there is none.
 XmlElement* findElement(XmlDocument& document, const std::string& xml_path, int line);
 
-/// Blanks around it are left out; empty if there is no such attribute.
+/// Returns an attribute without the blanks around it; empty if there is none.
 std::string attributeOf(const XmlElement& element, const char* name);
-/// The text in an element, without the blanks around it; empty for null.
+/// Returns the text in an element, without the blanks around it; empty for null.
 std::string contentOf(const XmlElement* element);
 std::string trimmed(const std::string& text);
 bool startsWith(const std::string& text, const std::string& start);
@@ -57,11 +57,11 @@ void forAll(XmlElement* element, const Visit& visit) {
   }
 }
 
-/// So many finite numbers, and nothing else.
+/// Returns that many finite numbers; nothing for any other text.
 std::optional<std::vector<double>> parseNumbers(const std::string& text, std::size_t count);
-/// Six finite numbers.
+/// Returns a pose of six finite numbers; nothing for any other text.
 std::optional<Pose> parsePose(const std::string& text);
-/// As libsdformat reads it.
+/// Returns a boolean as libsdformat reads it.
 std::string textOf(const Pose& pose);
 
 }  // namespace kiva

@@ -70,9 +70,10 @@ void describeSetting(A& a, WorldState& world) {
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
   FIELDS(world.settings.name, world.settings.gravity, world.settings.options,
-         world.settings.realism, world.settings.realism_of_models, within(world.clock.dt, 1e-6, 1),
-         within(world.settings.grid_spacing, 0.1, 100), world.floor.extent,
-         within(world.floor.friction, 0, 1e6), world.floor.patches);
+         world.settings.realism, world.settings.realism_of_models,
+         within(world.clock.dt, kLeastStep, kMostStep),
+         within(world.settings.grid_spacing, kLeastGridSpacing, kMostGridSpacing),
+         world.floor.extent, within(world.floor.friction, 0, 1e6), world.floor.patches);
   if constexpr (A::kReads) world.fleet.applyRealism(world.settings.realism, world.clock.dt);
   FIELDS(world.models.free_slots, world.models.next_serial, world.plugins.world_descriptions);
 }

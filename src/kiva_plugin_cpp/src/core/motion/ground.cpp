@@ -12,8 +12,7 @@ namespace kiva {
 namespace {
 
 constexpr double kFarthest = 1e6;  // [m] from the origin
-constexpr double kMostFriction = 10;
-constexpr double kOffLine = 0.1;  // [m] off its line that a robot may drive
+constexpr double kOffLine = 0.1;   // [m] off its line that a robot may drive
 
 /// A cell of the grid, by its point.
 struct Cell {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bullet, wrapped: descriptions become bodies and joints, and the bodies' contacts become pairs.
+// Bullet, wrapped: bodies move, and their contacts become pairs of models.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
 
-#include <memory>
-#include <string>
 #include <vector>
 
+#include "core/physics/bodies.h"
 #include "core/physics/box_contacts.h"
 #include "core/physics/ordered_bullet.h"
 #include "core/physics/round_contacts.h"
@@ -16,72 +15,15 @@
 
 namespace kiva {
 
-btTransform toBullet(const Pose& pose);
-btVector3 toBullet(const Vector3& v);
-Pose fromBullet(const btTransform& transform);
-Vector3 fromBullet(const btVector3& v);
-
-/// Collision filter groups.
-enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
-
-/// Third user index of a body that was put somewhere, with a velocity, since the last step.
-constexpr int kPlaced = 1;
-
-/// Bullet's tree of the triangles of a mesh: all that stand in the world with that mesh share it.
-struct TriangleTree;
-
-/// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
-/// friction a body.
-struct BodyPart {
-  std::shared_ptr<const TriangleTree> triangles;  ///< A static mesh's, which its shape looks up.
-  std::unique_ptr<btCollisionShape> shape;
-  int model = -1;
-  double friction = 1;
-  double restitution = 0;
-  std::string collision;  ///< Its name.
-};
-
-/// A Bullet shape with the parts it is made of.
-struct BodyShape {
-  std::unique_ptr<btCompoundShape> compound = std::make_unique<btCompoundShape>();
-  std::vector<std::unique_ptr<BodyPart>> parts;
-
-  /// Adds a collision's shape at `pose` in the compound, for `model`.
-  void add(const Collision& collision, const btTransform& pose, int model);
-};
-
-/// A rigid body for one link. Bullet's body frame is the centre of mass along the principal axes.
-struct LinkBody {
-  BodyShape shape;
-  std::unique_ptr<BodyPart> surface;  ///< Instead of `shape`: an unbounded plane, a static mesh.
-  std::unique_ptr<btRigidBody> body;
-  btTransform mass_frame;  ///< Centre of mass in the link.
-  int link = 0;
-  int group = kDynamicGroup, mask = ~0;
-
-  btTransform linkPose() const { return body->getWorldTransform() * mass_frame.inverse(); }
-  void place(const btTransform& link_pose);
-  /// Velocity of the link's origin, in world.
-  btVector3 velocityAtOrigin() const;
-};
-
-struct ModelBodies {
-  std::vector<LinkBody> links;     ///< One a link, in the description's order.
-  std::vector<LinkBody> surfaces;  ///< The links' unbounded planes and static meshes.
-  std::vector<std::unique_ptr<btTypedConstraint>> joints;
-  std::vector<btJointFeedback> feedback;  ///< What each joint did in the last step.
-};
-
 /// Two models that touch; the point, the normal and the speed are those of the hardest contact.
 struct Contact {
   int model_a = -1, model_b = -1;
-  Vector3 point;     ///< In world.
-  Vector3 normal;    ///< From b to a.
-  double speed = 0;  ///< Speed of approach before the step [m/s].
-  double impulse =
-      0;  ///< The impulse of all their contacts in the step, as far as it ended approach that
-          ///< was there before the step; what holds against pushes is not in it [Ns].
-  double most = -1;    ///< The hardest one's.
+  Vector3 point;       ///< In world.
+  Vector3 normal;      ///< From b to a.
+  double speed = 0;    ///< Of approach before the step [m/s].
+  double impulse = 0;  ///< Of all their contacts in the step, as far as it ended approach that
+                       ///< was there before the step; what holds against pushes is not in it [Ns].
+  double most = -1;    ///< Of the hardest one.
   double nearing = 0;  ///< Like `speed`, of the contact where it is largest [m/s].
 };
 
@@ -99,7 +41,7 @@ struct TouchPoint {
 /// What contacts did to a body in the last step, in world.
 struct Push {
   btVector3 moment{0, 0, 0};  ///< About its centre of mass [Nms].
-  double load = 0;            ///< Impulse of what lies on it [Ns].
+  double load = 0;            ///< Of what lies on it [Ns].
 };
 
 class Physics {
@@ -121,16 +63,15 @@ class Physics {
   void setGravity(const Vector3& gravity);
   /// Pairs of models that touch now, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
-  /// Returns what Bullet keeps of contacts, in an order that follows from the bodies.
+  /// What Bullet keeps of contacts, in an order that follows from the bodies.
   std::vector<btPersistentManifold*> manifolds() const { return dispatcher_.manifolds(); }
-  /// Returns a manifold, still without contacts, for every two parts that are near each other.
+  /// A manifold, still without contacts, for every two parts that are near each other.
   std::vector<btPersistentManifold*> makeManifolds();
   /// Every point at which that model touches another now, itself being a.
   std::vector<TouchPoint> touchPoints(int model) const;
-  /// Returns the pushes on every body that can move, by its second user index; what floors did is
-  /// not in it.
+  /// Of every body that can move, by its second user index; what floors did is not in it.
   std::vector<Push> pushes() const;
-  /// Returns whether all that lies at the floor is unbounded and level.
+  /// Whether all that lies at the floor is unbounded and level.
   bool hasPlainFloor() const { return uneven_floors_ == 0; }
   /// First body on a ray, as a fraction of `range`; +inf = none.
   double cast(const Vector3& from, const Vector3& direction, double range) const;
@@ -140,7 +81,7 @@ class Physics {
   struct Velocity {
     btVector3 linear, angular;
   };
-  /// A body's motion about a step.
+  /// Of a body about a step.
   struct Motion {
     Velocity before;  ///< When the last step had ended.
     Velocity driven;  ///< When this one began: motors have set it since.
@@ -164,7 +105,7 @@ class Physics {
   ContactIslandWorld world_;
 
   std::vector<Motion> motions_;  ///< By a body's second user index.
-  double dt_ = 0;                ///< The last step's [s].
+  double dt_ = 0;                ///< Of the last step [s].
   int uneven_floors_ = 0;        ///< Bodies of the floor's group that are no level planes.
 };
 
