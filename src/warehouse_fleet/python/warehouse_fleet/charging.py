@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from warehouse_fleet.traffic import Traffic
@@ -101,7 +101,7 @@ class Charging:
         self,
         plan: FloorPlan,
         traffic: Traffic,
-        far: Callable[[int, ArrayLike], NDArray[Any]],
+        far: Callable[[int, NDArray[Any]], NDArray[Any]],
     ) -> None:
         """far(cell, cells) returns the distance from a cell to each of `cells`, (n,) [cells]."""
         self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
