@@ -5,7 +5,7 @@ the same methods."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +101,7 @@ class Charging:
         self,
         plan: FloorPlan,
         traffic: Traffic,
-        far: Callable[[int, NDArray[Any]], NDArray[Any]],
+        far: Callable[[int, np.ndarray], np.ndarray],
     ) -> None:
         """far(cell, cells) returns the distance from a cell to each of `cells`, (n,) [cells]."""
         self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
@@ -112,12 +112,12 @@ class Charging:
 
     @property
     def _is_simulated(self) -> bool:
-        return len(self._cells) > 0 and bool((self._traffic.charge < 1).any())
+        return len(self._cells) > 0 and bool((self._traffic.robots.charge < 1).any())
 
     def kept(self) -> NDArray[np.bool_]:
         """Returns which robots get no work, (n,): those that charge, or must before anything
         else."""
-        charge = self._traffic.charge
+        charge = self._traffic.robots.charge
         kept = np.zeros(len(charge), bool)
         if not self._is_simulated:
             return kept
@@ -132,17 +132,17 @@ class Charging:
             return
         traffic = self._traffic
         self._count()
-        for robot in [r for r in self.cell_of if not idle[r] or traffic.charge[r] >= FULL]:
+        for robot in [r for r in self.cell_of if not idle[r] or traffic.robots.charge[r] >= FULL]:
             del self.cell_of[robot]
-        wants = idle & ~traffic.broken & self.policy.sends(traffic.charge, is_wanted)
+        wants = idle & ~traffic.robots.broken & self.policy.sends(traffic.robots.charge, is_wanted)
         wants[list(self.cell_of)] = False
-        for robot in sorted(np.flatnonzero(wants), key=lambda r: float(traffic.charge[r])):
+        for robot in sorted(np.flatnonzero(wants), key=lambda r: float(traffic.robots.charge[r])):
             if not self._place(int(robot)):
                 break
         # Also sends back robots that others pushed out of their places.
         for robot, cell in self.cell_of.items():
-            if traffic.goal[robot] != cell:
-                traffic.send(robot, cell)
+            if traffic.robots.goal[robot] != cell:
+                traffic.robots.send(robot, cell)
 
     def _place(self, robot: int) -> bool:
         """Assigns a charging place to the robot: a free one, or that of a robot which needs it
@@ -151,14 +151,15 @@ class Charging:
         cells = np.setdiff1d(self._cells, [*self.cell_of.values(), *traffic.closed.tolist()])
         if not len(cells):
             others = np.array(list(self.cell_of), int)
-            done = others[self.policy.frees(traffic.charge[others])]
-            if not len(done) or traffic.charge[robot] >= self.policy.low:
+            done = others[self.policy.frees(traffic.robots.charge[others])]
+            if not len(done) or traffic.robots.charge[robot] >= self.policy.low:
                 return False
-            fullest = int(done[traffic.charge[done].argmax()])
+            fullest = int(done[traffic.robots.charge[done].argmax()])
             cells = np.array([self.cell_of.pop(fullest)])
         # A place counts as farther while another robot stands in it: that robot must leave first.
-        far = self._far(int(traffic.cell[robot]), cells) + 10 * np.isin(cells, traffic.cell)
-        far[cells == traffic.cell[robot]] = 0
+        own, taken = int(traffic.robots.cell[robot]), traffic.robots.cell
+        far = self._far(own, cells) + 10 * np.isin(cells, taken)
+        far[cells == own] = 0
         self.cell_of[robot] = int(cells[far.argmin()])
         return True
 
@@ -167,4 +168,4 @@ class Charging:
         traffic = self._traffic
         elapsed = 0.0 if self._time is None else traffic.time - self._time
         self._time = traffic.time
-        self.robot_s += elapsed * sum(traffic.cell[r] == c for r, c in self.cell_of.items())
+        self.robot_s += elapsed * sum(traffic.robots.cell[r] == c for r, c in self.cell_of.items())

@@ -73,7 +73,7 @@ class FailureLog:
         self._before: NDArray[np.uint8] | None = None
         self._since: dict[tuple[int, int], float] = {}  # failed at [s], by robot and kind
 
-    def observe(self, time: float, failures: NDArray[np.uint8]) -> None:
+    def update(self, time: float, failures: NDArray[np.uint8]) -> None:
         """Updates the statistics with the bits of FleetState.failures, (n,), at `time` [s]."""
         failures = np.array(failures)
         before = self._before
