@@ -26,8 +26,7 @@ import numpy as np
 import yaml
 from numpy.typing import ArrayLike, NDArray
 
-from warehouse_fleet import _core
-from warehouse_fleet._core import Fleet, Planner, Rules
+from warehouse_fleet._core import Fleet, Planner, Rules, epibt, load_planner, validate
 from warehouse_layout import Floor
 
 MANOEUVRE = 3  # ticks in which a robot reaches any neighbouring cell
@@ -89,7 +88,7 @@ class Door:
     def plan(self, fleet: Fleet, seconds: float = 0.0, attempts: int = -1) -> NDArray[np.uint8]:
         """Returns the plan, (robots, ticks) of Action; raises PlanRefusedError."""
         actions = self.planner.plan(fleet, seconds, attempts)
-        found = _core.validate(self.floor, fleet, actions, self.rules, self.ticks)
+        found = validate(self.floor, fleet, actions, self.rules, self.ticks)
         if found:
             first = {tuple(one.robots): one for one in reversed(found)}  # one for the same robots
             texts = [one.describe(self.floor, self.names) for one in reversed(first.values())]
@@ -216,14 +215,14 @@ def _started(
 
 def _built_in(options: dict[str, Any], floor: Floor, rules: Rules, seed: int) -> Planner:
     try:
-        return _core.epibt(floor, rules, seed, **options)
+        return epibt(floor, rules, seed, **options)
     except TypeError as error:
         raise PlannerError(f"epibt: {error}") from error
 
 
 def _from_library(path: str, class_name: str, floor: Floor, rules: Rules, seed: int) -> Planner:
     try:
-        return _core.load_planner(path, class_name, floor, rules, seed)
+        return load_planner(path, class_name, floor, rules, seed)
     except RuntimeError as error:
         raise PlannerError(str(error)) from error
 
