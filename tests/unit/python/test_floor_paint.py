@@ -10,9 +10,9 @@ from kiva_plugin_cpp import World
 from warehouse_layout import floor_markings, painted
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
-from warehouse_viewer import markers
-from warehouse_viewer.drawing import Drawing, Moment
-from warehouse_viewer.model import Model
+from warehouse_viewer.drawing import markers
+from warehouse_viewer.drawing.drawing import Drawing, Moment
+from warehouse_viewer.page.model import Model
 
 
 def look_of(world, name):

@@ -19,12 +19,12 @@ from test_viewer_model import fleet
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs import msg, srv
-from warehouse_viewer import changes, sockets
-from warehouse_viewer.change_book import ChangeBook
-from warehouse_viewer.metrics import Metrics
-from warehouse_viewer.shift_feed import ShiftFeed
-from warehouse_viewer.simulation import AwayError
-from warehouse_viewer.work import Work
+from warehouse_viewer.api import changes, sockets
+from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.metrics import Metrics
+from warehouse_viewer.api.work import Work
+from warehouse_viewer.ros.shift_feed import ShiftFeed
+from warehouse_viewer.ros.simulation import AwayError
 
 DASHBOARD = Path(__file__).parents[3] / "doc" / "grafana.json"
 

@@ -8,8 +8,9 @@ import pytest
 import uvicorn
 from asgi import echo
 
-from warehouse_viewer import app, connections
-from warehouse_viewer.connections import BoundedConnection
+from warehouse_viewer.api import app
+from warehouse_viewer.server import connections
+from warehouse_viewer.server.connections import BoundedConnection
 
 PATIENCE = 20  # of this test with the server [s, wall]
 GET = b"GET / HTTP/1.1\r\nhost: localhost\r\n\r\n"

@@ -15,14 +15,16 @@ from test_viewer_hub import Socket, hub_of
 from test_viewer_model import World, fleet
 
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, TransportEvent
-from warehouse_viewer import feed as feeds
-from warehouse_viewer import fleet_ways, protocol, schemas
-from warehouse_viewer.coordination import NONE_RUNS, Coordination
-from warehouse_viewer.feed import Feed
-from warehouse_viewer.hub import Page
-from warehouse_viewer.picture import way_shapes
-from warehouse_viewer.simulation import RefusedError
-from warehouse_viewer.transport_book import TransportBook
+from warehouse_viewer.api import schemas
+from warehouse_viewer.api.transport_book import TransportBook
+from warehouse_viewer.page import protocol
+from warehouse_viewer.page.hub import Page
+from warehouse_viewer.ros import feed as feeds
+from warehouse_viewer.ros.coordination import NONE_RUNS, Coordination
+from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.simulation import RefusedError
+from warehouse_viewer.rviz import fleet_ways
+from warehouse_viewer.rviz.picture import way_shapes
 
 
 def paths(stamp=1.0):

@@ -13,11 +13,11 @@ from std_msgs.msg import Header
 from test_viewer_model import World, fleet, rows
 
 from warehouse_msgs.msg import Event, FleetPaths
-from warehouse_viewer import catalogue
-from warehouse_viewer import hub as hub_module
-from warehouse_viewer.commander import Commander
-from warehouse_viewer.hub import IN_FLIGHT, Hub, Page, paths_of
-from warehouse_viewer.journal import Journal
+from warehouse_viewer.api import catalogue
+from warehouse_viewer.page import hub as hub_module
+from warehouse_viewer.page.hub import IN_FLIGHT, Hub, Page, paths_of
+from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.ros.commander import Commander
 
 
 class Socket:

@@ -16,9 +16,9 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_viewer import protocol, statuses
-from warehouse_viewer.model import Model
-from warehouse_viewer.table import Table
+from warehouse_viewer.page import protocol, statuses
+from warehouse_viewer.page.model import Model
+from warehouse_viewer.page.table import Table
 
 HEAD = 40  # bytes before the rows of an update
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
-from warehouse_viewer import catalogue, schemas, statuses, work_schemas
+from warehouse_viewer.api import catalogue, schemas, work_schemas
+from warehouse_viewer.page import statuses
 
 WEB = Path(__file__).parents[3] / "src/warehouse_viewer/web/js/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY

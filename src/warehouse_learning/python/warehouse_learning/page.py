@@ -22,7 +22,7 @@ class Page:
     def __init__(self, world, name="", port=PORT, speed=SPEED):
         try:
             from warehouse_learning.page_server import PageServer
-            from warehouse_viewer.journal import Journal
+            from warehouse_viewer.page.journal import Journal
         except ImportError as error:
             raise ImportError(f"{NEEDS} ({error})") from error
         self._world, self._pace, self._journal = world, Pace(speed), Journal()

@@ -10,11 +10,12 @@ from starlette.applications import Starlette
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
-from warehouse_viewer.access import AccessControl
-from warehouse_viewer.connections import listen
-from warehouse_viewer.hub import Hub
-from warehouse_viewer.model import Model
-from warehouse_viewer.static_files import THREE, WEB, Files, FreshFiles
+from warehouse_viewer.page.hub import Hub
+from warehouse_viewer.page.model import Model
+from warehouse_viewer.server.access import AccessControl
+from warehouse_viewer.server.connections import listen
+from warehouse_viewer.server.static_files import Files, FreshFiles
+from warehouse_viewer.shared_files import THREE, WEB
 
 HOST, TRIES = "127.0.0.1", 20
 PATIENCE = 10.0  # with a server that begins or ends [s, wall]

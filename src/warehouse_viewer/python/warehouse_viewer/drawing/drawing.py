@@ -12,8 +12,8 @@ from matplotlib.patches import Patch
 from warehouse_client import tracking
 from warehouse_layout import floor_markings, painted, poses
 from warehouse_msgs.msg import KivaStatus
-from warehouse_viewer import looks, markers
-from warehouse_viewer.statuses import HOLDING, activity
+from warehouse_viewer.drawing import looks, markers
+from warehouse_viewer.page.statuses import HOLDING, activity
 
 UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour of what nobody described
 STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}

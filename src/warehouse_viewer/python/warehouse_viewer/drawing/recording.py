@@ -7,7 +7,7 @@ import rosbag
 from matplotlib import animation
 from PIL import Image
 
-from warehouse_viewer.drawing import Drawing, Moment
+from warehouse_viewer.drawing.drawing import Drawing, Moment
 
 PARTS = {
     "/warehouse/objects": "objects",

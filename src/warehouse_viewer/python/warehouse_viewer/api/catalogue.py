@@ -6,8 +6,8 @@ import numpy as np
 from warehouse_client import tracking
 from warehouse_client.message_names import EVENT, STATE, STATUS, failures_of
 from warehouse_layout.models import kind_and_number
-from warehouse_viewer import schemas
-from warehouse_viewer.statuses import HOLDING, activity, shown_status
+from warehouse_viewer.api import schemas
+from warehouse_viewer.page.statuses import HOLDING, activity, shown_status
 
 ACTIVITY = STATUS | {HOLDING: "HOLDING"}  # as statuses.activity() numbers it
 

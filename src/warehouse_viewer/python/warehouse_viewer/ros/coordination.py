@@ -3,7 +3,7 @@
 
 from warehouse_client.message_names import MODE, THEN
 from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
-from warehouse_viewer.simulation import RefusedError, is_offered, request
+from warehouse_viewer.ros.simulation import RefusedError, is_offered, request
 
 SERVICES = {
     Transport: "/warehouse/transport",

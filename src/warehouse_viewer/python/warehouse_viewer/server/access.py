@@ -8,7 +8,7 @@ import time
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
-from warehouse_viewer import token_page
+from warehouse_viewer.server import token_page
 
 MOST_BODY = 64 * 1024  # [bytes]
 COOKIE = "warehouse_token"

@@ -9,9 +9,8 @@ import genpy
 from fastapi import APIRouter, HTTPException, Path, Query
 
 from warehouse_msgs import msg, srv
-from warehouse_viewer import schemas
-from warehouse_viewer.simulation import AwayError, RefusedError
-from warehouse_viewer.work_schemas import (
+from warehouse_viewer.api import schemas
+from warehouse_viewer.api.work_schemas import (
     MODES,
     OUTCOMES,
     STATES,
@@ -30,6 +29,7 @@ from warehouse_viewer.work_schemas import (
     Stock,
     Throughput,
 )
+from warehouse_viewer.ros.simulation import AwayError, RefusedError
 
 PATIENCE = 3.0  # for a topic's latest message [s, wall]
 NO_SHIFT = "is a shift running (operations.launch)?"

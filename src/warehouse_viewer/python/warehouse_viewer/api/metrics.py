@@ -5,8 +5,8 @@ from prometheus_client import CollectorRegistry
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 from prometheus_client.exposition import choose_encoder
 
-from warehouse_viewer import schemas, work_schemas
-from warehouse_viewer.simulation import AwayError
+from warehouse_viewer.api import schemas, work_schemas
+from warehouse_viewer.ros.simulation import AwayError
 
 # Of the Kpis: name, what it is, field.
 SHIFT_COUNTERS = (

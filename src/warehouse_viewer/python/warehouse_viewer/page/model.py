@@ -7,9 +7,9 @@ import time
 import numpy as np
 
 from warehouse_layout import floor_markings, painted, poses
-from warehouse_viewer import protocol
-from warehouse_viewer.statuses import activity
-from warehouse_viewer.table import Table
+from warehouse_viewer.page import protocol
+from warehouse_viewer.page.statuses import activity
+from warehouse_viewer.page.table import Table
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
 STANDS = 1e-3  # speeds below this are none [m/s, rad/s]

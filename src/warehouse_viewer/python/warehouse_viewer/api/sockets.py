@@ -6,7 +6,7 @@ from inspect import getdoc
 from fastapi.openapi.utils import get_openapi
 from pydantic.schema import schema as schemas_of
 
-from warehouse_viewer import changes, stream
+from warehouse_viewer.api import changes, stream
 
 REFERENCE = "#/components/schemas/"
 RATE = {"name": "rate", "default": 2, "description": "messages of a kind a second, 0.1 to 10"}

@@ -26,8 +26,8 @@ from typing import Literal
 from pydantic import BaseModel, Field
 from starlette.websockets import WebSocketDisconnect
 
-from warehouse_viewer import catalogue, schemas, work, work_schemas
-from warehouse_viewer.stream import until_gone
+from warehouse_viewer.api import catalogue, schemas, work, work_schemas
+from warehouse_viewer.api.stream import until_gone
 
 ROWS = {"orders": work.order, "stock": work.plain, "transports": dict}  # each as JSON has it
 WHOLE = (*work.SHOWN, "coordinator")

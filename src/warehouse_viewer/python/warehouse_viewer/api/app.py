@@ -10,21 +10,22 @@ import uvicorn
 from fastapi import FastAPI, Request, WebSocket
 from fastapi.responses import Response
 
-from warehouse_viewer import api, catalogue, changes, metrics, sockets, stream
-from warehouse_viewer.access import AccessControl
-from warehouse_viewer.change_book import ChangeBook
-from warehouse_viewer.commander import Commander
-from warehouse_viewer.connections import BoundedConnection
-from warehouse_viewer.coordination import Coordination
-from warehouse_viewer.feed import Feed
-from warehouse_viewer.hub import Hub
-from warehouse_viewer.journal import Journal
-from warehouse_viewer.model import Model
-from warehouse_viewer.shift_feed import ShiftFeed
-from warehouse_viewer.simulation import Simulation
-from warehouse_viewer.static_files import THREE, Files, FreshFiles
-from warehouse_viewer.transport_book import TransportBook
-from warehouse_viewer.work import Work
+from warehouse_viewer.api import api, catalogue, changes, metrics, sockets, stream
+from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.transport_book import TransportBook
+from warehouse_viewer.api.work import Work
+from warehouse_viewer.page.hub import Hub
+from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.page.model import Model
+from warehouse_viewer.ros.commander import Commander
+from warehouse_viewer.ros.coordination import Coordination
+from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.shift_feed import ShiftFeed
+from warehouse_viewer.ros.simulation import Simulation
+from warehouse_viewer.server.access import AccessControl
+from warehouse_viewer.server.connections import BoundedConnection
+from warehouse_viewer.server.static_files import Files, FreshFiles
+from warehouse_viewer.shared_files import THREE
 
 MOST_SOCKETS = 50
 MOST_MESSAGE = 64 * 1024  # from a page [bytes]

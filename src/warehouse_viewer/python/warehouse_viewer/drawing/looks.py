@@ -7,7 +7,7 @@ import numpy as np
 
 from warehouse_layout import poses
 from warehouse_msgs.msg import Look
-from warehouse_viewer import shapes
+from warehouse_viewer.drawing import shapes
 
 MARGIN = 2.5  # of a floor of unknown size, around what stands on it [m]
 SMALL = 0.05  # of the largest shape's volume: less is not seen from afar

@@ -5,7 +5,7 @@ from typing import Literal
 
 from pydantic import BaseModel, Field, StrictBool, conint, conlist, constr
 
-from warehouse_viewer import schemas
+from warehouse_viewer.api import schemas
 
 STATES = ("OPEN", "ASSIGNED", "COMPLETED", "CANCELLED")
 MODES = ("AUTOMATIC", "MANUAL")

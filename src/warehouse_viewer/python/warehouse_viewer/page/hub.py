@@ -14,8 +14,8 @@ import numpy as np
 from starlette.websockets import WebSocketDisconnect
 
 from warehouse_layout import poses
-from warehouse_viewer import protocol
-from warehouse_viewer.access import RateLimit
+from warehouse_viewer.page import protocol
+from warehouse_viewer.server.access import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
 SCENE_GAP = 1.0  # likewise between two scenes, of a megabyte where there are many items [s, wall]

@@ -6,9 +6,6 @@ import math
 import numpy as np
 import yaml
 
-from warehouse_layout import files
-
-CONFIG = files.share(__file__) / "rviz" / "warehouse.rviz"
 FIELD = math.pi / 4  # RViz's vertical field of view [rad]
 ASPECT = 1.0  # of its picture at the least, beside the panels
 PITCH, YAW = 0.9, -math.pi / 2  # it looks along y, downwards [rad]

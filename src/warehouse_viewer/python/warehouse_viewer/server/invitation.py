@@ -6,7 +6,7 @@ import socket
 from contextlib import suppress
 from urllib.parse import quote
 
-from warehouse_viewer import access
+from warehouse_viewer.server import access
 
 EVERYWHERE = ("", "0.0.0.0", "::")  # hosts at which a server hears all machines
 ELSEWHERE = "192.0.2.1"  # no machine's (RFC 5737): nothing is sent to it

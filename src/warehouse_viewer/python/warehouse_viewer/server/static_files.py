@@ -9,11 +9,6 @@ from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
-from warehouse_layout import files
-
-WEB = files.share(__file__) / "web"  # the page
-PACKED = files.share(__file__) / "three"  # in a wheel
-THREE = PACKED if PACKED.is_dir() else Path("/usr/share/javascript/three")  # of libjs-three
 KINDS = {  # that shrink, by suffix
     ".css": "text/css",
     ".html": "text/html",

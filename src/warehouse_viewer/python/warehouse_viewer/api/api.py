@@ -13,10 +13,10 @@ from pydantic.errors import StrError
 from starlette.routing import Match
 
 from warehouse_layout.request import LIMITS, PRESETS
-from warehouse_viewer import catalogue, schemas, work
-from warehouse_viewer.coordination import NONE_RUNS
-from warehouse_viewer.journal import KEPT
-from warehouse_viewer.simulation import AwayError, RefusedError
+from warehouse_viewer.api import catalogue, schemas, work
+from warehouse_viewer.page.journal import KEPT
+from warehouse_viewer.ros.coordination import NONE_RUNS
+from warehouse_viewer.ros.simulation import AwayError, RefusedError
 
 GLANCE = ("coordinator", "fleet", "performance")  # of the feed's topics
 PATIENCE = 3.0  # for messages that are on their way [s, wall]

@@ -6,8 +6,8 @@ import numpy as np
 from warehouse_layout import floor_markings, poses
 from warehouse_layout.painted import served
 from warehouse_msgs.msg import KivaStatus, Look
-from warehouse_viewer import looks, shapes
-from warehouse_viewer.statuses import HOLDING
+from warehouse_viewer.drawing import looks, shapes
+from warehouse_viewer.page.statuses import HOLDING
 
 # Idle, busy, blocked, holding: from the palette of Okabe and Ito (2008), told apart by everyone.
 STATUS_COLOURS = np.zeros((4, 4))

@@ -16,11 +16,12 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_viewer import fleet_ways, looks, markers
-from warehouse_viewer.chosen import Chosen
-from warehouse_viewer.paths import PathTopics, ways
-from warehouse_viewer.shapes import ShapeArray
-from warehouse_viewer.statuses import activity
+from warehouse_viewer.drawing import looks, markers
+from warehouse_viewer.drawing.shapes import ShapeArray
+from warehouse_viewer.page.statuses import activity
+from warehouse_viewer.rviz import fleet_ways
+from warehouse_viewer.rviz.chosen import Chosen
+from warehouse_viewer.rviz.paths import PathTopics, ways
 
 
 def fleet_shapes(scenery, fleet, heights, chosen):
