@@ -76,7 +76,7 @@ def test_rviz_shows_paint_in_few_triangles_and_names_stations(world, scenery):
 def test_the_page_gets_rectangles_by_kind_and_stations(scenery):
     model = Model()
     objects = WarehouseObjects(belts=["conveyor_belt1", "conveyor_belt2"])
-    model.take(objects, UnitStates(), FleetState(), scenery)
+    model.update(objects, UnitStates(), FleetState(), scenery)
     scene = model.scene()
     assert scene["scenery"] == ["conveyor_belt1", "conveyor_belt2"]
     assert [len(look) > 0 for look in scene["looks"]] == [True, False]

@@ -81,7 +81,7 @@ class Shift:
         self.tell("stations", msg.StationStates, stations=rows)
 
     def backend(self, **feed):
-        feed = SimpleNamespace(look=lambda names: None, coordinator=None, **feed)
+        feed = SimpleNamespace(subscribe=lambda names: None, coordinator=None, **feed)
         return SimpleNamespace(work=self.work, changes=self.book, feed=feed)
 
 

@@ -72,8 +72,8 @@ def test_a_page_is_told_of_the_fleet_once_and_of_its_end():
         page = Page(socket, 0)
         for told in (None, state(manual_kiva=[3], waiting_kiva=[4], waiting_for=[0]), None):
             hub._feed.coordinator = told
-            await hub._send_news(page)
-            await hub._send_news(page)
+            await hub._send_changes(page)
+            await hub._send_changes(page)
         first, last = socket.texts
         assert first["fleet"]["manual"] == [3]
         assert last == {"type": "fleet", "fleet": None}
@@ -87,11 +87,11 @@ def test_a_page_gets_the_ways_that_it_wants():
         page, wanted = Page(socket, 0), []
         hub._pages.add(page)
         hub._feed = Told(ways=paths())
-        hub._feed.want = lambda paths, ways, scans: wanted.append(ways)
+        hub._feed.subscribe_extras = lambda paths, ways, scans: wanted.append(ways)
         for wish in ([], [2], "all"):
-            await hub._obey(page, {"watch": {"ways": wish}})
-            await hub._send_news(page)
-            await hub._send_news(page)
+            await hub._handle(page, {"watch": {"ways": wish}})
+            await hub._send_changes(page)
+            await hub._send_changes(page)
         assert wanted == [False, True, True]
         assert socket.updates == [protocol.ways(paths(), {2}), protocol.ways(paths())]
 
@@ -119,7 +119,7 @@ def ros(monkeypatch):
     ros.wall = 100.0
     monkeypatch.setattr(feeds.time, "monotonic", lambda: ros.wall)
     ros.feed = Feed(ros, print, print, lambda: None)
-    ros.feed.look()
+    ros.feed.subscribe()
     return ros
 
 

@@ -15,8 +15,8 @@ from starlette.routing import Match
 from warehouse_layout.request import LIMITS, PRESETS
 from warehouse_viewer.api import catalogue, schemas, work
 from warehouse_viewer.page.journal import KEPT
+from warehouse_viewer.page.source import AwayError, RefusedError
 from warehouse_viewer.ros.coordination import NONE_RUNS
-from warehouse_viewer.ros.simulation import AwayError, RefusedError
 
 GLANCE = ("coordinator", "fleet", "performance")  # of the feed's topics
 PATIENCE = 3.0  # for messages that are on their way [s, wall]
@@ -62,13 +62,13 @@ class ApiBackend:
 
     async def look(self):
         """Waits until the world has told enough. Raises HTTPException."""
-        self.feed.look()
-        if not await _until(lambda: self.feed.tells_all):
+        self.feed.subscribe()
+        if not await _until(lambda: self.feed.has_positions):
             raise HTTPException(503, "the world tells nothing; does it run?")
 
     async def glance(self):
         """Waits until coordinator and world have told what they tell, for a moment at most."""
-        self.feed.look(GLANCE)
+        self.feed.subscribe(GLANCE)
         with suppress(AwayError):
             runs = await asyncio.to_thread(self.coordination.runs)
             names = GLANCE if runs else set(GLANCE) - {"coordinator"}
@@ -85,8 +85,8 @@ class ApiBackend:
         standing = await self.do("standing")
         if standing.is_paused:
             # Robots come and go unseen where nothing moves; newcomers alone are told of all.
-            self.feed.hear_anew("fleet")
-        await _until(lambda: self.feed.shows(standing, objects, fleet))
+            self.feed.resubscribe("fleet")
+        await _until(lambda: self.feed.reflects(standing, objects, fleet))
         return answer
 
     async def robots(self):
@@ -102,7 +102,7 @@ class ApiBackend:
 
     async def things(self, kind):
         await self.look()
-        return catalogue.things(kind, *(self.feed.units_and_objects or self._no_things()))
+        return catalogue.things(kind, *(self.feed.objects_and_states or self._no_things()))
 
     def _no_things(self):
         raise HTTPException(503, "the world is being rebuilt; ask again")

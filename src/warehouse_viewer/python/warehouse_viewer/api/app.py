@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The web application: the page, its WebSocket, the API; and the server it runs in."""
+"""The application of a warehouse behind ROS: the page, its WebSocket and the HTTP API."""
 
 import asyncio
-import os
-import threading
 from contextlib import suppress
+from pathlib import Path
+from typing import Any
 
-import uvicorn
 from fastapi import FastAPI, Request, WebSocket
 from fastapi.responses import Response
 
+from warehouse_msgs.msg import Event, TransportEvent
 from warehouse_viewer.api import api, catalogue, changes, metrics, sockets, stream
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.transport_book import TransportBook
@@ -17,19 +17,19 @@ from warehouse_viewer.api.work import Work
 from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
+from warehouse_viewer.page.source import Source
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
 from warehouse_viewer.server.access import AccessControl
-from warehouse_viewer.server.connections import BoundedConnection
-from warehouse_viewer.server.static_files import Files, FreshFiles
+from warehouse_viewer.server.http_server import HubTask, Server, config_of
+from warehouse_viewer.server.page_files import PageFiles, SocketLimit
+from warehouse_viewer.server.static_files import Files
 from warehouse_viewer.shared_files import THREE
 
-MOST_SOCKETS = 50
-MOST_MESSAGE = 64 * 1024  # from a page [bytes]
-TRY_AGAIN, UNSUPPORTED = 1013, 1003  # a WebSocket's close codes
+UNSUPPORTED = 1003  # a WebSocket's close code
 MOST_REASON = 120  # characters beside one
 METRICS = {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}}
 
@@ -37,22 +37,26 @@ METRICS = {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}}
 class Viewer:
     """Everything behind one address. `ros` is rospy, `web` the folder of the page."""
 
-    def __init__(self, ros, web):
-        self.journal, self.model = Journal(), Model()
-        self.simulation, self.commander = Simulation(ros), Commander(ros)
-        self.coordination, self.transports = Coordination(ros), TransportBook()
+    def __init__(self, ros: Any, web: Path) -> None:
+        self.journal = Journal()
+        self.commander = Commander(ros)
+        self.transports = TransportBook()
         self._loop, self.changes = None, ChangeBook()
-        self.feed = Feed(ros, self._on_event, self._on_transport, self._on_news)
-        self.hub = Hub(self.feed, self.model, self.journal, self.simulation, catalogue.coordinator)
-        parts = (self.feed, self.model, self.journal, self.simulation, self.commander)
+        feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
+        simulation = Simulation(ros)
+        source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
+        model = Model()
+        self.hub = Hub(source, model)
+        parts = (feed, model, self.journal, simulation, self.commander)
         work = Work(ros, ShiftFeed(ros, self.changes))
-        self.metrics = metrics.Metrics(self.feed, work)
+        self.metrics = metrics.Metrics(feed, work)
         self.backend = api.ApiBackend(
-            *parts, self.coordination, self.transports, work, self.changes
+            *parts, Coordination(ros), self.transports, work, self.changes
         )
-        self._web, self._sockets = web, 0
+        self._web, self._sockets = web, SocketLimit()
+        self._hub_task = HubTask(self.hub)
 
-    def _on_event(self, event):
+    def _on_event(self, event: Event) -> None:
         entry = self.journal.add(catalogue.event(event))
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
@@ -60,16 +64,16 @@ class Viewer:
 
     def _note(self, entry):
         self.commander.note(entry)
-        self.hub.news()
+        self.hub.notify()
 
-    def _on_transport(self, event):
+    def _on_transport(self, event: TransportEvent) -> None:
         self.changes.note("transports", event.transport_id, self.transports.add(event))
 
-    def _on_news(self):
-        self.hub.news()
+    def _on_message(self) -> None:
+        self.hub.notify()
 
-    def application(self, token="", rate=100):
-        """The ASGI application."""
+    def application(self, token: str = "", rate: float = 100) -> AccessControl:
+        """Returns the ASGI application; `rate` is in requests per second of each address."""
         app = FastAPI(
             title="Kiva warehouse",
             version="1",
@@ -87,20 +91,20 @@ class Viewer:
         self._add_files(app)
         return AccessControl(app, token, rate)
 
-    def start(self):
+    def start(self) -> None:
         """Begins to serve pages, in the running asyncio loop."""
         self._loop = asyncio.get_running_loop()
-        self._running = asyncio.create_task(self.hub.run())
+        self._hub_task.start()
 
     def _add_sockets(self, app):
         @app.websocket("/live")
         async def live(socket: WebSocket):
-            await self._admit(socket, self.hub.serve)
+            await self._sockets.admit(socket, self.hub.serve)
 
         @app.websocket("/api/v1/stream")
         async def json_stream(socket: WebSocket, rate: float = 2.0):
             rate = _bounded(rate)
-            await self._admit(socket, lambda s: stream.serve(s, self.backend, rate))
+            await self._sockets.admit(socket, lambda s: stream.serve(s, self.backend, rate))
 
         @app.websocket("/api/v1/changes")
         async def json_changes(socket: WebSocket, of: str = "", rate: float = 2.0):
@@ -111,30 +115,12 @@ class Viewer:
                 await socket.close(UNSUPPORTED, str(error)[:MOST_REASON])
                 return
             rate = _bounded(rate)
-            await self._admit(socket, lambda s: changes.serve(s, self.backend, topics, rate))
-
-    async def _admit(self, socket, serve):
-        await socket.accept()
-        if self._sockets >= MOST_SOCKETS:
-            await socket.close(TRY_AGAIN)
-            return
-        self._sockets += 1
-        try:
-            await serve(socket)
-        finally:
-            self._sockets -= 1
-            # TypeError: websockets' of a page that went before it had come.
-            with suppress(RuntimeError, TypeError):
-                await socket.close()
+            await self._sockets.admit(
+                socket, lambda s: changes.serve(s, self.backend, topics, rate)
+            )
 
     def _add_files(self, app):
-        web = FreshFiles(directory=self._web)
-
-        def page(name):
-            async def get(request: Request):
-                return await web.get_response(name, request.scope)
-
-            return get
+        page = PageFiles(self._web)
 
         @app.get("/metrics", response_class=Response, responses=METRICS)
         async def get_metrics(request: Request):
@@ -144,54 +130,21 @@ class Viewer:
             text, kind = await asyncio.to_thread(self.metrics.text, accepted)
             return Response(text, headers={"content-type": kind})
 
-        app.get("/", include_in_schema=False)(page("index.html"))
-        app.get("/operations", include_in_schema=False)(page("operations.html"))
-        app.get("/docs", include_in_schema=False)(page("docs.html"))
+        for path, name in (
+            ("/", "index.html"),
+            ("/operations", "operations.html"),
+            ("/docs", "docs.html"),
+        ):
+            app.get(path, include_in_schema=False)(page.endpoint(name))
         app.mount("/three", Files(directory=THREE, check_dir=False))
-        app.mount("/web", web)
+        app.mount("/web", page.files)
 
 
 def _bounded(rate):
-    """Messages a second."""
+    """Returns the rate that a client gets, in messages per second."""
     return min(10.0, max(0.1, rate)) if rate == rate else 2.0
 
 
-class Server(uvicorn.Server):
-    """Ends when told to: pages come back by themselves."""
-
-    GRACE = 1.0  # for a service call to a world that may be gone already [s, wall]
-
-    def __init__(self, config, viewer):
-        super().__init__(config)
-        self._viewer = viewer
-
-    async def startup(self, sockets=None):
-        await super().startup(sockets)
-        self._viewer.start()
-
-    def handle_exit(self, sig, frame):
-        self.should_exit = self.force_exit = True
-        end = threading.Timer(self.GRACE, os._exit, (0,))
-        end.daemon = True
-        end.start()
-
-
-def server_of(viewer, token="", rate=100):
-    """A Server for a Viewer; run it with the sockets to listen at."""
-    return Server(config_of(viewer.application(token, rate)), viewer)
-
-
-def config_of(application):
-    """How uvicorn serves."""
-    return uvicorn.Config(
-        application,
-        http=BoundedConnection,
-        lifespan="off",
-        log_level="warning",
-        access_log=False,
-        server_header=False,
-        proxy_headers=False,
-        ws_max_size=MOST_MESSAGE,
-        # Numbers hardly shrink, and it would cost more than all else here.
-        ws_per_message_deflate=False,
-    )
+def server_of(viewer: Viewer, token: str = "", rate: float = 100) -> Server:
+    """Returns a Server for a Viewer; run it with the sockets to listen at."""
+    return Server(config_of(viewer.application(token, rate)), viewer.start)

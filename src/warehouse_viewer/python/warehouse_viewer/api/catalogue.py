@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Robots, storage units, items and the warehouse, as the HTTP API tells them."""
 
+import json
+
 import numpy as np
 
 from warehouse_client import tracking
@@ -55,6 +57,11 @@ def coordinator(state):
         watchdog=state.watchdog,
         alarms=list(state.alarms),
     )
+
+
+def plain_coordinator(state):
+    """Returns a CoordinatorState as JSON has it."""
+    return json.loads(coordinator(state).json())
 
 
 def things(kind, objects, states):

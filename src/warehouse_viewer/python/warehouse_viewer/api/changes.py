@@ -161,11 +161,11 @@ class _Reader:
             await self._send(topic, **{topic: work.SHOWN[topic](rows[-1])})
 
     async def _send_coordinator(self):
-        self._backend.feed.look(GLANCE)
+        self._backend.feed.subscribe(GLANCE)
         state = self._backend.feed.coordinator
         if state is not self._coordinator:
             self._coordinator = state
-            told = json.loads(catalogue.coordinator(state).json()) if state else None
+            told = catalogue.plain_coordinator(state) if state else None
             await self._send("coordinator", coordinator=told)
 
     async def _send(self, kind, **fields):

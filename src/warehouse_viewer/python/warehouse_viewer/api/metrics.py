@@ -6,7 +6,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 from prometheus_client.exposition import choose_encoder
 
 from warehouse_viewer.api import schemas, work_schemas
-from warehouse_viewer.ros.simulation import AwayError
+from warehouse_viewer.page.source import AwayError
 
 # Of the Kpis: name, what it is, field.
 SHIFT_COUNTERS = (

@@ -29,7 +29,7 @@ from warehouse_viewer.api.work_schemas import (
     Stock,
     Throughput,
 )
-from warehouse_viewer.ros.simulation import AwayError, RefusedError
+from warehouse_viewer.page.source import AwayError, RefusedError
 
 PATIENCE = 3.0  # for a topic's latest message [s, wall]
 NO_SHIFT = "is a shift running (operations.launch)?"

@@ -1,85 +1,89 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Brings news to the pages, each at the pace it keeps up with.
+"""Sends changes to every open page, each at the pace that it keeps up with.
 
-Nothing is queued: a page that is ready gets all that changed since it was last served, once.
+Nothing is queued: a page that is ready gets everything that changed since its last update, once.
 """
 
 import asyncio
 import json
 import math
 import time
+from collections.abc import Collection
 from contextlib import suppress
+from typing import Any
 
 import numpy as np
-from starlette.websockets import WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_layout import poses
 from warehouse_viewer.page import protocol
+from warehouse_viewer.page.model import Model
+from warehouse_viewer.page.source import Source
 from warehouse_viewer.server.access import RateLimit
 
 GAP = 0.08  # least time between two updates [s, wall]
-SCENE_GAP = 1.0  # likewise between two scenes, of a megabyte where there are many items [s, wall]
-STATUS_GAP = 1.0  # between two looks at the simulation's own state [s, wall]
-OFFERS_GAP = 5.0  # between two looks at which services there are [s, wall]
-IN_FLIGHT = 3  # updates a page may owe an answer to
+SCENE_GAP = 1.0  # least time between two scenes: many items make a megabyte [s, wall]
+STATUS_GAP = 1.0  # between two requests for the simulation's own state [s, wall]
+OFFERS_GAP = 5.0  # between two checks which services there are [s, wall]
+IN_FLIGHT = 3  # updates that a page may leave unacknowledged
 MOST_GAP = 5.0  # between two updates, whatever a page asks for [s, wall]
-MOST_WISHES = 100  # of a page [1/s]
-NONSENSE = (ValueError, TypeError, KeyError, AttributeError)  # what reading it leads to
+MOST_REQUESTS = 100  # of a page [1/s]
+MALFORMED = (ValueError, TypeError, KeyError, AttributeError)  # what a bad request raises
 MOST_SCANS = 20  # robots whose scans are shown at once, by all pages
 
 
 class Page:
-    """One browser; `socket` is a starlette WebSocket that was accepted."""
+    """What one browser asks for, and what it has been sent.
 
-    def __init__(self, socket, last_event):
+    `socket` is accepted already; `last_event` is the id of the last event that it need not get.
+    """
+
+    def __init__(self, socket: WebSocket, last_event: int) -> None:
         self.socket, self.tick, self.revision = socket, -1, None
         self.event, self.in_flight, self.status = last_event, 0, None
         self.gap = 0.0  # that it asks for between two updates [s, wall]
-        self.scans, self.seen_scans = set(), {}
-        self.paths, self.seen_paths = set(), {}
-        self.ways, self.seen_ways = set(), None  # of these robots, None: of all
-        self.coordinator = None  # the CoordinatorState that it was told
+        self.scans, self.sent_scans = set(), {}
+        self.paths, self.sent_paths = set(), {}
+        self.ways, self.sent_ways = set(), None  # of these robots, None: of all
+        self.coordinator = None  # the CoordinatorState that it was sent
 
-    async def send_json(self, message):
+    async def send_json(self, message: Any) -> None:
+        """Sends a message as compact JSON."""
         await self.socket.send_text(json.dumps(message, separators=(",", ":")))
 
 
 class Hub:
-    """Lives in an asyncio loop; news() may be called from any thread.
+    """Serves every open page from a Source. Lives in an asyncio loop; any thread may notify()."""
 
-    Without ROS: what comes is asked of `feed` and `simulation`, and `coordinator` tells a
-    CoordinatorState as the API does.
-    """
-
-    def __init__(self, feed, model, journal, simulation, coordinator=None):
-        self._tell_coordinator = coordinator
-        self._feed, self._model, self._journal = feed, model, journal
-        self._simulation = simulation
+    def __init__(self, source: Source, model: Model) -> None:
+        self._feed, self._model, self._journal = source.feed, model, source.journal
+        self._simulation, self._source = source.simulation, source
         self._pages, self._turn = set(), asyncio.Condition()
-        self._news, self._loop = asyncio.Event(), None
+        self._changed, self._loop = asyncio.Event(), None
         self._status, self._offers, self._offers_due = {}, {}, 0.0
         self._scene_due = 0.0
 
-    def news(self):
-        """Something came that a page may want to show."""
+    def notify(self) -> None:
+        """Tells the hub that the Source has something new."""
         with suppress(RuntimeError):  # the loop has ended
             if self._loop:
-                self._loop.call_soon_threadsafe(self._news.set)
+                self._loop.call_soon_threadsafe(self._changed.set)
 
     @property
-    def pages(self):
+    def pages(self) -> int:
+        """How many pages are open."""
         return len(self._pages)
 
-    # --- taking in
-    async def run(self):
-        """Until cancelled."""
+    # --- reading the source
+    async def run(self) -> None:
+        """Keeps the model up to date and wakes the pages' senders, until cancelled."""
         self._loop = asyncio.get_running_loop()
         watching = asyncio.create_task(self._watch_simulation())
         try:
             while True:
                 with suppress(TimeoutError):
-                    await asyncio.wait_for(self._news.wait(), 0.5)
-                self._news.clear()
+                    await asyncio.wait_for(self._changed.wait(), 0.5)
+                self._changed.clear()
                 self._refresh()
                 async with self._turn:
                     self._turn.notify_all()
@@ -89,28 +93,28 @@ class Hub:
 
     def _refresh(self):
         if self._pages:
-            self._feed.look()
-        elif self._feed.rest():
+            self._feed.subscribe()
+        elif self._feed.unsubscribe_if_idle():
             return
-        if not self._feed.complete:
+        if not self._feed.is_complete:
             return
-        objects, states = self._feed.units_and_objects
+        objects, states = self._feed.objects_and_states
         scenery = self._feed["scenery"]
         # While a warehouse is built, what stands there changes ten times a second.
         if not self._model.is_same_scene(objects, scenery):
             if time.monotonic() < self._scene_due:
                 return
             self._scene_due = time.monotonic() + SCENE_GAP
-        self._model.take(objects, states, self._feed["fleet"], scenery)
+        self._model.update(objects, states, self._feed["fleet"], scenery)
 
     async def _watch_simulation(self):
         while True:
             if self._pages:
-                self._status = await asyncio.to_thread(self._look_at_simulation)
-                self._news.set()
+                self._status = await asyncio.to_thread(self._read_status)
+                self._changed.set()
             await asyncio.sleep(STATUS_GAP)
 
-    def _look_at_simulation(self):
+    def _read_status(self):
         if time.monotonic() >= self._offers_due:
             self._offers = self._simulation.offers()
             self._offers_due = time.monotonic() + OFFERS_GAP
@@ -133,12 +137,12 @@ class Hub:
         }
 
     # --- serving a page
-    async def serve(self, socket):
-        """One page, from its coming to its going."""
-        self._feed.look()
+    async def serve(self, socket: WebSocket) -> None:
+        """Serves one page until it disconnects. The socket is accepted already."""
+        self._feed.subscribe()
         page = Page(socket, max(0, self._journal.last_id - 200))
         self._pages.add(page)
-        self._news.set()
+        self._changed.set()
         sender = asyncio.create_task(self._send_forever(page))
         listener = asyncio.create_task(self._listen_forever(page))
         try:
@@ -149,19 +153,19 @@ class Hub:
             with suppress(Exception, asyncio.CancelledError):
                 await asyncio.gather(sender, listener, return_exceptions=True)
             self._pages.discard(page)
-            self._hear_wishes()
+            self._update_subscriptions()
 
     async def _listen_forever(self, page):
-        """Until the page goes, or says what no page would."""
-        limit = RateLimit(MOST_WISHES)
-        with suppress(WebSocketDisconnect, *NONSENSE):
+        """Reads requests until the page disconnects, or sends what no page would send."""
+        limit = RateLimit(MOST_REQUESTS)
+        with suppress(WebSocketDisconnect, *MALFORMED):
             while limit.allows(page):
-                await self._obey(page, json.loads(await page.socket.receive_text()))
+                await self._handle(page, json.loads(await page.socket.receive_text()))
 
-    async def _obey(self, page, wish):
-        """{"ack": n} answers updates; {"gap": s} asks for no two within so many seconds; {"watch":
-        {"scans": [ids], "paths": [ids], "ways": [ids]}} asks for more, "ways": "all" for those of
-        all robots."""
+    async def _handle(self, page, wish):
+        """Handles a page's request: {"ack": n} acknowledges updates, {"gap": s} sets the least time
+        between two, and {"watch": {"scans": [ids], "paths": [ids], "ways": [ids]}} chooses whose
+        extras to send, "ways": "all" those of every robot."""
         if "ack" in wish:
             page.in_flight = max(0, page.in_flight - int(wish["ack"]))
         if "gap" in wish:
@@ -170,26 +174,26 @@ class Hub:
             page.scans = set(map(int, wish["watch"].get("scans", [])[:MOST_SCANS]))
             page.paths = set(map(int, wish["watch"].get("paths", [])))
             ways = wish["watch"].get("ways", [])
-            page.ways, page.seen_ways = None if ways == "all" else set(map(int, ways)), None
-            self._hear_wishes()
+            page.ways, page.sent_ways = None if ways == "all" else set(map(int, ways)), None
+            self._update_subscriptions()
         async with self._turn:
             self._turn.notify_all()
 
-    def _hear_wishes(self):
+    def _update_subscriptions(self):
         scans = sorted(set().union(*(p.scans for p in self._pages)))[:MOST_SCANS]
         ways = any(p.ways is None or p.ways for p in self._pages)
-        self._feed.want(any(p.paths for p in self._pages), ways, scans)
+        self._feed.subscribe_extras(any(p.paths for p in self._pages), ways, scans)
 
     async def _send_forever(self, page):
         with suppress(WebSocketDisconnect, RuntimeError):
             while True:
                 if page.in_flight < IN_FLIGHT:
-                    await self._send_news(page)
+                    await self._send_changes(page)
                     await asyncio.sleep(page.gap)
                 async with self._turn:
                     await self._turn.wait()
 
-    async def _send_news(self, page):
+    async def _send_changes(self, page):
         model = self._model
         if model.revision and page.revision != model.revision:
             page.revision, page.tick = model.revision, -1
@@ -197,7 +201,7 @@ class Hub:
         if page.revision and page.tick < model.changed_at:
             since, page.tick = page.tick, model.tick
             page.in_flight += 1
-            await page.socket.send_bytes(model.update(since))
+            await page.socket.send_bytes(model.encode_update(since))
         await self._send_events(page)
         await self._send_fleet(page)
         await self._send_extras(page)
@@ -215,29 +219,29 @@ class Hub:
         state = self._feed.coordinator
         if state is not page.coordinator:
             page.coordinator = state
-            told = json.loads(self._tell_coordinator(state).json()) if state else None
-            await page.send_json({"type": "fleet", "fleet": told})
+            fleet = self._source.describe_coordinator(state) if state else None
+            await page.send_json({"type": "fleet", "fleet": fleet})
         ways = self._feed["ways"] if page.ways is None or page.ways else None
-        if ways and ways is not page.seen_ways:
-            page.seen_ways = ways
+        if ways and ways is not page.sent_ways:
+            page.sent_ways = ways
             await page.socket.send_bytes(protocol.ways(ways, page.ways))
 
     async def _send_extras(self, page):
         for kiva_id in page.scans:
             scan = self._feed[f"scan{kiva_id}"]
             mount = mount_of(self._feed["frames"], f"kiva{kiva_id}/laser")
-            if scan and mount and page.seen_scans.get(kiva_id) is not scan:
-                page.seen_scans[kiva_id] = scan
-                seen = (scan.angle_min, scan.angle_increment, scan.ranges)
-                await page.socket.send_bytes(protocol.scan(kiva_id, mount, *seen))
+            if scan and mount and page.sent_scans.get(kiva_id) is not scan:
+                page.sent_scans[kiva_id] = scan
+                rays = (scan.angle_min, scan.angle_increment, scan.ranges)
+                await page.socket.send_bytes(protocol.scan(kiva_id, mount, *rays))
         paths = paths_of(self._feed["paths"], page.paths) if page.paths else {}
-        if paths != page.seen_paths:
-            page.seen_paths = paths
+        if paths != page.sent_paths:
+            page.sent_paths = paths
             await page.send_json({"type": "paths", "paths": paths})
 
 
-def mount_of(frames, name):
-    """(x, y, z, yaw) of a frame on its parent in a TFMessage; None where none tells."""
+def mount_of(frames: Any, name: str) -> tuple[float, float, float, float] | None:
+    """Returns (x, y, z [m], yaw [rad]) of a frame on its parent in a TFMessage; None if unknown."""
     for stamped in frames.transforms if frames else ():
         if stamped.child_frame_id == name:
             at, turn = stamped.transform.translation, stamped.transform.rotation
@@ -246,8 +250,8 @@ def mount_of(frames, name):
     return None
 
 
-def paths_of(message, wanted):
-    """{kiva_id: [[x, y], …]} of the wanted robots in a FleetPaths, or of none in None."""
+def paths_of(message: Any, wanted: Collection[int]) -> dict[int, list[list[float]]]:
+    """Returns {kiva_id: [[x, y], …]} [m] of the wanted robots in a FleetPaths or None."""
     out, at = {}, 0
     if message is None:
         return out

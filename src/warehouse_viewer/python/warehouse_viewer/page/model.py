@@ -35,7 +35,7 @@ class Model:
         """Whether these messages tell of the same things as those taken in last."""
         return objects is self._objects and _look_alike(scenery, self._scenery)
 
-    def take(self, objects, states, fleet, scenery):
+    def update(self, objects, states, fleet, scenery):
         """Takes the newest messages in. `objects` and `states` must fit each other.
 
         True if a page has something new to show.
@@ -120,7 +120,7 @@ class Model:
         return speeds[:, robots].max(axis=0, initial=0) < STANDS
 
     # --- out to pages
-    def update(self, since):
+    def encode_update(self, since):
         """Bytes of what changed after the tick `since`."""
         tables = (self.robots, self.units, self.loose, self.scenery)
         rows = [table.since(since) for table in tables]

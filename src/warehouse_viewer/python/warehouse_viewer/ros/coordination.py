@@ -3,7 +3,8 @@
 
 from warehouse_client.message_names import MODE, THEN
 from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
-from warehouse_viewer.ros.simulation import RefusedError, is_offered, request
+from warehouse_viewer.page.source import RefusedError
+from warehouse_viewer.ros.simulation import is_offered, request
 
 SERVICES = {
     Transport: "/warehouse/transport",

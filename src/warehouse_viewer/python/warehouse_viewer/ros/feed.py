@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the world publishes, heard only while somebody looks."""
+"""The topics of the world, subscribed to only while a page or a request needs them."""
 
 import threading
 import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 from rospy.numpy_msg import numpy_msg
 from sensor_msgs.msg import LaserScan
@@ -20,6 +22,7 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
+from warehouse_viewer.ros.simulation import Standing
 
 TOPICS = {
     "fleet": ("/warehouse/fleet", numpy_msg(FleetState)),
@@ -29,41 +32,47 @@ TOPICS = {
     "coordinator": ("/warehouse/coordinator", CoordinatorState),
     "performance": ("/gazebo/performance_metrics", PerformanceMetrics),
 }
-SILENT = 5.0  # after which nobody coordinates any more [s, simulated and wall]
-LINGER = 10.0  # after the last look, before the ears are closed [s, wall]
+SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
+LINGER = 10.0  # for which subscriptions outlast their last use [s, wall]
 
 
 class Feed:
-    """The newest message of each topic; None where none came since somebody looked.
+    """The newest message of each topic, as page.source.Feed wants it.
 
-    `ros` is rospy. `on_event(Event)`, `on_transport(TransportEvent)` and `on_news()` are called in
-    ROS's threads.
+    `ros` is rospy. `on_event(Event)`, `on_transport(TransportEvent)` and `on_message()` are called
+    in ROS's threads.
     """
 
-    def __init__(self, ros, on_event, on_transport, on_news):
-        self._ros, self._on_news, self._lock = ros, on_news, threading.Lock()
+    def __init__(
+        self,
+        ros: Any,
+        on_event: Callable[[Event], None],
+        on_transport: Callable[[TransportEvent], None],
+        on_message: Callable[[], None],
+    ) -> None:
+        self._ros, self._on_message, self._lock = ros, on_message, threading.Lock()
         self._messages, self._subscribers, self._extras = {}, {}, {}
-        self._looked, self._coordinated = 0.0, 0.0
+        self._used, self._coordinated = 0.0, 0.0
         ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
         topic = "/warehouse/transports"
         ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Any:
         return self._messages.get(name)
 
     @property
-    def units_and_objects(self):
-        """(WarehouseObjects, UnitStates) if both are there and fit each other, else None."""
+    def objects_and_states(self) -> tuple[WarehouseObjects, UnitStates] | None:
+        """(WarehouseObjects, UnitStates) of the same revision; None if there are none yet."""
         objects, states = self["objects"], self["states"]
         fit = objects and states and objects.revision == states.revision
         return (objects, states) if fit else None
 
     @property
-    def coordinator(self):
-        """The newest CoordinatorState; None where no coordinator runs.
+    def coordinator(self) -> CoordinatorState | None:
+        """The newest CoordinatorState; None if no coordinator runs.
 
-        One that was killed says no goodbye, but falls silent while time goes on. One that refuses
-        the floor says so once, and coordinates nobody.
+        A killed coordinator does not say goodbye: it is silent while time goes on. One that refuses
+        the floor is silent too after it has said so once, and coordinates no robot.
         """
         state, fleet = self["coordinator"], self["fleet"]
         subscriber = self._subscribers.get("coordinator")
@@ -73,25 +82,25 @@ class Feed:
         is_silent = min(behind, time.monotonic() - self._coordinated) > SILENT
         return None if is_silent and (state.automatic or not state.alarms) else state
 
-    def look(self, names=tuple(TOPICS)):
-        """Somebody looks at these TOPICS: they are heard for a while."""
+    def subscribe(self, names: Iterable[str] = tuple(TOPICS)) -> None:
+        """Subscribes to these TOPICS, and keeps all subscriptions for another LINGER seconds."""
         with self._lock:
-            self._looked = time.monotonic()
+            self._used = time.monotonic()
             for name in set(names) - self._subscribers.keys():
                 self._subscribers[name] = self._subscribe(name, *TOPICS[name])
 
-    def hear_anew(self, name):
-        """Forgets a topic's message. Whoever comes to it anew gets one of now."""
+    def resubscribe(self, name: str) -> None:
+        """Forgets a topic's message and subscribes again, which brings a message of now."""
         with self._lock:
             if name in self._subscribers:
                 self._subscribers.pop(name).unregister()
                 self._messages.pop(name, None)
                 self._subscribers[name] = self._subscribe(name, *TOPICS[name])
 
-    def rest(self):
-        """Stops to listen if nobody has looked for a while. True if it did."""
+    def unsubscribe_if_idle(self) -> bool:
+        """Drops subscriptions and messages LINGER seconds after their last use; True if it did."""
         with self._lock:
-            if not self._subscribers or time.monotonic() - self._looked < LINGER:
+            if not self._subscribers or time.monotonic() - self._used < LINGER:
                 return False
             for subscriber in self._subscribers.values():
                 subscriber.unregister()
@@ -100,16 +109,18 @@ class Feed:
             return True
 
     @property
-    def tells_all(self):
-        """Whether it is known where everything is."""
-        return bool(self.units_and_objects and self["fleet"])
+    def has_positions(self) -> bool:
+        """Whether it is known where every robot, storage unit and item is."""
+        return bool(self.objects_and_states and self["fleet"])
 
-    def shows(self, standing, objects, fleet):
-        """Whether the newest messages tell of what stands there: a simulation.Standing.
+    def reflects(
+        self, standing: Standing, objects: WarehouseObjects | None, fleet: FleetState | None
+    ) -> bool:
+        """Whether the newest messages describe the models of `standing`.
 
-        Those from before it came, `objects` and `fleet`, don't, even where they look the same.
+        `objects` and `fleet` are the messages from before a change; they never count as newest.
         """
-        if not self.tells_all:
+        if not self.has_positions:
             return False
         told = _names(self["objects"])
         robots = {f"kiva{n}" for n in self["fleet"].kiva_id}
@@ -121,12 +132,12 @@ class Feed:
         return is_new and (not robots or (self["fleet"] is not fleet and came_later))
 
     @property
-    def complete(self):
-        """Whether there is all that a picture needs."""
-        return bool(self.tells_all and self["scenery"])
+    def is_complete(self) -> bool:
+        """Whether everything is there that a picture needs."""
+        return bool(self.has_positions and self["scenery"])
 
-    def want(self, paths, ways, scans):
-        """Hears paths or not, ways or not, and the scans of exactly these robots (ids)."""
+    def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
+        """Subscribes to paths, to ways, and to the scans of exactly these robots (ids)."""
         wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
         if scans:
             wanted["frames"] = ("/tf_static", TFMessage)
@@ -148,10 +159,10 @@ class Feed:
         self._messages[name] = message
         if name == "coordinator":
             self._coordinated = time.monotonic()
-        self._on_news()
+        self._on_message()
 
 
 def _names(objects):
-    """Of all that a WarehouseObjects tells of."""
+    """Returns the names of every model in a WarehouseObjects."""
     robots = (f"kiva{n}" for n in objects.kiva_id)
     return {*robots, *objects.storage_units, *objects.items, *objects.belts}

@@ -12,6 +12,7 @@ from warehouse_client import identity, placing
 from warehouse_client.build_transaction import is_building
 from warehouse_client.engine import Engine, EngineError
 from warehouse_layout import models
+from warehouse_viewer.page.source import AwayError, RefusedError
 
 # What is offered under which service; types by name, since not every engine has them all.
 SERVICES = {
@@ -28,14 +29,6 @@ SERVICES = {
     "person": ("/warehouse/person", "warehouse_msgs", "Person"),
     "pick_up": ("/warehouse/pick_up", "warehouse_msgs", "PickUp"),
 }
-
-
-class RefusedError(RuntimeError):
-    """The world said no, or can't; the message tells a person why."""
-
-
-class AwayError(RuntimeError):
-    """The world does not answer."""
 
 
 @dataclass(frozen=True)

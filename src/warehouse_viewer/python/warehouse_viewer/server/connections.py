@@ -53,8 +53,24 @@ class BoundedConnection(H11Protocol):
         super().connection_lost(exc)
 
 
-def listen(host, port):
-    """A listening socket. Raises OSError if the port is taken or the host is not this machine's."""
+def listen_near(host: str, port: int, tries: int = 20) -> socket.socket:
+    """Returns a socket that listens at `port` or one of the next, at any free one for port 0.
+
+    Raises OSError if all are taken.
+    """
+    for k in range(tries):
+        try:
+            return listen(host, port + k if port else 0)
+        except OSError as error:
+            last = error
+    raise OSError(f"no port from {port} to {port + tries - 1} is free for the page: {last}")
+
+
+def listen(host: str, port: int) -> socket.socket:
+    """Returns a socket that listens there.
+
+    Raises OSError if the port is taken or the host is not this machine's.
+    """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     # Of a socket that doesn't name its protocol asyncio can't tell that it is TCP; small answers
     # would then wait 40 ms for the client's acknowledgement (Nagle, 1984).
