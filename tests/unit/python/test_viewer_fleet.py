@@ -15,7 +15,7 @@ from test_viewer_hub import Socket, hub_of
 from test_viewer_model import World, fleet
 
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, TransportEvent
-from warehouse_viewer.api import schemas
+from warehouse_viewer.api.schemas import fleet as fleet_schemas
 from warehouse_viewer.api.transport_book import TransportBook
 from warehouse_viewer.page import protocol
 from warehouse_viewer.page.hub import Page
@@ -153,7 +153,7 @@ def test_the_book_tells_how_far_transports_are():
     book.add(event(3, TransportEvent.ASSIGNED, kiva_id=4))
     assert [t["id"] for t in book.newest_first()] == [3, 2]
     assert [t["id"] for t in book.newest_first("RECEIVED")] == [2]
-    assert schemas.Transport(**book.get(3)).robot == "kiva4"
+    assert fleet_schemas.Transport(**book.get(3)).robot == "kiva4"
     assert book.get(1) is None
 
 
@@ -169,9 +169,9 @@ def test_another_coordinator_begins_another_book():
 )
 def test_a_transport_needs_one_destination(fields):
     with pytest.raises(ValidationError, match="either a station or both x and y"):
-        schemas.NewTransport(storage_unit=1, **fields)
-    schemas.NewTransport(storage_unit=1, x=1.0, y=2.0)
-    schemas.NewTransport(storage_unit=1, station="pick1")
+        fleet_schemas.NewTransport(storage_unit=1, **fields)
+    fleet_schemas.NewTransport(storage_unit=1, x=1.0, y=2.0)
+    fleet_schemas.NewTransport(storage_unit=1, station="pick1")
 
 
 def test_without_a_coordinator_it_is_said_what_to_do():

@@ -9,7 +9,10 @@ import numpy as np
 
 from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
-from warehouse_viewer.api import catalogue, schemas, work_schemas
+from warehouse_viewer.api import catalogue
+from warehouse_viewer.api.schemas.fleet import RobotsByWork
+from warehouse_viewer.api.schemas.models import Robot
+from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.page import statuses
 
 WEB = Path(__file__).parents[3] / "src/warehouse_viewer/web/js/words.js"
@@ -36,13 +39,13 @@ def test_the_page_has_the_words_of_the_api():
     assert list(told["MODE"]) == list(message_names.MODE.values())
     assert [mode.replace(" ", "_").upper() for mode in told["MODE"].values()] == list(told["MODE"])
     assert set(told["TROUBLE"]) < set(message_names.EVENT.values())
-    assert tuple(told["ORDER_STATES"]) == work_schemas.STATES
+    assert tuple(told["ORDER_STATES"]) == STATES
 
 
 def test_the_api_has_the_words_of_the_messages():
-    assert set(schemas.RobotsByWork.__fields__) == set(message_names.WORK)
+    assert set(RobotsByWork.__fields__) == set(message_names.WORK)
     assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
-    allowed = schemas.Robot.__fields__["activity"].type_.__args__
+    allowed = Robot.__fields__["activity"].type_.__args__
     assert set(allowed) == set(catalogue.ACTIVITY.values())
 
 

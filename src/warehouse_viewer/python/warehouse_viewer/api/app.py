@@ -6,14 +6,17 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from fastapi import FastAPI, Request, WebSocket
-from fastapi.responses import Response
+from fastapi import FastAPI, HTTPException, Request
+from fastapi.responses import JSONResponse
+from starlette.routing import Match
 
 from warehouse_msgs.msg import Event, TransportEvent
-from warehouse_viewer.api import api, catalogue, changes, metrics, sockets, stream
+from warehouse_viewer.api import catalogue, description, routes
+from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.metrics import Metrics
+from warehouse_viewer.api.routes import prometheus, sockets
 from warehouse_viewer.api.transport_book import TransportBook
-from warehouse_viewer.api.work import Work
 from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
@@ -21,6 +24,7 @@ from warehouse_viewer.page.source import Source
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.operations_client import OperationsClient
 from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
 from warehouse_viewer.server.access import AccessControl
@@ -29,9 +33,7 @@ from warehouse_viewer.server.page_files import PageFiles, SocketLimit
 from warehouse_viewer.server.static_files import Files
 from warehouse_viewer.shared_files import THREE
 
-UNSUPPORTED = 1003  # a WebSocket's close code
-MOST_REASON = 120  # characters beside one
-METRICS = {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}}
+PAGES = {"/": "index.html", "/operations": "operations.html", "/docs": "docs.html"}
 
 
 class Viewer:
@@ -45,15 +47,20 @@ class Viewer:
         feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
         simulation = Simulation(ros)
         source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
-        model = Model()
-        self.hub = Hub(source, model)
-        parts = (feed, model, self.journal, simulation, self.commander)
-        work = Work(ros, ShiftFeed(ros, self.changes))
-        self.metrics = metrics.Metrics(feed, work)
-        self.backend = api.ApiBackend(
-            *parts, Coordination(ros), self.transports, work, self.changes
+        self.hub = Hub(source, Model())
+        operations = OperationsClient(ros, ShiftFeed(ros, self.changes))
+        self.metrics = Metrics(feed, operations)
+        self.backend = ApiBackend(
+            feed,
+            self.journal,
+            simulation,
+            self.commander,
+            Coordination(ros),
+            self.transports,
+            operations,
+            self.changes,
         )
-        self._web, self._sockets = web, SocketLimit()
+        self._web = web
         self._hub_task = HubTask(self.hub)
 
     def _on_event(self, event: Event) -> None:
@@ -83,11 +90,14 @@ class Viewer:
             redoc_url=None,
             openapi_url="/openapi.json",
         )
-        app.include_router(api.router(self.backend))
-        app.openapi = lambda: sockets.described(app)
+        app.state.backend, app.state.hub = self.backend, self.hub
+        app.state.metrics, app.state.sockets = self.metrics, SocketLimit()
+        app.include_router(routes.router)
+        app.openapi = lambda: description.described(app)
         app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
-        app.add_exception_handler(405, api.not_allowed)
-        self._add_sockets(app)
+        app.add_exception_handler(405, not_allowed)
+        app.include_router(sockets.router)
+        app.include_router(prometheus.router)
         self._add_files(app)
         return AccessControl(app, token, rate)
 
@@ -96,53 +106,22 @@ class Viewer:
         self._loop = asyncio.get_running_loop()
         self._hub_task.start()
 
-    def _add_sockets(self, app):
-        @app.websocket("/live")
-        async def live(socket: WebSocket):
-            await self._sockets.admit(socket, self.hub.serve)
-
-        @app.websocket("/api/v1/stream")
-        async def json_stream(socket: WebSocket, rate: float = 2.0):
-            rate = _bounded(rate)
-            await self._sockets.admit(socket, lambda s: stream.serve(s, self.backend, rate))
-
-        @app.websocket("/api/v1/changes")
-        async def json_changes(socket: WebSocket, of: str = "", rate: float = 2.0):
-            try:
-                topics = changes.topics(of)
-            except ValueError as error:
-                await socket.accept()
-                await socket.close(UNSUPPORTED, str(error)[:MOST_REASON])
-                return
-            rate = _bounded(rate)
-            await self._sockets.admit(
-                socket, lambda s: changes.serve(s, self.backend, topics, rate)
-            )
-
     def _add_files(self, app):
         page = PageFiles(self._web)
-
-        @app.get("/metrics", response_class=Response, responses=METRICS)
-        async def get_metrics(request: Request):
-            """Figures for Prometheus."""
-            await self.backend.glance()
-            accepted = request.headers.get("accept", "")
-            text, kind = await asyncio.to_thread(self.metrics.text, accepted)
-            return Response(text, headers={"content-type": kind})
-
-        for path, name in (
-            ("/", "index.html"),
-            ("/operations", "operations.html"),
-            ("/docs", "docs.html"),
-        ):
+        for path, name in PAGES.items():
             app.get(path, include_in_schema=False)(page.endpoint(name))
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", page.files)
 
 
-def _bounded(rate):
-    """Returns the rate that a client gets, in messages per second."""
-    return min(10.0, max(0.1, rate)) if rate == rate else 2.0
+async def not_allowed(request: Request, error: HTTPException) -> JSONResponse:
+    """Answers 405 with every method of the path: each method has a route of its own."""
+    routes = [
+        route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE
+    ]
+    methods = sorted(set().union(*(getattr(route, "methods", None) or () for route in routes)))
+    headers = {"allow": ", ".join(methods)}
+    return JSONResponse({"detail": error.detail}, error.status_code, headers=headers)
 
 
 def server_of(viewer: Viewer, token: str = "", rate: float = 100) -> Server:

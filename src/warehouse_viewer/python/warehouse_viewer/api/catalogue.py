@@ -8,7 +8,14 @@ import numpy as np
 from warehouse_client import tracking
 from warehouse_client.message_names import EVENT, STATE, STATUS, failures_of
 from warehouse_layout.models import kind_and_number
-from warehouse_viewer.api import schemas
+from warehouse_viewer.api.schemas.fleet import (
+    Coordinator,
+    RobotsByMode,
+    RobotsByWork,
+    TransportCounts,
+    Waiting,
+)
+from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
 from warehouse_viewer.page.statuses import HOLDING, activity, shown_status
 
 ACTIVITY = STATUS | {HOLDING: "HOLDING"}  # as statuses.activity() numbers it
@@ -19,7 +26,7 @@ def robots(fleet):
     status, does = shown_status(fleet), activity(fleet)
     state, last_end = bytes(fleet.state), bytes(fleet.last_end)
     return [
-        schemas.Robot(
+        Robot(
             name=f"kiva{number}",
             id=number,
             status=STATUS[status[i]],
@@ -38,20 +45,20 @@ def robots(fleet):
 
 
 def coordinator(state):
-    """A CoordinatorState as schemas.Coordinator."""
+    """A CoordinatorState as Coordinator."""
     waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
-    return schemas.Coordinator(
+    return Coordinator(
         time=state.header.stamp.to_sec(),
-        robots={name: getattr(state, name) for name in schemas.RobotsByMode.__fields__},
-        work={name: getattr(state, name) for name in schemas.RobotsByWork.__fields__},
-        transports={name: getattr(state, name) for name in schemas.TransportCounts.__fields__},
+        robots={name: getattr(state, name) for name in RobotsByMode.__fields__},
+        work={name: getattr(state, name) for name in RobotsByWork.__fields__},
+        transports={name: getattr(state, name) for name in TransportCounts.__fields__},
         manual=list(state.manual_kiva),
         out_of_service=list(state.out_of_service_kiva),
         plan_p50=state.plan_p50,
         plan_p99=state.plan_p99,
         executed_over_planned=state.executed_over_planned,
         queues=dict(zip(state.station, state.queue)),
-        waiting=[schemas.Waiting(robot=r, waits_for=f, since=s, text=t) for r, f, s, t in waiting],
+        waiting=[Waiting(robot=r, waits_for=f, since=s, text=t) for r, f, s, t in waiting],
         collisions=state.collisions,
         blocked=state.blocked,
         watchdog=state.watchdog,
@@ -81,10 +88,10 @@ def find(tracked, text="", unit=""):
 def thing(tracked, i):
     """One of them as a Thing."""
     carrier = tracked.carrier[i]
-    return schemas.Thing(
+    return Thing(
         name=tracked.names[i],
         id=kind_and_number(tracked.names[i])[1],
-        pose=dict(zip(schemas.Pose.__fields__, np.asarray(tracked.pose[i]).tolist())),
+        pose=dict(zip(Pose.__fields__, np.asarray(tracked.pose[i]).tolist())),
         storage_unit=tracked.unit[i],
         carrier=f"kiva{carrier}" if carrier else "",
     )

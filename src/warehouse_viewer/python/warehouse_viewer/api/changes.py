@@ -20,19 +20,26 @@ list anew.
 
 import asyncio
 import json
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Literal
 
 from pydantic import BaseModel, Field
-from starlette.websockets import WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from warehouse_viewer.api import catalogue, schemas, work, work_schemas
+from warehouse_viewer.api import catalogue, operations_json
+from warehouse_viewer.api.backend import ApiBackend
+from warehouse_viewer.api.schemas.fleet import Coordinator, Transport
+from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station, Throughput
 from warehouse_viewer.api.stream import until_gone
 
-ROWS = {"orders": work.order, "stock": work.plain, "transports": dict}  # each as JSON has it
-WHOLE = (*work.SHOWN, "coordinator")
+ROWS = {
+    "orders": operations_json.order,
+    "stock": operations_json.plain,
+    "transports": dict,
+}  # each as JSON has it
+WHOLE = (*operations_json.SHOWN, "coordinator")
 TOPICS = (*ROWS, *WHOLE)
-GLANCE = ("coordinator", "fleet")
 
 
 class Shift(BaseModel):
@@ -42,25 +49,25 @@ class Shift(BaseModel):
 
 class OrdersChanged(BaseModel):
     type: Literal["orders"]
-    orders: list[work_schemas.Order]
+    orders: list[Order]
     missed: bool = Field(description="there were more; ask for the list anew")
 
 
 class StockChanged(BaseModel):
     type: Literal["stock"]
-    stock: list[work_schemas.Place]
+    stock: list[Place]
     missed: bool
 
 
 class TransportsChanged(BaseModel):
     type: Literal["transports"]
-    transports: list[schemas.Transport]
+    transports: list[Transport]
     missed: bool
 
 
 class StationsNow(BaseModel):
     type: Literal["stations"]
-    stations: list[work_schemas.Station]
+    stations: list[Station]
 
 
 class KpisNow(BaseModel):
@@ -70,12 +77,12 @@ class KpisNow(BaseModel):
 
 class ThroughputNow(BaseModel):
     type: Literal["throughput"]
-    throughput: work_schemas.Throughput
+    throughput: Throughput
 
 
 class CoordinatorNow(BaseModel):
     type: Literal["coordinator"]
-    coordinator: schemas.Coordinator | None
+    coordinator: Coordinator | None
 
 
 class NoticesNow(BaseModel):
@@ -85,7 +92,7 @@ class NoticesNow(BaseModel):
 
 class HeatNow(BaseModel):
     type: Literal["heat"]
-    heat: work_schemas.Heat
+    heat: Heat
 
 
 MESSAGES = (
@@ -102,8 +109,11 @@ MESSAGES = (
 )
 
 
-def topics(text):
-    """Those named in a list with commas; all but the large heat map of an empty one. ValueError."""
+def topics(text: str) -> list[str]:
+    """Returns the TOPICS in a list with commas; for an empty one all but the large heat map.
+
+    Raises ValueError for one that does not exist.
+    """
     wanted = [name for name in text.split(",") if name] or [t for t in TOPICS if t != "heat"]
     unknown = sorted(set(wanted) - set(TOPICS))
     if unknown:
@@ -111,11 +121,9 @@ def topics(text):
     return wanted
 
 
-async def serve(socket, backend, wanted, rate):
-    """One client, from its coming to its going.
-
-    `socket` was accepted; `backend` is an api.ApiBackend, `wanted` are TOPICS.
-    """
+async def serve(socket: WebSocket, backend: ApiBackend, wanted: Sequence[str], rate: float) -> None:
+    """Serves one client until it disconnects: the TOPICS `wanted`, each at most `rate` times a
+    second. The socket is accepted already."""
     listener = asyncio.create_task(until_gone(socket))
     reader = _Reader(socket, backend, wanted)
     with suppress(WebSocketDisconnect, RuntimeError):
@@ -128,7 +136,7 @@ async def serve(socket, backend, wanted, rate):
 class _Reader:
     def __init__(self, socket, backend, wanted):
         self._socket, self._backend, self._wanted = socket, backend, wanted
-        self._feed, self._book = backend.work.feed, backend.changes
+        self._feed, self._book = backend.operations.feed, backend.changes
         self._read = {topic: self._book.last if topic in ROWS else 0 for topic in wanted}
         self._runs, self._coordinator = None, ()
 
@@ -158,10 +166,10 @@ class _Reader:
         rows, _ = self._book.since(topic, self._read[topic])
         if rows:
             self._read[topic] = now
-            await self._send(topic, **{topic: work.SHOWN[topic](rows[-1])})
+            await self._send(topic, **{topic: operations_json.SHOWN[topic](rows[-1])})
 
     async def _send_coordinator(self):
-        self._backend.feed.subscribe(GLANCE)
+        self._backend.feed.subscribe(("coordinator", "fleet"))
         state = self._backend.feed.coordinator
         if state is not self._coordinator:
             self._coordinator = state

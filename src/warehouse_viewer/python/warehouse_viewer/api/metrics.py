@@ -5,8 +5,11 @@ from prometheus_client import CollectorRegistry
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 from prometheus_client.exposition import choose_encoder
 
-from warehouse_viewer.api import schemas, work_schemas
+from warehouse_viewer.api.schemas.fleet import RobotsByWork
+from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.page.source import AwayError
+from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.operations_client import OperationsClient
 
 # Of the Kpis: name, what it is, field.
 SHIFT_COUNTERS = (
@@ -45,10 +48,10 @@ TRANSPORT_STATES = ("open", "under_way")
 
 
 class Metrics:
-    """What a Feed, and a work.Work with its ShiftFeed, know when they are asked."""
+    """Figures of a Feed and of the operations, as of when they are asked for."""
 
-    def __init__(self, feed, work):
-        self._feed, self._work, self._shift = feed, work, work.feed
+    def __init__(self, feed: Feed, operations: OperationsClient) -> None:
+        self._feed, self._operations, self._shift = feed, operations, operations.feed
         self._registry = CollectorRegistry()
         self._registry.register(self)
 
@@ -95,15 +98,15 @@ class Metrics:
             return {}
         try:
             return {
-                name.lower(): self._work.find_orders(state=number, limit=0).total
-                for number, name in enumerate(work_schemas.STATES)
+                name.lower(): self._operations.find_orders(state=number, limit=0).total
+                for number, name in enumerate(STATES)
             }
         except AwayError:  # it has just ended
             return {}
 
 
 def _fleet(state):
-    names = [*schemas.RobotsByWork.__fields__, "manual", "out_of_service"]
+    names = [*RobotsByWork.__fields__, "manual", "out_of_service"]
     robots = {name: getattr(state, name) for name in names}
     yield _by_label("robots", "Robots by what they do.", "state", robots)
     yield _gauge("robots_waiting", "That have stood for 10 s or longer.", len(state.waiting_kiva))

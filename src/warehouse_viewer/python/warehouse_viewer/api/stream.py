@@ -16,17 +16,22 @@ import json
 from contextlib import suppress
 
 from fastapi import HTTPException
-from starlette.websockets import WebSocketDisconnect
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from warehouse_viewer.api.backend import ApiBackend
 
 
-async def serve(socket, desk, rate):
-    """One client, from its coming to its going. `socket` was accepted; `desk` is api.ApiBackend."""
+async def serve(socket: WebSocket, backend: ApiBackend, rate: float) -> None:
+    """Serves one client until it disconnects, at most `rate` times a second.
+
+    The socket is accepted already.
+    """
     listener = asyncio.create_task(until_gone(socket))
-    known, event = {}, desk.journal.last_id
+    known, event = {}, backend.journal.last_id
     with suppress(WebSocketDisconnect, RuntimeError):
         while not listener.done():
-            known = await _send_robots(socket, desk, known)
-            events = desk.journal.since(event)
+            known = await _send_robots(socket, backend, known)
+            events = backend.journal.since(event)
             if events:
                 event = events[-1]["id"]
                 await _send(socket, {"type": "events", "events": events})
@@ -34,21 +39,21 @@ async def serve(socket, desk, rate):
     listener.cancel()
 
 
-async def until_gone(socket):
-    """Reads, and forgets, what a client says until it goes."""
+async def until_gone(socket: WebSocket) -> None:
+    """Reads and drops what a client sends until it disconnects."""
     with suppress(WebSocketDisconnect, RuntimeError):
         while True:
             await socket.receive_text()
 
 
-async def _send_robots(socket, desk, known):
+async def _send_robots(socket, backend, known):
     try:
-        robots = {r.id: r.dict() for r in await desk.robots()}
-    except HTTPException:  # the world is away; it may come back
+        robots = {r.id: r.dict() for r in await backend.robots()}
+    except HTTPException:  # the world does not answer now; it may come back
         return known
     news = [robot for number, robot in robots.items() if known.get(number) != robot]
     if news:
-        time = desk.feed["fleet"].stamp.to_sec()
+        time = backend.feed["fleet"].stamp.to_sec()
         await _send(socket, {"type": "robots", "time": time, "robots": news})
     return robots
 

@@ -1,30 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the HTTP API takes and gives of orders, stock, stations and figures."""
+"""Orders, stock, stations and figures of a shift."""
 
 from typing import Literal
 
 from pydantic import BaseModel, Field, StrictBool, conint, conlist, constr
 
-from warehouse_viewer.api import schemas
+from warehouse_viewer.api.schemas.base import INT32, Body, Number
 
 STATES = ("OPEN", "ASSIGNED", "COMPLETED", "CANCELLED")
 MODES = ("AUTOMATIC", "MANUAL")
 OUTCOMES = ("DONE", "SHORT", "DAMAGED")
 
 Sku = constr(min_length=1, max_length=80, regex=r"^[ -~]+$", strict=True)
-Pieces = conint(ge=1, le=schemas.INT32, strict=True)
+Pieces = conint(ge=1, le=INT32, strict=True)
 
 
-class Moment(schemas.Number):
+class Moment(Number):
     ge, le = 0, 4e9
 
 
-class Line(schemas._Body):
+class Line(Body):
     sku: Sku
     quantity: Pieces
 
 
-class NewOrder(schemas._Body):
+class NewOrder(Body):
     """An order; `due` in simulated time, 0 = none."""
 
     reference: constr(max_length=200, regex=r"^[ -~]*$", strict=True) = ""
@@ -108,7 +108,7 @@ class Stations(BaseModel):
     stations: list[Station]
 
 
-class SetStation(schemas._Body):
+class SetStation(Body):
     open: StrictBool
     mode: Literal[MODES] = "AUTOMATIC"
 
@@ -123,13 +123,13 @@ class Short(Line):
     damaged: StrictBool = False
 
 
-class PickReport(schemas._Body):
+class PickReport(Body):
     """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
     bin is empty; DAMAGED: so many are."""
 
     order_id: conint(ge=0, le=2**53, strict=True) = 0
     item: Sku
-    quantity: conint(ge=0, le=schemas.INT32, strict=True)
+    quantity: conint(ge=0, le=INT32, strict=True)
     outcome: Literal[OUTCOMES] = "DONE"
 
 
