@@ -26,7 +26,7 @@ def random_policy(seed=0):
 
 
 def greedy_policy(options, seed=0):
-    """To the goal by the shortest way, whoever is in it."""
+    """Goes to the goal by the shortest way, whatever robot is in it."""
     random = np.random.default_rng(seed)
     robot_fields = fields.robot_fields(options)
     turns = np.array([Action.FORWARD, Action.LEFT, Action.LEFT, Action.RIGHT])

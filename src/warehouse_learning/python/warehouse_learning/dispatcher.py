@@ -131,7 +131,7 @@ class KivaDispatcherEnv(gymnasium.Env):
             self._driver = None
 
     def _match(self, asked, free):
-        """Transports and who was told to do them; one that is stuck does it when it is free."""
+        """Transports and the robots assigned to them; a stuck robot starts once it is free."""
         for transport in asked:
             robot = self._wishes.get(transport.shelf, NOWHERE)
             if robot in free:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The floor as cells: who may go where.
 
-A cell is a number, row * width + column, of a floor with a rim of `rim` cells that nobody can
+A cell is a number, row * width + column, of a floor with a rim of `rim` cells that no robot can
 enter: so every neighbourhood lies inside. Headings count quarter turns from +x towards +y.
 """
 

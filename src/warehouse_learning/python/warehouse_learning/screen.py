@@ -6,8 +6,10 @@ FRAMES = 4  # a second, of a film
 
 
 class Screen:
-    """Once somebody wants to see: pictures by `make_picture`, a Picture's maker, and the page by
-    `make_page`, a Page's."""
+    """Shows an environment: pictures from `make_picture()`, a page from `make_page()`.
+
+    Each is made when it is first needed. Raises ValueError for an unknown mode.
+    """
 
     def __init__(self, mode, make_picture, make_page):
         if mode not in (None, *RENDER_MODES):
@@ -37,13 +39,13 @@ class Screen:
         return None
 
     def moved(self, events=()):
-        """Time went on: as of Page.tell() and Page.moved(), where somebody may watch."""
+        """Brings events and the moved world to the page, and keeps its pace, if there is a page."""
         if self.is_watched:
             self.page.tell(events)
             self.page.moved()
 
     def stepped(self):
-        """Whoever watches sees every decision."""
+        """Shows the state after a decision, if there is a page."""
         if self.is_watched:
             self.render()
 

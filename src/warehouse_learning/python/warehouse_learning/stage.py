@@ -73,7 +73,7 @@ class OneWarehouse(Stage):
 
     @property
     def world(self):
-        """The kiva_plugin_cpp.World that it is, for whoever wants to look closer."""
+        """The kiva_plugin_cpp.World behind the environment."""
         return self._in.worlds[0]
 
     def state(self):

@@ -66,7 +66,7 @@ class Warehouses:
         now = self.worlds
         self._robots = now.x, now.y, now.yaw, now.status, now.shelf_id  # views, as of Worlds
         self._counts = now.counts
-        self._masks = None  # of now, once somebody has asked
+        self._masks = None  # of the present state, once it was asked for
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros((n, self.robots), np.int64)  # in this episode
         self._random = [None] * n
@@ -155,7 +155,7 @@ class Warehouses:
 
     def _complaint(self, given, bad, expected="a whole number from 0 to 4"):
         w, robot = np.argwhere(bad)[0]
-        action = given.tolist()[w][robot]  # as whoever gave it would write it
+        action = given.tolist()[w][robot]  # as its caller would write it
         return f"robot_{robot + 1} of world {w}: action {action!r}; {expected} was expected"
 
     def step(self, actions):

@@ -12,7 +12,7 @@ from warehouse_learning import episodes
 from warehouse_learning.page import SPEED, Page
 from warehouse_learning.warehouses import Warehouses
 
-LOOK = 0.1  # between two looks whether somebody has come [s, wall]
+POLL = 0.1  # between two checks whether a browser has opened the page [s, wall]
 
 
 def play(page, warehouses, actions):
@@ -39,7 +39,7 @@ def main():
     page = Page(warehouses.worlds[0], options.title, speed=wanted.speed)
     try:
         while not page.watchers:
-            time.sleep(LOOK)
+            time.sleep(POLL)
         delivered = play(page, warehouses, actions)
         print(f"{len(actions)} decisions, {delivered} units delivered; Ctrl-C ends the page")
         while True:

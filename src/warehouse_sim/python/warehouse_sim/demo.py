@@ -114,7 +114,7 @@ class Demo:
         return {a: end_b, b: end_a}
 
     def _meet(self, wanted):
-        self._tell("\nEach sets off for the other's place. Who is blocked finds another way.\n")
+        self._tell("\nEach sets off for the other's place. A blocked robot finds another way.\n")
         self._executor.play({kiva: _try(kiva, goal) for kiva, goal in wanted.items()})
         blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
         self._expect("meeting head on, one of them was blocked at least", blocked)

@@ -12,7 +12,7 @@ from warehouse_client.routes import STEPS, Grid, NoRouteError, covered, point, r
 from warehouse_client.survey import BELT
 from warehouse_layout.layout import Floor
 
-# So many robots, units of each and belts of each unit are tried; nobody needs the optimum.
+# So many robots, units of each and belts of each unit are tried; the optimum is not needed.
 TRIES = 6
 CORRIDOR = 5  # cells two robots need to meet head on and see each other in time
 

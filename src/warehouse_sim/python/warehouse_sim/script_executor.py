@@ -18,7 +18,7 @@ SILENT = (Event.ACCEPTED, Event.SPAWNED, Event.DELETED)
 
 
 class DeadlineError(TimeoutError):
-    """The scene did not end in time; the message says who was still waiting for what."""
+    """The scene did not end in time; the message says which robots still wait, and for what."""
 
 
 class Interrupted(Exception):  # noqa: N818 (nothing went wrong)
@@ -74,7 +74,7 @@ class ScriptExecutor:
         self._pump(end, lambda: not self._scripts)
 
     def _heard(self):
-        """Whether somebody receives the commands."""
+        """Returns whether the commands have a subscriber."""
         return all(p.get_num_connections() for p in self._publishers.values())
 
     def until(self, condition, patience=10.0):
@@ -91,7 +91,7 @@ class ScriptExecutor:
                 raise Interrupted
             if time.monotonic() > end:
                 waiting = ", ".join(f"kiva{k} for {c}" for k, c in self._pending.items())
-                raise DeadlineError(f"out of time; waiting: {waiting or 'nobody'}")
+                raise DeadlineError(f"out of time; waiting: {waiting or 'no robot'}")
             try:
                 self._take(self._inbox.get(timeout=0.1))
             except queue.Empty:

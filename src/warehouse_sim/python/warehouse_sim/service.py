@@ -24,7 +24,7 @@ GREETED = "~greeted"
 class WarehouseService:
     """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
 
-    In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
+    In a world of another origin, `keeps_floor`, a warehouse stands on the free cells of the floor
     that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
     `seed` decides what in a layout is left to chance.
     """

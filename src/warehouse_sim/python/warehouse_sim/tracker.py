@@ -64,7 +64,7 @@ class PoseTopics:
 
 
 class ObjectList:
-    """The TrackedObjects message; only what changed since it was last asked for is made anew."""
+    """The TrackedObjects message; only what changed since the last call is rebuilt."""
 
     def __init__(self):
         self._lock = threading.Lock()

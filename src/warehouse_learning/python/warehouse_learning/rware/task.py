@@ -30,8 +30,8 @@ class Direction(IntEnum):
 
 
 class RewardType(Enum):
-    """Who is rewarded for a delivery: all agents, or its carrier, or its carrier half then and half
-    when the shelf is put back."""
+    """Which agents a delivery rewards: all, its carrier, or its carrier by half, and by the other
+    half when the shelf is put back."""
 
     GLOBAL = 0
     INDIVIDUAL = 1

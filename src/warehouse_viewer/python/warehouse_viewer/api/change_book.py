@@ -28,7 +28,7 @@ class ChangeBook:
                 self._forgotten[topic], _ = rows.pop(next(iter(rows)))
 
     def miss(self, topic):
-        """Changes got lost: whoever follows has to read all anew."""
+        """Notes that changes were lost: every reader has to read the whole list again."""
         with self._lock:
             self.last += 1
             self._forgotten[topic] = self.last

@@ -14,8 +14,8 @@ them. Who opens the WebSocket before asking for a list misses nothing in between
 
     {"type": "orders", "orders": [{"order_id": 7, "state": "COMPLETED", …}, …], "missed": false}
 
-A slow reader misses states in between, never the newest. `missed`: there were more; ask for the
-list anew.
+A slow reader misses states in between, never the newest. `missed`: there were more; read the
+list again.
 """
 
 import asyncio
@@ -50,7 +50,7 @@ class Shift(BaseModel):
 class OrdersChanged(BaseModel):
     type: Literal["orders"]
     orders: list[Order]
-    missed: bool = Field(description="there were more; ask for the list anew")
+    missed: bool = Field(description="there were more; read the list again")
 
 
 class StockChanged(BaseModel):

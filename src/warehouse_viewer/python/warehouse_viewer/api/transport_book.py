@@ -19,7 +19,7 @@ class TransportBook:
         """Takes a warehouse_msgs/TransportEvent in; returns its entry."""
         number, entry = event.transport_id, entry_of(event)
         with self._lock:
-            # A coordinator counts from 1; one that begins anew knows nothing of the others.
+            # A coordinator counts from 1; after a restart it has no earlier transports.
             if event.kind == TransportEvent.RECEIVED and number in self._transports:
                 self._transports.clear()
             self._transports[number] = entry

@@ -15,7 +15,7 @@ from warehouse_msgs.msg import KivaStatus
 from warehouse_viewer.drawing import looks, markers
 from warehouse_viewer.page.statuses import HOLDING, activity
 
-UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour of what nobody described
+UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour where there is no look
 STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
 STATUS |= {"holding": HOLDING, "blocked": KivaStatus.STATUS_BLOCKED}
 LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]

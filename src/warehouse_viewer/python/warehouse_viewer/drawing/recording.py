@@ -18,7 +18,7 @@ PARTS = {
 
 
 class RecordingError(ValueError):
-    """A bag without a picture in it, or a film nobody here can write."""
+    """The bag holds no picture, or no program here can write the film."""
 
 
 def moments(path, period):

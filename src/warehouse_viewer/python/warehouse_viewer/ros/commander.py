@@ -2,8 +2,8 @@
 """Sends commands to robots and tells what becomes of each.
 
 From its answer on a command goes by the number that the answer tells. The answer itself names the
-robot alone, so commands to one robot are sent one after the other; what somebody else sends to the
-same robot at the same moment can be taken for ours.
+robot alone, so commands to one robot are sent one after the other; a command
+that another client sends to the same robot at the same moment can be taken for ours.
 """
 
 import asyncio

@@ -49,7 +49,7 @@ class Coordination:
         return self._done(self._call(ReleaseTransport, transport_id=transport))
 
     def set_mode(self, robot, mode):
-        """Gives a robot to the coordinator, to a person or to nobody, by the mode's name."""
+        """Sets a robot's mode by its name; returns the coordinator's message."""
         return self._done(self._call(SetRobotMode, kiva_id=robot, mode=_MODES[mode]))
 
     def _call(self, kind, **fields):

@@ -73,7 +73,7 @@ class Simulation:
         }
 
     def warehouse(self):
-        """(name, id) of the warehouse that stands; empty if it was built by nobody."""
+        """Returns (name, id) of the warehouse; empty and 0 if no service has built it."""
         return identity.read(self._ros)
 
     def standing(self):
@@ -125,7 +125,7 @@ class Simulation:
             return placing.add_robot(engine, x, y, heading)
 
     def walk(self, name, x, y, speed, loop):
-        """Has somebody walk to those places [m]; without a name somebody new. Returns who it is."""
+        """Has a person walk to those places [m]; an empty name adds a person. Returns the name."""
         with self._placing:
             name = name or self._new_person()
             self._do("person", name=name, x=x, y=y, speed=speed, loop=loop)
@@ -173,7 +173,7 @@ class Simulation:
 
 
 def is_offered(ros, name):
-    """Whether somebody offers a service. Raises AwayError."""
+    """Returns whether a node offers the service. Raises AwayError."""
     try:
         code, *_ = ros.get_master().lookupService(name)
     except OSError as error:

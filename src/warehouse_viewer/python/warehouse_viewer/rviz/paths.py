@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where robots are going, as nav_msgs/Path of each that somebody listens to."""
+"""Where robots are going, as a nav_msgs/Path for each robot whose topic has a subscriber."""
 
 import math
 
@@ -38,7 +38,7 @@ def path(points, stamp):
 
 
 class PathTopics:
-    """/kiva<id>/path of every robot, filled while somebody listens. `ros` is rospy."""
+    """/kiva<id>/path of every robot, published while it has a subscriber. `ros` is rospy."""
 
     def __init__(self, ros):
         self._ros, self._topics, self._sent = ros, {}, {}

@@ -54,7 +54,7 @@ def load_shapes(scenery, objects, states):
     ]
 
 
-SILENT = 2.0  # after which the coordinator drives nobody any more [s, simulated]
+SILENT = 2.0  # after which a coordinator counts as gone [s, simulated]
 
 
 def way_shapes(fleet, paths, coordinated):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The secret that visitors bring: from a file that nobody else can read, or the environment.
+"""The secret that clients present: from a file that only its owner can read, or the environment.
 
 Never in a parameter or an argument: every ROS client and every user of the machine reads those.
 """
@@ -26,8 +26,8 @@ def default_path(environment=os.environ):
 def find(path="", needed=False, environment=os.environ):
     """(token, where it lies); ("", "") if there is none and none is `needed`.
 
-    From the file `path`, else from the environment. One that is needed and given by nobody is made
-    once, and kept for the next time. Raises TokenError.
+    The token is in the file `path`, else in the environment. One that is needed but not given is
+    made once, and kept for the next time. Raises TokenError.
     """
     if path:
         return read(Path(path)), str(path)

@@ -31,7 +31,7 @@ async def get_coordinator(backend: ApiBackend = BACKEND) -> Any:
 
 @router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))
 async def set_mode(wanted: NewMode, number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
-    """Gives a robot to the coordinator, to a person, or to nobody."""
+    """Gives a robot to the coordinator or to a person, or takes it out of service."""
     await backend.robot(number)
     return {"message": await backend.coordinate("set_mode", number, wanted.mode)}
 

@@ -18,7 +18,7 @@ UNIT = Query("", max_length=100, description="that lie on this unit")
 
 @router.post("/items/{number}/pick_up", response_model=Done, responses=problems(*SENT))
 async def pick_up_item(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
-    """Has somebody put an item that fell back on its storage unit."""
+    """Puts an item that fell back on its storage unit."""
     return {"message": await backend.simulate("pick_up", number)}
 
 

@@ -90,7 +90,7 @@ async def command_robot(
     fields = command.dict(exclude={"command"})
     topic = f"/{command.command}"
     if not await backend.commander.ready(topic):
-        raise HTTPException(503, f"nobody hears {topic}; does the world run?")
+        raise HTTPException(503, f"{topic} has no subscriber; does the world run?")
     to_end = wait == "end"
     timeout = timeout or (END if to_end else ANSWER)
     outcome = await backend.commander.send(topic, number, fields, to_end, timeout)
@@ -103,5 +103,5 @@ async def command_robot(
 
 @router.post("/people", status_code=201, response_model=Walker, responses=problems(*SENT))
 async def send_person(wanted: NewWalk, backend: ApiBackend = BACKEND) -> Any:
-    """Has somebody walk over the floor: around what is in the way, and never into it."""
+    """Has a person walk over the floor, around obstacles and never into them."""
     return {"name": await backend.simulate("walk", *wanted.dict().values())}

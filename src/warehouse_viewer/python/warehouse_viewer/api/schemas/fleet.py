@@ -48,7 +48,7 @@ class NewTransport(Body):
 
 
 class NewMode(Body):
-    mode: Mode = Field(description="who commands it: the coordinator, a person, nobody")
+    mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
 
 
 class TransportNumber(BaseModel):
@@ -103,7 +103,7 @@ class Waiting(BaseModel):
     """A robot that has stood for 10 s or longer although it has somewhere to go."""
 
     robot: int
-    waits_for: int = Field(description="a robot; 0: nobody who is known")
+    waits_for: int = Field(description="a robot; 0: not known")
     since: float = Field(description="[s], simulated")
     text: str = Field(description="for what it waits, for a person")
 
