@@ -247,7 +247,7 @@ class ViewerPage(PageTest):
     def test_goes_back_to_a_checkpoint(self):
         robot, tip = Robot(3), "document.getElementById('tip').textContent"
         self.page.read("document.getElementById('checkpoint').click()")
-        self.page.until(f"{tip} === 'checkpoint kept'")
+        self.page.until(f"{tip} === 'checkpoint saved'")
         x = place("kiva3")[0]
         robot.do("/movx", distance=1.0)
         self.page.until(f"Math.abs(page.world.shown[6] - {x + 1}) < 0.01")

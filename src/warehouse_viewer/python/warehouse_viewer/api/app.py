@@ -43,7 +43,8 @@ class Viewer:
         self.journal = Journal()
         self.commander = Commander(ros)
         self.transports = TransportBook()
-        self._loop, self.changes = None, ChangeBook()
+        self.changes = ChangeBook()
+        self._loop: asyncio.AbstractEventLoop | None = None
         feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
         simulation = Simulation(ros)
         source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
@@ -93,7 +94,7 @@ class Viewer:
         app.state.backend, app.state.hub = self.backend, self.hub
         app.state.metrics, app.state.sockets = self.metrics, SocketLimit()
         app.include_router(routes.router)
-        app.openapi = lambda: description.described(app)
+        setattr(app, "openapi", lambda: description.described(app))  # noqa: B010 (for mypy)
         app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
         app.add_exception_handler(405, not_allowed)
         app.include_router(sockets.router)

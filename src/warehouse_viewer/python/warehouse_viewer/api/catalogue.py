@@ -2,12 +2,15 @@
 """Robots, storage units, items and the warehouse, as the HTTP API tells them."""
 
 import json
+from typing import Any
 
 import numpy as np
 
 from warehouse_client import tracking
 from warehouse_client.message_names import EVENT, STATE, STATUS, failures_of
+from warehouse_client.tracking import Tracked
 from warehouse_layout.models import kind_and_number
+from warehouse_msgs.msg import CoordinatorState, Event, FleetState, UnitStates, WarehouseObjects
 from warehouse_viewer.api.schemas.fleet import (
     Coordinator,
     RobotsByMode,
@@ -21,8 +24,8 @@ from warehouse_viewer.page.statuses import HOLDING, activity, shown_status
 ACTIVITY = STATUS | {HOLDING: "HOLDING"}  # as statuses.activity() numbers it
 
 
-def robots(fleet):
-    """Every Robot of a FleetState."""
+def robots(fleet: FleetState) -> list[Robot]:
+    """Returns a Robot for each one in a FleetState."""
     status, does = shown_status(fleet), activity(fleet)
     state, last_end = bytes(fleet.state), bytes(fleet.last_end)
     return [
@@ -44,8 +47,8 @@ def robots(fleet):
     ]
 
 
-def coordinator(state):
-    """A CoordinatorState as Coordinator."""
+def coordinator(state: CoordinatorState) -> Coordinator:
+    """Returns a CoordinatorState as the API describes it."""
     waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
     return Coordinator(
         time=state.header.stamp.to_sec(),
@@ -66,18 +69,18 @@ def coordinator(state):
     )
 
 
-def plain_coordinator(state):
+def plain_coordinator(state: CoordinatorState) -> dict[str, Any]:
     """Returns a CoordinatorState as JSON has it."""
     return json.loads(coordinator(state).json())
 
 
-def things(kind, objects, states):
-    """A tracking.Tracked; `kind` is "storage_units" or "items"."""
+def things(kind: str, objects: WarehouseObjects, states: UnitStates) -> Tracked:
+    """Returns where all "storage_units" or "items", as `kind` says, are."""
     return getattr(tracking, kind)(objects, states)
 
 
-def find(tracked, text="", unit=""):
-    """Indices of those whose name contains a text, and that lie on that unit if one is named."""
+def find(tracked: Tracked, text: str = "", unit: str = "") -> list[int]:
+    """Returns the indices of those whose name contains `text` and, if given, that lie on `unit`."""
     return [
         i
         for i, name in enumerate(tracked.names)
@@ -85,8 +88,8 @@ def find(tracked, text="", unit=""):
     ]
 
 
-def thing(tracked, i):
-    """One of them as a Thing."""
+def thing(tracked: Tracked, i: int) -> Thing:
+    """Returns the i-th of them as a Thing."""
     carrier = tracked.carrier[i]
     return Thing(
         name=tracked.names[i],
@@ -97,8 +100,8 @@ def thing(tracked, i):
     )
 
 
-def event(message):
-    """An Event, but for its id."""
+def event(message: Event) -> dict[str, Any]:
+    """Returns an Event as the journal keeps it, without its id."""
     return {
         "time": round(message.header.stamp.to_sec(), 3),
         "kind": EVENT.get(message.kind, str(message.kind)),

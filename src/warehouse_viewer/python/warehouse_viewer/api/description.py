@@ -2,7 +2,9 @@
 """The WebSockets in the API's description, for which OpenAPI has no words: as `x-websockets`."""
 
 from inspect import getdoc
+from typing import Any
 
+from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from pydantic.schema import schema as schemas_of
 
@@ -12,8 +14,8 @@ REFERENCE = "#/components/schemas/"
 RATE = {"name": "rate", "default": 2, "description": "messages of a kind a second, 0.1 to 10"}
 
 
-def described(app):
-    """The OpenAPI description of a FastAPI application; made once."""
+def described(app: FastAPI) -> dict[str, Any]:
+    """Returns the OpenAPI description of an application, which is made once."""
     if app.openapi_schema is None:
         about = {name: getattr(app, name) for name in ("title", "version", "description", "routes")}
         out = get_openapi(**about)

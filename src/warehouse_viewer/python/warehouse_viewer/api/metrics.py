@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse in figures for Prometheus, at /metrics. Times and rates are simulated ones."""
 
+from collections.abc import Iterator
+from typing import Any
+
 from prometheus_client import CollectorRegistry
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 from prometheus_client.exposition import choose_encoder
+from prometheus_client.registry import Collector
 
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.operations import STATES
@@ -47,7 +51,7 @@ FLEET_GAUGES = (
 TRANSPORT_STATES = ("open", "under_way")
 
 
-class Metrics:
+class Metrics(Collector):
     """Figures of a Feed and of the operations, as of when they are asked for."""
 
     def __init__(self, feed: Feed, operations: OperationsClient) -> None:
@@ -55,17 +59,17 @@ class Metrics:
         self._registry = CollectorRegistry()
         self._registry.register(self)
 
-    def text(self, accepted=""):
-        """(bytes, content type), in the format that a request's Accept header asks for."""
+    def text(self, accepted: str = "") -> tuple[bytes, str]:
+        """Returns (text, content type) in the format that a request's Accept header asks for."""
         encode, content_type = choose_encoder(accepted)
         return encode(self._registry), content_type
 
-    def describe(self):
-        """To the registry: names depend on nothing that must be asked for first."""
+    def describe(self) -> list[Any]:
+        """Returns nothing to the registry: no name is known before the figures are."""
         return []
 
-    def collect(self):
-        """The metric families."""
+    def collect(self) -> Iterator[Any]:
+        """Yields the metric families (prometheus_client's hook)."""
         yield _gauge("shift_up", "Whether a shift is running.", float(self._shift.runs))
         state = self._feed.coordinator
         yield _gauge("coordinator_up", "Whether a coordinator runs.", float(state is not None))

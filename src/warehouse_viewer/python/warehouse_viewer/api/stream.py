@@ -14,6 +14,7 @@ A slow reader misses states in between, never the newest; of events at most the 
 import asyncio
 import json
 from contextlib import suppress
+from typing import Any
 
 from fastapi import HTTPException
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -27,7 +28,8 @@ async def serve(socket: WebSocket, backend: ApiBackend, rate: float) -> None:
     The socket is accepted already.
     """
     listener = asyncio.create_task(until_gone(socket))
-    known, event = {}, backend.journal.last_id
+    known: dict[int, Any] = {}
+    event = backend.journal.last_id
     with suppress(WebSocketDisconnect, RuntimeError):
         while not listener.done():
             known = await _send_robots(socket, backend, known)

@@ -2,6 +2,7 @@
 """How far each transport is, by what the coordinator has told since this began."""
 
 import threading
+from typing import Any
 
 from warehouse_client.message_names import TRANSPORT
 from warehouse_msgs.msg import TransportEvent
@@ -12,11 +13,12 @@ KEPT = 2000
 class TransportBook:
     """Transports as dicts by their number. Any thread may add, any may read."""
 
-    def __init__(self, kept=KEPT):
-        self._lock, self._kept, self._transports = threading.Lock(), kept, {}
+    def __init__(self, kept: int = KEPT) -> None:
+        self._lock, self._kept = threading.Lock(), kept
+        self._transports: dict[int, dict[str, Any]] = {}
 
-    def add(self, event):
-        """Takes a warehouse_msgs/TransportEvent in; returns its entry."""
+    def add(self, event: TransportEvent) -> dict[str, Any]:
+        """Adds what an event says of its transport; returns the transport's entry."""
         number, entry = event.transport_id, entry_of(event)
         with self._lock:
             # A coordinator counts from 1; after a restart it has no earlier transports.
@@ -27,20 +29,20 @@ class TransportBook:
                 del self._transports[min(self._transports)]
         return entry
 
-    def get(self, number):
-        """One of them, or None."""
+    def get(self, number: int) -> dict[str, Any] | None:
+        """Returns the transport of that number, or None."""
         with self._lock:
             return self._transports.get(number)
 
-    def newest_first(self, state=None):
-        """All, or those in one state: a kind of TransportEvent by its name."""
+    def newest_first(self, state: str | None = None) -> list[dict[str, Any]]:
+        """Returns all transports, or those in one state: the name of a kind of TransportEvent."""
         with self._lock:
             found = [t for t in self._transports.values() if state in (None, t["state"])]
         return sorted(found, key=lambda transport: -transport["id"])
 
 
-def entry_of(event):
-    """What the API tells of the transport that a TransportEvent is about."""
+def entry_of(event: TransportEvent) -> dict[str, Any]:
+    """Returns what the API says of the transport that an event is about."""
     return {
         "id": event.transport_id,
         "state": TRANSPORT[event.kind],

@@ -2,6 +2,7 @@
 """The warehouse from above, drawn by matplotlib without a screen."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -28,13 +29,14 @@ MOST_NAMES = 60  # robots with their number beside them
 class Moment:
     """The messages that describe the warehouse at one time; `scenery` may be None."""
 
-    objects: object = None  # WarehouseObjects
-    states: object = None  # UnitStates of the same revision
-    fleet: object = None  # FleetState
-    scenery: object = None  # Scenery
+    objects: Any = None  # WarehouseObjects
+    states: Any = None  # UnitStates of the same revision
+    fleet: Any = None  # FleetState
+    scenery: Any = None  # Scenery
 
     @property
-    def complete(self):
+    def complete(self) -> bool:
+        """Whether there are objects, states of the same revision, and robots."""
         parts = (self.objects, self.states, self.fleet)
         return all(parts) and self.objects.revision == self.states.revision
 
@@ -42,7 +44,7 @@ class Moment:
 class Drawing:
     """A figure of one size, for one picture or the frames of a film."""
 
-    def __init__(self, moment, dpi=110, title=""):
+    def __init__(self, moment: Moment, dpi: int = 110, title: str = "") -> None:
         self.bounds, self._title = bounds(moment), title
         x0, x1, y0, y1 = self.bounds
         scale = LONGEST / max(x1 - x0, y1 - y0)
@@ -53,8 +55,8 @@ class Drawing:
         top = 1 - HEAD / self.figure.get_size_inches()[1]
         self._axes = self.figure.add_axes((0.01, 0.01, 0.98, top - 0.01))
 
-    def draw(self, moment):
-        """Draws a Moment in place of what was drawn."""
+    def draw(self, moment: Moment) -> None:
+        """Draws a Moment in place of the last one."""
         axes = self._axes
         axes.clear()
         axes.set_axis_off()
@@ -69,13 +71,13 @@ class Drawing:
         _loads(axes, moment)
         self._heading(moment)
 
-    def pixels(self):
-        """(height, width, 3) bytes."""
+    def pixels(self) -> np.ndarray:
+        """Returns the picture, (height, width, 3) uint8."""
         self._canvas.draw()
         return np.asarray(self._canvas.buffer_rgba())[..., :3].copy()
 
-    def save(self, path):
-        """Writes the picture; its format follows the path's suffix."""
+    def save(self, path: str) -> None:
+        """Writes the picture in the format of the path's suffix."""
         self.figure.savefig(path, facecolor="white")
 
     def _floor(self):
@@ -97,8 +99,8 @@ class Drawing:
         self._axes.set_title(text, loc="left", fontsize=12)
 
 
-def bounds(moment):
-    """min_x, max_x, min_y, max_y [m] of the floor; if unknown, around what stands there."""
+def bounds(moment: Moment) -> tuple[float, ...]:
+    """Returns min_x, max_x, min_y, max_y [m] of the floor, or around the models if unknown."""
     return looks.floor(moment.scenery, moment.fleet, moment.states)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from warehouse_layout import poses
-from warehouse_msgs.msg import Look
+from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates
 from warehouse_viewer.drawing import shapes
 
 MARGIN = 2.5  # of a floor of unknown size, around what stands on it [m]
@@ -24,15 +24,16 @@ class Part:
     colour: np.ndarray
 
     @property
-    def volume(self):
+    def volume(self) -> float:
+        """The volume of the box around it [m³]."""
         return float(np.prod(self.size))
 
-    def corners(self):
-        """(8, 3) of the box around it, in the model."""
+    def corners(self) -> np.ndarray:
+        """Returns the corners of the box around it, (8, 3) [m] in the model's frame."""
         return _moved(self.pose, shapes.CORNERS * self.size)
 
-    def triangles(self):
-        """(3 n, 3) corners of its triangles, in the model."""
+    def triangles(self) -> np.ndarray:
+        """Returns the corners of its triangles, (3 n, 3) [m] in the model's frame."""
         return _moved(self.pose, _SOLIDS.get(self.kind, shapes.box)() * self.size)
 
 
@@ -50,8 +51,8 @@ _SOLIDS = {
 }
 
 
-def parts(look, small=SMALL):
-    """The Parts of a Look, the largest first, without those of less than `small` of its volume."""
+def parts(look: Look, small: float = SMALL) -> list[Part]:
+    """Returns a Look's Parts, the largest first, without those below `small` of its volume."""
     link = poses.rows(look.link_pose)[list(look.shape_link)]
     at = poses.compose(link, poses.rows(look.shape_pose))
     size = np.reshape(look.shape_size, (-1, 3))
@@ -63,28 +64,30 @@ def parts(look, small=SMALL):
     return [part for part in found if part.volume >= small * found[0].volume]
 
 
-def extent(look):
-    """(low, high), each (3,): what a Look reaches over, in the model [m]."""
+def extent(look: Look) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (low, high), each (3,) [m]: the box around a Look in the model's frame."""
     corners = [part.corners() for part in parts(look, 0)] or [np.zeros((1, 3))]
     points = np.concatenate(corners)
     return points.min(0), points.max(0)
 
 
-def hull(look):
-    """A Part for the whole of a Look: the box around it, in the colour of its largest part."""
+def hull(look: Look) -> Part:
+    """Returns one Part for a whole Look: the box around it, in the colour of its largest part."""
     low, high = extent(look)
     centre = np.array([*(low + high) / 2, 0, 0, 0, 1])
     return Part("", Look.BOX, centre, high - low, parts(look)[0].colour)
 
 
-def named(scenery, kind):
-    """The Look of the robots ("kiva"), storage units or items in a Scenery; None: there is none."""
-    index = getattr(scenery, f"{kind}_look") if scenery else -1
+def named(scenery: Scenery | None, kind: str) -> Look | None:
+    """Returns the Look of every "kiva", "storage_unit" or "item" in a Scenery; None if unknown."""
+    if scenery is None:
+        return None
+    index = getattr(scenery, f"{kind}_look")
     return scenery.looks[index] if index >= 0 else None
 
 
-def floor(scenery, fleet, states):
-    """min_x, max_x, min_y, max_y [m] of the floor; if unknown, around what stands there."""
+def floor(scenery: Scenery | None, fleet: FleetState, states: UnitStates) -> tuple[float, ...]:
+    """Returns min_x, max_x, min_y, max_y [m] of the floor, or around the models if unknown."""
     if scenery and scenery.floor[0] < scenery.floor[1]:
         return tuple(scenery.floor)
     at = [*zip(fleet.x, fleet.y), *poses.rows(states.pose)[:, :2]] or [(0, 0)]

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as RViz shows it: markers of the shapes that the world's Looks tell."""
 
+from collections.abc import Collection, Sequence
+from typing import Any
+
 import numpy as np
 
 from warehouse_layout import floor_markings, poses
+from warehouse_layout.floor_markings import Mark
 from warehouse_layout.painted import served
-from warehouse_msgs.msg import KivaStatus, Look
+from warehouse_msgs.msg import KivaStatus, Look, Scenery
 from warehouse_viewer.drawing import looks, shapes
+from warehouse_viewer.drawing.shapes import Shape, Text
 from warehouse_viewer.page.statuses import HOLDING
 
 # Idle, busy, blocked, holding: from the palette of Okabe and Ito (2008), told apart by everyone.
@@ -36,8 +41,8 @@ FRAME = (0.40, 0.49)  # inner and outer half edges of the frame around a robot [
 ARROW = np.array([(0.90, 0), (0.30, 0.6), (0.30, -0.6)])  # of half a robot's length and width
 
 
-def floor(bounds, spacing=1.0):
-    """A slab and the borders of the cells; bounds are min_x, max_x, min_y, max_y."""
+def floor(bounds: Sequence[float], spacing: float = 1.0) -> list[Shape]:
+    """Returns a slab and the cells' borders; bounds are min_x, max_x, min_y, max_y [m]."""
     x0, x1, y0, y1 = bounds
     centre = np.array([[(x0 + x1) / 2, (y0 + y1) / 2, 0, 0]])
     slab = shapes.boxes(centre, (0, 0, -0.03), (x1 - x0, y1 - y0, 0.05))
@@ -61,8 +66,9 @@ def _joined(name, parts):
     )
 
 
-def robots(look, at, status, lift):
-    """(n, 3) x y yaw, KivaStatus.status, and how far the tower is up [m], of each robot."""
+def robots(look: Look | None, at: np.ndarray, status: np.ndarray, lift: np.ndarray) -> list[Shape]:
+    """Returns robots at (n, 3) x y [m] yaw [rad], in the colours of (n,) statuses.activity(), their
+    towers up by `lift` (n,) [m]."""
     at = np.insert(at, 2, 0.0, axis=1)
     if look is None:
         return [_joined("robots", [])]
@@ -97,8 +103,8 @@ def _frame():
     return np.array([(a, b, c, a, c, d) for a, b, c, d in sides]).reshape(-1, 3)
 
 
-def things(name, look, at):
-    """(n, 4) x y z yaw, of things of one look: boxes where they are in line with the axes."""
+def things(name: str, look: Look | None, at: np.ndarray) -> list[Shape]:
+    """Returns things of one look at (n, 4) x y z [m] yaw [rad]; in line with the axes as boxes."""
     if look is None or not len(at):
         return []
     turned = np.abs(np.sin(2 * at[:, 3])) > 0.01
@@ -131,8 +137,8 @@ def _alike(parts):
     return list(groups.values())
 
 
-def paint(marks):
-    """What floor_markings.Marks show, and the names of stations."""
+def paint(marks: Sequence[Mark]) -> list[Any]:
+    """Returns what floor_markings.Marks show, and the names of stations."""
     x, y, wide, deep = np.reshape([(m.x, m.y, m.size_x, m.size_y) for m in marks], (-1, 4)).T
     across, along = wide[:, None] * _QUAD[:, 0] / 2, deep[:, None] * _QUAD[:, 1] / 2
     corners = np.stack([x[:, None] + across, y[:, None] + along], axis=2)
@@ -150,13 +156,13 @@ def paint(marks):
 _QUAD = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)])  # two triangles
 
 
-def paint_of(mark):
-    """Its colour, red green blue."""
+def paint_of(mark: Mark) -> tuple[float, ...]:
+    """Returns a Mark's colour: red, green, blue in 0…1."""
     return floor_markings.COLOURS.get(mark.kind, FLOOR[:3])
 
 
-def scenery(message):
-    """What else stands there, in a Scenery: a marker a look."""
+def scenery(message: Scenery) -> list[Shape]:
+    """Returns every other model in a Scenery, one marker per look."""
     at, index = poses.rows(message.pose), np.array(message.model_look, int)
     index[[floor_markings.is_name(name) for name in message.models]] = -1
     return [
@@ -177,8 +183,10 @@ def _at_poses(part, at):
     return points + at[:, None, :3], part.colour
 
 
-def names(look, numbers, at, wanted):
-    """Names over the robots `numbers` at (n, 3); of many only over those of the set `wanted`."""
+def names(
+    look: Look | None, numbers: Sequence[int], at: np.ndarray, wanted: Collection[int]
+) -> list[Text]:
+    """Returns names over the robots `numbers` at (n, 3); over many only those in `wanted`."""
     height = looks.extent(look)[1][2] + NAME_ABOVE if look else NAME_HEIGHT
     shown = numbers if len(numbers) <= MOST_NAMES else [n for n in numbers if n in wanted]
     where = dict(zip(numbers, at))
@@ -188,15 +196,15 @@ def names(look, numbers, at, wanted):
     ]
 
 
-def paths(ways):
-    """Lines along ways, each (n, 2) points [m]."""
+def paths(ways: Sequence[Any]) -> list[Shape]:
+    """Returns lines along ways, each (n, 2) [m]."""
     ends = [p for way in ways for pair in zip(way, way[1:]) for p in pair]
     points = [(x, y, ABOVE_FLOOR) for x, y in ends]
     return [shapes.lines("paths", np.reshape(points, (-1, 3)), LINE, PATH)]
 
 
-def fleet_ways(released, planned, ties):
-    """Lines along segments (n, 2, 2) [m]: see fleet_ways.py."""
+def fleet_ways(released: np.ndarray, planned: np.ndarray, ties: np.ndarray) -> list[Shape]:
+    """Returns lines along segments (n, 2, 2) [m]: see rviz/fleet_ways.py."""
     parts = (
         ("released", released, ABOVE_FLOOR, LINE, PATH),
         ("planned", planned, ABOVE_FLOOR, LINE, PATH),
@@ -208,8 +216,8 @@ def fleet_ways(released, planned, ties):
     ]
 
 
-def chosen(at):
-    """A square around the cell at (x, y); None: no mark."""
+def chosen(at: Any | None) -> list[Shape]:
+    """Returns a square around the cell at (x, y) [m], or an empty marker for None."""
     if at is None:
         return [shapes.lines("chosen", np.zeros((0, 3)), LINE, CHOSEN)]
     corners = [(at[0] + dx, at[1] + dy, ABOVE_FLOOR) for dx, dy in _SQUARE]

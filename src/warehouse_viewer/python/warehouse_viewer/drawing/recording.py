@@ -2,6 +2,8 @@
 """A bag of the warehouse's array topics as Moments, and as a film."""
 
 import shutil
+from collections.abc import Iterator
+from typing import Any
 
 import rosbag
 from matplotlib import animation
@@ -21,8 +23,8 @@ class RecordingError(ValueError):
     """The bag holds no picture, or no program here can write the film."""
 
 
-def moments(path, period):
-    """Moments of a bag, one each `period` simulated seconds. Raises RecordingError."""
+def moments(path: str, period: float) -> Iterator[Moment]:
+    """Yields Moments of a bag, one each `period` simulated seconds. Raises RecordingError."""
     moment, due = Moment(), None
     try:
         with rosbag.Bag(path) as bag:
@@ -40,10 +42,10 @@ def moments(path, period):
         raise RecordingError(f"{path}: no picture in it; record at least {needed}")
 
 
-def film(bag, path, speed, rate, **look):
-    """Writes a GIF or an MP4: `speed` simulated seconds a second, `rate` frames a second.
+def film(bag: str, path: str, speed: float, rate: float, **look: Any) -> None:
+    """Writes a GIF or an MP4, `speed` simulated seconds per second, `rate` frames per second.
 
-    Raises RecordingError.
+    `look` are further arguments of Drawing. Raises RecordingError.
     """
     frames = _frames(bag, speed / rate, look)
     (_write_gif if path.endswith(".gif") else _write_mp4)(path, frames, rate)

@@ -4,7 +4,9 @@
 Lists of points pass as bytes: making a Python object of each would cost a hundred times as much.
 """
 
+from collections.abc import Sequence
 from io import BytesIO
+from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
@@ -27,7 +29,14 @@ _COUNTS, _TAIL = 8, 17
 class Shape:
     """A marker of many points: `points` (n, 3) [m], `colours` (n, 4) in 0…1 or one for all."""
 
-    def __init__(self, kind, name, points, colours, scale=(1, 1, 1)):
+    def __init__(
+        self,
+        kind: int,
+        name: str,
+        points: Any,
+        colours: Any,
+        scale: Sequence[float] = (1, 1, 1),
+    ) -> None:
         self.points = np.ascontiguousarray(points, "<f8")
         self.colours = np.ascontiguousarray(colours, "<f4")
         self._marker = Marker(header=Header(frame_id="world"), ns=name, type=kind)
@@ -38,10 +47,11 @@ class Shape:
             self._marker.color = ColorRGBA(*self.colours.tolist())
 
     @property
-    def name(self):
+    def name(self) -> str:
+        """The marker's namespace."""
         return self._marker.ns
 
-    def same_as(self, other):
+    def same_as(self, other: Any) -> bool:
         """Whether another Shape of this name, or None, would look the same."""
         return (
             other is not None
@@ -50,12 +60,12 @@ class Shape:
             and self._marker.scale == other._marker.scale
         )
 
-    def gone(self):
-        """What takes it out of the picture."""
+    def gone(self) -> Marker:
+        """Returns the marker that removes it."""
         return Shape(self._marker.type, self.name, np.zeros((0, 3)), (0, 0, 0, 0))
 
-    def serialize(self, buffer):
-        """As genpy would serialise a marker with these points and colours."""
+    def serialize(self, buffer: BytesIO) -> None:
+        """Writes what genpy would write for a marker with these points and colours."""
         frame = BytesIO()
         self._marker.serialize(frame)
         head, tail = frame.getvalue()[:-_TAIL], frame.getvalue()[-_TAIL + _COUNTS :]
@@ -69,7 +79,15 @@ class Shape:
 class Text:
     """A marker of words; those of one namespace `ns` differ in their numbers."""
 
-    def __init__(self, ns, number, at, words, height, colour):
+    def __init__(
+        self,
+        ns: str,
+        number: int,
+        at: Sequence[float],
+        words: str,
+        height: float,
+        colour: Sequence[float],
+    ) -> None:
         self.name = f"{ns} {number}"
         self._marker = Marker(header=Header(frame_id="world"), ns=ns, id=number)
         self._marker.type = Marker.TEXT_VIEW_FACING
@@ -79,15 +97,16 @@ class Text:
         self._marker.scale.z = height
         self._marker.color = ColorRGBA(*colour)
 
-    def same_as(self, other):
-        """As of a Shape."""
+    def same_as(self, other: Any) -> bool:
+        """Whether another Text of this name, or None, would look the same."""
         return other is not None and self._marker == other._marker
 
-    def gone(self):
-        """As of a Shape."""
+    def gone(self) -> Marker:
+        """Returns the marker that removes it."""
         return Text(self._marker.ns, self._marker.id, (0, 0, 0), "", 1, (0, 0, 0, 0))
 
-    def serialize(self, buffer):
+    def serialize(self, buffer: BytesIO) -> None:
+        """Writes the marker as genpy does."""
         self._marker.serialize(buffer)
 
 
@@ -96,39 +115,39 @@ class ShapeArray(MarkerArray):
 
     __slots__ = MarkerArray.__slots__
 
-    def serialize(self, buff):
+    def serialize(self, buff: BytesIO) -> None:
         buff.write(np.uint32(len(self.markers)).tobytes())
         for shape in self.markers:
             shape.serialize(buff)
 
 
-def cubes(name, centres, size, colour):
-    """Boxes of one size [m] along the axes."""
+def cubes(name: str, centres: Any, size: Sequence[float], colour: Any) -> Shape:
+    """Returns boxes of one size [m] along the axes, at centres (n, 3) [m]."""
     return Shape(Marker.CUBE_LIST, name, centres, colour, size)
 
 
-def triangles(name, points, colours):
-    """Triangles of three points each."""
+def triangles(name: str, points: Any, colours: Any) -> Shape:
+    """Returns triangles of three points each, (3 n, 3) [m]."""
     return Shape(Marker.TRIANGLE_LIST, name, points, colours)
 
 
-def lines(name, points, width, colour):
-    """Lines of two points each."""
+def lines(name: str, points: Any, width: float, colour: Any) -> Shape:
+    """Returns lines of two points each, (2 n, 3) [m]."""
     return Shape(Marker.LINE_LIST, name, points, colour, (width, 0, 0))
 
 
-def box():
-    """(36, 3) corners of a cube's triangles, its edges one metre long."""
+def box() -> np.ndarray:
+    """Returns the corners of a cube's triangles, (36, 3); its edges are one metre long."""
     return CORNERS[_FACES]
 
 
-def cylinder():
-    """The same of a prism in place of a cylinder along z."""
+def cylinder() -> np.ndarray:
+    """Returns the same for a prism that stands for a cylinder along z."""
     return _turned([(0, -0.5), (0.5, -0.5), (0.5, 0.5), (0, 0.5)])
 
 
-def ball():
-    """The same in place of a sphere."""
+def ball() -> np.ndarray:
+    """Returns the same for a body that stands for a sphere."""
     angles = np.linspace(-np.pi / 2, np.pi / 2, 5)
     return _turned(np.column_stack([np.cos(angles), np.sin(angles)]) / 2)
 
@@ -144,7 +163,7 @@ def _turned(profile):
     return out[~flat].reshape(-1, 3)
 
 
-def boxes(poses, centre, size):
+def boxes(poses: np.ndarray, centre: Any, size: Any) -> np.ndarray:
     """Triangles of boxes fixed to things that turn about z: (n, 36, 3).
 
     `poses` is (n, 4): x y z yaw of the things; `centre` and `size` [m] of the box in their frame.
@@ -152,8 +171,8 @@ def boxes(poses, centre, size):
     return placed(poses, (CORNERS * size + centre)[_FACES])
 
 
-def placed(poses, points):
-    """The same points (m, 3) on each of the things at `poses` (n, 4): (n, m, 3)."""
+def placed(poses: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Returns points (m, 3) on each of the things at `poses` (n, 4): (n, m, 3) [m]."""
     c, s = np.cos(poses[:, 3])[:, None], np.sin(poses[:, 3])[:, None]
     x, y, z = points.T
     turned = np.stack([c * x - s * y, s * x + c * y, np.broadcast_to(z, (len(poses), len(z)))], 2)

@@ -42,9 +42,12 @@ class Page:
         self.socket, self.tick, self.revision = socket, -1, None
         self.event, self.in_flight, self.status = last_event, 0, None
         self.gap = 0.0  # that it asks for between two updates [s, wall]
-        self.scans, self.sent_scans = set(), {}
-        self.paths, self.sent_paths = set(), {}
-        self.ways, self.sent_ways = set(), None  # of these robots, None: of all
+        self.scans: set[int] = set()
+        self.sent_scans: dict[int, Any] = {}
+        self.paths: set[int] = set()
+        self.sent_paths: dict[int, Any] = {}
+        self.ways: set[int] | None = set()  # of these robots, None: of all
+        self.sent_ways: Any = None
         self.coordinator = None  # the CoordinatorState that it was sent
 
     async def send_json(self, message: Any) -> None:
@@ -58,9 +61,12 @@ class Hub:
     def __init__(self, source: Source, model: Model) -> None:
         self._feed, self._model, self._journal = source.feed, model, source.journal
         self._simulation, self._source = source.simulation, source
-        self._pages, self._turn = set(), asyncio.Condition()
-        self._changed, self._loop = asyncio.Event(), None
-        self._status, self._offers, self._offers_due = {}, {}, 0.0
+        self._pages: set[Page] = set()
+        self._turn, self._changed = asyncio.Condition(), asyncio.Event()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._status: dict[str, Any] = {}
+        self._offers: dict[str, str | None] = {}
+        self._offers_due = 0.0
         self._scene_due = 0.0
 
     def notify(self) -> None:
@@ -252,7 +258,8 @@ def mount_of(frames: Any, name: str) -> tuple[float, float, float, float] | None
 
 def paths_of(message: Any, wanted: Collection[int]) -> dict[int, list[list[float]]]:
     """Returns {kiva_id: [[x, y], …]} [m] of the wanted robots in a FleetPaths or None."""
-    out, at = {}, 0
+    out: dict[int, list[list[float]]] = {}
+    at = 0
     if message is None:
         return out
     for kiva_id, points in zip(message.kiva_id, message.points):

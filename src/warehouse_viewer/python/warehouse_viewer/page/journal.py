@@ -6,6 +6,7 @@ import io
 import re
 import threading
 from collections import deque
+from typing import Any
 
 KEPT = 2000
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
@@ -16,19 +17,25 @@ COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
 class Journal:
     """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read."""
 
-    def __init__(self, kept=KEPT):
-        self._lock, self._events, self.last_id = threading.Lock(), deque(maxlen=kept), 0
+    def __init__(self, kept: int = KEPT) -> None:
+        self._lock, self.last_id = threading.Lock(), 0
+        self._events: deque[dict[str, Any]] = deque(maxlen=kept)
 
-    def add(self, event):
-        """Takes in an event, as catalogue.event() tells it; returns its entry."""
+    def add(self, event: dict[str, Any]) -> dict[str, Any]:
+        """Adds an event with all COLUMNS but its id; returns its entry."""
         with self._lock:
             self.last_id += 1
             entry = event | {"id": self.last_id}
             self._events.append(entry)
             return entry
 
-    def since(self, number, model=None, limit=KEPT):
-        """The newest `limit` of the entries with an id above `number`, oldest first."""
+    def since(
+        self, number: int, model: str | None = None, limit: int = KEPT
+    ) -> list[dict[str, Any]]:
+        """Returns the newest `limit` of the entries with an id above `number`, oldest first.
+
+        With `model` only those that name it.
+        """
         if number >= self.last_id:
             return []
         with self._lock:
@@ -39,8 +46,8 @@ class Journal:
             ]
         return found[-limit:]
 
-    def csv(self):
-        """All entries, oldest first, for a spreadsheet."""
+    def csv(self) -> str:
+        """Returns all entries, oldest first, for a spreadsheet."""
         text = io.StringIO()
         table = csv.DictWriter(text, COLUMNS)
         table.writeheader()

@@ -3,6 +3,8 @@
 
 import json
 import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -18,27 +20,31 @@ STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
 class Model:
     """Tables by tick. One thread at a time."""
 
-    def __init__(self, clock=time.monotonic):
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self.tick, self.stamp, self.revision = 0, 0.0, 0
         self.changed_at = 0  # the last tick at which there was something to show
         self.robots, self.units = Table(protocol.ROBOT), Table(protocol.BODY)
         self.loose, self.scenery = Table(protocol.BODY), Table(protocol.BODY)
-        self._objects = self._states = self._scenery = self._fleet = None
-        self._kiva_id, self._robot_of = np.zeros(0, int), {}
+        self._objects: Any = None  # the newest messages
+        self._states: Any = None
+        self._scenery: Any = None
+        self._fleet: Any = None
+        self._kiva_id = np.zeros(0, int)
+        self._robot_of: dict[int, int] = {}
         self._solid = np.zeros(0, int)  # indices of models in a Scenery that are not paint
-        self._scene_text = None
+        self._scene_text: str | None = None
         self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
 
     # --- messages in
-    def is_same_scene(self, objects, scenery):
-        """Whether these messages tell of the same things as those taken in last."""
+    def is_same_scene(self, objects: Any, scenery: Any) -> bool:
+        """Whether these messages name the same models as those of the last update()."""
         return objects is self._objects and _look_alike(scenery, self._scenery)
 
-    def update(self, objects, states, fleet, scenery):
-        """Takes the newest messages in. `objects` and `states` must fit each other.
+    def update(self, objects: Any, states: Any, fleet: Any, scenery: Any) -> bool:
+        """Takes over the newest messages. `objects` and `states` must be of the same revision.
 
-        True if a page has something new to show.
+        Returns whether a page has something new to show.
         """
         self.tick += 1
         scene = self._take_scene(objects, fleet, scenery)
@@ -120,20 +126,20 @@ class Model:
         return speeds[:, robots].max(axis=0, initial=0) < STANDS
 
     # --- out to pages
-    def encode_update(self, since):
-        """Bytes of what changed after the tick `since`."""
+    def encode_update(self, since: int) -> bytes:
+        """Returns the message for a page that has shown the tick `since`; see protocol.py."""
         tables = (self.robots, self.units, self.loose, self.scenery)
         rows = [table.since(since) for table in tables]
         return protocol.update(self.tick, self.stamp, self.revision, rows)
 
-    def scene_text(self):
-        """The scene as JSON text; made once."""
+    def scene_text(self) -> str:
+        """Returns the scene as JSON text, which is made once."""
         if self._scene_text is None:
             self._scene_text = json.dumps(self.scene(), separators=(",", ":"))
         return self._scene_text
 
-    def scene(self):
-        """What the tables' indices mean, and looks. Only after a take()."""
+    def scene(self) -> dict[str, Any]:
+        """Returns what the tables' indices mean, and the looks. Needs an update() before."""
         objects, scenery = self._objects, self._scenery
         return {
             "type": "scene",

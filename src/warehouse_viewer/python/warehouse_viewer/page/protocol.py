@@ -22,6 +22,8 @@ web/js/protocol.js reads it.
 """
 
 import struct
+from collections.abc import Collection, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -63,20 +65,26 @@ _SCAN_HEAD = struct.Struct("<II2f4f")
 _WAYS_HEAD = struct.Struct("<II")
 
 
-def update(tick, stamp, revision, tables):
-    """Bytes of an update; `tables` are four arrays of rows in the order above."""
+def update(tick: int, stamp: float, revision: int, tables: Sequence[np.ndarray]) -> bytes:
+    """Encodes an update; `tables` are four arrays of rows in the order above."""
     head = _UPDATE_HEAD.pack(UPDATE, tick, stamp, revision, *map(len, tables))
     return b"".join([head, *(rows.tobytes() for rows in tables)])
 
 
-def scan(kiva_id, mount, angle_min, angle_increment, ranges):
-    """Bytes of a robot's scan; `mount` is (x, y, z, yaw) of the laser on it."""
+def scan(
+    kiva_id: int,
+    mount: Sequence[float],
+    angle_min: float,
+    angle_increment: float,
+    ranges: Sequence[float],
+) -> bytes:
+    """Encodes a robot's scan; `mount` is (x, y, z [m], yaw [rad]) of the laser on it."""
     head = _SCAN_HEAD.pack(SCAN, kiva_id, angle_min, angle_increment, *mount)
     return head + np.asarray(ranges, "<f4").tobytes()
 
 
-def ways(message, wanted=None):
-    """Bytes of a CoordinatorPaths of numpy arrays: of all its robots, or of the ids `wanted`."""
+def ways(message: Any, wanted: Collection[int] | None = None) -> bytes:
+    """Encodes a CoordinatorPaths of numpy arrays: all its robots, or those of the ids `wanted`."""
     ids = message.kiva_id
     kept = np.ones(len(ids), bool) if wanted is None else np.isin(ids, list(wanted))
     rows = np.zeros(np.count_nonzero(kept), WAY)

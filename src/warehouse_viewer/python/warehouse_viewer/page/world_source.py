@@ -92,7 +92,7 @@ class WorldFeed:
     def _scenery(self) -> SimpleNamespace:
         world, looks = self._world, _Looks(self._world)
         others = [n for n in world.names if kind_and_number(n)[0] not in TRACKED and n != FLOOR]
-        first = {
+        first: dict[str, list[str]] = {
             "kiva_look": [f"kiva{n}" for n in world.fleet.kiva_id],
             "storage_unit_look": self._units,
             "item_look": [],
@@ -159,7 +159,9 @@ class _Looks:
     """World.look() of models, each different one once."""
 
     def __init__(self, world: Any) -> None:
-        self._world, self._known, self.all = world, {}, []
+        self._world = world
+        self._known: dict[str, int] = {}
+        self.all: list[SimpleNamespace] = []
 
     def index_of(self, model: str) -> int:
         """Returns the index in `all` of what a model looks like."""

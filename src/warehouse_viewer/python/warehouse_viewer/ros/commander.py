@@ -9,6 +9,7 @@ that another client sends to the same robot at the same moment can be taken for 
 import asyncio
 import time
 from dataclasses import dataclass, field
+from typing import Any
 
 from warehouse_client.commands import COMMANDS
 
@@ -26,12 +27,13 @@ class Outcome:
 class Commander:
     """Lives in an asyncio loop. `ros` is rospy."""
 
-    def __init__(self, ros):
+    def __init__(self, ros: Any) -> None:
         self._publishers = {t: ros.Publisher(t, k, queue_size=100) for t, k in COMMANDS.items()}
-        self._locks, self._listeners = {}, set()
+        self._locks: dict[int, asyncio.Lock] = {}
+        self._listeners: set[tuple[str, asyncio.Queue]] = set()
 
-    async def ready(self, topic, patience=3.0):
-        """Whether the world hears that topic. Connecting may take a moment: `patience` [s]."""
+    async def ready(self, topic: str, patience: float = 3.0) -> bool:
+        """Waits at most `patience` [s, wall] for the world to subscribe; returns whether it has."""
         deadline = time.monotonic() + patience
         while self._publishers[topic].get_num_connections() == 0:
             if time.monotonic() > deadline:
@@ -39,16 +41,19 @@ class Commander:
             await asyncio.sleep(0.05)
         return True
 
-    def note(self, entry):
-        """Takes an event in, in the loop."""
+    def note(self, entry: dict[str, Any]) -> None:
+        """Passes a journal entry to the commands that wait for it. Call it in the loop."""
         for model, events in list(self._listeners):
             if entry["model"] == model:
                 events.put_nowait(entry)
 
-    async def send(self, topic, kiva_id, fields, until_end, timeout):
-        """Publishes a command and waits, at most `timeout` wall seconds, for its answer or end."""
+    async def send(
+        self, topic: str, kiva_id: int, fields: dict[str, Any], until_end: bool, timeout: float
+    ) -> Outcome:
+        """Publishes a command and waits at most `timeout` [s, wall] for its answer or end."""
         lock = self._locks.setdefault(kiva_id, asyncio.Lock())
-        outcome, events = Outcome(), asyncio.Queue()
+        outcome = Outcome()
+        events: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
         listener = (f"kiva{kiva_id}", events)
         self._listeners.add(listener)
         try:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator as its services offer it: transports, and who commands a robot."""
 
+from typing import Any
+
 from warehouse_client.message_names import MODE, THEN
 from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
 from warehouse_viewer.page.source import RefusedError
@@ -22,15 +24,23 @@ class Coordination:
     What is asked of the coordinator raises RefusedError, AwayError.
     """
 
-    def __init__(self, ros):
+    def __init__(self, ros: Any) -> None:
         self._ros = ros
 
-    def runs(self):
-        """Whether there is a coordinator. Raises AwayError."""
+    def runs(self) -> bool:
+        """Returns whether a coordinator runs. Raises AwayError."""
         return is_offered(self._ros, SERVICES[Transport])
 
-    def submit(self, storage_unit, station, x, y, then, priority):
-        """The number of a new transport."""
+    def submit(
+        self,
+        storage_unit: int,
+        station: str,
+        x: float | None,
+        y: float | None,
+        then: str,
+        priority: int,
+    ) -> int:
+        """Submits a transport to a station or to the cell at (x, y) [m]; returns its number."""
         answer = self._call(
             Transport,
             shelf_id=storage_unit,
@@ -44,11 +54,11 @@ class Coordination:
             raise RefusedError(answer.message)
         return answer.transport_id
 
-    def release(self, transport):
-        """The station is done with the unit; returns what the coordinator says."""
+    def release(self, transport: int) -> str:
+        """Releases a transport whose station is done; returns the coordinator's message."""
         return self._done(self._call(ReleaseTransport, transport_id=transport))
 
-    def set_mode(self, robot, mode):
+    def set_mode(self, robot: int, mode: str) -> str:
         """Sets a robot's mode by its name; returns the coordinator's message."""
         return self._done(self._call(SetRobotMode, kiva_id=robot, mode=_MODES[mode]))
 

@@ -51,7 +51,9 @@ class Feed:
         on_message: Callable[[], None],
     ) -> None:
         self._ros, self._on_message, self._lock = ros, on_message, threading.Lock()
-        self._messages, self._subscribers, self._extras = {}, {}, {}
+        self._messages: dict[str, Any] = {}
+        self._subscribers: dict[str, Any] = {}
+        self._extras: dict[str, Any] = {}
         self._used, self._coordinated = 0.0, 0.0
         ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
         topic = "/warehouse/transports"

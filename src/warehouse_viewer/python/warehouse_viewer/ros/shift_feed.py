@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a shift of operations tells, heard all the time: it is little."""
 
+from typing import Any
+
 from warehouse_msgs.msg import (
     HeatMap,
     Kpis,
@@ -24,8 +26,10 @@ class ShiftFeed:
     """The newest message of what is told as a whole, None where no shift runs; all that changes
     goes into a ChangeBook. `ros` is rospy."""
 
-    def __init__(self, ros, book):
-        self._book, self._messages, self._seq = book, {}, {}
+    def __init__(self, ros: Any, book: Any) -> None:
+        self._book = book
+        self._messages: dict[str, Any] = {}
+        self._seq: dict[str, int] = {}
         self._subscribers = {
             name: ros.Subscriber(f"/warehouse/{name}", kind, self._keep, name, queue_size=1)
             for name, kind in WHOLE.items()
@@ -37,11 +41,11 @@ class ShiftFeed:
             ros.Subscriber(topic, kind, take, queue_size=10000)
 
     @property
-    def runs(self):
-        """Whether there is a shift."""
+    def runs(self) -> bool:
+        """Whether a shift is running."""
         return self._subscribers["stations"].get_num_connections() > 0
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Any:
         is_told = self.runs or name == "notices"  # such as why there is no shift
         return self._messages.get(name) if is_told else None
 

@@ -3,9 +3,11 @@
 
 import importlib
 import threading
+from collections.abc import Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import count
+from typing import Any
 
 from gazebo_msgs.srv import GetPhysicsProperties, GetWorldProperties
 from warehouse_client import identity, placing
@@ -43,12 +45,12 @@ class Standing:
 class Simulation:
     """One client of those services; calls block. `ros` is rospy."""
 
-    def __init__(self, ros):
+    def __init__(self, ros: Any) -> None:
         self._ros, self._placing = ros, threading.Lock()
 
     # --- what can be done
-    def offers(self):
-        """{action: why it can't be done, or None}."""
+    def offers(self) -> dict[str, str | None]:
+        """Returns {action: the reason why it is not available, or None}."""
         return {action: self._lack(action) for action in SERVICES}
 
     def _lack(self, action):
@@ -63,8 +65,8 @@ class Simulation:
             return "nothing is saved for it: start with autosave:=60, say"
         return None if offered else f"the engine offers no {name}"
 
-    def state(self):
-        """Whether time stands still, how fast it should pass (0 = full speed), and its step [s]."""
+    def state(self) -> dict[str, Any]:
+        """Returns `paused`, `target_factor` (0: as fast as possible) and `step_size` [s]."""
         now = self._physics()
         return {
             "paused": now.pause,
@@ -72,31 +74,35 @@ class Simulation:
             "step_size": now.time_step,
         }
 
-    def warehouse(self):
+    def warehouse(self) -> tuple[str, int]:
         """Returns (name, id) of the warehouse; empty and 0 if no service has built it."""
         return identity.read(self._ros)
 
-    def standing(self):
-        """The Standing of now."""
+    def standing(self) -> Standing:
+        """Returns the models that exist now."""
         world = self._call("/gazebo/get_world_properties", GetWorldProperties, {})
         names = {n for n in world.model_names if models.kind_and_number(n)[0] in models.KINDS}
         return Standing(names, world.sim_time, self._physics().pause)
 
     # --- doing it; each returns what the world says of it. Raises RefusedError, AwayError.
-    def pause(self):
+    def pause(self) -> str:
+        """Stops simulated time."""
         return self._do("pause")
 
-    def resume(self):
+    def resume(self) -> str:
+        """Lets simulated time go on."""
         return self._do("resume")
 
-    def reset(self, time_too=True):
+    def reset(self, time_too: bool = True) -> str:
+        """Puts all models back to their start, and the time to 0 unless `time_too` is false."""
         return self._do("reset" if time_too else "reset_poses")
 
-    def step(self, steps):
+    def step(self, steps: int) -> str:
+        """Advances a paused simulation by so many physics steps."""
         return self._do("step", steps=steps)
 
-    def speed(self, factor):
-        """Simulated seconds a wall second, 0 = as fast as it goes."""
+    def speed(self, factor: float) -> str:
+        """Sets the target: simulated seconds per wall second, 0 for as fast as possible."""
         now = self._physics()
         return self._do(
             "speed",
@@ -106,32 +112,38 @@ class Simulation:
             ode_config=now.ode_config,
         )
 
-    def checkpoint(self, name):
+    def checkpoint(self, name: str) -> str:
+        """Saves a checkpoint."""
         return self._do("checkpoint", name=name)
 
-    def restore(self, name):
+    def restore(self, name: str) -> str:
+        """Restores a checkpoint."""
         return self._do("restore", name=name)
 
-    def undo(self, seconds):
+    def undo(self, seconds: float) -> str:
+        """Goes back by so many simulated seconds."""
         return self._do("undo", seconds=seconds)
 
-    def create(self, name, number, robots, items, shelves):
+    def create(self, name: str, number: int, robots: int, items: int, shelves: int) -> str:
+        """Builds a warehouse in place of the present one."""
         fields = {"robots": robots, "items": items, "shelves": shelves}
         return self._do("create", warehouse_name=name, warehouse_id=number, **fields)
 
-    def add_robot(self, x, y, heading):
-        """Puts one on that grid point [m], turned by quarters [rad]. Returns its number."""
+    def add_robot(self, x: float, y: float, heading: float) -> int:
+        """Adds a robot on a grid point [m], turned by quarters [rad]. Returns its number."""
         with self._placing, self._engine() as engine:
             return placing.add_robot(engine, x, y, heading)
 
-    def walk(self, name, x, y, speed, loop):
+    def walk(
+        self, name: str, x: Sequence[float], y: Sequence[float], speed: float, loop: bool
+    ) -> str:
         """Has a person walk to those places [m]; an empty name adds a person. Returns the name."""
         with self._placing:
             name = name or self._new_person()
             self._do("person", name=name, x=x, y=y, speed=speed, loop=loop)
         return name
 
-    def pick_up(self, number):
+    def pick_up(self, number: int) -> str:
         """Puts an item that fell back on its storage unit."""
         return self._do("pick_up", item=f"item{number}")
 
@@ -139,7 +151,8 @@ class Simulation:
         names = self._call("/gazebo/get_world_properties", GetWorldProperties, {}).model_names
         return next(name for n in count(1) if (name := f"person{n}") not in names)
 
-    def remove_robot(self, number):
+    def remove_robot(self, number: int) -> str:
+        """Removes a robot."""
         with self._engine() as engine:
             engine.delete(f"kiva{number}")
         return f"kiva{number} is gone"
@@ -172,7 +185,7 @@ class Simulation:
         return request(self._ros, name, kind, fields)
 
 
-def is_offered(ros, name):
+def is_offered(ros: Any, name: str) -> bool:
     """Returns whether a node offers the service. Raises AwayError."""
     try:
         code, *_ = ros.get_master().lookupService(name)
@@ -181,8 +194,8 @@ def is_offered(ros, name):
     return code == 1
 
 
-def request(ros, name, kind, fields):
-    """What a service answers. Raises AwayError."""
+def request(ros: Any, name: str, kind: Any, fields: dict[str, Any]) -> Any:
+    """Calls a service and returns its response. Raises AwayError."""
     try:
         return ros.ServiceProxy(name, kind)(**fields)
     except (ros.ServiceException, ros.ROSException, OSError) as error:

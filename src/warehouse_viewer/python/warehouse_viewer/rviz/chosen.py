@@ -6,11 +6,12 @@ next to the goal, whose heading does not matter.
 """
 
 import math
+from typing import Any
 
 from geometry_msgs.msg import PointStamped, PoseStamped
 from sensor_msgs.msg import LaserScan
 
-from warehouse_msgs.msg import MoveTo
+from warehouse_msgs.msg import FleetState, MoveTo
 
 REACH = 0.75  # of a robot's centre from the point that means it [m]
 
@@ -18,7 +19,7 @@ REACH = 0.75  # of a robot's centre from the point that means it [m]
 class Chosen:
     """`number` is that of the chosen robot, 0 = none. `ros` is rospy."""
 
-    def __init__(self, ros):
+    def __init__(self, ros: Any) -> None:
         self._ros, self.number, self._scan = ros, 0, None
         self._fleet, self._spacing = None, 1.0
         ros.Subscriber("/clicked_point", PointStamped, self._choose, queue_size=1)
@@ -26,8 +27,8 @@ class Chosen:
         self._goals = ros.Publisher("/mov", MoveTo, queue_size=10)
         self._scans = ros.Publisher("/warehouse/chosen/scan", LaserScan, queue_size=1)
 
-    def take(self, fleet, spacing):
-        """Takes the newest FleetState in; grid points are `spacing` metres apart."""
+    def take(self, fleet: FleetState, spacing: float) -> None:
+        """Takes over the newest FleetState; grid points are `spacing` [m] apart."""
         self._fleet, self._spacing = fleet, spacing
         if self.number and self.number not in fleet.kiva_id:
             self._set(0)

@@ -2,6 +2,7 @@
 """The view with which RViz begins: all that stands, from obliquely above."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import yaml
@@ -13,16 +14,16 @@ MARGIN = 2.0  # around what stands [m]
 NEAREST = 8.0  # [m]
 
 
-def around(points, fallback):
-    """min_x, max_x, min_y, max_y [m] around points (n, 2); around a floor where there are none."""
+def around(points: np.ndarray, fallback: Sequence[float]) -> tuple[float, ...]:
+    """Returns min_x, max_x, min_y, max_y [m] around points (n, 2); without any `fallback`."""
     if not len(points):
         return tuple(fallback)
     (x0, y0), (x1, y1) = np.min(points, 0) - MARGIN, np.max(points, 0) + MARGIN
     return float(x0), float(x1), float(y0), float(y1)
 
 
-def distance(bounds):
-    """From the middle of the bounds, so that they fill the picture but are all in it [m]."""
+def distance(bounds: Sequence[float]) -> float:
+    """Returns how far from the middle of the bounds the camera sees all of them [m]."""
     x0, x1, y0, y1 = bounds
     high = math.tan(FIELD / 2)  # of the picture's upper half, at a distance of 1
     half_x, half_y = (x1 - x0) / 2, (y1 - y0) / 2
@@ -31,9 +32,8 @@ def distance(bounds):
     return max(NEAREST, towards + across / high, towards + half_x / (high * ASPECT))
 
 
-def config(text, bounds):
-    """The text of an RViz configuration whose views, the first and that from above, show the
-    bounds."""
+def config(text: str, bounds: Sequence[float]) -> str:
+    """Returns the RViz configuration `text` with its views set to show the bounds."""
     told = yaml.safe_load(text)
     x, y = (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2
     views = told["Visualization Manager"]["Views"]

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where a coordinated fleet drives, of a CoordinatorPaths, as line segments (n, 2, 2) [m]."""
 
+from collections.abc import Mapping
+
 import numpy as np
+
+from warehouse_msgs.msg import CoordinatorPaths
 
 DASH = np.array([[0.3], [0.7]])  # of each step that is planned
 
 
-def released_and_planned(message):
-    """Segments that robots have been released, and a dash for each step planned beyond."""
+def released_and_planned(message: CoordinatorPaths) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the released segments, and a dash for each step planned beyond."""
     xy = np.column_stack([message.x, message.y]).reshape(-1, 2)
     released = np.array(message.released, int)
     points = released + np.array(message.planned, int)
@@ -20,8 +24,8 @@ def released_and_planned(message):
     return steps[is_step & is_released], begin + DASH * (end - begin)
 
 
-def ties(message, where):
-    """From each robot that waits to the one it waits for; `where` is (x, y) by id."""
+def ties(message: CoordinatorPaths, where: Mapping[int, tuple[float, float]]) -> np.ndarray:
+    """Returns a segment from each waiting robot to the one in its way; `where` is (x, y) by id."""
     pairs = [
         (where[robot], where[other])
         for robot, other in zip(message.kiva_id, message.waits_for)

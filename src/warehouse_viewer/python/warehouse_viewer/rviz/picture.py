@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a picture of few markers, sent again only where something moved."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from visualization_msgs.msg import MarkerArray
 
@@ -24,11 +27,12 @@ from warehouse_viewer.rviz.chosen import Chosen
 from warehouse_viewer.rviz.paths import PathTopics, ways
 
 
-def fleet_shapes(scenery, fleet, heights, chosen):
-    """Markers of a FleetState.
+def fleet_shapes(
+    scenery: Scenery, fleet: FleetState, heights: Mapping[int, float], chosen: int
+) -> list[Any]:
+    """Returns the markers of a FleetState.
 
-    `heights` are those of the units that are carried, by robot's number, and `chosen` is one
-    robot's, 0 = none.
+    `heights` [m] are those of carried units by robot's number, `chosen` is a robot's number or 0.
     """
     at = np.column_stack([fleet.x, fleet.y, fleet.yaw]).reshape(-1, 3)
     numbers = list(map(int, fleet.kiva_id))
@@ -44,8 +48,8 @@ def fleet_shapes(scenery, fleet, heights, chosen):
     ]
 
 
-def load_shapes(scenery, objects, states):
-    """Markers of units and items."""
+def load_shapes(scenery: Scenery, objects: WarehouseObjects, states: UnitStates) -> list[Any]:
+    """Returns the markers of units and items."""
     units = tracking.storage_units(objects, states).pose
     items = tracking.items(objects, states).pose
     return [
@@ -57,8 +61,10 @@ def load_shapes(scenery, objects, states):
 SILENT = 2.0  # after which a coordinator counts as gone [s, simulated]
 
 
-def way_shapes(fleet, paths, coordinated):
-    """Markers of where robots go: of a FleetPaths and a CoordinatorPaths; either may be None."""
+def way_shapes(
+    fleet: FleetState, paths: FleetPaths | None, coordinated: CoordinatorPaths | None
+) -> list[Any]:
+    """Returns the markers of where robots go."""
     if coordinated is None or (fleet.stamp - coordinated.stamp).to_sec() > SILENT:
         coordinated = CoordinatorPaths()
     others = [w for number, w in ways(fleet, paths) if number not in set(coordinated.kiva_id)]
@@ -79,9 +85,11 @@ def _upright(rows):
 class Picture:
     """Publishes /warehouse/markers, and what RViz wants of robots. `ros` is rospy."""
 
-    def __init__(self, ros):
-        self._shapes, self._news = {}, []
-        self._scenery, self._fixed = None, []
+    def __init__(self, ros: Any) -> None:
+        self._shapes: dict[Any, Any] = {}
+        self._news: list[Any] = []
+        self._scenery: Scenery | None = None
+        self._fixed: list[Any] = []
         self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
@@ -100,8 +108,8 @@ class Picture:
     def _moved(self):
         return ShapeArray(self._news)
 
-    def turn(self, patience=0.5):
-        """Waits for news, at most `patience` wall seconds, and shows them."""
+    def turn(self, patience: float = 0.5) -> None:
+        """Waits at most `patience` [s, wall] for new messages, and publishes what changed."""
         self._newest.wait(patience)
         fleet, scenery = self._newest["fleet"], self._newest["scenery"]
         fit = self._newest.units_and_objects
@@ -140,8 +148,8 @@ class Picture:
             self._topic.publish()
 
 
-def follow(ros):
-    """Until shutdown; the body of the node."""
+def follow(ros: Any) -> None:
+    """Publishes until shutdown: the body of the node."""
     picture = Picture(ros)
     while not ros.is_shutdown():
         picture.turn()

@@ -5,7 +5,9 @@ import hmac
 import ipaddress
 import json
 import time
+from collections.abc import Callable, Hashable, Sequence
 from http.cookies import CookieError, SimpleCookie
+from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from warehouse_viewer.server import token_page
@@ -20,8 +22,8 @@ HEADERS = [
 ]
 
 
-def is_local(host):
-    """Whether only this machine reaches a server that listens there."""
+def is_local(host: str) -> bool:
+    """Returns whether only this machine reaches a server that listens there."""
     try:
         return host == "localhost" or ipaddress.ip_address(host).is_loopback
     except ValueError:
@@ -33,10 +35,12 @@ class RateLimit:
 
     MOST_ADDRESSES = 10000
 
-    def __init__(self, rate, clock=time.monotonic):
-        self._rate, self._clock, self._left = rate, clock, {}
+    def __init__(self, rate: float, clock: Callable[[], float] = time.monotonic) -> None:
+        self._rate, self._clock = rate, clock
+        self._left: dict[Hashable, tuple[float, float]] = {}
 
-    def allows(self, address):
+    def allows(self, address: Hashable) -> bool:
+        """Counts a request; returns whether the address may send it."""
         now = self._clock()
         left, then = self._left.get(address, (2 * self._rate, now))
         left = min(2 * self._rate, left + (now - then) * self._rate)
@@ -49,7 +53,9 @@ class RateLimit:
 class Refusal(Exception):  # noqa: N818 (an answer)
     """An HTTP status and the reason."""
 
-    def __init__(self, status, reason, headers=()):
+    def __init__(
+        self, status: int, reason: str, headers: Sequence[tuple[bytes, bytes]] = ()
+    ) -> None:
         super().__init__(reason)
         self.status, self.headers = status, list(headers)
 
@@ -62,10 +68,10 @@ class AccessControl:
     from then on; programs send `Authorization: Bearer …`.
     """
 
-    def __init__(self, app, token="", rate=100):
+    def __init__(self, app: Any, token: str = "", rate: float = 100) -> None:
         self._app, self._token, self._limit = app, token, RateLimit(rate)
 
-    async def __call__(self, scope, receive, send):
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
         if scope["type"] not in ("http", "websocket"):
             await self._app(scope, receive, send)
             return

@@ -6,6 +6,7 @@ the rest of one that was begun, may take to come; nor how many connections there
 """
 
 import socket
+from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
@@ -16,14 +17,16 @@ class BoundedConnection(H11Protocol):
     MOST = 200  # WebSockets included; each costs a file
     PATIENCE = 15.0  # with a request that does not come, or not wholly [s, wall]
 
-    def connection_made(self, transport):
+    def connection_made(self, transport: Any) -> None:
+        """Starts to wait for a request (asyncio's hook)."""
         super().connection_made(transport)
         self._since = self.loop.time()  # it waits for a request
         if len(self.connections) > self.MOST:
             self._make_room()
         self._look_later(self.PATIENCE)
 
-    def on_response_complete(self):
+    def on_response_complete(self) -> None:
+        """Starts to wait for the next request (uvicorn's hook)."""
         self._since = self.loop.time()
         super().on_response_complete()
 
@@ -48,7 +51,8 @@ class BoundedConnection(H11Protocol):
         else:
             self.transport.abort()
 
-    def connection_lost(self, exc):
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Stops waiting (asyncio's hook)."""
         self._timer.cancel()
         super().connection_lost(exc)
 

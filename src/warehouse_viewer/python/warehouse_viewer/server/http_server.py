@@ -47,7 +47,8 @@ class HubTask:
     """Runs a hub in the asyncio loop of the server that calls start()."""
 
     def __init__(self, hub: Any) -> None:
-        self._hub, self._task = hub, None
+        self._hub = hub
+        self._task: asyncio.Task | None = None
 
     def start(self) -> None:
         """Starts the hub in the running loop."""

@@ -12,8 +12,8 @@ EVERYWHERE = ("", "0.0.0.0", "::")  # hosts at which a server hears all machines
 ELSEWHERE = "192.0.2.1"  # no machine's (RFC 5737): nothing is sent to it
 
 
-def address(host, port):
-    """Of a server that listens there, for a browser."""
+def address(host: str, port: int) -> str:
+    """Returns the address of a server that listens there, for a browser."""
     if host in EVERYWHERE:
         host = socket.gethostname()
     elif access.is_local(host):
@@ -21,9 +21,12 @@ def address(host, port):
     return _url(host, port)
 
 
-def text(host, port, token="", place="", is_private=False):
-    """What the terminal tells. The token itself, which lies at `place`, only where the owner alone
-    reads it (`is_private`), with a picture of the address for a phone if others may come."""
+def text(host: str, port: int, token: str = "", place: str = "", is_private: bool = False) -> str:
+    """Returns what the terminal shows.
+
+    Only with `is_private`, where its owner alone reads the terminal, that has the token, which lies
+    at `place`, and a picture of the address for a phone if other machines reach it.
+    """
     first = f"\nWatch it in a browser: {address(host, port)}"
     if not token:
         return f"{first}\n"

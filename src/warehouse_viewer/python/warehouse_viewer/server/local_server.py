@@ -101,7 +101,10 @@ class _Api:
         return getattr(self._simulation, action)(*values)
 
 
-_FIELDS = {"step": {"steps": int}, "speed": {"factor": float}}  # of the bodies
+_FIELDS: dict[str, dict[str, type]] = {
+    "step": {"steps": int},
+    "speed": {"factor": float},
+}  # of the bodies
 
 
 async def _refuse(_: Request) -> Response:

@@ -3,7 +3,9 @@
 
 import functools
 import gzip
+import os
 from pathlib import Path
+from typing import Any
 
 from starlette.datastructures import Headers
 from starlette.responses import Response
@@ -24,13 +26,17 @@ class Files(StaticFiles):
 
     CACHED = "private, max-age=3600"
 
-    def lookup_path(self, path):
+    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
+        """Returns a file's path and status, ("", None) if there is none (Starlette's hook)."""
         try:
             return super().lookup_path(path)
         except (ValueError, OSError):  # a zero byte; too long
             return "", None
 
-    def file_response(self, full_path, stat_result, scope, status_code=200):
+    def file_response(
+        self, full_path: Any, stat_result: os.stat_result, scope: Any, status_code: int = 200
+    ) -> Response:
+        """Returns the answer with a file, compressed if that helps (Starlette's hook)."""
         kind = KINDS.get(Path(full_path).suffix)
         headers = {"cache-control": self.CACHED}
         if kind:

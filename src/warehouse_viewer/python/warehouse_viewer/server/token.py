@@ -8,6 +8,7 @@ import os
 import re
 import secrets
 import stat
+from collections.abc import Mapping
 from pathlib import Path
 
 VARIABLE = "WAREHOUSE_TOKEN"
@@ -17,14 +18,16 @@ class TokenError(ValueError):
     """No token where one was named, or one that others can read; the message says what helps."""
 
 
-def default_path(environment=os.environ):
-    """Where the token lies that the viewer makes for itself."""
+def default_path(environment: Mapping[str, str] = os.environ) -> Path:
+    """Returns where the viewer keeps the token that it makes itself."""
     home = environment.get("ROS_HOME") or Path.home() / ".ros"
     return Path(home) / "warehouse" / "viewer_token"
 
 
-def find(path="", needed=False, environment=os.environ):
-    """(token, where it lies); ("", "") if there is none and none is `needed`.
+def find(
+    path: str = "", needed: bool = False, environment: Mapping[str, str] = os.environ
+) -> tuple[str, str]:
+    """Returns (token, where it lies); ("", "") if there is none and none is `needed`.
 
     The token is in the file `path`, else in the environment. One that is needed but not given is
     made once, and kept for the next time. Raises TokenError.
@@ -35,13 +38,13 @@ def find(path="", needed=False, environment=os.environ):
         return _checked(environment[VARIABLE], VARIABLE), f"the environment's {VARIABLE}"
     if not needed:
         return "", ""
-    path = default_path(environment)
-    _make(path)
-    return read(path), str(path)
+    made = default_path(environment)
+    _make(made)
+    return read(made), str(made)
 
 
-def read(path):
-    """The token in a file of mode 0600. Raises TokenError."""
+def read(path: Path) -> str:
+    """Returns the token in a file of mode 0600. Raises TokenError."""
     try:
         with open(path, encoding="ascii", errors="replace") as file:
             mode = os.fstat(file.fileno()).st_mode

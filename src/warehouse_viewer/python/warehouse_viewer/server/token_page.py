@@ -8,6 +8,8 @@ import base64
 import hashlib
 import html
 import re
+from collections.abc import Mapping
+from typing import Any
 from urllib.parse import parse_qs
 
 PATH = "/token"
@@ -51,26 +53,26 @@ CONTENT = (
 ).encode()
 
 
-def text(to="/", wrong=False):
-    """The page; afterwards it leads `to` a path of this server. `wrong`: a token was."""
+def text(to: str = "/", wrong: bool = False) -> bytes:
+    """Returns the page, which leads on to the path `to`; `wrong`: the last token was."""
     told = '<p role="alert">That is not the token.</p>' if wrong else ""
     return PAGE.format(
         style=STYLE, script=SCRIPT, path=PATH, to=html.escape(local(to)), wrong=told
     ).encode()
 
 
-def wanted(scope, headers):
-    """Whether a person at a browser asks for a page."""
+def wanted(scope: Any, headers: Mapping[str, str]) -> bool:
+    """Returns whether a browser asks for a page."""
     is_page = scope["method"] in ("GET", "HEAD") and "text/html" in headers.get("accept", "")
     return scope["type"] == "http" and is_page
 
 
-def parse(body):
-    """(token, where to) of a posted form."""
+def parse(body: bytes) -> tuple[str, str]:
+    """Returns (token, path to lead on to) of a posted form."""
     fields = parse_qs(body.decode("latin-1"), keep_blank_values=True)
     return fields.get("token", [""])[0], local(fields.get("to", ["/"])[0])
 
 
-def local(to):
-    """A path of this server, and no address of another one: '/' in its place."""
+def local(to: str) -> str:
+    """Returns a path of this server as it is, and "/" for anything else."""
     return to if re.fullmatch(r"/(?![/\\])[!-\[\]-~]*", to) else "/"

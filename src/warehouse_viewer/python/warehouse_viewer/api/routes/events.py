@@ -11,7 +11,9 @@ from warehouse_viewer.api.schemas.commands import Events
 from warehouse_viewer.page.journal import KEPT
 
 router = APIRouter()
-CSV = {200: {"content": {"text/csv": {"schema": {"type": "string"}}}}}
+CSV: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/csv": {"schema": {"type": "string"}}}}
+}
 
 
 @router.get("/events", response_model=Events, responses=problems())

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders and stock of a shift."""
 
-from typing import Any, Literal
+from typing import Any
 
 from fastapi import APIRouter, HTTPException, Path, Query
 
@@ -10,7 +10,15 @@ from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.operations_json import order, plain
 from warehouse_viewer.api.routes.common import LIMIT, OFFSET, SENT, problems
 from warehouse_viewer.api.schemas.base import Done
-from warehouse_viewer.api.schemas.operations import STATES, Accepted, NewOrder, Order, Orders, Stock
+from warehouse_viewer.api.schemas.operations import (
+    STATES,
+    Accepted,
+    NewOrder,
+    Order,
+    Orders,
+    State,
+    Stock,
+)
 from warehouse_viewer.ros.operations_client import ANY
 
 router = APIRouter()
@@ -22,7 +30,7 @@ async def get_orders(
     search: str = Query(
         "", max_length=200, regex=r"^[ -~]*$", description="a part of the reference, or a SKU"
     ),
-    state: Literal[STATES] | None = None,
+    state: State | None = None,
     late: bool = Query(False, description="those past their due time alone"),
     limit: int = LIMIT,
     offset: int = OFFSET,

@@ -1,16 +1,46 @@
 # SPDX-License-Identifier: Apache-2.0
 """Numbers, names and answers that all subjects share."""
 
-from pydantic import BaseModel, ConstrainedFloat, Extra, Field, conint, constr
+import re
+from typing import Any
+
+from pydantic import BaseModel, ConstrainedFloat, ConstrainedInt, ConstrainedStr, Extra, Field
 from pydantic.errors import DictError
 
 INT32 = 2**31 - 1
 MOST_ROWS = 1000  # of a list, in one answer
 MOST = 1e300  # of a number
 
-Int32 = conint(ge=-INT32 - 1, le=INT32, strict=True)
-Name = constr(max_length=100, regex=r"^[ -~]*$", strict=True)
-Label = constr(min_length=1, max_length=100, regex=r"^[A-Za-z0-9_.-]+$", strict=True)
+
+class Int32(ConstrainedInt):
+    """A 32-bit integer."""
+
+    strict, ge, le = True, -INT32 - 1, INT32
+
+
+class Int8(ConstrainedInt):
+    """An 8-bit integer."""
+
+    strict, ge, le = True, -128, 127
+
+
+class UInt8(ConstrainedInt):
+    """An 8-bit integer without a sign."""
+
+    strict, ge, le = True, 0, 255
+
+
+class Name(ConstrainedStr):
+    """Printable ASCII, or nothing."""
+
+    strict, max_length, regex = True, 100, re.compile(r"^[ -~]*$")
+
+
+class Label(ConstrainedStr):
+    """A name of letters, digits, dots and dashes."""
+
+    strict, min_length, max_length = True, 1, 100
+    regex = re.compile(r"^[A-Za-z0-9_.-]+$")
 
 
 class Number(ConstrainedFloat):
@@ -38,7 +68,7 @@ class Body(BaseModel):
         extra = Extra.forbid
 
     @classmethod
-    def validate(cls, value):
+    def validate(cls, value: Any) -> Any:
         # pydantic would take a list of pairs, an empty one too.
         if isinstance(value, list):
             raise DictError

@@ -3,9 +3,9 @@
 
 from typing import Literal
 
-from pydantic import BaseModel, Field, StrictBool, conint, conlist
+from pydantic import BaseModel, Field, StrictBool
 
-from warehouse_viewer.api.schemas.base import Body, Int32, Name, Number
+from warehouse_viewer.api.schemas.base import Body, Int8, Int32, Name, Number, UInt8
 
 
 class Mov(Body):
@@ -34,16 +34,14 @@ class Rot(Body):
     """Turn a quarter."""
 
     command: Literal["rot"]
-    direction: conint(ge=-128, le=127, strict=True) = Field(
-        description="1 counterclockwise, -1 clockwise"
-    )
+    direction: Int8 = Field(description="1 counterclockwise, -1 clockwise")
 
 
 class LiftCommand(Body):
     """Carry or drop a storage unit."""
 
     command: Literal["lift"]
-    status: conint(ge=0, le=255, strict=True) = Field(description="1 carry, 0 drop")
+    status: UInt8 = Field(description="1 carry, 0 drop")
     shelf_id: Int32 = Field(
         0, description="the number in storage_unit<id>; may be left out to drop what it carries"
     )
@@ -60,8 +58,8 @@ class NewWalk(Body):
     """Has a person walk from place to place; one of a new name comes to the first place."""
 
     name: Name = Field("", description="who; empty: a new person")
-    x: conlist(Number, max_items=1000) = Field(description="[m], of each place")
-    y: conlist(Number, max_items=1000) = Field(description="[m], as many")
+    x: list[Number] = Field(max_items=1000, description="[m], of each place")
+    y: list[Number] = Field(max_items=1000, description="[m], as many")
     speed: WalkingSpeed = Field(1.2, description="[m/s]")
     loop: StrictBool = Field(False, description="after the last place comes the first again")
 

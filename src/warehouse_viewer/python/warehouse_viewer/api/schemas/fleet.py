@@ -3,9 +3,9 @@
 
 from typing import Literal
 
-from pydantic import BaseModel, Field, conint, root_validator
+from pydantic import BaseModel, Field, root_validator
 
-from warehouse_viewer.api.schemas.base import Body, Int32, Name, Number
+from warehouse_viewer.api.schemas.base import Body, Int32, Name, Number, UInt8
 
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
@@ -23,7 +23,7 @@ class NewTransport(Body):
     then: Literal["STORE", "STAY"] = Field(
         "STORE", description="what becomes of the unit once it is released; STAY: put down there"
     )
-    priority: conint(ge=0, le=255, strict=True) = Field(0, description="higher ones come first")
+    priority: UInt8 = Field(0, description="higher ones come first")
 
     class Config(Body.Config):
         schema_extra = {

@@ -1,18 +1,55 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders, stock, stations and figures of a shift."""
 
-from typing import Literal
+import re
+from typing import Literal, get_args
 
-from pydantic import BaseModel, Field, StrictBool, conint, conlist, constr
+from pydantic import (
+    BaseModel,
+    ConstrainedInt,
+    ConstrainedStr,
+    Field,
+    StrictBool,
+)
 
-from warehouse_viewer.api.schemas.base import INT32, Body, Number
+from warehouse_viewer.api.schemas.base import INT32, Body, Number, UInt8
 
-STATES = ("OPEN", "ASSIGNED", "COMPLETED", "CANCELLED")
-MODES = ("AUTOMATIC", "MANUAL")
-OUTCOMES = ("DONE", "SHORT", "DAMAGED")
+State = Literal["OPEN", "ASSIGNED", "COMPLETED", "CANCELLED"]
+Mode = Literal["AUTOMATIC", "MANUAL"]
+PickOutcome = Literal["DONE", "SHORT", "DAMAGED"]
+# By the numbers of the messages.
+STATES, MODES, OUTCOMES = map(get_args, (State, Mode, PickOutcome))
 
-Sku = constr(min_length=1, max_length=80, regex=r"^[ -~]+$", strict=True)
-Pieces = conint(ge=1, le=INT32, strict=True)
+
+class Sku(ConstrainedStr):
+    """The name of a kind of goods."""
+
+    strict, min_length, max_length = True, 1, 80
+    regex = re.compile(r"^[ -~]+$")
+
+
+class Pieces(ConstrainedInt):
+    """How many pieces, at least one."""
+
+    strict, ge, le = True, 1, INT32
+
+
+class PiecesOrNone(ConstrainedInt):
+    """How many pieces, or 0."""
+
+    strict, ge, le = True, 0, INT32
+
+
+class OrderNumber(ConstrainedInt):
+    """An order's number, or 0."""
+
+    strict, ge, le = True, 0, 2**53
+
+
+class Reference(ConstrainedStr):
+    """What the orderer calls an order."""
+
+    strict, max_length, regex = True, 200, re.compile(r"^[ -~]*$")
 
 
 class Moment(Number):
@@ -27,10 +64,10 @@ class Line(Body):
 class NewOrder(Body):
     """An order; `due` in simulated time, 0 = none."""
 
-    reference: constr(max_length=200, regex=r"^[ -~]*$", strict=True) = ""
-    lines: conlist(Line, min_items=1, max_items=100)
+    reference: Reference = Reference()
+    lines: list[Line] = Field(min_items=1, max_items=100)
     due: Moment = Field(0.0, description="[s], simulated time")
-    priority: conint(ge=0, le=255, strict=True) = 0
+    priority: UInt8 = UInt8(0)
 
 
 class Accepted(BaseModel):
@@ -49,7 +86,7 @@ class Order(BaseModel):
 
     order_id: int
     reference: str
-    state: Literal[STATES]
+    state: State
     station: str
     priority: int
     created: float
@@ -93,7 +130,7 @@ class Station(BaseModel):
     name: str
     kind: str
     open: bool
-    mode: Literal[MODES]
+    mode: Mode
     shelf_id: int
     inbound: list[int]
     orders: list[int]
@@ -110,7 +147,7 @@ class Stations(BaseModel):
 
 class SetStation(Body):
     open: StrictBool
-    mode: Literal[MODES] = "AUTOMATIC"
+    mode: Mode = "AUTOMATIC"
 
 
 class Confirmation(Line):
@@ -127,10 +164,10 @@ class PickReport(Body):
     """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
     bin is empty; DAMAGED: so many are."""
 
-    order_id: conint(ge=0, le=2**53, strict=True) = 0
+    order_id: OrderNumber = OrderNumber(0)
     item: Sku
-    quantity: conint(ge=0, le=INT32, strict=True)
-    outcome: Literal[OUTCOMES] = "DONE"
+    quantity: PiecesOrNone
+    outcome: PickOutcome = "DONE"
 
 
 class Reported(BaseModel):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a whole, and how simulated time passes in it."""
 
-from pydantic import BaseModel, Field, StrictBool, conint
+from pydantic import BaseModel, ConstrainedInt, Field, StrictBool
 
 from warehouse_viewer.api.schemas.base import Body, Int32, Label, Name, Number
 
@@ -10,10 +10,10 @@ class NewWarehouse(Body):
     """Counts of 0 everywhere with a preset's name mean that preset."""
 
     name: Name = Field(description="a preset (empty, small, medium, large, huge), or any name")
-    id: Int32 = 0
-    robots: Int32 = 0
-    items: Int32 = 0
-    shelves: Int32 = 0
+    id: Int32 = Int32(0)
+    robots: Int32 = Int32(0)
+    items: Int32 = Int32(0)
+    shelves: Int32 = Int32(0)
 
 
 class Counts(BaseModel):
@@ -52,12 +52,18 @@ class Seconds(Number):
     ge, le = 0.001, 1e6
 
 
+class Steps(ConstrainedInt):
+    """Steps of the physics."""
+
+    strict, ge, le = True, 1, 100000
+
+
 class Reset(Body):
     time_too: StrictBool = Field(True, description="false: models alone go back to where they came")
 
 
 class Step(Body):
-    steps: conint(ge=1, le=100000, strict=True) = Field(1, description="of the physics")
+    steps: Steps = Field(1, description="of the physics")
 
 
 class Speed(Body):
