@@ -35,7 +35,7 @@ async def get_orders(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-):
+) -> Any:
     """Orders, the newest first."""
     which = ANY if state is None else STATES.index(state)
     found = await backend.call(
@@ -75,7 +75,7 @@ async def get_stock(
     limit: int = LIMIT,
     offset: int = OFFSET,
     backend: ApiBackend = BACKEND,
-):
+) -> Any:
     """Where pieces of a SKU lie, the most first."""
     return plain(
         await backend.call(backend.operations.call, "find_stock", srv.FindStock, sku, limit, offset)

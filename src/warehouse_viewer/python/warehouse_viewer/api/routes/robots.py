@@ -81,7 +81,7 @@ async def command_robot(
         description=f"[s, wall]; {ANSWER:g} for the answer, {END:g} for the end if not given",
     ),
     backend: ApiBackend = BACKEND,
-):
+) -> Any:
     """Sends a command. A refused one answers 409 with the reason.
 
     202 tells that what was waited for has not come in time.
