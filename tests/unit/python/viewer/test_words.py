@@ -3,9 +3,9 @@
 
 import json
 import subprocess
-from pathlib import Path
 
 import numpy as np
+from paths import ROOT
 
 from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
@@ -15,7 +15,7 @@ from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.page import statuses
 
-WEB = Path(__file__).parents[3] / "src/warehouse_viewer/web/js/words.js"
+WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
 
 
