@@ -7,7 +7,7 @@ from pathlib import Path
 
 from starlette.requests import Request
 from starlette.responses import Response
-from starlette.websockets import WebSocket
+from starlette.websockets import WebSocket, WebSocketState
 
 from warehouse_viewer.server.static_files import FreshFiles
 
@@ -47,6 +47,8 @@ class SocketLimit:
             await serve(socket)
         finally:
             self._open -= 1
-            # TypeError: websockets' of a page that went before it had come.
-            with suppress(RuntimeError, TypeError):
-                await socket.close()
+            # A client that has gone needs no close, and wsproto would refuse to send one.
+            if socket.client_state is WebSocketState.CONNECTED:
+                # TypeError: websockets' of a page that went before it had come.
+                with suppress(RuntimeError, TypeError):
+                    await socket.close()
