@@ -109,8 +109,8 @@ class IdealFleet:
         return self
 
     @property
-    def robots(self):
-        """How many."""
+    def robot_count(self):
+        """How many robots there are."""
         return len(self._robots)
 
     # What it is asked for.
@@ -189,7 +189,7 @@ class IdealFleet:
     def close(self):
         """Nothing is to be ended here."""
 
-    def traffic(self):
+    def passages(self):
         """How often a robot with a load came through each cell, (h, w)."""
         count = np.zeros(self.plan.passable.size)
         for (station, cell, outbound), times in sorted(self._ways.items()):

@@ -162,8 +162,8 @@ class Warehouse:
             moved = np.hypot(dx, dy)
             self.distance_m += float(moved[moved < 1.0].sum())  # farther: it was put there
         now = message.stamp.to_sec()
-        self.failures.observe(now, np.frombuffer(message.failures, np.uint8))
-        self.people.observe(now, self._there, len(message.kiva_id))
+        self.failures.update(now, np.frombuffer(message.failures, np.uint8))
+        self.people.update(now, self._there, len(message.kiva_id))
         if self.heat:
             waits = np.isin(np.frombuffer(bytes(message.state), np.uint8), WAITS)
             self.heat.see(now, message.x, message.y, waits)
