@@ -10,9 +10,9 @@ from kiva_plugin_cpp import World
 from warehouse_layout import floor_markings, painted
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, Look, Scenery, UnitStates, WarehouseObjects
-from warehouse_viewer import markers
-from warehouse_viewer.drawing import Drawing, Moment
-from warehouse_viewer.model import Model
+from warehouse_viewer.drawing import markers
+from warehouse_viewer.drawing.drawing import Drawing, Moment
+from warehouse_viewer.page.model import Model
 
 
 def look_of(world, name):
@@ -76,7 +76,7 @@ def test_rviz_shows_paint_in_few_triangles_and_names_stations(world, scenery):
 def test_the_page_gets_rectangles_by_kind_and_stations(scenery):
     model = Model()
     objects = WarehouseObjects(belts=["conveyor_belt1", "conveyor_belt2"])
-    model.take(objects, UnitStates(), FleetState(), scenery)
+    model.update(objects, UnitStates(), FleetState(), scenery)
     scene = model.scene()
     assert scene["scenery"] == ["conveyor_belt1", "conveyor_belt2"]
     assert [len(look) > 0 for look in scene["looks"]] == [True, False]

@@ -102,7 +102,7 @@ def test_nothing_starts_before_the_commands_are_heard():
     stage = Stage()
     stage.watch(1)
     stage.publishers["/lift"].listeners = 0
-    with pytest.raises(DeadlineError, match="waiting: nobody"):
+    with pytest.raises(DeadlineError, match="waiting: no robot"):
         stage.executor.play({1: script(1, [])})
     assert stage.said == []
 

@@ -9,8 +9,8 @@ from PIL import Image
 from test_viewer_model import fleet, objects, scenery, states
 
 from warehouse_msgs.msg import Event
-from warehouse_viewer import markers, recording
-from warehouse_viewer.drawing import Drawing, Moment, bounds
+from warehouse_viewer.drawing import markers, recording
+from warehouse_viewer.drawing.drawing import Drawing, Moment, bounds
 
 FLOOR = [-2.0, 8.0, -3.0, 2.0]
 

@@ -9,9 +9,10 @@ import yaml
 
 from warehouse_layout.layout import plan
 from warehouse_layout.request import PRESETS, resolve
-from warehouse_viewer import first_view
+from warehouse_viewer.rviz import first_view
+from warehouse_viewer.shared_files import RVIZ_CONFIG
 
-CONFIG = first_view.CONFIG.read_text(encoding="utf-8")
+CONFIG = RVIZ_CONFIG.read_text(encoding="utf-8")
 
 
 def seen(view, points):

@@ -22,8 +22,8 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_viewer import markers
-from warehouse_viewer.picture import Picture
+from warehouse_viewer.drawing import markers
+from warehouse_viewer.rviz.picture import Picture
 
 
 def look(**links):

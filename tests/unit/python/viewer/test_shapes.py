@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from visualization_msgs.msg import Marker, MarkerArray
 
-from warehouse_viewer import shapes
+from warehouse_viewer.drawing import shapes
 
 
 def received(*sent):

@@ -7,7 +7,7 @@ import json
 import pytest
 from asgi import echo, request
 
-from warehouse_viewer.access import MOST_BODY, AccessControl, RateLimit, is_local
+from warehouse_viewer.server.access import MOST_BODY, AccessControl, RateLimit, is_local
 
 LOCAL = {"host": "localhost:8080"}
 AWAY = {"host": "robots.example:8080"}

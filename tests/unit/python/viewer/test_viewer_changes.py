@@ -19,12 +19,12 @@ from test_viewer_model import fleet
 
 from gazebo_msgs.msg import PerformanceMetrics
 from warehouse_msgs import msg, srv
-from warehouse_viewer import changes, sockets
-from warehouse_viewer.change_book import ChangeBook
-from warehouse_viewer.metrics import Metrics
-from warehouse_viewer.shift_feed import ShiftFeed
-from warehouse_viewer.simulation import AwayError
-from warehouse_viewer.work import Work
+from warehouse_viewer.api import changes, description
+from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.metrics import Metrics
+from warehouse_viewer.ros.operations_client import OperationsClient
+from warehouse_viewer.ros.shift_feed import ShiftFeed
+from warehouse_viewer.ros.simulation import AwayError
 
 DASHBOARD = ROOT / "doc" / "grafana.json"
 
@@ -64,7 +64,7 @@ class Shift:
 
     def __init__(self):
         self.ros, self.book, self.seq = Ros(), ChangeBook(), {}
-        self.work = Work(self.ros, ShiftFeed(self.ros, self.book))
+        self.work = OperationsClient(self.ros, ShiftFeed(self.ros, self.book))
         self.work.call = lambda *_: srv.FindOrdersResponse(total=7)
 
     def tell(self, topic, kind, **fields):
@@ -81,8 +81,8 @@ class Shift:
         self.tell("stations", msg.StationStates, stations=rows)
 
     def backend(self, **feed):
-        feed = SimpleNamespace(look=lambda names: None, coordinator=None, **feed)
-        return SimpleNamespace(work=self.work, changes=self.book, feed=feed)
+        feed = SimpleNamespace(subscribe=lambda names: None, coordinator=None, **feed)
+        return SimpleNamespace(operations=self.work, changes=self.book, feed=feed)
 
 
 def test_a_follower_gets_what_stands_first_and_then_what_changes():
@@ -194,7 +194,7 @@ def test_a_shift_that_ends_meanwhile_costs_its_own_figures_alone():
 
 
 def test_the_description_has_the_web_sockets_with_their_messages():
-    told = sockets.described(FastAPI(title="x", version="1"))
+    told = description.described(FastAPI(title="x", version="1"))
     kinds = told["components"]["schemas"]
     messages = told["x-websockets"]["/api/v1/changes"]["messages"]
     named = [kinds[m["$ref"].rsplit("/", 1)[-1]]["properties"]["type"]["enum"][0] for m in messages]

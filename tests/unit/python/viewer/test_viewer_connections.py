@@ -8,8 +8,9 @@ import pytest
 import uvicorn
 from asgi import echo
 
-from warehouse_viewer import app, connections
-from warehouse_viewer.connections import BoundedConnection
+from warehouse_viewer.server import connections
+from warehouse_viewer.server.connections import BoundedConnection
+from warehouse_viewer.server.http_server import config_of
 
 PATIENCE = 20  # of this test with the server [s, wall]
 GET = b"GET / HTTP/1.1\r\nhost: localhost\r\n\r\n"
@@ -26,7 +27,7 @@ def serving(visit, application=echo):
 
     async def run():
         listener = connections.listen("127.0.0.1", 0)
-        server = Server(app.config_of(application))
+        server = Server(config_of(application))
         task = asyncio.create_task(server.serve(sockets=[listener]))
         port = listener.getsockname()[1]
         try:

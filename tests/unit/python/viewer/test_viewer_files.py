@@ -9,7 +9,7 @@ import pytest
 from asgi import request
 from fastapi import FastAPI
 
-from warehouse_viewer.static_files import Files, FreshFiles
+from warehouse_viewer.server.static_files import Files, FreshFiles
 
 
 @pytest.mark.parametrize("kind", [Files, FreshFiles])

@@ -15,14 +15,16 @@ from test_viewer_hub import Socket, hub_of
 from test_viewer_model import World, fleet
 
 from warehouse_msgs.msg import CoordinatorPaths, CoordinatorState, TransportEvent
-from warehouse_viewer import feed as feeds
-from warehouse_viewer import fleet_ways, protocol, schemas
-from warehouse_viewer.coordination import NONE_RUNS, Coordination
-from warehouse_viewer.feed import Feed
-from warehouse_viewer.hub import Page
-from warehouse_viewer.picture import way_shapes
-from warehouse_viewer.simulation import RefusedError
-from warehouse_viewer.transport_book import TransportBook
+from warehouse_viewer.api.schemas import fleet as fleet_schemas
+from warehouse_viewer.api.transport_book import TransportBook
+from warehouse_viewer.page import protocol
+from warehouse_viewer.page.hub import Page
+from warehouse_viewer.ros import feed as feeds
+from warehouse_viewer.ros.coordination import NONE_RUNS, Coordination
+from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.simulation import RefusedError
+from warehouse_viewer.rviz import fleet_ways
+from warehouse_viewer.rviz.picture import way_shapes
 
 
 def paths(stamp=1.0):
@@ -70,8 +72,8 @@ def test_a_page_is_told_of_the_fleet_once_and_of_its_end():
         page = Page(socket, 0)
         for told in (None, state(manual_kiva=[3], waiting_kiva=[4], waiting_for=[0]), None):
             hub._feed.coordinator = told
-            await hub._send_news(page)
-            await hub._send_news(page)
+            await hub._send_changes(page)
+            await hub._send_changes(page)
         first, last = socket.texts
         assert first["fleet"]["manual"] == [3]
         assert last == {"type": "fleet", "fleet": None}
@@ -85,11 +87,11 @@ def test_a_page_gets_the_ways_that_it_wants():
         page, wanted = Page(socket, 0), []
         hub._pages.add(page)
         hub._feed = Told(ways=paths())
-        hub._feed.want = lambda paths, ways, scans: wanted.append(ways)
+        hub._feed.subscribe_extras = lambda paths, ways, scans: wanted.append(ways)
         for wish in ([], [2], "all"):
-            await hub._obey(page, {"watch": {"ways": wish}})
-            await hub._send_news(page)
-            await hub._send_news(page)
+            await hub._handle(page, {"watch": {"ways": wish}})
+            await hub._send_changes(page)
+            await hub._send_changes(page)
         assert wanted == [False, True, True]
         assert socket.updates == [protocol.ways(paths(), {2}), protocol.ways(paths())]
 
@@ -117,7 +119,7 @@ def ros(monkeypatch):
     ros.wall = 100.0
     monkeypatch.setattr(feeds.time, "monotonic", lambda: ros.wall)
     ros.feed = Feed(ros, print, print, lambda: None)
-    ros.feed.look()
+    ros.feed.subscribe()
     return ros
 
 
@@ -151,7 +153,7 @@ def test_the_book_tells_how_far_transports_are():
     book.add(event(3, TransportEvent.ASSIGNED, kiva_id=4))
     assert [t["id"] for t in book.newest_first()] == [3, 2]
     assert [t["id"] for t in book.newest_first("RECEIVED")] == [2]
-    assert schemas.Transport(**book.get(3)).robot == "kiva4"
+    assert fleet_schemas.Transport(**book.get(3)).robot == "kiva4"
     assert book.get(1) is None
 
 
@@ -167,9 +169,9 @@ def test_another_coordinator_begins_another_book():
 )
 def test_a_transport_needs_one_destination(fields):
     with pytest.raises(ValidationError, match="either a station or both x and y"):
-        schemas.NewTransport(storage_unit=1, **fields)
-    schemas.NewTransport(storage_unit=1, x=1.0, y=2.0)
-    schemas.NewTransport(storage_unit=1, station="pick1")
+        fleet_schemas.NewTransport(storage_unit=1, **fields)
+    fleet_schemas.NewTransport(storage_unit=1, x=1.0, y=2.0)
+    fleet_schemas.NewTransport(storage_unit=1, station="pick1")
 
 
 def test_without_a_coordinator_it_is_said_what_to_do():

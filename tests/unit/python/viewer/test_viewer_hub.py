@@ -13,11 +13,12 @@ from std_msgs.msg import Header
 from test_viewer_model import World, fleet, rows
 
 from warehouse_msgs.msg import Event, FleetPaths
-from warehouse_viewer import catalogue
-from warehouse_viewer import hub as hub_module
-from warehouse_viewer.commander import Commander
-from warehouse_viewer.hub import IN_FLIGHT, Hub, Page, paths_of
-from warehouse_viewer.journal import Journal
+from warehouse_viewer.api import catalogue
+from warehouse_viewer.page import hub as hub_module
+from warehouse_viewer.page.hub import IN_FLIGHT, Hub, Page, paths_of
+from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.page.source import Source
+from warehouse_viewer.ros.commander import Commander
 
 
 class Socket:
@@ -34,8 +35,9 @@ class Socket:
 
 
 def hub_of(world, journal=None):
-    feed = SimpleNamespace(want=lambda paths, ways, scans: None, coordinator=None)
-    return Hub(feed, world.model, journal or Journal(), None, catalogue.coordinator)
+    feed = SimpleNamespace(subscribe_extras=lambda paths, ways, scans: None, coordinator=None)
+    source = Source(feed, None, journal or Journal(), catalogue.plain_coordinator)
+    return Hub(source, world.model)
 
 
 async def settle():
@@ -61,7 +63,7 @@ def test_a_page_that_does_not_answer_gets_no_more_and_then_only_the_newest():
             world.turn(fleet=fleet(x=(float(step), -1.0 - step)))
             await tell(hub)
         assert len(socket.updates) == IN_FLIGHT
-        await hub._obey(page, {"ack": IN_FLIGHT})
+        await hub._handle(page, {"ack": IN_FLIGHT})
         await tell(hub)
         assert len(socket.updates) == IN_FLIGHT + 1
         assert rows(socket.updates[-1]) == [2, 0, 0, 0]
@@ -80,7 +82,7 @@ def test_a_page_gets_updates_no_sooner_than_it_asks_for(monkeypatch):
         world.turn()
         hub = hub_of(world)
         page = Page(socket, 0)
-        await hub._obey(page, {"gap": forever})
+        await hub._handle(page, {"gap": forever})
         sending = asyncio.create_task(hub._send_forever(page))
         await settle()
         world.turn(fleet=fleet(x=(3.0, 4.0)))
@@ -95,7 +97,7 @@ def test_a_page_gets_the_scene_before_the_rows_that_refer_to_it():
     async def scenario():
         world, socket = World(), Socket()
         world.turn()
-        await hub_of(world)._send_news(Page(socket, 0))
+        await hub_of(world)._send_changes(Page(socket, 0))
         assert [text["type"] for text in socket.texts] == ["scene"]
         assert rows(socket.updates[0]) == [2, 1, 1, 1]
 
@@ -151,8 +153,8 @@ def test_events_come_once():
                 Event(header=Header(stamp=rospy.Time(2)), kind=Event.DONE, model="kiva1")
             )
         )
-        await hub._send_news(page)
-        await hub._send_news(page)
+        await hub._send_changes(page)
+        await hub._send_changes(page)
         (text,) = socket.texts
         assert text["events"][0] | {"id": 1, "kind": "DONE", "time": 2.0} == text["events"][0]
 

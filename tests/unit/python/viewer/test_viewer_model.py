@@ -16,9 +16,9 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_viewer import protocol, statuses
-from warehouse_viewer.model import Model
-from warehouse_viewer.table import Table
+from warehouse_viewer.page import protocol, statuses
+from warehouse_viewer.page.model import Model
+from warehouse_viewer.page.table import Table
 
 HEAD = 40  # bytes before the rows of an update
 
@@ -85,7 +85,7 @@ class World:
 
     def turn(self, **messages):
         self.messages |= messages
-        return self.model.take(**self.messages)
+        return self.model.update(**self.messages)
 
 
 def rows(update):
@@ -100,11 +100,11 @@ def unit_row(model):
 def test_a_newcomer_gets_all_and_then_what_changed():
     world = World()
     assert world.turn()
-    assert rows(world.model.update(-1)) == [2, 1, 1, 1]
+    assert rows(world.model.encode_update(-1)) == [2, 1, 1, 1]
     seen = world.model.tick
     assert world.turn(fleet=fleet(x=(0.0, 1.5)))
-    assert rows(world.model.update(seen)) == [1, 0, 0, 0]
-    assert rows(world.model.update(world.model.tick)) == [0, 0, 0, 0]
+    assert rows(world.model.encode_update(seen)) == [1, 0, 0, 0]
+    assert rows(world.model.encode_update(world.model.tick)) == [0, 0, 0, 0]
 
 
 def test_statuses_are_numbered_as_in_messages():
@@ -133,7 +133,7 @@ def test_time_alone_is_an_update_now_and_then():
 def test_bytes_are_as_described():
     world = World()
     world.turn(fleet=fleet(x=(2.5, 1.0), shelf=(7, 0), stamp=4.0))
-    update = world.model.update(-1)
+    update = world.model.encode_update(-1)
     assert len(update) == HEAD + 2 * 28 + 3 * 36
     assert np.frombuffer(update, "<u4", 2).tolist() == [protocol.UPDATE, 1]
     assert np.frombuffer(update, "<f8", 1, 8)[0] == 4.0
@@ -172,7 +172,7 @@ def test_a_carried_unit_costs_nothing_while_it_is_driven():
         fleet=fleet(x=(0.7, 1.0), vx=(1.0, 0.0), shelf=(1, 0)),
         states=states(x=0.55, z=0.1, carrier=1),  # of another moment
     )
-    assert rows(world.model.update(seen)) == [1, 0, 0, 0]
+    assert rows(world.model.encode_update(seen)) == [1, 0, 0, 0]
 
 
 def test_a_unit_first_seen_under_way_sits_on_its_robot():
@@ -207,7 +207,7 @@ def test_a_new_scene_when_something_comes():
     world.turn(objects=objects(items=2))
     assert world.model.revision == before + 1
     assert world.model.scene()["items"] == ["item1", "item2"]
-    assert rows(world.model.update(-1)) == [2, 1, 2, 1]
+    assert rows(world.model.encode_update(-1)) == [2, 1, 2, 1]
 
 
 def test_scenery_that_moves_is_no_new_scene():
@@ -216,7 +216,7 @@ def test_scenery_that_moves_is_no_new_scene():
     before, seen = world.model.revision, world.model.tick
     world.turn(scenery=scenery(x=8.0))
     assert world.model.revision == before
-    assert rows(world.model.update(seen)) == [0, 0, 0, 1]
+    assert rows(world.model.encode_update(seen)) == [0, 0, 0, 1]
 
 
 def test_looks_come_by_link():

@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from warehouse_viewer import token
+from warehouse_viewer.server import token
 
 SECRET = "0123456789abcdef"
 

@@ -6,8 +6,8 @@ from urllib.parse import urlencode
 import pytest
 from asgi import echo, request
 
-from warehouse_viewer import invitation, token_page
-from warehouse_viewer.access import AccessControl
+from warehouse_viewer.server import invitation, token_page
+from warehouse_viewer.server.access import AccessControl
 
 HOST = {"host": "robots.example:8080"}
 BROWSER = HOST | {"accept": "text/html,application/xhtml+xml,*/*;q=0.8"}

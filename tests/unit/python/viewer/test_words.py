@@ -9,7 +9,11 @@ from paths import ROOT
 
 from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
-from warehouse_viewer import catalogue, schemas, statuses, work_schemas
+from warehouse_viewer.api import catalogue
+from warehouse_viewer.api.schemas.fleet import RobotsByWork
+from warehouse_viewer.api.schemas.models import Robot
+from warehouse_viewer.api.schemas.operations import STATES
+from warehouse_viewer.page import statuses
 
 WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
@@ -35,13 +39,13 @@ def test_the_page_has_the_words_of_the_api():
     assert list(told["MODE"]) == list(message_names.MODE.values())
     assert [mode.replace(" ", "_").upper() for mode in told["MODE"].values()] == list(told["MODE"])
     assert set(told["TROUBLE"]) < set(message_names.EVENT.values())
-    assert tuple(told["ORDER_STATES"]) == work_schemas.STATES
+    assert tuple(told["ORDER_STATES"]) == STATES
 
 
 def test_the_api_has_the_words_of_the_messages():
-    assert set(schemas.RobotsByWork.__fields__) == set(message_names.WORK)
+    assert set(RobotsByWork.__fields__) == set(message_names.WORK)
     assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
-    allowed = schemas.Robot.__fields__["activity"].type_.__args__
+    allowed = Robot.__fields__["activity"].type_.__args__
     assert set(allowed) == set(catalogue.ACTIVITY.values())
 
 
