@@ -19,7 +19,7 @@ class FloorHeat:
         self._slice = self._slice_of(now)
         self._cells, self._time = None, now
 
-    def see(self, now, x, y, waits):
+    def update(self, now, x, y, waits):
         """Takes in where all robots are [m], and which of them wait (bool), at a time [s]."""
         self._turn(now)
         counts = self._slices[self._slice % SLICES]

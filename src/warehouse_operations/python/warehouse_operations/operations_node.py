@@ -166,7 +166,7 @@ class Warehouse:
         self.people.observe(now, self._there, len(message.kiva_id))
         if self.heat:
             waits = np.isin(np.frombuffer(bytes(message.state), np.uint8), WAITS)
-            self.heat.see(now, message.x, message.y, waits)
+            self.heat.update(now, message.x, message.y, waits)
 
     @property
     def is_known(self):
@@ -353,8 +353,8 @@ class OperationsNode:
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing(self._site.plan)
             if self._warehouse.is_known:
-                self._shift.see_units(set(unit_ids(self._warehouse.objects)))
-        self._shift.fallen.see(self._warehouse.fallen_items)
+                self._shift.update_units(set(unit_ids(self._warehouse.objects)))
+        self._shift.fallen.update(self._warehouse.fallen_items)
         self._shift.advance(now)
         self._tell_changes(now)
         if now >= self._next_stations:
