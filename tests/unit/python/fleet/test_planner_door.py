@@ -2,16 +2,15 @@
 """Planners of somebody's own, in Python and in C++, and the door that checks their plans."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 from warehouse_fleet import Action, Fleet, Rules, epibt, validate
 from warehouse_fleet.planner_plugins import PlannerError, PlanRefusedError, make_planner, read_spec
 from warehouse_layout import Floor, FloorError
 
-ROOT = Path(__file__).parents[3]
 EXAMPLES = ROOT / "src/warehouse_fleet/examples"
 LIBRARY = ROOT / "devel/lib/libright_of_way.so"
 

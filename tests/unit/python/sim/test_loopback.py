@@ -2,11 +2,11 @@
 """ROS listens to this machine alone, unless somebody has said otherwise."""
 
 import subprocess
-from pathlib import Path
 
 import pytest
+from paths import ROOT
 
-HOOK = Path(__file__).resolve().parents[3] / "src/warehouse_sim/env-hooks/50.loopback.sh"
+HOOK = ROOT / "src/warehouse_sim/env-hooks/50.loopback.sh"
 
 
 @pytest.mark.parametrize(

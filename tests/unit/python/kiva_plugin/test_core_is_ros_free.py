@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """ROS stops at the door: the world must build, run and be tested without it."""
 
-import pathlib
 import re
 
-PACKAGE = pathlib.Path(__file__).parents[3] / "src" / "kiva_plugin_cpp"
+from paths import ROOT
+
+PACKAGE = ROOT / "src" / "kiva_plugin_cpp"
 ROS_INCLUDE = re.compile(
     r'^\s*#\s*include\s*[<"](ros|tf2?(_\w+)?|\w+_(msgs|srvs)|dynamic_reconfigure)/', re.M
 )

@@ -3,15 +3,15 @@
 
 import json
 import subprocess
-from pathlib import Path
 
 import numpy as np
+from paths import ROOT
 
 from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
 from warehouse_viewer import catalogue, schemas, statuses, work_schemas
 
-WEB = Path(__file__).parents[3] / "src/warehouse_viewer/web/js/words.js"
+WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
 
 

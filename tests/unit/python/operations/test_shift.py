@@ -8,11 +8,11 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from operations_site import site
+from paths import HELPERS
 from postgres import server
 from sqlalchemy import text
 
@@ -121,7 +121,7 @@ def test_killed_at_any_moment_nothing_is_lost_or_done_twice(tmp_path):
     known = set()
     for writes in range(5):
         worker = subprocess.Popen(
-            [sys.executable, "-c", WORKER, str(Path(__file__).parent), database],
+            [sys.executable, "-c", WORKER, str(HELPERS), database],
             stdout=subprocess.PIPE,
         )
         for _ in range(1 + writes):

@@ -4,13 +4,13 @@
 import asyncio
 import json
 import re
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 import rospy
 from fake_ros import FakeRos
 from fastapi import FastAPI
+from paths import ROOT
 from prometheus_client.parser import text_string_to_metric_families
 from std_msgs.msg import Header
 from test_viewer_fleet import state
@@ -26,7 +26,7 @@ from warehouse_viewer.shift_feed import ShiftFeed
 from warehouse_viewer.simulation import AwayError
 from warehouse_viewer.work import Work
 
-DASHBOARD = Path(__file__).parents[3] / "doc" / "grafana.json"
+DASHBOARD = ROOT / "doc" / "grafana.json"
 
 
 def test_a_reader_gets_the_newest_of_each_key_once():

@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 from warehouse_fleet import generator, problem
 
-PLAN = Path(__file__).parents[3] / "src/warehouse_fleet/nodes/plan"
+PLAN = ROOT / "src/warehouse_fleet/nodes/plan"
 STEPS = {0: (0, 1), 1: (1, 0), 2: (0, -1), 3: (-1, 0)}  # east, south, west, north: row, column
 STEPS_MADE = 150
 

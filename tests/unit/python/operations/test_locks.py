@@ -6,10 +6,10 @@ import os
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from operations_site import site
+from paths import HELPERS
 from postgres import server
 
 from warehouse_operations import Operations, check
@@ -36,7 +36,7 @@ def hold():
     held = []
 
     def begin(database):
-        command = [sys.executable, "-c", HOLDER, str(Path(__file__).parent), str(database)]
+        command = [sys.executable, "-c", HOLDER, str(HELPERS), str(database)]
         process = subprocess.Popen(command, stdout=subprocess.PIPE)
         held.append(process)
         assert process.stdout.readline()

@@ -7,7 +7,9 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-BENCH = Path(__file__).resolve().parents[3] / "bench"
+from paths import ROOT
+
+BENCH = ROOT / "bench"
 sys.path.insert(0, str(BENCH))
 
 import figures  # noqa: E402

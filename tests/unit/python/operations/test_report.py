@@ -12,13 +12,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from instance_file import write_instance
+from paths import ROOT
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_operations import Settings, comparison, plots, report, runs, sweep
 from warehouse_operations.kpis import upper_bound
 from warehouse_operations.simulation import Description, simulate
 
-NODES = Path(__file__).resolve().parents[3] / "src" / "warehouse_operations" / "nodes"
+NODES = ROOT / "src" / "warehouse_operations" / "nodes"
 KPIS = re.findall(
     r"\w+",
     "simulated_s, wall_s, real_time_factor, robots, pick_stations, replenish_stations, "

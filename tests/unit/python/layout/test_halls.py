@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Halls of others: the warehouse stands inside, all of it is reached, and its fleet works."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from paths import WORLDS
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
@@ -15,7 +14,6 @@ from warehouse_layout.fit import fit, fit_largest
 from warehouse_layout.request import RequestError, resolve
 from warehouse_operations import Operations
 
-WORLDS = Path(__file__).resolve().parents[2] / "worlds"
 # Where the walls are: x from, to, y from, to [m].
 HALLS = {
     "hall_with_door": (8, 32, -6, 12),

@@ -2,10 +2,10 @@
 """A fleet at work with physics, in one process."""
 
 import collections
-import pathlib
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
@@ -14,7 +14,7 @@ from warehouse_fleet.traffic import NOWHERE
 from warehouse_fleet.transports import STAY, Kind, Step
 from warehouse_layout.floor_plan import FloorPlan
 
-EXAMPLES = pathlib.Path(__file__).parents[3] / "src/warehouse_fleet/examples"
+EXAMPLES = ROOT / "src/warehouse_fleet/examples"
 
 
 @pytest.fixture

@@ -8,10 +8,10 @@ import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from operations_site import site
+from paths import HELPERS
 from postgres import USER, running, server
 from sqlalchemy import func, select
 
@@ -48,7 +48,7 @@ def work(database, seconds):
 def go_on_after_kills(database):
     moves = 0
     for _ in range(3):
-        command = [sys.executable, "-c", KILLED, str(Path(__file__).parent), str(database)]
+        command = [sys.executable, "-c", KILLED, str(HELPERS), str(database)]
         assert subprocess.run(command, check=False).returncode == -signal.SIGKILL
         assert check.faults(open_engine(database)) == []
         before, moves = moves, rows(database, schema.move)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 import kiva_plugin_cpp
 from kiva_plugin_cpp import (
@@ -25,7 +26,6 @@ from kiva_plugin_cpp import (
     World,
 )
 
-REPOSITORY = Path(__file__).parents[3]
 PLACES = {1: (0, 0), 2: (0, 3), 7: (-5, -5)}
 VIEWS = (
     *("x", "y", "yaw", "vx", "vy", "yaw_rate", "tower", "status", "state"),
@@ -199,7 +199,7 @@ def test_what_is_wrong_raises_with_its_reason_and_changes_nothing(world, call, e
 
 
 def test_a_world_file_that_is_wrong_names_its_line():
-    worlds = REPOSITORY / "tests" / "worlds"
+    worlds = ROOT / "tests" / "worlds"
     with pytest.warns(UserWarning, match=r"invalid_box_size\.sdf:\d+"):
         World(worlds / "invalid_box_size.sdf")
     with pytest.raises(DescriptionError, match=r"invalid_no_world\.sdf: expected a <world>"):
@@ -363,7 +363,7 @@ def test_scans_are_a_view_until_the_next(world):
 
 
 def test_models_come_and_go(world):
-    sdf = (REPOSITORY / "worlds" / "models" / "person" / "model.sdf").read_text()
+    sdf = (ROOT / "worlds" / "models" / "person" / "model.sdf").read_text()
     assert world.spawn(sdf, "person9", (4, 4, 0, 0)) == ["person9"]
     assert "person9" in world.names
     np.testing.assert_allclose(world.pose("person9"), [4, 4, 0, 0, 0, 0, 1])
@@ -493,7 +493,7 @@ def test_the_stubs_name_everything():
 
 
 def test_the_readmes_example_runs():
-    readme = (REPOSITORY / "README.md").read_text()
+    readme = (ROOT / "README.md").read_text()
     (example,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
     done = subprocess.run(
         [sys.executable, "-c", example], check=False, capture_output=True, text=True, timeout=120
