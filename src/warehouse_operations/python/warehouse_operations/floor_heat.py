@@ -58,7 +58,7 @@ class FloorHeat:
         return self._slices.sum(axis=0)
 
     def _turn(self, now):
-        """Empties the slices whose time begins anew."""
+        """Empties the slices whose time begins again."""
         current = self._slice_of(now)
         for number in range(self._slice + 1, min(current, self._slice + SLICES) + 1):
             self._slices[number % SLICES] = 0

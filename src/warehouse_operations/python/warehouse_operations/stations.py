@@ -86,7 +86,7 @@ class WorkStation:
         return max(0.0, now - max(visit.arrived, self.attended))
 
     def stock_here(self):
-        """Pieces nobody is promised, by SKU, on the unit that is here."""
+        """Returns the pieces promised to no order, by SKU, on the unit in the service cell."""
         visit = self.here
         return self._stock([visit] if visit else [])
 

@@ -106,7 +106,6 @@ import sys
 sys.path.insert(0, sys.argv[1])
 from kiva_plugin_cpp import World
 from operations_site import site
-from postgres import server
 from warehouse_operations import Operations
 ops = Operations(site=site(), physics=False, database=sys.argv[2], orders="fill:40")
 while True:
