@@ -154,7 +154,7 @@ struct ModelInstance {
   std::shared_ptr<const ModelDescription> description;
   std::string
       robot_namespace{};       ///< Told to its plugins as `robotNamespace`, unless they have one.
-  std::optional<Walk> walk{};  ///< Of an `<actor>`: it is a person, who walks so.
+  std::optional<Walk> walk{};  ///< Given by an `<actor>`: a person that walks so.
 };
 
 struct WorldDescription {

@@ -11,7 +11,7 @@ namespace kiva {
 enum class Failure : std::uint8_t {
   kMotor = 1,      ///< The drive has no torque, and its brakes close: it stands where it can.
   kLift = 2,       ///< The tower stands wherever it is.
-  kLaser = 3,      ///< Blind: no scans, and the robot stands, since it does not see who comes.
+  kLaser = 3,      ///< Blind: no scans, and the robot stands, since it does not see what comes.
   kRadio = 4,      ///< It hears no command and reports nothing; what it has been told it does.
   kWheelSlip = 5,  ///< Its wheels have less grip: it turns and brakes as that allows.
 };

@@ -157,12 +157,12 @@ struct Fleet {
   Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
   Column<float> charge;           ///< Of its battery, 0…1; 1 where there is no model of that.
   /// What its protective field allows, for the sake of people near [m/s]: 0 = it stands, +inf =
-  /// nobody is near.
+  /// no person is near.
   Column<double> allowed_speed;
   /// Its mode, as in warehouse_msgs/SetRobotMode: kept for the program that coordinates the fleet.
   /// The world goes by none of it.
   Column<std::uint8_t> mode;
-  Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain where somebody is.
+  Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain with a person inside.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What models look like, for whoever draws them.
+// What models look like, for programs that draw them.
 #pragma once
 
 #include <cstdint>

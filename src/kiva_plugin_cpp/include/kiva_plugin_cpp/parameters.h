@@ -17,7 +17,7 @@ class DescriptionError : public std::runtime_error {
 /// The parameters of one plugin: the text of each child element of its SDF `<plugin>`.
 ///
 /// Nested elements are reached by a path, `pose/x`. A getter checks type and range at once; what
-/// nobody asked for is found by `rejectUnread`, so that a misspelt parameter is an error.
+/// was not asked for is found by `rejectUnread`, so that a misspelt parameter is an error.
 class Parameters {
  public:
   Parameters() = default;
@@ -40,7 +40,8 @@ class Parameters {
   /// That many numbers with blanks between them at `key`, or `fallback`; all finite.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback) const;
 
-  /// The keys that nobody asked for; `robotNamespace`, which every plugin gets, is not among them.
+  /// The keys that were not asked for; `robotNamespace`, which every plugin gets, is not among
+  /// them.
   std::vector<std::string> unread() const;
   /// Throws DescriptionError if there is one, and lists those that were asked for.
   void rejectUnread() const;

@@ -26,7 +26,7 @@ class Plugin {
   virtual ~Plugin() = default;
 
   /// Once, when its model stands in the world. `model` is that model's name, empty for a plugin of
-  /// the world. Throw to refuse the model; keys of `parameters` that nobody read refuse it too.
+  /// the world. Throw to refuse the model; keys of `parameters` that were not read refuse it too.
   virtual void load(World& world, const std::string& model, const Parameters& parameters) = 0;
 
   /// Before each physics step of `dt` seconds: command, apply forces.
@@ -44,7 +44,7 @@ class Plugin {
   /// The world went back to where it began, perhaps its time too.
   virtual void reset(World& /*world*/) {}
 
-  /// Whether what it throws, and parameters that nobody read, refuse the model; else they are a
+  /// Whether what it throws, and parameters that were not read, refuse the model; else they are a
   /// warning, and a plugin that threw is left out.
   virtual bool isStrict() const { return true; }
 };

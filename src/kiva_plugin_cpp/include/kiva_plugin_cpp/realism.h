@@ -65,7 +65,7 @@ struct ActuationRealism {
   }
 };
 
-/// Floors that don't grip everywhere: cells that are wet, oily or dusty, anew for each seed.
+/// Floors that don't grip everywhere: cells that are wet, oily or dusty, others for each seed.
 struct FloorRealism {
   bool enabled = false;
   double slippery_cells = 0.01;  ///< Share of the grid's cells.
@@ -87,7 +87,7 @@ struct LoadRealism {
   double tipping_share = 0.7;
   double item_friction_least = 0.3;  ///< Coulomb coefficient of an item on its board, evenly
   double item_friction_most = 0.5;   ///< distributed between these.
-  double pick_up_after = 300;  ///< An item lies on the floor until somebody comes [s]; 0: nobody.
+  double pick_up_after = 300;  ///< An item lies on the floor until it is picked up [s]; 0: never.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
@@ -220,7 +220,7 @@ void forEachSection(R& realism, Call call) {
 
 /// Reads `prefix` + `section/name` for every number. A section of which anything is given is on,
 /// its other numbers at their defaults; so is one that is `true` itself, and `false` is off.
-/// Throws DescriptionError for what is no number or out of its range; what nobody knows is left to
+/// Throws DescriptionError for what is no number or out of its range; unknown keys are left to
 /// Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
 

@@ -30,8 +30,8 @@ class ViewableMemory {
   }
 };
 
-/// For containers whose elements are read by others without a copy: who holds the memory may go on
-/// reading what was there last, whatever becomes of the container.
+/// For containers whose elements are read by others without a copy: a holder of the memory may go
+/// on reading what was there last, whatever becomes of the container.
 template <typename T>
 struct ViewableAllocator {
   using value_type = T;

@@ -208,13 +208,13 @@ class World {
   /// radio; nothing of one that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
 
-  // --- who commands robots
+  // --- the robots' modes
   /// Keeps that with the robot, as Fleet::mode. Throws std::invalid_argument if there is no such
   /// robot or no such mode.
   void keepMode(int kiva_id, int mode);
 
   // --- people
-  /// Has somebody go that way from now on: an actor, or a static model that is no larger than a
+  /// Has a person go that way from now on: an actor, or a static model that is no larger than a
   /// person, which is one from then on: robots keep away from people. Without waypoints they stay
   /// where they are. They stop before what is in their way, and walk around it where they can.
   /// Throws std::invalid_argument, with nothing changed, if there is no such model, it is no
@@ -231,7 +231,7 @@ class World {
   // --- fallen items
   /// In the order in which they fell.
   std::vector<FallenItem> fallenItems() const;
-  /// Somebody picks that item up, and puts it back in its place on its storage unit: PICKED_UP.
+  /// Picks that item up, and puts it back in its place on its storage unit: PICKED_UP.
   /// Throws std::invalid_argument, with nothing changed, if it did not fall, or its unit does not
   /// stand upright.
   void pickUp(const std::string& item);

@@ -12,7 +12,7 @@
 
 #include "arrays.h"
 #include "core/motion/wheels.h"
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 #include "host.h"
 #include "kiva_plugin_cpp/command.h"
 

@@ -34,8 +34,8 @@ class FleetLog:
             moved = np.hypot(dx, dy)
             self.distance_m += float(moved[moved < JUMP].sum())
         now = fleet.stamp.to_sec()
-        self.failures.observe(now, np.frombuffer(fleet.failures, np.uint8))
-        self.people.observe(now, people, len(fleet.kiva_id))
+        self.failures.update(now, np.frombuffer(fleet.failures, np.uint8))
+        self.people.update(now, people, len(fleet.kiva_id))
         if self.heat:
             waits = np.isin(np.frombuffer(bytes(fleet.state), np.uint8), WAITS)
             self.heat.update(now, fleet.x, fleet.y, waits)

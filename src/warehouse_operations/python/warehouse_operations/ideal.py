@@ -80,7 +80,7 @@ class IdealFleet:
         return self
 
     @property
-    def robots(self) -> int:
+    def robot_count(self) -> int:
         """How many robots there are."""
         return len(self._trips.robots)
 
@@ -175,7 +175,7 @@ class IdealFleet:
         """Returns the robot-seconds spent on each of ACTIVITIES up to now."""
         return self._trips.activities()
 
-    def traffic(self) -> np.ndarray:
+    def passages(self) -> np.ndarray:
         """Returns how often a robot with a load drove through each cell, (h, w)."""
         count = np.zeros(self.plan.passable.size)
         for (station, cell, outbound), times in sorted(self._trips.ways.items()):

@@ -149,7 +149,7 @@ def figures(
 ) -> dict[str, Any]:
     """Returns the figures of kpis.json; state: the coordinator's, log: a FleetLog."""
     fleet = SimpleNamespace(
-        robots=len(site.robots),
+        robot_count=len(site.robots),
         distance_m=log.distance_m,
         collisions=state.collisions,
         blocked=state.blocked,

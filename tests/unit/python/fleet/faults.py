@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from warehouse_fleet.traffic import REPORTED
+from warehouse_fleet.robot_table import REPORT
 
 DELIVERY = 0.02  # between two looks whether messages have arrived [s]
 
@@ -50,7 +50,7 @@ class BadConnection:
 
     def _report(self):
         fleet = self._world.fleet
-        report = {name: np.array(getattr(fleet, name)) for name in [*REPORTED, "kiva_id"]}
+        report = {name: np.array(getattr(fleet, name)) for name in REPORT.names if name != "mode"}
         return self._world.time, SimpleNamespace(**report)
 
     def _command(self, name, *args):

@@ -14,7 +14,7 @@ from kiva_plugin_cpp import EventKind, FailureKind, World
 from warehouse_fleet.failures import EMPTY, FailureLog
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import Mode
+from warehouse_fleet.robot_table import Mode
 from warehouse_fleet.transports import Kind, Step
 
 LONG = float(os.environ.get("FAILURE_MINUTES", "0"))
@@ -65,10 +65,17 @@ class Fleet:
         fleet, plan = self.world.fleet, self.driver.plan
         aside = (plan.storage | plan.lane).ravel()
         fast = np.hypot(fleet.vx, fleet.vy) > 1
-        return np.flatnonzero(fast & (fleet.shelf_id != 0) & ~aside[self.traffic.cell]).tolist()
+        return np.flatnonzero(
+            fast & (fleet.shelf_id != 0) & ~aside[self.traffic.robots.cell]
+        ).tolist()
+
+    def refuge(self, robot):
+        """The cell to which a robot would be towed."""
+        order = self.driver.controller.tow(self.kiva(robot))
+        return self.driver.plan.cell_of(order.x, order.y)
 
     def kiva(self, robot):
-        return int(self.traffic.kiva_ids[robot])
+        return int(self.traffic.robots.kiva_ids[robot])
 
 
 def test_throughput_with_ten_failures_an_hour():
@@ -79,7 +86,7 @@ def test_throughput_with_ten_failures_an_hour():
             fleet.run(WARM_UP)
             delivered[name] = fleet.run(60 * MINUTES)
             assert fleet.driver.collisions == 0
-            assert not fleet.traffic.mode.any()
+            assert not fleet.traffic.robots.mode.any()
             log = fleet.driver.failures
     print(delivered, log.figures(), log.by_kind())
     assert log.total >= 3
@@ -95,18 +102,18 @@ def test_a_robot_breaks_in_a_street_with_a_unit_on_it(kind):
         unit = int(fleet.world.fleet.shelf_id[robot])
         fleet.world.fail(fleet.kiva(robot), kind)
         fleet.run(1)
-        assert fleet.traffic.broken[robot]
-        assert fleet.traffic.cell[robot] in fleet.traffic.closed
+        assert fleet.traffic.robots.broken[robot]
+        assert fleet.traffic.robots.cell[robot] in fleet.traffic.closed
         fleet.told.clear()
         assert fleet.run(90) > 0
         lost = [e.text for e in fleet.told if e.kind == Kind.FAILED]
         assert lost == ["its robot is broken"]
-        assert fleet.traffic.watchdog == 0
+        assert fleet.traffic.watchdog.count == 0
         fleet.world.fail(fleet.kiva(robot), FailureKind.REPAIRED)
         is_stored = lambda e: e.kind == Kind.STORED and e.shelf_id == unit  # noqa: E731
         fleet.until(lambda: any(map(is_stored, fleet.told)), 240)
         assert fleet.driver.collisions == 0
-        assert not fleet.traffic.mode.any()
+        assert not fleet.traffic.robots.mode.any()
 
 
 def test_a_broken_robot_is_towed_away_with_its_unit():
@@ -121,7 +128,7 @@ def test_a_broken_robot_is_towed_away_with_its_unit():
         held = set(fleet.traffic.closed.tolist())
         fleet.driver.tow(kiva)
         fleet.run(2)
-        assert plan.storage.flat[fleet.traffic.cell[robot]]
+        assert plan.storage.flat[fleet.traffic.robots.cell[robot]]
         assert fleet.world.fleet.shelf_id[robot] != 0
         assert not held & set(fleet.traffic.closed.tolist())  # others pass where it stood
         fleet.told.clear()
@@ -137,7 +144,7 @@ def test_who_is_not_heard_in_a_street_is_found_and_towed():
         robot = fleet.until(fleet.loaded_in_streets)[0]
         fleet.world.fail(fleet.kiva(robot), FailureKind.RADIO_LOST)
         fleet.run(15)
-        at = fleet.traffic.cell[robot]
+        at = fleet.traffic.robots.cell[robot]
         assert fleet.driver.plan.storage.flat[at]
         assert at == fleet.driver.plan.cell_of(
             fleet.world.fleet.x[robot], fleet.world.fleet.y[robot]
@@ -149,12 +156,12 @@ def test_who_is_lost_beneath_a_unit_is_towed_from_there():
     with Fleet("medium", tow_after=10) as fleet:
         fleet.run(20)
         traffic, plan = fleet.traffic, fleet.driver.plan
-        beneath = lambda: plan.storage.flat[traffic.cell] & ~traffic.loaded  # noqa: E731
+        beneath = lambda: plan.storage.flat[traffic.robots.cell] & ~traffic.robots.loaded  # noqa: E731
         robot = fleet.until(lambda: np.flatnonzero(beneath()).tolist())[0]
-        at = traffic.cell[robot]
-        traffic.lost[robot], traffic.mode[robot] = True, Mode.OUT_OF_SERVICE
-        fleet.until(lambda: traffic.cell[robot] != at, 30)
-        assert traffic.mode[robot] == Mode.AUTOMATIC
+        at = traffic.robots.cell[robot]
+        traffic.robots.lost[robot], traffic.robots.mode[robot] = True, Mode.OUT_OF_SERVICE
+        fleet.until(lambda: traffic.robots.cell[robot] != at, 30)
+        assert traffic.robots.mode[robot] == Mode.AUTOMATIC
 
 
 def test_who_was_not_heard_since_it_lifted_works_again_when_it_is_repaired():
@@ -172,13 +179,13 @@ def test_who_was_not_heard_since_it_lifted_works_again_when_it_is_repaired():
 
 def test_nobody_is_towed_to_where_others_are_about_to_pass():
     with Fleet("medium") as fleet:
-        traffic, count = fleet.traffic, len(fleet.traffic.kiva_ids)
+        traffic, count = fleet.traffic, len(fleet.traffic.robots.kiva_ids)
         for _ in range(60):
             fleet.run(1)
             for robot in fleet.loaded_in_streets():
-                traffic.broken[robot] = True
-                refuge = fleet.transports.refuge(fleet.kiva(robot))
-                traffic.broken[robot] = False
+                traffic.robots.broken[robot] = True
+                refuge = fleet.refuge(robot)
+                traffic.robots.broken[robot] = False
                 assert all(refuge not in traffic.paths(other)[0] for other in range(count))
 
 
@@ -186,11 +193,11 @@ def test_who_is_empty_is_towed_to_where_it_is_charged():
     with Fleet("medium") as fleet:
         fleet.run(20)
         traffic = fleet.traffic
-        traffic.broken = np.ones(len(traffic.broken), bool)
-        traffic.failures = np.full(len(traffic.broken), 1 << EMPTY, np.uint8)
-        unloaded = traffic.kiva_ids[~traffic.loaded].tolist()
+        traffic.robots.broken = np.ones(len(traffic.robots.broken), bool)
+        traffic.robots.failures = np.full(len(traffic.robots.broken), 1 << EMPTY, np.uint8)
+        unloaded = traffic.robots.kiva_ids[~traffic.robots.loaded].tolist()
         assert unloaded
-        refuges = [fleet.transports.refuge(kiva) for kiva in unloaded]
+        refuges = [fleet.refuge(traffic.robots.index(kiva)) for kiva in unloaded]
         assert np.isin(refuges, fleet.driver.plan.charging).all()
 
 
@@ -233,7 +240,7 @@ def test_availability():
             bits[1] |= 1 << FailureKind.RADIO_LOST
         if second >= 50:
             bits[2] |= 1 << FailureKind.WHEEL_SLIPS  # slow, but at work
-        log.observe(float(second), bits)
+        log.update(float(second), bits)
     figures = log.figures()
     assert figures["failures"] == 3
     assert figures["availability"] == pytest.approx(1 - 30 / 400)

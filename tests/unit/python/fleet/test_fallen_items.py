@@ -65,7 +65,7 @@ def test_cells_are_closed_while_items_lie_there():
         fleet.run(5)
         assert not len(fleet.world.fallen_items)
         assert not fleet.traffic.wants_map
-        standing = set(fleet.traffic.cell.tolist())
+        standing = set(fleet.traffic.robots.cell.tolist())
         assert not (lie - standing) & set(fleet.traffic.closed.tolist())
         home = dict(zip(fallen["item_id"], fallen["shelf_id"]))
         items = fleet.world.items

@@ -15,7 +15,7 @@ from faults import BadConnection, Stops
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import Mode
+from warehouse_fleet.robot_table import Mode, reports_of
 from warehouse_fleet.transports import Kind
 from warehouse_layout.stations import PICK
 
@@ -53,8 +53,8 @@ class Site:
         """Another driver, that ends the paths it finds."""
         self.driver.close()
         self.begin(self.world)
-        while (found := self.traffic.inherited(self.world.fleet)).any():
-            self.world.cancel(self.traffic.kiva_ids[found])
+        while (found := self.traffic.inherited(reports_of(self.world.fleet))).any():
+            self.world.cancel(self.traffic.robots.kiva_ids[found])
             self.run(0.5)
 
     def __enter__(self):
@@ -94,7 +94,7 @@ class Site:
         fleet = self.world.fleet
         fast = np.hypot(fleet.vx, fleet.vy) > 1
         aside = (self.plan.storage | self.plan.lane).ravel()
-        ready = fast & ((fleet.shelf_id != 0) == loaded) & ~aside[self.traffic.cell]
+        ready = fast & ((fleet.shelf_id != 0) == loaded) & ~aside[self.traffic.robots.cell]
         return np.flatnonzero(ready).tolist()
 
     def between_cells(self, loaded):
@@ -108,7 +108,7 @@ class Site:
         return getattr(self.traffic, what)[robot]
 
     def name(self, robot):
-        return f"kiva{self.traffic.kiva_ids[robot]}"
+        return f"kiva{self.traffic.robots.kiva_ids[robot]}"
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +118,7 @@ def calm():
     for seed in SEEDS:
         with Site(seed) as site:
             rates.append(site.run(WINDOW))
-            assert site.driver.collisions == site.driver.blocked == site.traffic.watchdog == 0
+            assert site.driver.collisions == site.driver.blocked == site.traffic.watchdog.count == 0
     return float(np.mean(rates))
 
 
@@ -131,7 +131,7 @@ def test_robots_that_stop_delay_only_whom_they_must(calm):
             stops.end()
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
-            assert not site.traffic.mode.any()
+            assert not site.traffic.robots.mode.any()
     told(calm, during, after)
     assert np.mean(during) > 0.3 * calm
     assert np.mean(after) > AS_BEFORE * calm
@@ -143,7 +143,7 @@ def test_messages_late_and_lost(calm):
         with Site(seed, BadConnection) as site:
             during.append(site.run(WINDOW))
             assert site.driver.collisions == 0
-            assert not site.traffic.mode.any()
+            assert not site.traffic.robots.mode.any()
             assert site.transports.totals.failed == 0
     told(calm, during, [])
     assert np.mean(during) > 0.6 * calm
@@ -158,7 +158,7 @@ def test_all_at_once(calm):
             during.append(site.run(WINDOW, stops))
             stops.end()
             assert site.driver.collisions == 0
-            assert not site.traffic.mode.any()
+            assert not site.traffic.robots.mode.any()
     told(calm, during, [])
     assert np.mean(during) > 0.25 * calm
 
@@ -179,7 +179,7 @@ def test_a_robot_pushed_aside_finds_back(calm, is_loaded):
                 site.world.set_pose(site.name(robot), pose[0] + dx, pose[1] + dy, pose[2], yaw)
                 site.run(30)
                 assert site.driver.collisions == 0, (dx, dy)
-                assert not site.traffic.astray.any()
+                assert not site.traffic.robots.astray.any()
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
             assert len(site.driver.refusals) < 10 * len(PUSHES), site.driver.refusals[-5:]
@@ -194,26 +194,26 @@ def test_a_robot_pushed_beneath_its_station_finds_back(dx, yaw):
     """The belt leaves no room to turn beside it: the robot must drive out of there."""
     with Site() as site:
         robot = site.until(partial(served, site))
-        service = int(site.traffic.cell[robot])
+        service = int(site.traffic.robots.cell[robot])
         shelf = int(site.world.fleet.shelf_id[robot])
         pose = site.world.pose(site.name(robot))
         turned = site.world.fleet.yaw[robot] + yaw
         site.world.set_pose(site.name(robot), pose[0] + dx, pose[1], pose[2], turned)
-        site.until(lambda: site.traffic.astray[robot])
-        site.until(lambda: not site.traffic.astray[robot], 40)
+        site.until(lambda: site.traffic.robots.astray[robot])
+        site.until(lambda: not site.traffic.robots.astray[robot], 40)
         site.until(partial(site.has_seen, Kind.STORED, shelf), 180)
         behind = site.transports.totals.delivered
         site.until(lambda: site.transports.totals.delivered > behind + 5)
         assert site.driver.collisions == 0
         assert len(site.driver.refusals) < 10, site.driver.refusals
-        assert not site.traffic.mode.any()
-        assert site.traffic.cell[robot] != service
+        assert not site.traffic.robots.mode.any()
+        assert site.traffic.robots.cell[robot] != service
 
 
 def served(site):
     """A robot that stands at the belt of a station, where it is served; or None."""
     cells = {station.service_cell for station in site.plan.stations if station.kind == PICK}
-    at = np.flatnonzero(np.isin(site.traffic.cell, list(cells)) & site.traffic.busy)
+    at = np.flatnonzero(np.isin(site.traffic.robots.cell, list(cells)) & site.traffic.robots.busy)
     return next((int(robot) for robot in at if site.world.fleet.shelf_id[robot]), None)
 
 
@@ -229,17 +229,17 @@ def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
                 site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
             site.until(partial(site.traffic_says, "lost", robot))
             asked = refusals_of(site, robot)
-            assert site.traffic.mode[robot] == Mode.OUT_OF_SERVICE
+            assert site.traffic.robots.mode[robot] == Mode.OUT_OF_SERVICE
             assert site.until(partial(failed, site)) == ["its robot is OUT_OF_SERVICE now"]
             for number in range(len(AROUND)):
                 site.world.delete(f"pillar{number}")
             during.append(site.run(WINDOW))
             assert refusals_of(site, robot) <= asked + 1  # the last one was on its way
-            assert site.traffic.lost[robot]
-            site.traffic.mode[robot] = Mode.AUTOMATIC
+            assert site.traffic.robots.lost[robot]
+            site.traffic.robots.mode[robot] = Mode.AUTOMATIC
             site.until(partial(site.traffic_says, "astray", robot))
-            site.until(lambda: not site.traffic.astray.any())
-            assert not site.traffic.lost[robot]
+            site.until(lambda: not site.traffic.robots.astray.any())
+            assert not site.traffic.robots.lost[robot]
             assert site.driver.collisions == 0
     told(calm, during, [])
     assert np.mean(during) > 0.3 * calm
@@ -256,7 +256,7 @@ def failed(site):
 def pushable_off_its_point(site):
     """Those with a load that stand on a grid point and can be pushed 0.3 m along x."""
     fleet, found = site.world.fleet, pushable(site, True, 0.3, 0.0)
-    x, y = site.plan.point_of(site.traffic.cell)
+    x, y = site.plan.point_of(site.traffic.robots.cell)
     return [robot for robot in found if np.hypot(fleet.x - x, fleet.y - y)[robot] < 0.01]
 
 
@@ -275,7 +275,7 @@ def pushable(site, is_loaded, dx, dy):
         covered = site.plan.cell_of(*(np.array([x, y]) + corners).T)
         is_street = all(
             cell >= 0 and passable[cell] and not site.plan.storage.flat[cell]
-            for cell in (site.plan.cell_of(x, y), site.traffic.cell[robot])
+            for cell in (site.plan.cell_of(x, y), site.traffic.robots.cell[robot])
         )
         is_room = (covered >= 0).all() and passable[covered].all()
         if is_street and is_room and far.min() > 1.3 and away.min() > (1.1 if is_loaded else 0.9):
@@ -288,14 +288,14 @@ def test_a_robot_dies_in_a_street_with_a_unit_on_it(calm):
     for seed in SEEDS:
         with Site(seed) as site:
             robot = site.until(lambda: site.at_speed(loaded=True))[0]
-            site.world.stop(int(site.traffic.kiva_ids[robot]), True)
+            site.world.stop(int(site.traffic.robots.kiva_ids[robot]), True)
             during.append(site.run(WINDOW))
-            assert site.traffic.stalled[robot]
+            assert site.traffic.robots.stalled[robot]
             fails = [e for e in site.events if e.kind == Kind.FAILED]
             assert [f.text for f in fails] == ["its robot does not move"]
-            site.world.stop(int(site.traffic.kiva_ids[robot]), False)
+            site.world.stop(int(site.traffic.robots.kiva_ids[robot]), False)
             site.run(60)
-            assert not site.traffic.stalled.any()
+            assert not site.traffic.robots.stalled.any()
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
     told(calm, during, after)
@@ -340,12 +340,12 @@ def test_something_stands_in_a_street_for_a_minute(calm, what):
                 site.world.spawn_model("person", "thing", x, y)
             cell = site.plan.cell_of(x, y)
             during.append(site.run(60))
-            assert not (site.traffic.cell == cell).any()
+            assert not (site.traffic.robots.cell == cell).any()
             site.world.delete("thing")
             site.run(20)
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
-            assert site.traffic.stalled.sum() == 0
+            assert site.traffic.robots.stalled.sum() == 0
     told(calm, during, after)
     assert np.mean(during) > 0.3 * calm
     assert np.mean(after) > AS_BEFORE * calm
@@ -354,7 +354,7 @@ def test_something_stands_in_a_street_for_a_minute(calm, what):
 def ahead(site, robot, cells):
     fleet = site.world.fleet
     column, row = round(np.cos(fleet.yaw[robot])), round(np.sin(fleet.yaw[robot]))
-    x, y = site.plan.point_of(site.traffic.cell[robot])
+    x, y = site.plan.point_of(site.traffic.robots.cell[robot])
     return x + cells * column * site.plan.spacing, y + cells * row * site.plan.spacing
 
 
@@ -380,7 +380,7 @@ def test_another_driver_takes_over_what_is_under_way(calm):
             assert (carried != 0).sum() >= 10
             site.take_over()
             site.run(WARM_UP)
-            assert not site.traffic.mode.any()
+            assert not site.traffic.robots.mode.any()
             after.append(site.run(WINDOW))
             assert site.driver.collisions == 0
             stored = {event.shelf_id for event in site.events if event.kind == Kind.STORED}

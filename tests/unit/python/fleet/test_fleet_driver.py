@@ -10,7 +10,7 @@ from paths import ROOT
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.traffic import NOWHERE
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transports import STAY, Kind, Step
 from warehouse_layout.floor_plan import FloorPlan
 
@@ -38,7 +38,7 @@ def work(driver, seconds, exchange=12.0, seed=1):
         driver.step()
         for transport in driver.transports:
             if transport.step == Step.WAITING:
-                assert driver.traffic.cell[transport.robot] == transport.cell
+                assert driver.traffic.robots.cell[transport.robot] == transport.cell
 
 
 def assert_clean(driver):
@@ -76,7 +76,7 @@ def run_until(driver, kinds, limit=200):
 def test_a_transport_goes_through_all_its_steps(drive):
     driver = drive(World.preset("small"))
     transports = driver.transports
-    station = driver.stations[0].name
+    station = driver.plan.stations[0].name
     number = transports.submit(7, station).transport_id
     events = run_until(driver, {Kind.ARRIVED})
     assert transports.release(number) == (True, "")
@@ -113,7 +113,7 @@ class HardOfHearing:
 
 def test_a_lift_is_asked_for_until_it_is_heard(drive):
     driver = drive(HardOfHearing(World.preset("small"), in_vain=4))
-    number = driver.transports.submit(7, driver.stations[0].name).transport_id
+    number = driver.transports.submit(7, driver.plan.stations[0].name).transport_id
     events = run_until(driver, {Kind.ARRIVED, Kind.FAILED})
     assert driver.transports.release(number) == (True, "")
     events += run_until(driver, {Kind.STORED, Kind.FAILED})
@@ -130,7 +130,7 @@ def test_a_unit_stays_where_it_was_brought_and_is_fetched_from_there(drive):
     run_until(driver, {Kind.STORED})
     unit = driver.world.storage_units[2]
     assert unit["kiva_id"] == 0 and abs(unit["x"] - x) < 1e-3 and abs(unit["y"] - y) < 1e-3
-    station = driver.stations[0].name
+    station = driver.plan.stations[0].name
     assert transports.submit(3, station).transport_id == number + 1
     assert run_until(driver, {Kind.ARRIVED}, 400)[-1].kind == Kind.ARRIVED
     assert_clean(driver)
@@ -139,15 +139,15 @@ def test_a_unit_stays_where_it_was_brought_and_is_fetched_from_there(drive):
 def test_who_queues_is_not_stuck_however_long_a_service_takes(drive):
     driver = drive(World.preset("small"))
     transports, traffic = driver.transports, driver.traffic
-    station = driver.stations[0].name
+    station = driver.plan.stations[0].name
     first, second = (transports.submit(unit, station).transport_id for unit in (7, 9))
     served = run_until(driver, {Kind.ARRIVED})[-1].transport_id
     behind = next(t.robot for t in transports if t.number == first + second - served)
-    while driver.time - traffic.still_since[behind] < 29:
+    while driver.time - traffic.robots.still_since[behind] < 29:
         driver.step()
         # There is time to move up when the service ends, before the watchdog counts it.
-        assert traffic.stuck_for[behind] < 10
-    assert traffic.plan.lane.flat[traffic.cell[behind]]
+        assert traffic.watchdog.stuck_for[behind] < 10
+    assert traffic.plan.lane.flat[traffic.robots.cell[behind]]
 
 
 def test_who_only_waits_leaves_its_place_to_who_fetches_the_unit_there(drive):
@@ -159,13 +159,13 @@ def test_who_only_waits_leaves_its_place_to_who_fetches_the_unit_there(drive):
     transports, traffic = driver.transports, driver.traffic
     waits, fetches = 0, 1
     driver.step()
-    cell = int(traffic.goal[waits])
+    cell = int(traffic.robots.goal[waits])
     unit = next(shelf for shelf, at in transports.cell_of_unit.items() if at == cell)
     transports.match_robots = lambda asked, free: [(asked[0], fetches)]
-    transports.submit(unit, driver.stations[0].name)
+    transports.submit(unit, driver.plan.stations[0].name)
     driver.step()
-    assert traffic.goal[fetches] == cell
-    assert traffic.goal[waits] not in (cell, NOWHERE)
+    assert traffic.robots.goal[fetches] == cell
+    assert traffic.robots.goal[waits] not in (cell, NOWHERE)
 
 
 @pytest.mark.parametrize(
@@ -189,7 +189,7 @@ def test_a_planner_of_ones_own_drives_the_fleet(drive, monkeypatch):
     driver = drive(World.preset("medium"), planner={"planner": "right_of_way:RightOfWay"})
     work(driver, 120)
     assert driver.transports.totals.delivered > 4
-    assert driver.collisions == driver.blocked == driver.traffic.refused_plans == 0
+    assert driver.collisions == driver.blocked == driver.traffic.plans.refused == 0
 
 
 class Colliding:
@@ -206,6 +206,6 @@ class Colliding:
 def test_a_plan_that_would_collide_is_refused_with_the_robots_names(drive):
     driver = drive(World.preset("small"), planner={"planner": f"{__name__}:Colliding"})
     work(driver, 5)
-    assert driver.traffic.refused_plans > 0
-    assert "kiva" in driver.traffic.alarm
-    assert driver.collisions == 0 and (driver.traffic.stands).all()
+    assert driver.traffic.plans.refused > 0
+    assert "kiva" in driver.traffic.plans.alarm
+    assert driver.collisions == 0 and (driver.traffic.robots.stands).all()

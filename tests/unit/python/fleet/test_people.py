@@ -99,8 +99,8 @@ def test_people_cross_a_fleet_at_work():
         before = fleet.transports.totals.delivered
         fleet.run(60)
         assert fleet.transports.totals.delivered > before
-        assert not fleet.traffic.minds.any()
-        assert not fleet.traffic.mode.any()
+        assert not fleet.traffic.robots.slowed_for_people.any()
+        assert not fleet.traffic.robots.mode.any()
 
 
 def test_a_zone_is_closed_around_a_person_and_opened_behind():
@@ -140,7 +140,7 @@ def test_what_people_cost():
     assert log.figures() == {}
     for second in range(11):
         there = 2 <= second < 7
-        log.observe(
+        log.update(
             float(second),
             SimpleNamespace(
                 name=["p", "q"] if there else [],

@@ -298,4 +298,4 @@ def test_nobody_gets_stuck_on_a_floor_that_is_slippery_in_places():
         told = [event["text"] for events in fleet.driver.events for event in events]
         assert not [text for text in told if "stuck" in text]
         assert fleet.driver.collisions == 0
-        assert not fleet.traffic.mode.any()
+        assert not fleet.traffic.robots.mode.any()

@@ -3,23 +3,21 @@
 
 import numpy as np
 
-from warehouse_fleet.traffic import NOWHERE, Mode
-from warehouse_fleet.transports import Step, Transport
+from warehouse_fleet.robot_table import NOWHERE, Mode, RobotTable
+from warehouse_fleet.transport_book import Step, Transport
 from warehouse_fleet.waiting import Waiting
 
 NOW = 1200.0  # [s]
 
 
 class Queue:
-    """Four robots: the first at work, each other behind the one before it, all for 20 minutes."""
+    """The part of Traffic that Waiting asks. The first of four robots is at work, each other stands
+    behind the one before it, all for 20 minutes."""
 
     def __init__(self):
         self.time = NOW
-        self.kiva_ids = np.arange(1, 5)
-        self.still_since = np.zeros(4)
-        self.busy = np.array([True, False, False, False])
-        self.broken, self.minds, self.gone = (np.zeros(4, bool) for _ in range(3))
-        self.mode = np.zeros(4, np.uint8)
+        self.robots = RobotTable(np.arange(1, 5))
+        self.robots.busy[0] = True
 
     def ahead_of(self, robot):
         return robot - 1 if robot else NOWHERE
@@ -46,17 +44,17 @@ def test_a_station_by_hand_is_named_instead_of_its_queue():
 
 def test_what_stands_in_the_way_is_told():
     queue = Queue()
-    queue.mode[0] = Mode.MANUAL
-    queue.busy[0] = False
+    queue.robots.mode[0] = Mode.MANUAL
+    queue.robots.busy[0] = False
     told = dict(Waiting(queue, []).long())
     assert told[1] == "behind kiva1, which is MANUAL"
     assert told[2] == "behind kiva2, in a row that kiva1 heads"
-    queue.minds[0] = True
+    queue.robots.slowed_for_people[0] = True
     assert dict(Waiting(queue, []).long())[0] == "for people on the floor"
 
 
 def test_each_robot_does_one_thing_and_one_that_is_gone_none():
     queue = Queue()
-    queue.mode[1], queue.gone[2] = Mode.OUT_OF_SERVICE, True
+    queue.robots.mode[1], queue.robots.gone[2] = Mode.OUT_OF_SERVICE, True
     doing = Waiting(queue, [served(0, "pick1")]).doing()
     assert doing == {1: "waiting", 2: "out_of_service", 4: "idle"}

@@ -64,7 +64,7 @@ def test_the_fleet_works_in_it_without_contact(hall, size):
     stations = sum(station.kind == "PICK" for station in layout.plan.stations)
     assert totals.delivered >= 2 * stations
     assert (totals.failed, driver.collisions, driver.refusals) == (0, 0, [])
-    assert driver.traffic.watchdog == 0
+    assert driver.watchdog == 0
 
 
 @pytest.mark.parametrize("hall", HALLS)

@@ -5,6 +5,7 @@ rest."""
 import numpy as np
 import pytest
 
+from warehouse_fleet.robot_table import RobotTable
 from warehouse_fleet.transports import Transports
 from warehouse_layout import FloorError
 from warehouse_layout.floor_plan import PICK, FloorPlan, Station
@@ -80,7 +81,7 @@ class Parked:
 
     def __init__(self, plan):
         self.plan, self.time = plan, 0.0
-        self.cell = self.goal = np.zeros(0, np.int32)
+        self.robots = RobotTable([])
 
     def set_units(self, cells):
         pass
@@ -90,10 +91,10 @@ def test_transports_to_what_is_left_out_are_refused_with_the_reason():
     lane = np.array([5, 12, 19], np.int32)
     whole = plan_of(["....#.#", ".uu.#.#", "....#.#"], [Station("pick1", PICK, lane, 1)])
     part, left_out = served_part(whole)
-    transports = Transports(part, Parked(part), lift=None)
+    transports = Transports(part, Parked(part))
     transports.left_out = frozenset(left_out.stations)
-    transports.see({1: 8, 2: 12}, 0.0)
-    assert transports.out_of_reach() == [2]
+    transports.update_cells({1: 8, 2: 12}, 0.0)
+    assert transports.units.out_of_reach() == [2]
     answer = transports.submit(2, x=0.0, y=0.0)
     assert (answer.accepted, answer.message) == (
         False,

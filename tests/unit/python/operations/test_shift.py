@@ -582,7 +582,7 @@ def test_policies_decide_for_simulated_robots():
     assert np.allclose(now, parked, atol=0.05)
     assert ops.shift.floor.cells == ops.site.units
     lanes = {one.name: one.cells for one in ops.site.plan.stations}
-    passed = ops.fleet.traffic().ravel()
+    passed = ops.fleet.passages().ravel()
     assert sum(passed[cells].min() for cells in lanes.values()) == ops.kpis()["trips"] > 0
     assert ops.fleet.waiting_map().sum() > 0
     ops.close()

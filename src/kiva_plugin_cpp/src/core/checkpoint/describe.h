@@ -254,7 +254,7 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 29);  // what only some realism needs: with the world
+  DESCRIBED(FleetState, 30);  // what only some realism needs: with the world
   // What is broken, charges, and where points are counted next, follow from what else the world
   // holds; what people allow: with those.
   DESCRIBED(Fleet, 27);
@@ -382,7 +382,7 @@ void describe(A& a, Solid& s) {
   FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
 }
 
-/// Of a mover: it has no body of its own, and no triangles.
+/// Describes a mover's footprint: it has no body of its own, and no triangles.
 template <class A>
 void describe(A& a, Footprint& f) {
   DESCRIBED(Footprint, 14);
@@ -416,9 +416,9 @@ void describe(A& a, FollowPath& p) {
 }
 
 template <class A>
-void describe(A& a, RadioMessage& m) {
-  DESCRIBED(RadioMessage, 3);
-  FIELDS(m.due, m.command, m.path);
+void describe(A& a, CommandMessage& m) {
+  DESCRIBED(CommandMessage, 2);
+  FIELDS(m.due, m.pending.command, m.pending.path);
 }
 
 template <class A>

@@ -56,7 +56,7 @@ class Foreseeing : public Base {
   }
 };
 
-/// A box whose faces are worked out once for all of its size: a body is built anew whenever it
+/// A box whose faces are worked out once for all of its size: a body is rebuilt whenever it
 /// comes near another, and has them as soon as they may touch.
 class Box : public Foreseeing<btBoxShape> {
  public:
@@ -103,7 +103,7 @@ std::unique_ptr<btCollisionShape> makeEllipsoid(const Shape& shape) {
   return ellipsoid;
 }
 
-/// The convex hull of a mesh that moves.
+/// Returns the convex hull of a mesh that moves.
 std::unique_ptr<btCollisionShape> makeHull(const Mesh& mesh) {
   std::vector<btVector3> points;
   for (const Vector3& vertex : mesh.vertices) points.push_back(toBullet(vertex));
@@ -143,7 +143,7 @@ std::unique_ptr<btCollisionShape> makeShape(const Shape& shape) {
   return nullptr;
 }
 
-/// What Bullet has no volume for is a static body of its own.
+/// Returns whether the collision is a static body of its own, since it has no volume for Bullet.
 bool isSurface(const Collision& collision, bool is_static) {
   const Shape::Kind kind = collision.shape.kind;
   return kind == Shape::Kind::kPlane || (kind == Shape::Kind::kMesh && is_static);
@@ -295,7 +295,7 @@ const BodyPart* partOf(const btCollisionShape* shape) {
   return static_cast<const BodyPart*>(shape->getUserPointer());
 }
 
-/// Of a mesh, what touches is one of its triangles, which knows no part.
+/// Returns the part that touches; a mesh touches by its triangles, which know no part.
 const BodyPart* partOf(const btCollisionObjectWrapper* wrapper) {
   for (; wrapper; wrapper = wrapper->m_parent) {
     if (const BodyPart* part = partOf(wrapper->getCollisionShape())) return part;
@@ -303,7 +303,7 @@ const BodyPart* partOf(const btCollisionObjectWrapper* wrapper) {
   return nullptr;
 }
 
-/// The part of a body that a contact is with; null for a plane, which has but one.
+/// Returns the part of a body that a contact is with; null for a plane, which has but one.
 const BodyPart* touchedPart(const btCollisionObject* object, int part) {
   const btCollisionShape* shape = object->getCollisionShape();
   if (!shape->isCompound()) return partOf(shape);
@@ -340,7 +340,7 @@ bool isTouching(const btManifoldPoint& point) {
   return point.getDistance() <= 0 || point.getAppliedImpulse() > 0;
 }
 
-/// Of the contact's points against each other, along its normal [m/s].
+/// Returns the velocity of the contact's points against each other, along its normal [m/s].
 double normalSpeed(const btManifoldPoint& point, const btCollisionObject* a,
                    const btCollisionObject* b) {
   btScalar speed = 0;
@@ -563,8 +563,8 @@ double Physics::approach(const btPersistentManifold& pair, const btManifoldPoint
   return std::max(0.0, relative.dot(point.m_normalWorldOnB));
 }
 
-/// What share of the contact's impulse ended approach from before the step, and not what motors and
-/// forces added in it: the contact let pass what closes the gap.
+/// Returns what share of the contact's impulse ended approach from before the step, and not what
+/// motors and forces added in it: the contact let pass what closes the gap.
 double Physics::impactShare(const btPersistentManifold& pair, const btManifoldPoint& point) const {
   const double closing = std::max(0.0, point.getDistance()) / dt_;
   const double was = approach(pair, point, &Motion::before) - closing;

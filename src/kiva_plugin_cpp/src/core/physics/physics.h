@@ -21,7 +21,7 @@ btVector3 toBullet(const Vector3& v);
 Pose fromBullet(const btTransform& transform);
 Vector3 fromBullet(const btVector3& v);
 
-/// Who touches whom: collision filter groups.
+/// Collision filter groups.
 enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
 
 /// Third user index of a body that was put somewhere, with a velocity, since the last step.
@@ -33,7 +33,7 @@ struct TriangleTree;
 /// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
 /// friction a body.
 struct BodyPart {
-  std::shared_ptr<const TriangleTree> triangles;  ///< Of a static mesh: what its shape looks up.
+  std::shared_ptr<const TriangleTree> triangles;  ///< A static mesh's, which its shape looks up.
   std::unique_ptr<btCollisionShape> shape;
   int model = -1;
   double friction = 1;
@@ -75,12 +75,13 @@ struct ModelBodies {
 /// Two models that touch; the point, the normal and the speed are those of the hardest contact.
 struct Contact {
   int model_a = -1, model_b = -1;
-  Vector3 point;       ///< In world.
-  Vector3 normal;      ///< From b to a.
-  double speed = 0;    ///< Of approach before the step [m/s].
-  double impulse = 0;  ///< Of all their contacts in the step, as far as it ended approach that
-                       ///< was there before the step; what holds against pushes is not in it [Ns].
-  double most = -1;    ///< Of the hardest one.
+  Vector3 point;     ///< In world.
+  Vector3 normal;    ///< From b to a.
+  double speed = 0;  ///< Speed of approach before the step [m/s].
+  double impulse =
+      0;  ///< The impulse of all their contacts in the step, as far as it ended approach that
+          ///< was there before the step; what holds against pushes is not in it [Ns].
+  double most = -1;    ///< The hardest one's.
   double nearing = 0;  ///< Like `speed`, of the contact where it is largest [m/s].
 };
 
@@ -98,7 +99,7 @@ struct TouchPoint {
 /// What contacts did to a body in the last step, in world.
 struct Push {
   btVector3 moment{0, 0, 0};  ///< About its centre of mass [Nms].
-  double load = 0;            ///< Of what lies on it [Ns].
+  double load = 0;            ///< Impulse of what lies on it [Ns].
 };
 
 class Physics {
@@ -120,15 +121,16 @@ class Physics {
   void setGravity(const Vector3& gravity);
   /// Pairs of models that touch now, each once, the lower index first.
   void contacts(std::vector<Contact>* out) const;
-  /// What Bullet keeps of contacts, in an order that follows from the bodies.
+  /// Returns what Bullet keeps of contacts, in an order that follows from the bodies.
   std::vector<btPersistentManifold*> manifolds() const { return dispatcher_.manifolds(); }
-  /// A manifold, still without contacts, for every two parts that are near each other.
+  /// Returns a manifold, still without contacts, for every two parts that are near each other.
   std::vector<btPersistentManifold*> makeManifolds();
   /// Every point at which that model touches another now, itself being a.
   std::vector<TouchPoint> touchPoints(int model) const;
-  /// Of every body that can move, by its second user index; what floors did is not in it.
+  /// Returns the pushes on every body that can move, by its second user index; what floors did is
+  /// not in it.
   std::vector<Push> pushes() const;
-  /// Whether all that lies at the floor is unbounded and level.
+  /// Returns whether all that lies at the floor is unbounded and level.
   bool hasPlainFloor() const { return uneven_floors_ == 0; }
   /// First body on a ray, as a fraction of `range`; +inf = none.
   double cast(const Vector3& from, const Vector3& direction, double range) const;
@@ -138,7 +140,7 @@ class Physics {
   struct Velocity {
     btVector3 linear, angular;
   };
-  /// Of a body about a step.
+  /// A body's motion about a step.
   struct Motion {
     Velocity before;  ///< When the last step had ended.
     Velocity driven;  ///< When this one began: motors have set it since.
@@ -162,7 +164,7 @@ class Physics {
   ContactIslandWorld world_;
 
   std::vector<Motion> motions_;  ///< By a body's second user index.
-  double dt_ = 0;                ///< Of the last step [s].
+  double dt_ = 0;                ///< The last step's [s].
   int uneven_floors_ = 0;        ///< Bodies of the floor's group that are no level planes.
 };
 
