@@ -88,7 +88,7 @@ def test_pieces_on_the_floor_are_in_nobodys_stock(tmp_path):
         for _ in range(30):
             ops.run(minutes=1)
             ops.fleet.fallen_items = chance.sample(items, 40)
-            ops.shift.fallen.see(ops.fleet.fallen_items)
+            ops.shift.fallen.update(ops.fleet.fallen_items)
             lie = [one for one in inventory.bins.values() if one.fallen is not None]
             assert {one.item for one in lie} == set(ops.fleet.fallen_items)
             assert not any(one.quantity or one.reserved or one.expected for one in lie)

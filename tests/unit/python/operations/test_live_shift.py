@@ -87,10 +87,10 @@ def test_heat_is_where_robots_drove_and_waited_within_the_last_hour():
     plan = site().plan
     heat, at = FloorHeat(plan, now=100.0), plan.cell_of
     waits = np.array([False, True])
-    heat.see(100.0, [0.0, 5.0], [0.0, 3.0], waits)
-    heat.see(101.0, [1.0, 5.0], [0.0, 3.0], waits)
-    heat.see(101.5, [0.0, 5.4], [0.0, 3.0], waits)
-    heat.see(104.0, [-50.0, 5.0], [0.0, 3.0], ~waits)  # off the floor
+    heat.update(100.0, [0.0, 5.0], [0.0, 3.0], waits)
+    heat.update(101.0, [1.0, 5.0], [0.0, 3.0], waits)
+    heat.update(101.5, [0.0, 5.4], [0.0, 3.0], waits)
+    heat.update(104.0, [-50.0, 5.0], [0.0, 3.0], ~waits)  # off the floor
     traffic, waiting = heat.maps()
     assert {i: traffic[i] for i in np.flatnonzero(traffic)} == {at(1, 0): 1, at(0, 0): 1}
     assert {i: waiting[i] for i in np.flatnonzero(waiting)} == {at(5, 3): 1.5}
@@ -99,7 +99,7 @@ def test_heat_is_where_robots_drove_and_waited_within_the_last_hour():
     anew.restore([(began, maps) for _, began, maps in heat.kept(SLICES)])
     assert np.array_equal(anew.maps(), heat.maps())
     assert anew.seconds(110.0) == 10.0
-    heat.see(100.0 + WINDOW, [0.0, 5.0], [0.0, 3.0], waits)
+    heat.update(100.0 + WINDOW, [0.0, 5.0], [0.0, 3.0], waits)
     assert heat.maps()[WAITING].sum() == GAP  # since long ago nothing was heard
     assert heat.maps()[TRAFFIC][at(0, 0)] == 1
     assert WINDOW * (1 - 1 / SLICES) <= heat.seconds(100.0 + WINDOW) <= WINDOW

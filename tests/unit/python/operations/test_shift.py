@@ -106,7 +106,6 @@ import sys
 sys.path.insert(0, sys.argv[1])
 from kiva_plugin_cpp import World
 from operations_site import site
-from postgres import server
 from warehouse_operations import Operations
 ops = Operations(site=site(), physics=False, database=sys.argv[2], orders="fill:40")
 while True:
@@ -278,7 +277,7 @@ def test_an_item_on_another_unit_keeps_its_pieces(tmp_path):
 def test_a_bin_that_is_gone_from_the_floor_is_written_off(tmp_path):
     path, whole = tmp_path / "run.db", site()
     with Operations(site=whole, database=path, orders="none") as ops:
-        ops.shift.fallen.see(["item7"])
+        ops.shift.fallen.update(["item7"])
         ops.run(seconds=1)
     items = [(item, unit) for item, unit in whole.items if item != "item7"]
     with Operations(site=replace(whole, items=items), database=path, orders="none") as ops:
@@ -364,7 +363,7 @@ def test_orders_for_all_that_there_could_be_cost_little():
     began = time.process_time()
     ops.run(minutes=10)
     assert time.process_time() - began < 20
-    assert ops.shift.pieces_ordered < 200 * len(skus)
+    assert ops.shift.view.pieces_ordered < 200 * len(skus)
     for order_id in list(ops.shift.orders):
         assert ops.shift.cancel_order(order_id)[0]
     modest, _ = ops.shift.submit([(skus[0], 1)])
