@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the public headers include; whoever finds this package finds it too.
+# Finds what the public headers include, for all packages that find this one.
 find_package(ignition-math6 REQUIRED)
 find_package(ignition-plugin1 REQUIRED COMPONENTS loader register)
 list(APPEND kiva_plugin_cpp_LIBRARIES

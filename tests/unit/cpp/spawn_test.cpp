@@ -329,7 +329,7 @@ TEST_F(Spawn, TwoThousandComingsAndGoingsLeaveTheMemoryAsItWas) {
 // --- states
 
 TEST_F(Spawn, TellsTheStateOfModelsAndLinks) {
-  EXPECT_FALSE(w.world.state("nobody"));
+  EXPECT_FALSE(w.world.state("missing"));
   EXPECT_FALSE(w.world.state("kiva1", "antenna"));
   EXPECT_NEAR(w.world.state("kiva1", "left_wheel")->pose.Y(), 0.26, 1e-9);
   EXPECT_NEAR(w.world.state("kiva1", "right_wheel")->pose.Y(), -0.26, 1e-9);
@@ -391,8 +391,8 @@ TEST_F(Spawn, TellsAllStatesInTheOrderOfTheNames) {
 // --- moved by hand
 
 TEST_F(Spawn, NobodyCanBeMovedWhoIsNotThere) {
-  EXPECT_FALSE(w.world.setState("nobody", {}));
-  EXPECT_FALSE(w.world.applyWrench("nobody", "link", {1, 0, 0}, {}));
+  EXPECT_FALSE(w.world.setState("missing", {}));
+  EXPECT_FALSE(w.world.applyWrench("missing", "link", {1, 0, 0}, {}));
   EXPECT_FALSE(w.world.applyWrench("wall1", "body", {1, 0, 0}, {}));
 }
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_fleet import Execution, Rules, epibt
-from warehouse_fleet.planner_plugins import PlanRefusedError, make_planner
+from warehouse_fleet import Execution, Planner, Rules, epibt
+from warehouse_fleet.planner_plugins import PlanRefusedError, ValidatedPlanner, make_planner
 
 HORIZON = 7  # ticks
 GUIDANCE = {  # measured
@@ -45,6 +45,7 @@ class PlanLoop:
     ) -> None:
         # Execution arbitrates turning; the planner may assume that every turn succeeds.
         rules = Rules(turning=True)
+        self.planner: Planner | ValidatedPlanner
         if planner is None:
             self.planner = epibt(floor, rules, seed, horizon=HORIZON, **GUIDANCE)
         else:

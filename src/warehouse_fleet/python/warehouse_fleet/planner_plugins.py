@@ -67,7 +67,7 @@ class ActionPlanner(Protocol):
         ...
 
 
-class Door:
+class ValidatedPlanner:
     """A planner whose plans are validated before they are returned.
 
     `names`: of the robots, for messages; `ticks`: how many leading ticks of each plan are
@@ -183,8 +183,8 @@ def make_planner(
     spec: Mapping[str, Any] | None = None,
     names: Sequence[str] | None = None,
     ticks: int = -1,
-) -> Door:
-    """Returns the planner that `spec` names, behind a Door; `names` and `ticks` are the Door's.
+) -> ValidatedPlanner:
+    """Returns the planner that `spec` names; for `names` and `ticks` see ValidatedPlanner.
     spec: the content of a YAML file; None: epibt.
 
     Raises PlannerError."""
@@ -193,7 +193,7 @@ def make_planner(
     if spec:
         raise PlannerError(f"unknown key '{next(iter(spec))}'; planner, options were expected")
     planner = _started(str(name), options, floor, rules, seed)
-    return Door(planner, floor, rules, names, ticks)
+    return ValidatedPlanner(planner, floor, rules, names, ticks)
 
 
 def _started(

@@ -24,6 +24,8 @@ from warehouse_layout.floor_plan import FloorPlan, is_taken
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 MAP_PERIOD = 1.0  # between two looks at the world's map [s]
 STAYS = 2.5  # for which an obstacle is taken to stay where it was seen [s]
+# What Execution takes of each report, in its order.
+OBSERVED = ("x", "y", "yaw", "vx", "vy", "status", "state", "path_id", "reached", "left")
 
 
 class Releases(NamedTuple):
@@ -110,11 +112,10 @@ class Traffic:
         execution.set_broken(robots.broken)
         execution.observe(
             time,
-            *(reports[name] for name in ("x", "y", "yaw", "vx", "vy", "status", "state")),
-            *(reports[name] for name in ("path_id", "reached", "left")),
-            robots.automatic & (not self.takes_over),
-            robots.busy,
-            robots.loaded,
+            *(reports[name] for name in OBSERVED),
+            controlled=robots.automatic & (not self.takes_over),
+            busy=robots.busy,
+            loaded=robots.loaded,
         )
         robots.cell = execution.cell()
         robots.stands = execution.stands()
@@ -227,7 +228,8 @@ class Traffic:
 
     def journey(self, robot: int) -> tuple[float, float, int]:
         """Returns (seconds driven, seconds planned, cells) since the last call for that robot."""
-        return self._execution.take_journey(robot)
+        driven, planned, cells = self._execution.take_journey(robot)
+        return driven, planned, cells
 
     @property
     def blocked(self) -> int:

@@ -140,6 +140,6 @@ def test_asked_again_they_are_where_they_would_be_at_first():
             loose_item=fallen.tolist(),
             loose_pose=random_poses(2, 8).ravel().tolist(),
         )
-        now, anew = followed.at(states), tracking.items(objects, states)
-        assert (now.pose == anew.pose).all()
-        assert (now.carrier == anew.carrier).all()
+        now, again = followed.at(states), tracking.items(objects, states)
+        assert (now.pose == again.pose).all()
+        assert (now.carrier == again.carrier).all()

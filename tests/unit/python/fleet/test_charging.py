@@ -64,7 +64,7 @@ def test_little_throughput_is_lost_to_charging(ideal, policy):
     delivered, least, driver = shift(policy(), energy=SMALL)
     charging = driver.transports.charging.robot_s / driver.failures.robot_s
     print(ideal, delivered, least, charging)
-    assert driver.failures.total == 0  # nobody's battery was empty
+    assert driver.failures.total == 0  # no battery was empty
     assert 0 < least < 0.5
     assert charging > 0.01
     assert delivered >= KEPT * ideal

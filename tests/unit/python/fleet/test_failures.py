@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A fleet whose robots break and are repaired: nobody touches anybody, and the work goes on.
+"""A fleet whose robots break and are repaired: no robot touches another, and the work goes on.
 
 Time is ten times as dense as in a warehouse: as many robots are broken at once as where ten break
 an hour and are repaired in five minutes. With FAILURE_MINUTES it lasts longer, at that rate.

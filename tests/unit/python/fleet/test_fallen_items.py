@@ -58,7 +58,7 @@ def test_cells_are_closed_while_items_lie_there():
         before = fleet.driver.collisions
         assert fleet.run(60) > 0  # the others work on
         assert lie <= set(fleet.traffic.closed.tolist())
-        assert cells_of(fleet) == lie  # nobody has touched them
+        assert cells_of(fleet) == lie  # no robot has touched them
         assert fleet.driver.collisions == before
         for item in fallen["item_id"]:
             fleet.world.pick_up(f"item{item}")

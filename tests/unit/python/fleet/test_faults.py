@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A fleet at work while things go wrong: nobody touches anybody, and all flows again afterwards.
+"""A fleet at work while things go wrong: no robot touches another, and all flows again afterwards.
 
 Robots and physics are the real ones; what goes wrong is drawn by seeds.
 """
@@ -105,7 +105,7 @@ class Site:
         return [robot for robot in self.at_speed(loaded) if off[robot] > 0.2]
 
     def traffic_says(self, what, robot):
-        return getattr(self.traffic, what)[robot]
+        return getattr(self.traffic.robots, what)[robot]
 
     def name(self, robot):
         return f"kiva{self.traffic.robots.kiva_ids[robot]}"
@@ -168,7 +168,7 @@ PUSHES = [(0.2, 0.0), (0.0, -0.3), (0.45, 0.0), (0.0, 0.6), (-0.6, 0.0)]  # [m]
 
 @pytest.mark.parametrize("is_loaded", [False, True])
 def test_a_robot_pushed_aside_finds_back(calm, is_loaded):
-    """One that drives, one that lifts, one that waits; to where nobody is."""
+    """One that drives, one that lifts, one that waits; to where no robot is."""
     after = []
     for seed in SEEDS:
         with Site(seed) as site:
@@ -304,7 +304,7 @@ def test_a_robot_dies_in_a_street_with_a_unit_on_it(calm):
 
 
 def test_a_robot_is_deleted_and_leaves_its_unit_across_the_street(calm):
-    """The rest drive around the unit, until somebody puts it straight; then it is taken away."""
+    """The rest drive around the unit, until a person puts it straight; then it is taken away."""
     during, after = [], []
     for seed in SEEDS:
         with Site(seed) as site:
@@ -390,6 +390,6 @@ def test_another_driver_takes_over_what_is_under_way(calm):
 
 
 def told(calm, during, after):
-    """For whoever wants figures: pytest -s."""
+    """Prints figures: pytest -s."""
     rates = [f"{np.mean(r):.1f}" if len(r) else "–" for r in (during, after)]
     print(f"delivered a minute: calm {calm:.1f}, during {rates[0]}, after {rates[1]}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""People among a fleet at work: nobody touches anybody, robots drive around or wait, and go on.
+"""People among a fleet at work: no robot touches a person, robots drive around or wait, and go on.
 
 With CROSSINGS there are so many on `large`, by several people at a time.
 """

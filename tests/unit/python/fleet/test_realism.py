@@ -209,7 +209,7 @@ def test_lasers_are_noisy_and_drop_rays():
         for _ in range(200):
             world.step(100)
             out.append(world.scans()[0].copy())
-        assert np.array_equal(world.scans()[0], out[-1])  # whoever looks
+        assert np.array_equal(world.scans()[0], out[-1])  # for each reader
         return np.array(out)
 
     ideal = scans(None)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fleets at work for ten minutes each, nothing goes wrong: nobody touches, blocks or waits in vain.
+"""Fleets at work for ten minutes each, nothing goes wrong: no robot touches
+another, blocks or waits in vain.
 
 SOAK_SEEDS=20 runs that many seeds of each layout (make test-long); by default none are.
 """

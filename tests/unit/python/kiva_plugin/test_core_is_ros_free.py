@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS stops at the door: the world must build, run and be tested without it."""
+"""The core has no ROS in it: the world must build, run and be tested without it."""
 
 import re
 

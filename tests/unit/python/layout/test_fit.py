@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A warehouse on the free cells of somebody else's floor."""
+"""A warehouse on the free cells of a foreign floor."""
 
 import numpy as np
 import pytest

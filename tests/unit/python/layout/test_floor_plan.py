@@ -64,7 +64,7 @@ def test_lanes_are_driven_from_the_entry_to_the_exit_alone(laid_out):
         into = [(c, t) for c in range(floor.passable.size) for t in edges[c] if t in inside]
         assert {t for c, t in into if c not in inside} == {station.cells[0]}
         assert inside.isdisjoint(edges[station.cells[-1]])
-        # Nobody turns where a unit is served.
+        # No robot turns where a unit is served.
         before, at, after = station.cells[station.service - 1 : station.service + 2]
         assert after - at == at - before
         if len(inside) > 1 and floor.passable.size > 3000:
@@ -179,7 +179,7 @@ def test_a_belt_on_a_floor_without_markings_gets_a_lane():
     x, y = found.point_of(station.service_cell)
     assert abs(x - 7.5) + abs(y - 7) <= 2  # beside the belt
     found.check()
-    assert found.parking.flat[found.cell_of(0, 4)]  # in a niche nobody can pass
+    assert found.parking.flat[found.cell_of(0, 4)]  # in a niche without a way through
 
 
 def test_a_belt_without_room_says_which_cells_a_lane_lacks():

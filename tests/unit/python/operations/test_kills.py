@@ -53,7 +53,7 @@ class Warehouse:
             )
 
     def kill(self, victim):
-        """SIGKILL; started again where nobody else does that."""
+        """Sends SIGKILL; starts the process again unless another does."""
         whole = victim == EVERYTHING
         names = {"both": ("operations", "coordinator")}.get(victim, (victim,))
         processes = _descendants(self._launch.pid)

@@ -16,7 +16,7 @@ REPLENISH = "replenish3"
 
 
 def test_changes_are_those_that_the_database_keeps(tmp_path):
-    """Whoever takes every change in has what the database has in the end."""
+    """A client that takes every change in has what the database has in the end."""
     with Operations(
         site=site(), physics=False, database=tmp_path / "a.db", orders="fill:40"
     ) as ops:
@@ -95,10 +95,10 @@ def test_heat_is_where_robots_drove_and_waited_within_the_last_hour():
     assert {i: traffic[i] for i in np.flatnonzero(traffic)} == {at(1, 0): 1, at(0, 0): 1}
     assert {i: waiting[i] for i in np.flatnonzero(waiting)} == {at(5, 3): 1.5}
     assert heat.seconds(104.0) == 4.0
-    anew = FloorHeat(plan, now=110.0)
-    anew.restore([(began, maps) for _, began, maps in heat.kept(SLICES)])
-    assert np.array_equal(anew.maps(), heat.maps())
-    assert anew.seconds(110.0) == 10.0
+    again = FloorHeat(plan, now=110.0)
+    again.restore([(began, maps) for _, began, maps in heat.kept(SLICES)])
+    assert np.array_equal(again.maps(), heat.maps())
+    assert again.seconds(110.0) == 10.0
     heat.update(100.0 + WINDOW, [0.0, 5.0], [0.0, 3.0], waits)
     assert heat.maps()[WAITING].sum() == GAP  # since long ago nothing was heard
     assert heat.maps()[TRAFFIC][at(0, 0)] == 1

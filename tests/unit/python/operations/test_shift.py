@@ -549,7 +549,7 @@ def test_a_server_keeps_what_a_file_keeps(tmp_path):
 
 def test_a_database_that_can_not_be_reached_is_told(tmp_path):
     with pytest.raises(DatabaseError, match="connection to server"):
-        shift_on("postgresql://nobody@127.0.0.1:1/none")
+        shift_on("postgresql://none@127.0.0.1:1/none")
     with pytest.raises(DatabaseError, match="unable to open database file"):
         shift_on(tmp_path / "no" / "such" / "folder.db")
     with pytest.raises(DatabaseError, match="oracle-of-delphi"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS listens to this machine alone, unless somebody has said otherwise."""
+"""ROS listens to this machine alone, unless the environment says otherwise."""
 
 import subprocess
 

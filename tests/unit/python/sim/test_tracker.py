@@ -93,7 +93,7 @@ def test_topics_outlive_a_warehouse_that_is_created_again(ros):
     follow.update(*scene(1, 3))
     now = 20.0
     follow.go_on()
-    assert ros.publishers == publishers  # none was advertised anew
+    assert ros.publishers == publishers  # none was advertised again
     assert [p.open for p in publishers.values()] == [True, True]
     assert sent(ros) == {"/units/storage_unit1/pose": 2, "/units/storage_unit2/pose": 2}
     follow.update(*scene(1))

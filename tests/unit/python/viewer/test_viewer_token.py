@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The token comes from a file that nobody else can read, or from the environment."""
+"""The token comes from a file that no other user can read, or from the environment."""
 
 import os
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Planners of somebody's own, in Python and in C++, and the door that checks their plans."""
+"""Planners of users, in Python and in C++, and the check of their plans."""
 
 import sys
 
@@ -34,9 +34,9 @@ class Says:
 
 def refusal(floor, fleet, answer, names=None, rules=None):
     Says.answer = answer
-    door = make_planner(floor, rules or Rules(), 1, {"planner": f"{__name__}:Says"}, names)
+    planner = make_planner(floor, rules or Rules(), 1, {"planner": f"{__name__}:Says"}, names)
     with pytest.raises(PlanRefusedError) as error:
-        door.plan(fleet)
+        planner.plan(fleet)
     return str(error.value)
 
 
@@ -82,8 +82,8 @@ def test_what_is_no_plan_is_refused(floor):
 
 def test_who_does_not_face_its_cell_turns_first(floor):
     Says.answer = np.array([6, 4])
-    door = make_planner(floor, Rules(), 1, {"planner": f"{__name__}:Says"})
-    assert door.plan(Fleet([0, 5], [0, 0], [5, 0])).tolist() == [
+    planner = make_planner(floor, Rules(), 1, {"planner": f"{__name__}:Says"})
+    assert planner.plan(Fleet([0, 5], [0, 0], [5, 0])).tolist() == [
         [Action.TURN_POSITIVE, Action.FORWARD, Action.WAIT],
         [Action.TURN_POSITIVE, Action.TURN_POSITIVE, Action.FORWARD],
     ]
