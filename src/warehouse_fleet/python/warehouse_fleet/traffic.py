@@ -24,8 +24,6 @@ from warehouse_layout.floor_plan import FloorPlan, is_taken
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
 MAP_PERIOD = 1.0  # between two looks at the world's map [s]
 STAYS = 2.5  # for which an obstacle is taken to stay where it was seen [s]
-# What Execution takes of each report, in its order.
-OBSERVED = ("x", "y", "yaw", "vx", "vy", "status", "state", "path_id", "reached", "left")
 
 
 class Releases(NamedTuple):
@@ -112,10 +110,19 @@ class Traffic:
         execution.set_broken(robots.broken)
         execution.observe(
             time,
-            *(reports[name] for name in OBSERVED),
-            controlled=robots.automatic & (not self.takes_over),
-            busy=robots.busy,
-            loaded=robots.loaded,
+            reports["x"],
+            reports["y"],
+            reports["yaw"],
+            reports["vx"],
+            reports["vy"],
+            reports["status"],
+            reports["state"],
+            reports["path_id"],
+            reports["reached"],
+            reports["left"],
+            robots.automatic & (not self.takes_over),
+            robots.busy,
+            robots.loaded,
         )
         robots.cell = execution.cell()
         robots.stands = execution.stands()
