@@ -2,7 +2,7 @@
 """Transports: a storage unit is fetched, brought to a station or a cell, waits there until it is
 released, and is stored again. Neither ROS nor physics: Traffic drives, the host sends the lifts."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -290,10 +290,11 @@ class Transports:
             self.freed.append(transport.robot)
             self.robots.send(transport.robot, NOWHERE)
 
-    def nearest(self, cell: int, cells: Iterable[int]) -> int:
+    def nearest(self, cell: int, cells: Sequence[int]) -> int:
         """Returns the nearest of some cells; NOWHERE if there are none."""
-        cells = np.asarray(cells)
-        return int(cells[self.distance(cell, cells).argmin()]) if len(cells) else NOWHERE
+        if not len(cells):
+            return NOWHERE
+        return int(cells[self.distance(cell, np.asarray(cells)).argmin()])
 
     def distance(self, cell: int, cells: np.ndarray) -> np.ndarray:
         """Returns how far some cells are, along the axes [cells]."""
