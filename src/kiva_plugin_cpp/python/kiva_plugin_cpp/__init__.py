@@ -34,13 +34,6 @@ if _built and not set(_built) & set(EXTENSION_SUFFIXES):
 import numpy
 from numpy.typing import ArrayLike
 
-# A build with a pybind11 that does not know numpy 2 leaves this file.
-_only_numpy_1 = Path(__file__).with_name("only_numpy_1").exists()
-if _only_numpy_1 and int(numpy.__version__.split(".")[0]) > 1:
-    raise ImportError(
-        f"kiva_plugin_cpp is built for numpy 1, not {numpy.__version__}: pip install 'numpy<2'"
-    )
-
 from kiva_plugin_cpp import _core
 from kiva_plugin_cpp._core import COMMAND, EVENT, CheckpointError, DescriptionError, Fleet
 from kiva_plugin_cpp.message_enums import EventKind, FailureKind, State, Status
