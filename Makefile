@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
+.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -40,10 +40,10 @@ test: deps build lint  ## build and run every test; make test ARGS="-L unit" onl
 
 test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
-	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_soak.py unit/python/test_faults.py unit/python/test_rawsim.py unit/python/test_kills.py $(ARGS); \
+	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/test_rawsim.py unit/python/operations/test_kills.py $(ARGS); \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
-	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/test_mutations.py; \
-	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/test_failures.py unit/python/test_charging.py unit/python/test_people.py
+	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
+	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py
 
 test-wheel: wheel  ## use the wheel in an environment with nothing else, with Stable-Baselines3 and Ray
 	@scripts/test-wheel $(ARGS)
@@ -61,6 +61,10 @@ test-install: build  ## install into a folder of its own, and use it from there
 build: configured  ## compile everything but the tests
 	@[ build/.built -nt build/CMakeCache.txt ] && [ -z "$$(find CMakeLists.txt src -newer build/.built -not -path '*/__pycache__*' -print -quit)" ] || \
 	{ touch build/.begun; $(BUILD); mv build/.begun build/.built; }
+
+dev: packages  ## the same for work on the C++: a change in one file is compiled in seconds
+	@grep -qs '^CMAKE_UNITY_BUILD:BOOL=OFF' build/CMakeCache.txt || scripts/configure dev
+	@$(BUILD)
 
 configured: packages
 	@[ -e build/build.ninja -o -e build/Makefile ] || scripts/configure

@@ -5,6 +5,7 @@
 //   bench/warehouse huge > huge.sdf; warehouse_bench [--scans] [--seconds S] [--chunks N] huge.sdf
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
@@ -25,6 +26,12 @@ constexpr char kHelp[] =
     "  --seconds  of simulated time a chunk (5)\n"
     "  --chunks   that are simulated before those that are measured (1)\n";
 constexpr int kStepsPerLook = 10;  // between two looks at what happened
+
+/// The names of the counts, in the order of kiva::Event::Kind.
+constexpr const char* kEventNames[] = {"accepted", "refused",   "done",    "blocked", "lifted",
+                                       "dropped",  "collision", "spawned", "deleted", "lost",
+                                       "failed",   "repaired",  "tipped",  "fell",    "picked_up"};
+static_assert(std::size(kEventNames) == kiva::Event::kKinds, "each kind of event has a name");
 
 struct Options {
   bool scans = false;
@@ -83,10 +90,8 @@ class Dispatcher {
 
   std::string counts() const {
     std::string out;
-    const char* names[] = {"accepted", "refused",   "done",    "blocked", "lifted",
-                           "dropped",  "collision", "spawned", "deleted"};
     for (const auto& [kind, count] : counts_) {
-      const char* name = names[static_cast<int>(kind)];
+      const char* name = kEventNames[static_cast<int>(kind)];
       out += std::string(", \"") + name + "\": " + std::to_string(count);
     }
     return out;
@@ -127,7 +132,7 @@ class Shares {
       busy_ += fleet.status[i] != kiva::Status::kIdle;
       in_bullet_ += fleet.activated[i];
     }
-    for (int slot : inside.activated) {
+    for (int slot : inside.models.activated) {
       const kiva::Model& model = *inside.models[slot];
       if (model.kind != kiva::ModelKind::kStorageUnit) continue;
       units_ += 1;

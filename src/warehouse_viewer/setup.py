@@ -4,4 +4,6 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=["warehouse_viewer"], package_dir={"": "python"}))
+parts = ["", ".api", ".api.routes", ".api.schemas", ".drawing", ".page", ".ros", ".rviz", ".server"]
+packages = [f"warehouse_viewer{part}" for part in parts]
+setup(**generate_distutils_setup(packages=packages, package_dir={"": "python"}))

@@ -19,7 +19,7 @@ import warehouse_learning  # noqa: E402
 from warehouse_learning import episodes, watch  # noqa: E402
 from warehouse_learning.page import Page  # noqa: E402
 from warehouse_learning.warehouses import Warehouses  # noqa: E402
-from warehouse_viewer import protocol  # noqa: E402
+from warehouse_viewer.page import protocol  # noqa: E402
 
 PATIENCE = 60  # with a machine that has much to do [s, wall]
 PAUSED = 0.3  # that nothing happens [s, wall]

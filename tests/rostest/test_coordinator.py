@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A fleet at work under ROS: transports and modes by service, and a coordinator that is killed.
 
-All stations are kept busy by random transports all the while. Nobody touches anybody.
+All stations are kept busy by random transports all the while. No robot touches another.
 """
 
 import math
@@ -209,7 +209,7 @@ class Fleet(unittest.TestCase):
         raise AssertionError("all robots are at work all the time")
 
     def without_command(self, fleet):
-        """(robot, x, y): where it could go, with nobody near."""
+        """(robot, x, y): where it could go, with no other near."""
         x, y = np.array(fleet.x), np.array(fleet.y)
         idle = np.frombuffer(fleet.status, np.uint8) == 0
         for index in np.flatnonzero(idle & (np.array(fleet.shelf_id) == 0)):
@@ -237,7 +237,7 @@ class Fleet(unittest.TestCase):
         self.assertLessEqual(state.delivered, 1)
         # Who has asked the first one for something is told, and no number comes twice.
         lost = lambda messages: {  # noqa: E731
-            e.transport_id for e in messages if e.text == "the coordinator began anew"
+            e.transport_id for e in messages if e.text == "the coordinator began again"
         }
         seen = self.transports.wait_for(lambda messages: lost(messages) >= set(asked), PATIENCE)
         numbers = [e.transport_id for e in seen if e.kind == TransportEvent.RECEIVED]

@@ -80,7 +80,7 @@ class FleetPage(PageTest):
         self.page.until("page.overlays.ways.released.visible")
         self.page.until("page.overlays.ways.planned.visible")
         robot = self.wait_for(transport, "LIFTED")["robot"]
-        # Another page comes, and hears the scenery anew: the coordinator goes on.
+        # Another page comes, and gets the scenery again: the coordinator goes on.
         Listener("/warehouse/scenery", Scenery).until()
         self.page.read(f"page.select('{robot}')")
         self.page.until("document.getElementById('facts').textContent.includes('pick1')")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""A warehouse stands on the free cells of somebody else's world, and its obstacles block robots."""
+"""A warehouse stands on the free cells of a foreign world, and its obstacles block robots."""
 
 import unittest
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What one client asks for takes the world from nobody else, and never for good."""
+"""What one client asks for keeps the world from no other client, and never for good."""
 
 import os
 import signal
@@ -44,7 +44,7 @@ def restore(name):
 
 
 class LongCalls(unittest.TestCase):
-    """Somebody asks for more steps than there is time for."""
+    """A client asks for more steps than there is time for."""
 
     def stepping(self, clients):
         wait_until(lambda: world().sim_time > 0, "the first steps")

@@ -51,7 +51,7 @@ def station(name, condition=lambda station: True):
 
 
 def bring_a_unit(station):
-    """The transport of a unit that nobody has asked for yet."""
+    """The transport of a unit that no client has asked for yet."""
     for unit in range(1, 25):
         answer = call("/warehouse/transport", Transport, shelf_id=unit, station=station)
         if answer.accepted:
@@ -80,7 +80,7 @@ class Operations(unittest.TestCase):
     def setUp(self):
         self.events = Listener("/warehouse/order_events", OrderEvent)
         rospy.wait_for_service("/warehouse/submit_order", LONG)
-        wait_until(self.events.connections, "whoever tells of orders", LONG)
+        wait_until(self.events.connections, "the publisher of orders", LONG)
 
     def tearDown(self):
         self.events.close()

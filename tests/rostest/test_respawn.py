@@ -41,7 +41,7 @@ class BuilderKilledWhileBuilding(unittest.TestCase):
 
     def build_in_vain(self):
         with self.assertRaises(rospy.ServiceException):
-            create("huge")  # which takes so long that nobody is too late
+            create("huge")  # which takes so long that no client is too late
 
 
 class Respawn(unittest.TestCase):
@@ -52,7 +52,7 @@ class Respawn(unittest.TestCase):
         cls.robot = place("kiva1")
 
     def tearDown(self):
-        self.assertEqual(place("kiva1"), self.robot, "the warehouse was built anew")
+        self.assertEqual(place("kiva1"), self.robot, "the warehouse was built again")
 
     def test_create_warehouse_service_node(self):
         kill("/create_warehouse_service_node")

@@ -125,7 +125,7 @@ class SlipsTest(WorkPageTest):
         path = f"/stations/pick1/picks/{pick['sequence']}"
         self.page.read("(location.hash = '#pick1')")
         self.page.until("document.querySelector('#screen .confirm')?.disabled === false")
-        # Somebody else confirms it, while this page hears nothing of it.
+        # Another client confirms it, while this page gets no news of it.
         self.page.read("(page.screen.take = () => {})")
         first, again = ask(path, body), ask(path, body)
         self.assertEqual(first, (200, {"message": "", "quantity": 1}))

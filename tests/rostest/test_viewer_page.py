@@ -247,7 +247,7 @@ class ViewerPage(PageTest):
     def test_goes_back_to_a_checkpoint(self):
         robot, tip = Robot(3), "document.getElementById('tip').textContent"
         self.page.read("document.getElementById('checkpoint').click()")
-        self.page.until(f"{tip} === 'checkpoint kept'")
+        self.page.until(f"{tip} === 'checkpoint saved'")
         x = place("kiva3")[0]
         robot.do("/movx", distance=1.0)
         self.page.until(f"Math.abs(page.world.shown[6] - {x + 1}) < 0.01")
@@ -289,14 +289,14 @@ class ViewerPage(PageTest):
         self.page.until("page.world.placeOf(page.details.thing)[1] < -5.9")
 
     def test_builds_a_warehouse(self):
-        self.build("my own", robots=3, shelves=10, items=20)
+        self.build("custom", robots=3, shelves=10, items=20)
         self.page.until(STANDS.format(robots=3, units=10, items=20))
         self.page.until("document.getElementById('warehouse').textContent === 'mine'")
         self.build("small")
         self.page.until(STANDS.format(robots=ROBOTS, units=UNITS, items=ITEMS))
 
     def test_the_dialog_says_why_a_warehouse_can_not_be_built(self):
-        self.build("my own", robots=3, shelves=0, items=20)
+        self.build("custom", robots=3, shelves=0, items=20)
         told = "document.getElementById('plan-answer').textContent"
         self.page.until(f"{told} === '20 items, but no shelves to lay them on'")
         self.assertTrue(self.page.read("document.getElementById('builder').open"))

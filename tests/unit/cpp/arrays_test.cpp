@@ -158,9 +158,10 @@ TEST(Arrays, FindAWayFreeForAsLongHoweverTheyAsk) {
     w.run(0.05);
     const WorldState& world = insideOf(w.world);
     for (int i = 0; i < kCrowd; ++i) {
-      const double time = clearTime(world, i, false);
+      const double time = clearTime(world.view, i, false);
       ++found[time];
-      ASSERT_EQ(clearTime(world, i, true), time) << "kiva" << i + 1 << " at " << w.world.time();
+      ASSERT_EQ(clearTime(world.view, i, true), time)
+          << "kiva" << i + 1 << " at " << w.world.time();
     }
   }
   EXPECT_GE(found.size(), 4u);  // no time, little, more and much

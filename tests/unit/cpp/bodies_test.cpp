@@ -286,7 +286,7 @@ TEST_F(Bodies, ABodyFallsAsleepWhereItStandsAndNotWhileItCreeps) {
   w.world.setState("box", {Pose(0, 0, 0.25, 0, 0, 0), {{0.05, 0, 0}, {}}});
   w.run(6);
   EXPECT_NEAR(position("box").X(), 0.05 * 6, 0.005);
-  EXPECT_FALSE(insideOf(w.world).find("resting_box")->bodies.links[0].body->isActive());
+  EXPECT_FALSE(insideOf(w.world).models.find("resting_box")->bodies.links[0].body->isActive());
 }
 
 TEST_F(Bodies, ASleepingBodyWakesWhenPushed) {

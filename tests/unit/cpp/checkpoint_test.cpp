@@ -287,7 +287,7 @@ TEST_F(Checkpoint, PendingCommandsAndEventsAreKept) {
   other.step();
   EXPECT_EQ(other.count(Event::Kind::kAccepted, "kiva3"), 1);
   EXPECT_EQ(other.count(Event::Kind::kRefused, "kiva99"), 1);
-  w.world.step();  // events that nobody has taken yet
+  w.world.step();  // events that were not taken yet
   other.forget();
   other.world.restore(w.world.checkpoint());
   other.collect();

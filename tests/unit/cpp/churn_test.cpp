@@ -21,14 +21,16 @@ void checkModels(const WorldState& parts) {
   for (std::size_t slot = 0; slot < parts.models.size(); ++slot) {
     if (!parts.models[slot]) continue;
     const Model& model = *parts.models[slot];
-    ASSERT_EQ(parts.slot_of_name.at(model.name), static_cast<int>(slot));
-    const bool listed = std::count(parts.activated.begin(), parts.activated.end(), slot) == 1;
+    ASSERT_EQ(parts.models.slot_of_name.at(model.name), static_cast<int>(slot));
+    const bool listed =
+        std::count(parts.models.activated.begin(), parts.models.activated.end(), slot) == 1;
     const bool by_nature = model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
     ASSERT_TRUE(!by_nature || model.in_physics == listed) << model.name;
     ASSERT_EQ(model.in_physics, !model.bodies.links.empty()) << model.name;
   }
-  for (const auto* slots : {&parts.bodies, &parts.activated, &parts.models_with_plugins}) {
-    for (int slot : *slots) ASSERT_TRUE(parts.models.at(slot));
+  for (const auto* slots :
+       {&parts.models.bodies, &parts.models.activated, &parts.models.with_plugins}) {
+    for (int slot : *slots) ASSERT_TRUE(parts.models.slots.at(slot));
   }
 }
 
@@ -37,41 +39,42 @@ void checkRobots(const WorldState& parts) {
   for (int i = 0; i < f.size(); ++i) {
     const Robot& r = f.robots[i];
     ASSERT_EQ(f.find(r.id), i);
-    ASSERT_EQ(parts.models.at(r.model)->name, r.name);
+    ASSERT_EQ(parts.models.slots.at(r.model)->name, r.name);
     ASSERT_EQ(parts.models[r.model]->index, i);
     ASSERT_EQ(parts.models[r.model]->in_physics, f.activated[i] != 0);
     ASSERT_FALSE(parts.obstacles.footprints(i).empty());
     for (const Footprint& footprint : parts.obstacles.footprints(i)) {
       ASSERT_EQ(footprint.group, i);
       const bool own = footprint.model == r.model;
-      ASSERT_TRUE(own || (f.unit[i] >= 0 && footprint.model == parts.units[f.unit[i]].model));
+      ASSERT_TRUE(own ||
+                  (f.unit[i] >= 0 && footprint.model == parts.storage.units[f.unit[i]].model));
     }
     for (const MotionSegment& segment : f.tasks[i].segments)
-      ASSERT_LT(segment.unit, static_cast<int>(parts.units.size()));
+      ASSERT_LT(segment.unit, static_cast<int>(parts.storage.units.size()));
     ASSERT_EQ(f.tasks[i].segments.empty(), f.status[i] == Status::kIdle) << r.name;
     ASSERT_TRUE(std::isfinite(f.x[i] + f.y[i] + f.yaw[i] + f.vx[i] + f.vy[i]));
     if (f.unit[i] < 0) {
       ASSERT_EQ(r.load_mass, 0);
       ASSERT_TRUE(f.awake[i] || f.tower[i] == 0) << r.name;
     } else {
-      ASSERT_EQ(parts.units.at(f.unit[i]).carrier, i);
-      ASSERT_NEAR(r.load_mass, parts.units[f.unit[i]].mass, 1e-9);
+      ASSERT_EQ(parts.storage.units.at(f.unit[i]).carrier, i);
+      ASSERT_NEAR(r.load_mass, parts.storage.units[f.unit[i]].mass, 1e-9);
     }
   }
 }
 
 void checkUnits(const WorldState& parts) {
-  ASSERT_EQ(parts.units.size(), parts.unit_of_id.size());
-  std::vector<double> masses(parts.units.size(), 60);
-  for (const Item& item : parts.items) {
-    ASSERT_LT(item.unit, static_cast<int>(parts.units.size()));
+  ASSERT_EQ(parts.storage.units.size(), parts.storage.unit_of_id.size());
+  std::vector<double> masses(parts.storage.units.size(), 60);
+  for (const Item& item : parts.storage.items) {
+    ASSERT_LT(item.unit, static_cast<int>(parts.storage.units.size()));
     if (item.unit >= 0) masses[item.unit] += item.mass;
-    ASSERT_EQ(parts.models.at(item.model)->name, item.name);
+    ASSERT_EQ(parts.models.slots.at(item.model)->name, item.name);
   }
-  for (std::size_t u = 0; u < parts.units.size(); ++u) {
-    const StorageUnit& unit = parts.units[u];
-    ASSERT_EQ(parts.unit_of_id.at(unit.id), static_cast<int>(u));
-    ASSERT_EQ(parts.models.at(unit.model)->index, static_cast<int>(u));
+  for (std::size_t u = 0; u < parts.storage.units.size(); ++u) {
+    const StorageUnit& unit = parts.storage.units[u];
+    ASSERT_EQ(parts.storage.unit_of_id.at(unit.id), static_cast<int>(u));
+    ASSERT_EQ(parts.models.slots.at(unit.model)->index, static_cast<int>(u));
     ASSERT_NEAR(unit.mass, masses[u], 1e-9) << unit.name;
     ASSERT_TRUE(unit.carrier < 0 || parts.fleet.unit.at(unit.carrier) == static_cast<int>(u));
     for (const CollisionGeometry& o : parts.models[unit.model]->geometries) {

@@ -189,7 +189,7 @@ class ExecutionTest : public testing::Test {
     return cells;
   }
 
-  /// Nobody stands where somebody else does, nor in a cell that another holds; what is released by
+  /// No robot stands where another does, nor in a cell that another holds; what is released by
   /// messages under way is held as well.
   void expectSafe() {
     std::map<Cell, int> above;

@@ -151,7 +151,7 @@ TEST(Items, LieOnTheFloorAfterwardsAndAreTold) {
     EXPECT_EQ(item.unit, "storage_unit1");
     EXPECT_LT(item.pose.Z(), 0.21) << item.name;  // on whichever side
     EXPECT_GT(item.pose.X(), kBar) << item.name;
-    EXPECT_FALSE(isAwake(*inside.find(item.name))) << item.name;
+    EXPECT_FALSE(isAwake(*inside.models.find(item.name))) << item.name;
   }
 }
 

@@ -55,8 +55,7 @@ class FollowTest : public testing::Test {
     const std::string bytes = w.world.checkpoint();
     World other(parseWorld(worldText({}), modelPaths(), "test"));
     other.restore(bytes);
-    insideOf(other).commands.clear();
-    insideOf(other).paths.clear();
+    insideOf(other).inbox.pending.clear();
     const std::string text = w.refusal();
     other.step();
     EXPECT_FALSE(text.empty());

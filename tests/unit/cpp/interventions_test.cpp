@@ -70,7 +70,7 @@ TEST_F(ExternalInputs, WhatCanNotBePushedIsRefused) {
   w.spawnText(cube(), "box", 3, 0);
   EXPECT_FALSE(push("wall1", "body", {1, 0, 0}, 0, 1));
   EXPECT_FALSE(push("box", "nothing", {1, 0, 0}, 0, 1));
-  EXPECT_FALSE(push("nobody", "body", {1, 0, 0}, 0, 1));
+  EXPECT_FALSE(push("missing", "body", {1, 0, 0}, 0, 1));
 }
 
 TEST_F(ExternalInputs, ARobotGivesWayWhereItsWheelsSlip) {
@@ -238,7 +238,7 @@ TEST_F(ExternalInputs, ContactsTellWhoPressesHowHard) {
     weight += point.force.Z();
   }
   EXPECT_NEAR(weight, 10 * kGravity, 1);
-  EXPECT_TRUE(w.world.contacts("nobody").empty());
+  EXPECT_TRUE(w.world.contacts("missing").empty());
 }
 
 TEST_F(ExternalInputs, ACollisionTellsHowItHappened) {

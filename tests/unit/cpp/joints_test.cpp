@@ -307,7 +307,7 @@ TEST_F(Joints, AllArePutOrNone) {
                  std::invalid_argument);
     EXPECT_EQ(state("ab").position, 0);
   }
-  EXPECT_THROW(w.world.setJointPositions("nobody", {}), std::invalid_argument);
+  EXPECT_THROW(w.world.setJointPositions("missing", {}), std::invalid_argument);
 }
 
 TEST_F(Joints, AJointInALoopCanNotBePut) {

@@ -131,7 +131,7 @@ class Scene {
 };
 
 /// Whether a point is within anything that stands there: a ray that starts inside passes out.
-bool isInside(const WorldState& parts, const Vector3& point) {
+bool isInside(const kiva::Scene& parts, const Vector3& point) {
   Footprint here;
   here.kind = Footprint::Kind::kCircle;
   here.x = point.X();
@@ -175,7 +175,7 @@ TEST(Laser, SeesWhatBulletsRaysMeet) {
       const Ray ray{
           {scene.uniform(-13, 13), scene.uniform(-13, 13), scene.uniform(kLowest, kHighest)},
           scene.uniform(-M_PI, M_PI)};
-      if (isInside(insideOf(world), ray.from)) continue;
+      if (isInside(insideOf(world).view, ray.from)) continue;
       const double seen = ray.cast(world), truth = ray.cast(triangles);
       ++rays;
       hits += std::isfinite(truth);

@@ -54,7 +54,7 @@ TEST_F(Pace, SimulatedTimePassesAsFastAsWasAskedFor) {
 TEST_F(Pace, WhatWasLostIsForgivenWithoutABurst) {
   start(1);
   simulatedIn(1);
-  now_ += seconds(10);  // somebody stopped the process
+  now_ += seconds(10);  // the process was stopped
   EXPECT_LE(stepAllDue(), 101);
   EXPECT_NEAR(simulatedIn(5), 5, 0.006);
 }

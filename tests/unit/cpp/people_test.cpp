@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// People who walk among robots: nobody touches anybody, and everybody gets where they were going.
+// People walk among robots: no robot touches a person, and all get where they were going.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,7 +43,7 @@ class People : public ::testing::Test {
     const double across = std::max(0.0, std::abs(beside()) - robot.half_width);
     return std::hypot(along, across) - kRadius;
   }
-  /// Whoever is in the robot's way is farther off than it needs to stand.
+  /// A person in the robot's way is farther off than it needs to stand.
   void expectThatItCanStop() const {
     const bool is_in_lane = std::abs(beside()) < w.robot(1).half_width + kRadius;
     if (!is_in_lane || ahead() < 0) return;
@@ -228,7 +228,7 @@ TEST_F(People, WhoAreTakenAwayLetRobotsGoOn) {
 
 TEST_F(People, AreRefusedWhatMakesNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusalOf("nobody", through({{1, 1}})), "there is no model 'nobody'");
+  EXPECT_EQ(refusalOf("missing", through({{1, 1}})), "there is no model 'missing'");
   EXPECT_EQ(refusalOf("kiva1", through({{1, 1}})), "kiva1: it is no person");
   EXPECT_EQ(refusalOf("ground_plane", through({{1, 1}})), "ground_plane: it is no person");
   EXPECT_EQ(refusalOf("person1", through({{1, 1}, {nan, 1}})),

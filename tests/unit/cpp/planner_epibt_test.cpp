@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The planner at work on floors with two decks: nobody in anybody's way, and everybody arrives.
+// The planner at work on floors with two decks: no robot blocks another, and all arrive.
 #include "planner_shift.h"
 #include "warehouse_layout/layout_check.h"
 
@@ -37,7 +37,7 @@ TEST_P(EveryLayout, EverybodyArrivesAndNobodyMeets) {
   Shift shift(rows, aisle == 1 ? 15 : 25, seed, rules);
   ASSERT_TRUE(checkLayout(shift.floor).empty());
   ASSERT_TRUE(shift.run(400));
-  EXPECT_LT(shift.longest, 200) << "somebody was stuck";
+  EXPECT_LT(shift.longest, 200) << "a robot was stuck";
   EXPECT_GT(shift.arrivals, shift.fleet.size() * 400 / 100);
 }
 
@@ -118,7 +118,7 @@ TEST(Epibt, TurnsNoLoadWhereThereIsNoRoom) {
 }
 
 TEST(Epibt, LetsInWhoWaitsBesideAStream) {
-  // One street downwards, on which robots follow each other and begin anew; one comes from aside.
+  // One street downwards, on which robots follow each other and begin again; one comes from aside.
   constexpr int kLength = 61, kMiddle = 30;
   FloorDescription street;
   street.width = 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which floors loaded robots can always drive on, and which are refused with their cells.
+// Floors on which loaded robots can always go on, and floors that are refused with their cells.
 #include "planner_shift.h"
 #include "warehouse_layout/layout_check.h"
 

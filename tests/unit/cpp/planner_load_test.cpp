@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A planner of somebody's own, from its library.
+// A user's planner, from its library.
 #include <memory>
 
 #include "planner_shift.h"

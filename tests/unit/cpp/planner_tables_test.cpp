@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Distance tables: made when they are asked for, and anew as the traffic changes what edges cost.
+// Distance tables: made when they are asked for, and renewed as the traffic changes what edges
+// cost.
 #include <vector>
 
 #include "distance_tables.h"

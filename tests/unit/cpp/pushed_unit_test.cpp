@@ -31,7 +31,7 @@ std::string boxText(double mass, const std::string& size, bool falls) {
 
 class PushedUnit : public ::testing::Test {
  protected:
-  const Model& model() { return *insideOf(w.world).find("storage_unit1"); }
+  const Model& model() { return *insideOf(w.world).models.find("storage_unit1"); }
   /// Gives the unit at the origin that velocity.
   void push(const Vector3& linear, const Vector3& angular) {
     w.world.setState("storage_unit1", {Pose::Zero, {linear, angular}});
@@ -202,10 +202,12 @@ struct Row {
     w.runUntilIdle(1);
     w.movx(1, 10);
   }
-  const Model& unit(int id) { return *insideOf(w.world).find("storage_unit" + std::to_string(id)); }
+  const Model& unit(int id) {
+    return *insideOf(w.world).models.find("storage_unit" + std::to_string(id));
+  }
   bool slides() {
     const bool is = unit(2).upright && unit(2).disturbed;
-    return is && modelState(insideOf(w.world), unit(2)).twist.linear.Length() > 0.1;
+    return is && modelState(insideOf(w.world).view, unit(2)).twist.linear.Length() > 0.1;
   }
   Warehouse w;
 };

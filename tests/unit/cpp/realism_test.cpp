@@ -287,7 +287,7 @@ TEST(Reports, ComeLate) {
   w.spawn("kiva", "kiva1", 0, 0);
   w.run(0.002);
   ASSERT_TRUE(w.world.lastHeard(0));
-  EXPECT_EQ(w.world.lastHeard(0)->x, 0);  // whoever put it there knows where
+  EXPECT_EQ(w.world.lastHeard(0)->x, 0);  // the caller put it there
   w.movx(1, 20);
   w.run(0.19);
   EXPECT_EQ(w.world.lastHeard(0)->x, 0);

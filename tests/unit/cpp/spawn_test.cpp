@@ -25,14 +25,14 @@ struct Inventory {
 
   explicit Inventory(const Warehouse& w) : models(w.world.modelNames()) {
     const WorldState& parts = insideOf(w.world);
-    slots = parts.slot_of_name.size();
-    bodies = parts.bodies.size();
-    activated = parts.activated.size();
-    with_plugins = parts.models_with_plugins.size();
-    units = parts.units.size();
-    items = parts.items.size();
+    slots = parts.models.slot_of_name.size();
+    bodies = parts.models.bodies.size();
+    activated = parts.models.activated.size();
+    with_plugins = parts.models.with_plugins.size();
+    units = parts.storage.units.size();
+    items = parts.storage.items.size();
     robots = parts.fleet.robots.size();
-    ids = parts.unit_of_id.size();
+    ids = parts.storage.unit_of_id.size();
     parts.obstacles.near(0, 0, 1000, [this](const Footprint&) { ++footprints; });
     below = parts.physics.cast({3, 0, 5}, {0, 0, -1}, 10);
   }
@@ -329,7 +329,7 @@ TEST_F(Spawn, TwoThousandComingsAndGoingsLeaveTheMemoryAsItWas) {
 // --- states
 
 TEST_F(Spawn, TellsTheStateOfModelsAndLinks) {
-  EXPECT_FALSE(w.world.state("nobody"));
+  EXPECT_FALSE(w.world.state("missing"));
   EXPECT_FALSE(w.world.state("kiva1", "antenna"));
   EXPECT_NEAR(w.world.state("kiva1", "left_wheel")->pose.Y(), 0.26, 1e-9);
   EXPECT_NEAR(w.world.state("kiva1", "right_wheel")->pose.Y(), -0.26, 1e-9);
@@ -391,8 +391,8 @@ TEST_F(Spawn, TellsAllStatesInTheOrderOfTheNames) {
 // --- moved by hand
 
 TEST_F(Spawn, NobodyCanBeMovedWhoIsNotThere) {
-  EXPECT_FALSE(w.world.setState("nobody", {}));
-  EXPECT_FALSE(w.world.applyWrench("nobody", "link", {1, 0, 0}, {}));
+  EXPECT_FALSE(w.world.setState("missing", {}));
+  EXPECT_FALSE(w.world.applyWrench("missing", "link", {1, 0, 0}, {}));
   EXPECT_FALSE(w.world.applyWrench("wall1", "body", {1, 0, 0}, {}));
 }
 

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 #include "core/state/world_state.h"
 #include "warehouse.h"
 
@@ -27,7 +27,7 @@ constexpr double kTime = 60;               // [s]
 class Crowd {
  public:
   explicit Crowd(int threads) : w(plan(threads)) {
-    if (threads > 1) insideOf(w.world).workers->shareAll();
+    if (threads > 1) insideOf(w.world).schedule.workers->shareAll();
     for (int i = 0; i < kUnits; ++i) {
       w.spawn("storage_unit", "storage_unit" + std::to_string(i + 1), i % 16 - 8, i / 16 - 5);
     }

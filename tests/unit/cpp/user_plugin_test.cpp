@@ -292,10 +292,10 @@ class PluginCalls : public UserPlugin {
     auto plugin = std::make_shared<Scripted>();
     WorldState& parts = insideOf(w.world);
     if (model.empty()) {
-      parts.world_plugins.push_back(plugin);
+      parts.plugins.world.push_back(plugin);
     } else {
-      parts.find(model)->plugins.push_back(plugin);
-      parts.models_with_plugins.push_back(parts.slot_of_name.at(model));
+      parts.models.find(model)->plugins.push_back(plugin);
+      parts.models.with_plugins.push_back(parts.models.slot_of_name.at(model));
     }
     return *plugin;
   }
@@ -315,7 +315,7 @@ struct Counting : Plugin {
 TEST_F(PluginCalls, ThatFailToRestoreLeaveTheWorldAsItWas) {
   w.spawn("wall", "wall1", 0, 0);
   const auto first = std::make_shared<Counting>(), second = std::make_shared<Counting>();
-  insideOf(w.world).world_plugins = {first, second};
+  insideOf(w.world).plugins.world = {first, second};
   first->count = 1;
   second->count = 13;
   const std::string saved = w.world.checkpoint();

@@ -64,7 +64,7 @@ test('what is carried goes with its carrier, and its items with it', () => {
   near(world.placeOf({ kind: 'item', index: 0 }), [1, 0.2, 0.6, Math.PI / 2], 1e-5);
 });
 
-test('the unit over a robot is one that nobody carries', () => {
+test('the unit over a robot is one that no robot carries', () => {
   tell(1100, { robot: [[1, 4, 0, 0, 0, 0]] });
   assert.equal(world.unitOver(1), 1);
   assert.equal(world.unitAt([1, 2]), 0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/message_enums.h"
 
 namespace kiva {
 
@@ -53,25 +54,9 @@ struct Impact {
   double impulse = 0;  ///< Along the normal, until they no longer approach [Ns].
 };
 
-/// Something that happened. Values as in warehouse_msgs/Event.
+/// Something that happened.
 struct Event {
-  enum class Kind : std::uint8_t {
-    kAccepted = 0,
-    kRefused = 1,
-    kDone = 2,
-    kBlocked = 3,
-    kLifted = 4,
-    kDropped = 5,
-    kCollision = 6,
-    kSpawned = 7,
-    kDeleted = 8,
-    kLost = 9,     ///< A robot no longer knows where it is, and stops.
-    kFailed = 10,  ///< Something in a robot is broken.
-    kRepaired = 11,
-    kTipped = 12,   ///< A storage unit tips off the robot that carries it.
-    kFell = 13,     ///< An item falls off its storage unit.
-    kPickedUp = 14  ///< One that fell is back on it.
-  };
+  using Kind = EventKind;
   static constexpr int kKinds = static_cast<int>(Kind::kPickedUp) + 1;
   double time = 0;  ///< Simulated [s].
   Kind kind = Kind::kAccepted;

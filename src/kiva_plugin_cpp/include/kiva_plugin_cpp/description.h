@@ -16,6 +16,12 @@
 
 namespace kiva {
 
+// What a world takes, wherever it is said.
+constexpr double kLeastStep = 1e-6, kMostStep = 1;                 ///< [s]
+constexpr double kMostGravity = 1000;                              ///< Its length [m/s²].
+constexpr double kMostFriction = 10;                               ///< Coulomb coefficient.
+constexpr double kLeastGridSpacing = 0.1, kMostGridSpacing = 100;  ///< [m]
+
 /// Triangles; shapes of one file share them.
 struct Mesh {
   std::vector<Vector3> vertices;              ///< [m]
@@ -149,7 +155,7 @@ struct ModelInstance {
   std::shared_ptr<const ModelDescription> description;
   std::string
       robot_namespace{};       ///< Told to its plugins as `robotNamespace`, unless they have one.
-  std::optional<Walk> walk{};  ///< Of an `<actor>`: it is a person, who walks so.
+  std::optional<Walk> walk{};  ///< The walk of an `<actor>`, which is a person.
 };
 
 struct WorldDescription {

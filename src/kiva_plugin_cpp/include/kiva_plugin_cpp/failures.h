@@ -5,17 +5,11 @@
 
 #include <cstdint>
 
+#include "kiva_plugin_cpp/message_enums.h"
+
 namespace kiva {
 
-/// What is broken. Values as in warehouse_msgs/Fail.
-enum class Failure : std::uint8_t {
-  kMotor = 1,      ///< The drive has no torque, and its brakes close: it stands where it can.
-  kLift = 2,       ///< The tower stands wherever it is.
-  kLaser = 3,      ///< Blind: no scans, and the robot stands, since it does not see who comes.
-  kRadio = 4,      ///< It hears no command and reports nothing; what it has been told it does.
-  kWheelSlip = 5,  ///< Its wheels have less grip: it turns and brakes as that allows.
-};
-constexpr int kFailureKinds = 5;
+constexpr int kFailureKinds = static_cast<int>(Failure::kWheelSlip);
 
 /// In Fleet::failures.
 constexpr std::uint8_t bitOf(Failure failure) {

@@ -4,33 +4,26 @@
 // change when a robot is deleted; ids (the number in `kiva<id>`) do not.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/failures.h"
+#include "kiva_plugin_cpp/message_enums.h"
 #include "kiva_plugin_cpp/viewable_memory.h"
 
 namespace kiva {
-
-/// Values as in warehouse_msgs/KivaStatus.
-enum class Status : std::uint8_t { kIdle = 0, kBusy = 1, kBlocked = 2 };
-enum class State : std::uint8_t {
-  kIdle = 0,
-  kMovingX = 1,
-  kMovingY = 2,
-  kRotating = 3,
-  kLifting = 4,
-  kBlocked = 5,
-  kWaiting = 6  ///< At the last released point of its path.
-};
 
 /// How a robot's drive is modelled.
 enum class Drive : std::uint8_t {
   kTraction,  ///< Planar chassis, two wheel speeds, Coulomb friction at the wheels.
   kJointed    ///< Wheel joints, casters, rigid contacts with the floor; the chassis pitches.
 };
+
+// Each struct of parameters lists its numbers once, in fields(): name, value, least, most. From
+// that list they are read, and checked and saved in checkpoints.
 
 struct DriveParameters {
   Drive drive = Drive::kTraction;
@@ -46,6 +39,30 @@ struct DriveParameters {
                                         ///< tyre's own or the floor's is smaller, that one counts.
   double drive_wheel_load = 0.8;  ///< Share of the weight on the driven wheels; casters: the rest.
   double quarter_turn_time = 0.625;  ///< For 90° from rest to rest [s]; 0 = at once.
+
+  /// The numbers that the plugin `motion` takes.
+  template <typename Self, typename Field>
+  static void motionFields(Self& s, Field field) {
+    field("speed", s.speed, 0.01, 10);
+    field("acceleration", s.acceleration, 0, 100);
+    field("emergency_deceleration", s.emergency_deceleration, 0.01, 100);
+    field("wheel_radius", s.wheel_radius, 0.005, 1);
+    field("wheel_separation", s.wheel_separation, 0.01, 10);
+    field("wheel_inertia", s.wheel_inertia, 1e-6, 100);
+    field("motor_torque", s.motor_torque, 0, 1e5);
+    field("friction", s.friction, 0, kMostFriction);
+    field("drive_wheel_load", s.drive_wheel_load, 0.01, 1);
+  }
+  /// The number that the plugin `rotation` takes.
+  template <typename Self, typename Field>
+  static void rotationFields(Self& s, Field field) {
+    field("quarter_turn_time", s.quarter_turn_time, 0, 1000);
+  }
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    motionFields(s, field);
+    rotationFields(s, field);
+  }
 };
 
 struct LiftParameters {
@@ -55,6 +72,15 @@ struct LiftParameters {
   double max_load = 450.0;  ///< [kg]
   double max_force = 5500;  ///< At which it stalls: weight of the load and what holds that [N].
   double proximity = 0.1;   ///< Largest distance between the centres of robot and unit [m].
+
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("height", s.height, 0.001, 10);
+    field("time", s.time, 0, 1000);
+    field("max_load", s.max_load, 0, 1e6);
+    field("max_force", s.max_force, 0, 1e9);
+    field("proximity", s.proximity, 0, 10);
+  }
 };
 
 struct LaserParameters {
@@ -67,6 +93,19 @@ struct LaserParameters {
   double rate = 10.0;                      ///< [Hz] of simulated time.
   double x = 0.38;                         ///< Of the sensor, in the chassis frame [m].
   double z = 0.2;                          ///< Above the floor [m].
+
+  /// The least of an upper limit is the lower one, which is read before it.
+  template <typename Self, typename Field>
+  static void fields(Self& s, Field field) {
+    field("rays", s.rays, 1, 10000);
+    field("min_angle", s.min_angle, -M_PI, M_PI);
+    field("max_angle", s.max_angle, s.min_angle, M_PI);
+    field("min_range", s.min_range, 0, 100);
+    field("max_range", s.max_range, s.min_range, 100);
+    field("rate", s.rate, 0.01, 1000);
+    field("x", s.x, -10, 10);
+    field("z", s.z, 0, 10);
+  }
 };
 
 /// What is asked once and read seldom.
@@ -157,12 +196,12 @@ struct Fleet {
   Column<std::uint8_t> failures;  ///< What is broken in it: bitOf each Failure; 0 = nothing.
   Column<float> charge;           ///< Of its battery, 0…1; 1 where there is no model of that.
   /// What its protective field allows, for the sake of people near [m/s]: 0 = it stands, +inf =
-  /// nobody is near.
+  /// no person is near.
   Column<double> allowed_speed;
   /// Its mode, as in warehouse_msgs/SetRobotMode: kept for the program that coordinates the fleet.
   /// The world goes by none of it.
   Column<std::uint8_t> mode;
-  Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain where somebody is.
+  Column<std::uint8_t> curtained;  ///< 1 = it stands within a light curtain with a person inside.
   std::vector<Robot> robots;
 
   int size() const { return static_cast<int>(robots.size()); }

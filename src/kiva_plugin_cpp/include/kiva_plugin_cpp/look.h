@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What models look like, for whoever draws them.
+// What models look like, for viewers.
 #pragma once
 
 #include <cstdint>

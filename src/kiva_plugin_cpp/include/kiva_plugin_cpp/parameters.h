@@ -17,7 +17,7 @@ class DescriptionError : public std::runtime_error {
 /// The parameters of one plugin: the text of each child element of its SDF `<plugin>`.
 ///
 /// Nested elements are reached by a path, `pose/x`. A getter checks type and range at once; what
-/// nobody asked for is found by `rejectUnread`, so that a misspelt parameter is an error.
+/// was not read is found by `rejectUnread`, so that a misspelt parameter is an error.
 class Parameters {
  public:
   Parameters() = default;
@@ -35,17 +35,31 @@ class Parameters {
   int whole(const std::string& key, int fallback, int lower, int upper) const;
   std::string text(const std::string& key, const std::string& fallback) const;
 
+  /// Returns what a struct's fields() calls to have each number read from `prefix` + its name; one
+  /// that is not given keeps its value. Throws as number() and whole() do.
+  auto reader(const std::string& prefix = "") const {
+    return [this, prefix](const char* name, auto& value, double least, double most) {
+      read(prefix + name, &value, least, most);
+    };
+  }
+
   /// `true`, `false`, 1 or 0 at `key`, or `fallback`.
   bool flag(const std::string& key, bool fallback) const;
   /// That many numbers with blanks between them at `key`, or `fallback`; all finite.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback) const;
 
-  /// The keys that nobody asked for; `robotNamespace`, which every plugin gets, is not among them.
+  /// Returns the keys that were not read, but for `robotNamespace`, which every plugin gets.
   std::vector<std::string> unread() const;
-  /// Throws DescriptionError if there is one, and lists those that were asked for.
+  /// Throws DescriptionError, with a list of the known keys, if there is an unread one.
   void rejectUnread() const;
 
  private:
+  void read(const std::string& key, double* value, double least, double most) const {
+    *value = number(key, *value, least, most);
+  }
+  void read(const std::string& key, int* value, double least, double most) const {
+    *value = whole(key, *value, static_cast<int>(least), static_cast<int>(most));
+  }
   const std::string* find(const std::string& key) const;
 
   std::string where_;

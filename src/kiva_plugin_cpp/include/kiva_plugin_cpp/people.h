@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// People who walk on the floor, and zones that stop robots while somebody is inside.
+// People that walk on the floor, and zones that stop robots while a person is inside.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace kiva {
 
-/// With which people are reckoned to come nearer (ISO 13855), and nobody walks faster [m/s].
+/// Walking speed of people by ISO 13855, and the most that they walk with [m/s].
 constexpr double kMostWalkingSpeed = 1.6;
 
 /// A place on a person's way.
@@ -36,7 +36,7 @@ struct Person {
 /// How far ahead Person::ahead_x looks [s].
 constexpr double kForesight = 3;
 
-/// A rectangle along the axes of `world` [m]: while somebody is inside, all robots inside stand.
+/// A rectangle along the axes of `world` [m]: while a person is inside, all robots inside stand.
 struct LightCurtain {
   std::string name;
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0;

@@ -20,31 +20,32 @@ namespace kiva {
 
 class World;
 
-/// What a plugin wants goes into beforeStep, what it sees comes from afterStep.
+/// A plugin commands in beforeStep and observes in afterStep.
 class Plugin {
  public:
   virtual ~Plugin() = default;
 
-  /// Once, when its model stands in the world. `model` is that model's name, empty for a plugin of
-  /// the world. Throw to refuse the model; keys of `parameters` that nobody read refuse it too.
+  /// Called once, when its model stands in the world. `model` is that model's name, empty for a
+  /// plugin of the world. Throw to refuse the model; keys of `parameters` that were not read refuse
+  /// it too.
   virtual void load(World& world, const std::string& model, const Parameters& parameters) = 0;
 
-  /// Before each physics step of `dt` seconds: command, apply forces.
+  /// Called before each physics step of `dt` seconds: commands, applies forces.
   virtual void beforeStep(World& /*world*/, double /*dt*/) {}
 
-  /// After it: observe.
+  /// Called after it: observes.
   virtual void afterStep(const World& /*world*/, double /*dt*/) {}
 
-  /// For checkpoints: what the plugin remembers from step to step, as bytes.
+  /// Returns the plugin's state as bytes, for checkpoints.
   virtual std::string save() const { return ""; }
-  /// Goes back to what save() gave, once all models stand as they did then. A model that was gone
+  /// Restores a state of save(), once all models stand as they did then. A model that was gone
   /// meanwhile comes back with a new plugin: load() is called before, and what it posts is dropped.
   virtual void restore(World& /*world*/, const std::string& /*state*/) {}
 
-  /// The world went back to where it began, perhaps its time too.
+  /// Called after the world was reset, perhaps with its time.
   virtual void reset(World& /*world*/) {}
 
-  /// Whether what it throws, and parameters that nobody read, refuse the model; else they are a
+  /// Whether what it throws, and parameters that were not read, refuse the model; else they are a
   /// warning, and a plugin that threw is left out.
   virtual bool isStrict() const { return true; }
 };

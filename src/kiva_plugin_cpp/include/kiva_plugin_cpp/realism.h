@@ -9,6 +9,7 @@
 
 #include <string>
 
+#include "kiva_plugin_cpp/description.h"
 #include "kiva_plugin_cpp/parameters.h"
 
 namespace kiva {
@@ -65,7 +66,7 @@ struct ActuationRealism {
   }
 };
 
-/// Floors that don't grip everywhere: cells that are wet, oily or dusty, anew for each seed.
+/// Floors that don't grip everywhere: cells that are wet, oily or dusty, chosen by the seed.
 struct FloorRealism {
   bool enabled = false;
   double slippery_cells = 0.01;  ///< Share of the grid's cells.
@@ -74,7 +75,7 @@ struct FloorRealism {
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
     field("slippery_cells", s.slippery_cells, 0, 1);
-    field("friction", s.friction, 0, 10);
+    field("friction", s.friction, 0, kMostFriction);
   }
 };
 
@@ -87,13 +88,13 @@ struct LoadRealism {
   double tipping_share = 0.7;
   double item_friction_least = 0.3;  ///< Coulomb coefficient of an item on its board, evenly
   double item_friction_most = 0.5;   ///< distributed between these.
-  double pick_up_after = 300;  ///< An item lies on the floor until somebody comes [s]; 0: nobody.
+  double pick_up_after = 300;        ///< Until an item is picked up off the floor [s]; 0: never.
 
   template <typename Self, typename Field>
   static void fields(Self& s, Field field) {
     field("tipping_share", s.tipping_share, 0.05, 100);
-    field("item_friction_least", s.item_friction_least, 0, 10);
-    field("item_friction_most", s.item_friction_most, 0, 10);
+    field("item_friction_least", s.item_friction_least, 0, kMostFriction);
+    field("item_friction_most", s.item_friction_most, 0, kMostFriction);
     field("pick_up_after", s.pick_up_after, 0, 1e6);
   }
 };
@@ -111,7 +112,7 @@ struct RadioRealism {
   double status_latency_mean = 0;   ///< [s]
   double status_lost = 0;           ///< Share of reports that are lost.
 
-  /// Whether reports are not there at once.
+  /// Returns whether reports are delayed or lost.
   bool delaysReports() const {
     return enabled && (status_latency_least > 0 || status_latency_mean > 0 || status_lost > 0);
   }
@@ -220,8 +221,8 @@ void forEachSection(R& realism, Call call) {
 
 /// Reads `prefix` + `section/name` for every number. A section of which anything is given is on,
 /// its other numbers at their defaults; so is one that is `true` itself, and `false` is off.
-/// Throws DescriptionError for what is no number or out of its range; what nobody knows is left to
-/// Parameters::rejectUnread.
+/// Throws DescriptionError for what is no number or out of its range; unknown keys are
+/// left to Parameters::rejectUnread.
 Realism readRealism(const Parameters& parameters, const std::string& prefix = "");
 
 bool operator==(const Realism& a, const Realism& b);

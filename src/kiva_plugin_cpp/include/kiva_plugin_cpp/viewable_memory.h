@@ -30,8 +30,8 @@ class ViewableMemory {
   }
 };
 
-/// For containers whose elements are read by others without a copy: who holds the memory may go on
-/// reading what was there last, whatever becomes of the container.
+/// For containers whose elements other code reads without a copy: a reader that holds the memory
+/// can read its last values, whatever becomes of the container.
 template <typename T>
 struct ViewableAllocator {
   using value_type = T;

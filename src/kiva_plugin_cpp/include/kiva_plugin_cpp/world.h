@@ -185,12 +185,12 @@ class World {
   std::uint64_t seed() const;  ///< Of everything random.
   const Realism& realism() const;
   const std::string& name() const;
-  /// Everything back to where it was spawned, at rest, tower down, without commands; units and
+  /// Puts everything back to where it was spawned, at rest, tower down, without commands; units and
   /// items too. What clients apply ends. Time goes back to 0 as well if `time_too`.
   void reset(bool time_too);
 
   // --- commands
-  /// Queued; answered by an ACCEPTED or REFUSED event at the next step.
+  /// Queues a command; an ACCEPTED or REFUSED event answers it at the next step.
   void post(const Command& command);
   /// The same, in one row with those; a change of the path under way is only answered if it is
   /// refused.
@@ -208,19 +208,19 @@ class World {
   /// radio; nothing of one that is heard at once.
   std::optional<RobotReport> lastHeard(int robot) const;
 
-  // --- who commands robots
-  /// Keeps that with the robot, as Fleet::mode. Throws std::invalid_argument if there is no such
+  // --- modes of robots
+  /// Stores a robot's mode, as Fleet::mode. Throws std::invalid_argument if there is no such
   /// robot or no such mode.
   void keepMode(int kiva_id, int mode);
 
   // --- people
-  /// Has somebody go that way from now on: an actor, or a static model that is no larger than a
+  /// Makes a person walk that way from now on: an actor, or a static model that is no larger than a
   /// person, which is one from then on: robots keep away from people. Without waypoints they stay
   /// where they are. They stop before what is in their way, and walk around it where they can.
   /// Throws std::invalid_argument, with nothing changed, if there is no such model, it is no
   /// person, or a waypoint is not finite, off the floor, or to be reached too fast.
   void walk(const std::string& person, const Walk& walk);
-  /// In the order in which they came.
+  /// Returns them in the order in which they were added.
   std::vector<Person> people() const;
   /// A new one, or in place of the one of that name. Throws std::invalid_argument if it has no
   /// name, or its edges are not finite or in the wrong order.
@@ -229,9 +229,9 @@ class World {
   const std::vector<LightCurtain>& lightCurtains() const;
 
   // --- fallen items
-  /// In the order in which they fell.
+  /// Returns them in the order in which they fell.
   std::vector<FallenItem> fallenItems() const;
-  /// Somebody picks that item up, and puts it back in its place on its storage unit: PICKED_UP.
+  /// Puts an item that fell back in its place on its storage unit: PICKED_UP.
   /// Throws std::invalid_argument, with nothing changed, if it did not fall, or its unit does not
   /// stand upright.
   void pickUp(const std::string& item);
@@ -246,10 +246,10 @@ class World {
   /// Returns false if there is no such model.
   bool remove(const std::string& name);
   bool has(const std::string& name) const;
-  /// In the order in which they came.
+  /// Returns them in the order in which they were added.
   std::vector<std::string> modelNames() const;
   ModelKind kind(const std::string& name) const;
-  /// Counts up whenever a model comes or goes.
+  /// Returns a number that grows whenever a model is added or removed.
   std::uint64_t modelsRevision() const;
   /// Nothing if there is no such model. `link` empty: the model itself (its canonical link's
   /// twist).
@@ -264,9 +264,9 @@ class World {
   /// Moves a link and everything that joints hold to it, the link at that velocity. Returns false
   /// if there is no such link; throws as setState.
   bool setLinkState(const std::string& model, const std::string& link, const EntityState& state);
-  /// All models at once, in the order of modelNames().
+  /// Returns all models at once, in the order of modelNames().
   void states(std::vector<EntityState>* out) const;
-  /// Every `model::link`, models in the order of modelNames().
+  /// Returns every `model::link`, models in the order of modelNames().
   void linkStates(std::vector<std::string>* names, std::vector<EntityState>* states) const;
   /// Gives the link of that name this mass, centre of mass, inertia and gravity flag. Returns false
   /// if there is no such link; throws std::invalid_argument if no body can be like that.
@@ -287,10 +287,10 @@ class World {
 
   // --- what clients apply
   const ExternalInputs& externalInputs() const;
-  /// For the next step only. Returns false if there is no such link or it does not move.
+  /// Acts in the next step only. Returns false if there is no such link or it does not move.
   bool applyWrench(const std::string& model, const std::string& link, const Vector3& force,
                    const Vector3& torque);
-  /// For a period. They return false if there is no such link or joint, or it does not move.
+  /// Act for a period. Return false if there is no such link or joint, or it does not move.
   bool apply(const Wrench& wrench);
   bool apply(const Effort& effort);
   void clearWrenches(const std::string& model, const std::string& link);

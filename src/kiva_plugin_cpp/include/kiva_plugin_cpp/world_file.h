@@ -11,7 +11,7 @@
 
 namespace kiva {
 
-/// Where what a world names is looked up, `model://name` for one: folders that hold
+/// Folders in which a world's names are looked up, `model://name` for one: folders that hold
 /// `name/model.config` or the path of a mesh, first match wins.
 using ModelPaths = std::vector<std::string>;
 
@@ -26,7 +26,7 @@ ModelPaths environmentModelPaths();
 /// The folder of a world file and the two above it, each with its `models`: as packages have them.
 ModelPaths modelPathsAround(const std::string& world_file);
 
-/// A world read from the file at `path`.
+/// Returns the world in the file at `path`.
 /// What is faulty in it is left out, as small a part as the rest can do without, and `warnings`, if
 /// given, is told so: file, line, entity and cause.
 /// Throws DescriptionError, in the same words, where no world would be left: what is no XML, no
@@ -34,22 +34,21 @@ ModelPaths modelPathsAround(const std::string& world_file);
 WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,
                            std::vector<std::string>* warnings = nullptr);
 
-/// The same from SDF text; `where` stands in for the file's name in errors.
+/// Returns the world in an SDF text; `where` stands in for the file's name in errors.
 WorldDescription parseWorld(const std::string& xml, const ModelPaths& model_paths,
                             const std::string& where, std::vector<std::string>* warnings = nullptr);
 
-/// The models of a spawn request: `<sdf><model>`, or `<sdf><world>` with one or more models or
-/// includes, or a URDF `<robot>`, each with the name and pose that the document gives it.
-/// Throws DescriptionError.
-/// Equal texts share their descriptions through a cache, so that a thousand equal robots are
-/// parsed once.
-/// `lights`, if given, receives the document's lights, which then need no model beside them.
+/// Returns the models of a spawn request: `<sdf><model>`, or `<sdf><world>` with one or more models
+/// or includes, or a URDF `<robot>`, each with the name and pose that the document gives it. Throws
+/// DescriptionError. Equal texts share their descriptions through a cache, so that a thousand equal
+/// robots are parsed once. `lights`, if given, receives the document's lights, which then need no
+/// model beside them.
 std::vector<ModelInstance> parseModels(const std::string& xml, const ModelPaths& model_paths,
                                        const std::string& where,
                                        std::vector<std::string>* warnings = nullptr,
                                        std::vector<Light>* lights = nullptr);
 
-/// Whether a text is URDF: its root is a `<robot>`.
+/// Returns whether a text is URDF: its root is a `<robot>`.
 bool isUrdf(const std::string& xml);
 
 }  // namespace kiva

@@ -27,7 +27,7 @@ Look::Kind kindOf(Shape::Kind kind) {
   }
 }
 
-/// Full extent along the shape's own axes [m].
+/// Returns the full extent along the shape's own axes [m].
 Vector3 extentOf(const Shape& shape) {
   const double width = 2 * shape.radius;
   switch (shape.kind) {
@@ -64,7 +64,7 @@ void addPart(int link, Look::Kind kind, const Pose& pose, const Vector3& extent,
   }
 }
 
-/// Of a mesh the boxes that it is from above.
+/// Adds a mesh as the boxes that it is from above.
 template <typename Colour>
 void addShape(int index, const Link& link, const Pose& pose, const Shape& shape,
               const Colour& colour, Look* out) {
@@ -78,7 +78,8 @@ void addShape(int index, const Link& link, const Pose& pose, const Shape& shape,
   }
 }
 
-/// A mesh that is only seen was not read: what touches at its link is about as large.
+/// Adds what is seen of a link. A mesh that is only seen was not read: the link's collisions, which
+/// are about as large, take its place.
 void addVisuals(int index, const Link& link, Look* out) {
   bool has_touching = false;
   for (const Visual& visual : link.visuals) {

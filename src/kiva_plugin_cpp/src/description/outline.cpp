@@ -14,7 +14,7 @@ constexpr double kSameHeight = 0.1;  // [m]
 
 using Corners = std::array<Vector3, 3>;
 
-/// Whether a triangle, seen from above, reaches into the square around (x, y).
+/// Returns whether a triangle, seen from above, reaches into the square around (x, y).
 bool reachesInto(const Corners& t, double x, double y, double half) {
   for (int i = 0; i < 3; ++i) {
     const Vector3& a = t[i];
@@ -53,7 +53,7 @@ class Columns {
     for (const Corners& t : triangles) add(t);
   }
 
-  /// Rectangles of equal heights, each as large as its first row lets it be.
+  /// Returns rectangles of equal heights, each as large as its first row permits.
   std::vector<OutlineBox> boxes() {
     std::vector<OutlineBox> out;
     for (int row = 0; row < rows_; ++row) {

@@ -18,7 +18,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// The whole of `text` as a number; independent of the locale, unlike strtod.
+/// Returns the whole of `text` as a number; independent of the locale, unlike strtod.
 template <typename Number>
 std::optional<Number> parse(const std::string& text) {
   const char* const begin = text.data() + (!text.empty() && text[0] == '+' ? 1 : 0);

@@ -11,7 +11,7 @@ bool hasBelow(const Parameters& parameters, const std::string& key) {
   return at != parameters.values().end() && at->first.compare(0, key.size(), key) == 0;
 }
 
-/// Every number by its name, `section` itself for whether it is on.
+/// Returns every number by its name, and `section` itself for whether it is on.
 std::map<std::string, double> numbersOf(const Realism& realism) {
   std::map<std::string, double> out;
   forEachSection(realism, [&](const std::string& name, const auto& section) {
@@ -30,10 +30,7 @@ Realism readRealism(const Parameters& parameters, const std::string& prefix) {
   forEachSection(out, [&](const std::string& name, auto& section) {
     const std::string key = prefix + name;
     const bool is_given = hasBelow(parameters, key + "/");
-    section.fields(section,
-                   [&](const std::string& field, double& value, double least, double most) {
-                     value = parameters.number(key + "/" + field, value, least, most);
-                   });
+    section.fields(section, parameters.reader(key + "/"));
     section.enabled = is_given;
     // SDF's text of an element that has children is blank.
     if (!is_given || !parameters.text(key, "").empty()) {

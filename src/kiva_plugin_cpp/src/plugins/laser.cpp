@@ -25,18 +25,18 @@ double approachSpeed(const Sighting& before, const Sighting& now, double between
   return speed > 0 && speed < kTopApproach ? speed : 0;
 }
 
-/// How far along the segment the robot may go: a grid point before the cell of what is ahead, or,
-/// off the grid, a little before it.
-double farthestStop(const WorldState& world, int robot, double obstacle) {
+/// Returns how far along the segment the robot may go: a grid point before the cell of what is
+/// ahead, or, off the grid, a little before it.
+double farthestStop(const Scene& world, int robot, double obstacle) {
   if (!world.fleet.tasks[robot].segments.front().on_grid) {
     return obstacle - halfLength(world.fleet.robots[robot]) - kClearance;
   }
-  const double cell = world.grid_spacing;
+  const double cell = world.settings.grid_spacing;
   return (std::ceil(obstacle / cell - 0.5 - 1e-6) - 1) * cell;
 }
 
 /// Plans the stop at `stop`, braking harder than usual if it must be, or as soon as it can be.
-void planStop(WorldState& world, int i, double stop) {
+void planStop(MotionView& world, int i, double stop) {
   FleetState& f = world.fleet;
   const double speed = std::abs(f.command(i).speed), here = f.command(i).position;
   const double way = stop - here;
@@ -47,7 +47,7 @@ void planStop(WorldState& world, int i, double stop) {
   }
   const double needed = way > 0 ? speed * speed / (2 * way) : (speed > 0 ? 1e9 : 0);
   f.deceleration[i] = std::clamp(needed, usual, hardest);
-  const double shortest = speed * speed / (2 * hardest) + speed * world.dt;
+  const double shortest = speed * speed / (2 * hardest) + speed * world.clock.dt;
   f.goal[i] = needed <= hardest ? std::max(stop, here) : here + shortest;
 }
 
@@ -61,13 +61,13 @@ struct View {
   double scan_time;  // until the next look [s]
 };
 
-View viewOf(const WorldState& world, int i) {
+View viewOf(const Scene& world, int i) {
   const FleetState& f = world.fleet;
   const Sighting& now = f.tasks[i].sighting;
   View view;
   view.reference = f.command(i).position;
   view.goal = f.goal[i];
-  view.scan_time = static_cast<double>(scanPeriod(world, f.robots[i])) * world.dt;
+  view.scan_time = static_cast<double>(scanPeriod(world.clock, f.robots[i])) * world.clock.dt;
   view.obstacle = now.along + now.distance;
   view.approach = approachSpeed(f.tasks[i].last_sighting, now, view.scan_time);
   view.speed = std::abs(f.command(i).speed);
@@ -75,20 +75,20 @@ View viewOf(const WorldState& world, int i) {
 }
 
 /// [m/s²]
-double usualBraking(WorldState& world, int i) {
+double usualBraking(MotionView& world, int i) {
   const double usual = plannedAcceleration(world, i);
   return usual > 0 ? usual : 1e9;
 }
 
-/// Where the obstacle is to be met: the other one comes on until it has seen this robot too, then
-/// brakes as this one does, with `braking` [m/s²].
+/// Returns where the obstacle is to be met: the other one comes on until it has seen this robot
+/// too, then brakes as this one does, with `braking` [m/s²].
 double expectedObstacle(const View& view, double braking) {
   return view.obstacle - 2 * view.approach * view.scan_time -
          view.approach * view.approach / (2 * braking);
 }
 
-/// Where the robot has to plan its stop now, if it has to; else its goal.
-double firstStop(WorldState& world, int robot, const View& view) {
+/// Returns where the robot has to plan its stop now, if it has to; else its goal.
+double firstStop(MotionView& world, int robot, const View& view) {
   const auto isBehindGoal = [&](double stop) { return stop >= view.goal - kSoon; };
   // Most looks end here: how it can brake is worked out for the others alone.
   if (view.approach == 0 && isBehindGoal(farthestStop(world, robot, view.obstacle))) {
@@ -103,9 +103,9 @@ double firstStop(WorldState& world, int robot, const View& view) {
   return next - view.reference > braking + kSoon ? view.goal : stop;  // while there is time
 }
 
-/// The same for a robot that is stopping already: it keeps to its plan unless the place is taken
-/// by now, or even two hard stops would hardly do.
-double revisedStop(WorldState& world, int robot, const View& view) {
+/// Returns the same for a robot that is stopping already: it keeps to its plan unless the place is
+/// taken by now, or even two hard stops would hardly do.
+double revisedStop(MotionView& world, int robot, const View& view) {
   const Robot& r = world.fleet.robots[robot];
   const double hardest = plannedBraking(world, robot);
   const double gap = view.obstacle - view.reference - halfLength(r);
@@ -116,8 +116,8 @@ double revisedStop(WorldState& world, int robot, const View& view) {
   return std::min(view.goal, farthestStop(world, robot, view.obstacle));
 }
 
-/// Whether a robot that brakes or stands on its path can go farther than to where it does.
-bool mayResume(WorldState& world, int i) {
+/// Returns whether a robot that brakes or stands on its path can go farther than to where it does.
+bool mayResume(MotionView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   const View view = viewOf(world, i);
   if (task.sighting.model < 0 || view.obstacle >= reachOfInterest(world, i)) return true;
@@ -125,7 +125,7 @@ bool mayResume(WorldState& world, int i) {
   return farthestStop(world, i, expected) > view.goal + kSoon;
 }
 
-void brake(WorldState& world, int i) {
+void brake(MotionView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   if (!task.sighting.taken) return;
   const bool is_obstructed = task.isHeldUp() || task.phase == Phase::kBraking;
@@ -140,7 +140,7 @@ void brake(WorldState& world, int i) {
   stopTask(world, i, Phase::kBraking, name, name + " is in the way");
   planStop(world, i, stop);
   if (task.follows() && !brakes) {  // its path goes on: this is not told again at its end
-    world.reportCommand(Event::Kind::kBlocked, i, name, task.blocked_reason);
+    reportCommand(world, Event::Kind::kBlocked, i, name, task.blocked_reason);
   }
 }
 
@@ -149,19 +149,11 @@ void brake(WorldState& world, int i) {
 void LaserPlugin::configure(Robot& robot, const Parameters& p) const {
   LaserParameters& laser = robot.laser;
   laser.fitted = true;
-  laser.rays = p.whole("rays", laser.rays, 1, 10000);
-  laser.min_angle = p.number("min_angle", laser.min_angle, -M_PI, M_PI);
-  laser.max_angle = p.number("max_angle", laser.max_angle, laser.min_angle, M_PI);
-  laser.min_range = p.number("min_range", laser.min_range, 0, 100);
-  laser.max_range = p.number("max_range", laser.max_range, laser.min_range, 100);
-  laser.rate = p.number("rate", laser.rate, 0.01, 1000);
-  laser.x = p.number("x", laser.x, -10, 10);
-  laser.z = p.number("z", laser.z, 0, 10);
+  laser.fields(laser, p.reader());
 }
 
-void LaserPlugin::react(WorldState& world) const {
-  for (int i : world.sighted) brake(world, i);
-  world.sighted.clear();
+void LaserPlugin::react(MotionView& world, const std::vector<int>& sighted) const {
+  for (int i : sighted) brake(world, i);
 }
 
 }  // namespace kiva

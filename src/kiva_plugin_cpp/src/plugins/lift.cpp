@@ -26,7 +26,7 @@ struct Above {
   int model = -1;
 };
 
-Above findAbove(const WorldState& world, int i) {
+Above findAbove(const Scene& world, int i) {
   Above above;
   const Fleet& f = world.fleet;
   const std::vector<Footprint>& all = world.obstacles.footprints(i);
@@ -49,45 +49,45 @@ Above findAbove(const WorldState& world, int i) {
 
 /// With what it resists being lifted [N]: by its weight, unless it is fixed or a robot, whose
 /// wheels stay on the floor.
-double resistance(const WorldState& world, const Model& model) {
+double resistance(const Scene& world, const Model& model) {
   if (model.isStatic() || model.owner->robot(world, model) >= 0) return 1e16;
   double mass = 0;
   for (const Link& link : model.description->links) mass += link.mass;
-  return mass * world.gravityDown();
+  return mass * world.settings.gravityDown();
 }
 
-void setTower(WorldState& world, int i, double height) {
+void setTower(ContactView& world, int i, double height) {
   raiseLoad(world, i, height - world.fleet.tower[i]);
   world.fleet.tower[i] = height;
 }
 
 /// Moves the tower towards `height` by one step. The whole stroke from rest to rest takes
 /// lift.time: half of it at 4·height/time², half at minus that.
-void moveTower(WorldState& world, int i, double height) {
+void moveTower(ContactView& world, int i, double height) {
   Robot& r = world.fleet.robots[i];
   const double time = r.lift.time;
   const double acceleration = time == 0 ? 0 : 4 * r.lift.height / (time * time);
-  const double top = time == 0 ? r.lift.height / world.dt : 2 * r.lift.height / time;
+  const double top = time == 0 ? r.lift.height / world.clock.dt : 2 * r.lift.height / time;
   Profile profile = world.fleet.profile(i);
-  profile.advance(height, top, acceleration, acceleration, world.dt);
+  profile.advance(height, top, acceleration, acceleration, world.clock.dt);
   world.fleet.setProfile(i, profile);
   setTower(world, i, profile.position);
 }
 
-void begin(WorldState& world, int i) {
+void begin(ContactView& world, int i) {
   world.fleet.tasks[i].phase = Phase::kLifting;
   world.fleet.setProfile(i, {world.fleet.tower[i], 0});
 }
 
-void giveUp(WorldState& world, int i, const std::string& by, const std::string& reason) {
+void giveUp(ContactView& world, int i, const std::string& by, const std::string& reason) {
   stopTask(world, i, Phase::kAbandoning, by, reason);
 }
 
 /// Gives the lift up if the unit is not, or no longer, where the tower is to meet or leave it.
-void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
+void checkUnit(ContactView& world, int i, const MotionSegment& segment) {
   if (segment.unit < 0) return giveUp(world, i, "", "the storage unit was deleted");
   if (world.fleet.unit[i] == segment.unit) return;
-  const StorageUnit& unit = world.units[segment.unit];
+  const StorageUnit& unit = world.storage.units[segment.unit];
   const bool above = unitDistance(world, i, segment.unit) <= world.fleet.robots[i].lift.proximity &&
                      standsUpright(world, segment.unit);
   if (segment.kind == MotionSegment::Kind::kRaise && unit.carrier >= 0) {
@@ -100,17 +100,17 @@ void checkUnit(WorldState& world, int i, const MotionSegment& segment) {
   }
 }
 
-void putDownOnFloor(WorldState& world, int i, int unit) {
+void putDownOnFloor(ContactView& world, int i, int unit) {
   if (unit < 0 || world.fleet.unit[i] != unit) return;
-  if (unitPose(world, unit).Z() > world.floor.z) return;
+  if (unitPose(world, unit).Z() > world.floor.extent.z) return;
   putDown(world, i);
-  world.reportCommand(Event::Kind::kDropped, i, world.units[unit].name,
-                      "dropped " + world.units[unit].name);
+  reportCommand(world, Event::Kind::kDropped, i, world.storage.units[unit].name,
+                "dropped " + world.storage.units[unit].name);
 }
 
 /// The tower comes down, a unit that it has stands on the floor again, then the command ends in
 /// BLOCKED.
-void abandon(WorldState& world, int i, int unit) {
+void abandon(ContactView& world, int i, int unit) {
   moveTower(world, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) endStop(world, i);
@@ -118,11 +118,11 @@ void abandon(WorldState& world, int i, int unit) {
 
 /// Holds the tower where its force does not suffice to go on: beneath what it can't lift, or under
 /// a load that is too heavy. It gives up after a while. `above` is what it saw from `before` [m].
-void stall(WorldState& world, int i, double before, const Above& above) {
+void stall(ContactView& world, int i, double before, const Above& above) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   double& overdue = f.tasks[i].overdue;
-  double force = r.load_mass * world.gravityDown();
+  double force = r.load_mass * world.settings.gravityDown();
   const bool meets = f.tower[i] - before > above.clearance;
   if (meets) force += resistance(world, *world.models[above.model]);
   if (force <= r.lift.max_force) {
@@ -132,7 +132,7 @@ void stall(WorldState& world, int i, double before, const Above& above) {
   const double height = meets ? before + above.clearance : before;
   f.setProfile(i, {height, 0});
   setTower(world, i, height);
-  overdue += world.dt;
+  overdue += world.clock.dt;
   if (overdue < kStalled) return;
   const std::string other = meets ? world.models[above.model]->name : "";
   char text[160];
@@ -141,7 +141,7 @@ void stall(WorldState& world, int i, double before, const Above& above) {
   giveUp(world, i, other, text);
 }
 
-void raiseSegment(WorldState& world, int i, int unit) {
+void raiseSegment(ContactView& world, int i, int unit) {
   Robot& r = world.fleet.robots[i];
   const double before = world.fleet.tower[i];
   const bool is_loaded = world.fleet.unit[i] >= 0;
@@ -152,30 +152,31 @@ void raiseSegment(WorldState& world, int i, int unit) {
     takeUp(world, i, unit);
   }
   if (world.fleet.reference[i] != r.lift.height) return;
-  rebuildBody(world, world.modelOf(i));  // its load is higher than when it was taken up
-  world.reportCommand(Event::Kind::kLifted, i, world.units[unit].name,
-                      "lifted " + world.units[unit].name);
+  rebuildBody(world, world.models.of(
+                         world.fleet.robots[i]));  // its load is higher than when it was taken up
+  reportCommand(world, Event::Kind::kLifted, i, world.storage.units[unit].name,
+                "lifted " + world.storage.units[unit].name);
   finishSegment(world, i);
 }
 
-void lowerSegment(WorldState& world, int i, int unit) {
+void lowerSegment(ContactView& world, int i, int unit) {
   moveTower(world, i, 0);
   putDownOnFloor(world, i, unit);
   if (world.fleet.tower[i] == 0) finishSegment(world, i);
 }
 
 /// Stops the tower, and keeps it there.
-void holdTower(WorldState& world, int i) {
+void holdTower(ContactView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting || f.reference_speed[i] == 0) return;
   Profile profile = f.profile(i);
-  profile.brake(f.robots[i].drive.emergency_deceleration, world.dt);
+  profile.brake(f.robots[i].drive.emergency_deceleration, world.clock.dt);
   profile.position = std::clamp(profile.position, 0.0, f.robots[i].lift.height);
   f.setProfile(i, profile);
   setTower(world, i, profile.position);
 }
 
-void liftSegment(WorldState& world, int i) {
+void liftSegment(ContactView& world, int i) {
   const Task& task = world.fleet.tasks[i];
   if (isHeld(world.fleet, i)) return holdTower(world, i);
   const MotionSegment segment = task.segments.front();
@@ -187,7 +188,7 @@ void liftSegment(WorldState& world, int i) {
 }
 
 /// A tower whose unit was deleted comes down by itself.
-void lowerEmptyTower(WorldState& world, int i) {
+void lowerEmptyTower(ContactView& world, int i) {
   FleetState& f = world.fleet;
   if (f.reference[i] != f.tower[i]) f.setProfile(i, {f.tower[i], 0});
   moveTower(world, i, 0);
@@ -198,16 +199,13 @@ void lowerEmptyTower(WorldState& world, int i) {
 void LiftPlugin::configure(Robot& robot, const Parameters& p) const {
   LiftParameters& lift = robot.lift;
   lift.fitted = true;
-  lift.height = p.number("height", lift.height, 0.001, 10);
-  lift.time = p.number("time", lift.time, 0, 1000);
-  lift.max_load = p.number("max_load", lift.max_load, 0, 1e6);
-  lift.max_force = p.number("max_force", kSpareForce * 9.81 * lift.max_load, 0, 1e9);
-  lift.proximity = p.number("proximity", lift.proximity, 0, 10);
+  lift.fields(lift, p.reader());
+  if (!p.has("max_force")) lift.max_force = kSpareForce * 9.81 * lift.max_load;
 }
 
-void LiftPlugin::control(WorldState& world) const {
+void LiftPlugin::control(ContactView& world) const {
   const FleetState& f = world.fleet;
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     const Task& task = f.tasks[i];
     const bool is_up_empty = f.tower[i] > 0 && f.unit[i] < 0;
     if (!task.segment() && is_up_empty && !isHeld(f, i)) lowerEmptyTower(world, i);

@@ -10,7 +10,7 @@ class LiftPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_lift.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void control(WorldState& world) const override;
+  void control(ContactView& world) const override;
 };
 
 }  // namespace kiva

@@ -29,7 +29,7 @@ struct OnLine {
   double heading;  // off the line's [rad]
 };
 
-/// As the robot believes.
+/// Returns where the robot believes to be on that line.
 OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   const double c = std::cos(segment.yaw), s = std::sin(segment.yaw);
   const PlanarPose at = f.believed(i);
@@ -37,7 +37,7 @@ OnLine onLine(const FleetState& f, int i, const MotionSegment& segment) {
   return {c * dx + s * dy, -s * dx + c * dy, c * f.vx[i] + s * f.vy[i], at.yaw - segment.yaw};
 }
 
-void begin(WorldState& world, int i, const OnLine& at) {
+void begin(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   f.tasks[i].phase = Phase::kDriving;
   f.setProfile(i, {at.along, at.speed});
@@ -55,26 +55,26 @@ bool arrived(const FleetState& f, int i, const OnLine& at) {
 }
 
 /// Ends a segment that the wheels can't drive, as against a wall that no laser saw.
-bool giveUp(WorldState& world, int i, const OnLine& at) {
+bool giveUp(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   double& overdue = f.tasks[i].overdue;
-  if (f.reference[i] == f.goal[i]) overdue += world.dt;
+  if (f.reference[i] == f.goal[i]) overdue += world.clock.dt;
   const double lag = std::abs(f.reference[i] - at.along);
   if (lag < kStuck && overdue < kOverdue) return false;
   haltRobot(world, i, "", "is stuck: its wheels turn or stall without getting it on");
   return true;
 }
 
-/// What it may drive for the sake of people now, on its way down to what is allowed.
-double allowedSpeed(WorldState& world, int i) {
+/// Returns what it may drive for the sake of people now, on its way down to what is allowed.
+double allowedSpeed(MotionView& world, int i) {
   const FleetState& f = world.fleet;
   const double allowed = f.allowed_speed[i], speed = std::abs(f.command(i).speed);
   if (speed <= allowed || f.robots[i].drive.acceleration == 0) return allowed;
-  return std::max(allowed, speed - plannedBraking(world, i) * world.dt);
+  return std::max(allowed, speed - plannedBraking(world, i) * world.clock.dt);
 }
 
-/// Where it has come to its goal by its own estimate, what it was put aside by the last code is
-/// left for the next drive or turn to mend: to turn it out would take half a second of each stop.
+/// Returns the heading error to correct. At its goal a robot leaves the error that the last code
+/// showed to the next drive or turn: to correct it would take half a second of each stop.
 double headingToMend(const FleetState& f, int i, double heading) {
   const bool is_there = f.localises && f.reference[i] == f.goal[i];
   return is_there && std::abs(heading) < kSquare ? 0 : heading;
@@ -88,14 +88,14 @@ void followLine(FleetState& f, int i, const OnLine& at, double lag, double speed
 }
 
 /// Stops where it can, and stays there.
-void holdDrive(WorldState& world, int i, const OnLine& at) {
+void holdDrive(MotionView& world, int i, const OnLine& at) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - at.along;
   Profile command = f.command(i);
   if (command.speed != 0) {
     const bool at_once = f.robots[i].drive.acceleration == 0;
-    command.brake(at_once ? 0 : plannedBraking(world, i), world.dt);
+    command.brake(at_once ? 0 : plannedBraking(world, i), world.clock.dt);
   }
   f.follow(i, command);
   followLine(f, i, at, lag, f.reference_speed[i]);
@@ -103,7 +103,7 @@ void holdDrive(WorldState& world, int i, const OnLine& at) {
   if (f.reference_speed[i] == 0 && is_there) setWheels(f, i, 0, 0);
 }
 
-void driveSegment(WorldState& world, int i) {
+void driveSegment(MotionView& world, int i) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   if (halting(world, i) || f.tasks[i].phase == Phase::kWaiting) return;
@@ -133,7 +133,7 @@ void driveSegment(WorldState& world, int i) {
     return;
   }
   Profile command = f.command(i);
-  command.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.dt);
+  command.advance(f.goal[i], top, f.acceleration[i], f.deceleration[i], world.clock.dt);
   f.follow(i, command);
   followLine(f, i, at, lag, f.reference_speed[i]);  // behind the reference as it was
 }
@@ -148,21 +148,13 @@ void MotionPlugin::configure(Robot& robot, const Parameters& p) const {
                            "'; traction or jointed was expected");
   }
   d.drive = drive == "jointed" ? Drive::kJointed : Drive::kTraction;
-  d.speed = p.number("speed", d.speed, 0.01, 10);
-  d.acceleration = p.number("acceleration", d.acceleration, 0, 100);
-  d.emergency_deceleration = std::max(
-      d.acceleration, p.number("emergency_deceleration", d.emergency_deceleration, 0.01, 100));
-  d.wheel_radius = p.number("wheel_radius", d.wheel_radius, 0.005, 1);
-  d.wheel_separation = p.number("wheel_separation", d.wheel_separation, 0.01, 10);
-  d.wheel_inertia = p.number("wheel_inertia", d.wheel_inertia, 1e-6, 100);
-  d.motor_torque = p.number("motor_torque", d.motor_torque, 0, 1e5);
-  d.friction = p.number("friction", d.friction, 0, 10);
-  d.drive_wheel_load = p.number("drive_wheel_load", d.drive_wheel_load, 0.01, 1);
+  d.motionFields(d, p.reader());
+  d.emergency_deceleration = std::max(d.acceleration, d.emergency_deceleration);
   robot.has_motion = true;
 }
 
-void MotionPlugin::control(WorldState& world) const {
-  for (int i : world.stepped_singly) {
+void MotionPlugin::control(ContactView& world) const {
+  for (int i : world.schedule.stepped_singly) {
     if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kDrive)) driveSegment(world, i);
   }
 }
@@ -180,14 +172,14 @@ bool stands(const Fleet& f, int i) {
   return std::hypot(f.vx[i], f.vy[i]) < kStill && std::abs(f.yaw_rate[i]) < kStill;
 }
 
-bool halting(WorldState& world, int i) {
+bool halting(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase != Phase::kHalting) return false;
   const Task& task = f.tasks[i];
   const bool drives = task.isAt(MotionSegment::Kind::kDrive) && !task.segment()->reverse;
   if (f.localises && f.localisation[i].lost && drives && f.reference_speed[i] != 0) {
     Profile command = f.command(i);  // its wheels are all it has to go by: they must not slide
-    command.brake(plannedBraking(world, i), world.dt);
+    command.brake(plannedBraking(world, i), world.clock.dt);
     f.follow(i, command);
     setWheels(f, i, f.reference_speed[i], 0);
     return true;

@@ -10,7 +10,7 @@ class MotionPlugin : public FleetPlugin {
  public:
   const char* filename() const override { return "libkiva_motion.so"; }
   void configure(Robot& robot, const Parameters& parameters) const override;
-  void control(WorldState& world) const override;
+  void control(ContactView& world) const override;
 };
 
 /// Asks the wheels of robot `i` for a speed [m/s] along its heading and a yaw rate [rad/s].
@@ -26,6 +26,6 @@ constexpr double kOverdue = 2.0;  // [s]
 
 /// If the robot is to halt: locks the wheels, and ends the command once it stands. Returns whether
 /// it is.
-bool halting(WorldState& world, int i);
+bool halting(MotionView& world, int i);
 
 }  // namespace kiva

@@ -8,7 +8,7 @@
 
 namespace kiva {
 
-/// The plugins that come with the world, in the order in which they act.
+/// Returns the plugins that come with the world, in the order in which they act.
 std::vector<std::shared_ptr<const FleetPlugin>> makeFleetPlugins();
 
 }  // namespace kiva

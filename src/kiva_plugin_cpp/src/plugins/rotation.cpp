@@ -25,7 +25,7 @@ constexpr double kReserve = 0.9;     // of the motors' torque, so that errors ca
 
 /// From rest to rest over 90° in a time T: half of it at 4·90°/T², half at minus that, as far as
 /// motors and floor can. 0 = at once, where they are without limit.
-double turnAcceleration(WorldState& world, int i, double angle) {
+double turnAcceleration(MotionView& world, int i, double angle) {
   const double time =
       world.fleet.robots[i].drive.quarter_turn_time;  // [s]; 0 asks for an infinite one
   Vehicle vehicle = plannedVehicle(world, i);
@@ -40,12 +40,12 @@ double turnSpeed(const Robot& robot, double dt) {
 }
 
 /// Stops turning as hard as it would at the turn's end, and stays so.
-void holdTurn(WorldState& world, int i) {
+void holdTurn(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.tasks[i].phase == Phase::kStarting) return setWheels(f, i, 0, 0);
   const double lag = f.reference[i] - f.believed(i).yaw;
   Profile command = f.command(i);
-  if (command.speed != 0) command.brake(f.deceleration[i], world.dt);
+  if (command.speed != 0) command.brake(f.deceleration[i], world.clock.dt);
   f.follow(i, command);
   if (f.reference_speed[i] == 0 && std::abs(lag) < kThereAngle && stands(f, i)) {
     return setWheels(f, i, 0, 0);
@@ -55,7 +55,7 @@ void holdTurn(WorldState& world, int i) {
 
 /// On a floor that is slippery in places a gyro tells that wheels spin, before odometry is misled:
 /// from there on it turns half as hard.
-void feelGrip(WorldState& world, int i) {
+void feelGrip(MotionView& world, int i) {
   FleetState& f = world.fleet;
   const bool spins = std::abs(f.reference_speed[i] - f.yaw_rate[i]) > kSpins;
   if (!spins || f.deceleration[i] == 0 || !isPatchy(world)) return;
@@ -64,7 +64,7 @@ void feelGrip(WorldState& world, int i) {
 }
 
 /// Ends a turn that would tear at the legs of a storage unit that stands askew, before it begins.
-bool hasRoom(WorldState& world, int i) {
+bool hasRoom(MotionView& world, int i) {
   const FleetState& f = world.fleet;
   const double goal = f.yaw[i] + f.tasks[i].segments.front().yaw - f.believed(i).yaw;
   const TurnRoom room = roomToTurn(world, i, {f.x[i], f.y[i], f.yaw[i]}, Among::kUnits);
@@ -74,7 +74,7 @@ bool hasRoom(WorldState& world, int i) {
   return false;
 }
 
-void turnSegment(WorldState& world, int i) {
+void turnSegment(MotionView& world, int i) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[i];
   const Robot& r = f.robots[i];
@@ -96,15 +96,15 @@ void turnSegment(WorldState& world, int i) {
     setWheels(f, i, 0, 0);
     return finishSegment(world, i);
   }
-  if (ended) task.overdue += world.dt;
+  if (ended) task.overdue += world.clock.dt;
   if (std::abs(lag) > kStuckAngle || task.overdue > kOverdue) {
     return haltRobot(world, i, "", "is stuck: it can't turn");
   }
-  const double top = turnSpeed(r, world.dt), acceleration = f.deceleration[i];
+  const double top = turnSpeed(r, world.clock.dt), acceleration = f.deceleration[i];
   const bool exact = f.localises ? isOnCourse(lag, 0, 0) : isExact(lag);
   if (exact && tryCruise(world, i, {0, 0, 1, top, acceleration})) return;
   Profile command = f.command(i);
-  command.advance(f.goal[i], top, acceleration, acceleration, world.dt);
+  command.advance(f.goal[i], top, acceleration, acceleration, world.clock.dt);
   f.follow(i, command);
   setWheels(f, i, 0, f.reference_speed[i] + kGain * lag);
 }
@@ -112,12 +112,12 @@ void turnSegment(WorldState& world, int i) {
 }  // namespace
 
 void RotationPlugin::configure(Robot& robot, const Parameters& p) const {
-  robot.drive.quarter_turn_time = p.number("quarter_turn_time", 0.625, 0, 1000);
+  robot.drive.rotationFields(robot.drive, p.reader());
   robot.has_rotation = true;
 }
 
-void RotationPlugin::control(WorldState& world) const {
-  for (int i : world.stepped_singly) {
+void RotationPlugin::control(ContactView& world) const {
+  for (int i : world.schedule.stepped_singly) {
     if (world.fleet.tasks[i].isAt(MotionSegment::Kind::kTurn)) turnSegment(world, i);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between numpy and the world's arrays.
+// Converts between arrays of numpy and those of the world.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "kiva_plugin_cpp/fleet.h"
 
@@ -15,10 +17,17 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
-/// A read-only array over memory of the world, without a copy. It holds the memory: whatever
-/// becomes of the world, what was there last can still be read.
+/// An argument that numpy makes an array of; signatures name it so.
+class ArrayLike : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(ArrayLike, py::object, isAny)
+  static bool isAny(PyObject* /*object*/) { return true; }
+};
+
+/// Returns a read-only array over memory of the world, without a copy. The array holds the memory:
+/// whatever becomes of the world, its last values can still be read.
 template <typename Out, typename T>
-py::array view(const Column<T>& column, std::vector<py::ssize_t> shape = {}) {
+py::array_t<Out> view(const Column<T>& column, std::vector<py::ssize_t> shape = {}) {
   static_assert(sizeof(Out) == sizeof(T));
   if (shape.empty()) shape = {static_cast<py::ssize_t>(column.size())};
   py::object owner = py::none();
@@ -28,18 +37,18 @@ py::array view(const Column<T>& column, std::vector<py::ssize_t> shape = {}) {
   }
   py::array_t<Out> array(shape, reinterpret_cast<const Out*>(column.data()), owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return std::move(array);
+  return array;
 }
 
-/// As Python prints it.
+/// Returns a value as Python prints it.
 inline std::string text(const py::object& value) { return py::str(value); }
 
-/// An argument that is one number or an array of one a command. Throws TypeError for what holds no
-/// such numbers and ValueError for an array of more than one dimension.
+/// An argument that is one number, or an array with one number a command. Throws TypeError unless
+/// it holds such numbers and ValueError for an array of more than one dimension.
 template <typename T>
 class Numbers {
  public:
-  Numbers(const char* name, const py::object& value) : name_(name) {
+  Numbers(const char* name, const ArrayLike& value) : name_(name) {
     const py::array given = py::array::ensure(value);
     const char kind = given ? given.dtype().kind() : 'O';
     const bool fits = kind == 'i' || kind == 'u' || (kind == 'f' && std::is_floating_point_v<T>);
@@ -79,3 +88,12 @@ class Numbers {
 };
 
 }  // namespace kiva::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<kiva::python::ArrayLike> {
+  static constexpr auto name = const_name("numpy.typing.ArrayLike");
+};
+
+}  // namespace pybind11::detail

@@ -41,11 +41,10 @@ void defineFallenItems(py::class_<Host, HostPtr>& world) {
   PYBIND11_NUMPY_DTYPE(FallenRow, item_id, shelf_id, x, y, z);
   world.def_property_readonly(
       "fallen_items", &fallenItems,
-      R"((n,) of the items that fell off a storage unit, in the order in which they fell: item_id, shelf_id
+      R"(The items that fell off a storage unit, (n,), in the order in which they fell: item_id, shelf_id
 of that unit, x y z in world [m]. A copy.)");
-  world.def(
-      "pick_up", &pickUp, py::arg("item"),
-      R"(Somebody picks up an item that fell, by its name, and puts it back on its storage unit.
+  world.def("pick_up", &pickUp, py::arg("item"),
+            R"(Puts an item that fell, given by its name, back on its storage unit.
 
 ValueError if it did not fall, or its storage unit does not stand upright.)");
 }

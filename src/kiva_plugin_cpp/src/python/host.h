@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the bindings of one world and of many share.
+// Shared by the bindings of one world and of many.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -10,7 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "kiva_plugin_cpp/world.h"
 #include "kiva_plugin_cpp/world_file.h"
@@ -19,7 +21,7 @@ namespace kiva::python {
 
 namespace py = pybind11;
 
-/// So many at a time; then Python is asked whether Ctrl-C was pressed.
+/// Steps made at a time; between them Python is asked whether Ctrl-C was pressed.
 constexpr std::int64_t kStepsBetweenSignals = 256;
 
 /// A row of World.storage_units.
@@ -29,7 +31,7 @@ struct UnitRow {
   std::int32_t kiva_id;
 };
 
-/// A world that one thread uses at a time: a second one is told so.
+/// A world that one thread uses at a time: use() throws in a second one.
 class Host {
  public:
   Host(const WorldDescription& description, const WorldOptions& options, ModelPaths paths)
@@ -51,12 +53,35 @@ class Host {
 
 using HostPtr = std::shared_ptr<Host>;
 
-/// Throws ValueError with the number of the command in its row.
+/// Returns a function of the world as a method that throws while another thread uses the world.
+template <typename Call>
+auto guarded(Call call) {
+  return [call](Host& host) {
+    const auto lock = host.use();
+    return call(host.world);
+  };
+}
+
+/// Issues each text as a UserWarning of Python.
+void warn(const std::vector<std::string>& warnings);
+
+/// Throws ValueError unless there is a robot of that number.
+void checkRobot(const Host& host, std::int32_t id);
+/// Returns the number of the robot at that index of the fleet's arrays, 0 for -1.
+std::int32_t idOf(const World& world, int robot);
+/// Throws ValueError, with the index `i` of the command, unless the world can take the command.
 void checkCommand(const Host& host, const Command& command, std::size_t i);
-/// Commands of dtype COMMAND, or TypeError and ValueError.
+/// Returns an array of dtype COMMAND as rows. Throws TypeError for another dtype and ValueError for
+/// another shape.
 py::array_t<Command, py::array::c_style> commandRows(const py::array& commands);
 UnitRow unitRow(const World& world, int unit);
 
+// Each adds its part to the module or to the class World.
+void defineFleet(py::module_& m);
+void defineWorld(py::module_& m);
+void defineCommands(py::class_<Host, HostPtr>& world);
+void defineRobots(py::class_<Host, HostPtr>& world);
+void defineModels(py::class_<Host, HostPtr>& world);
 void definePeople(py::class_<Host, HostPtr>& world);
 void defineFallenItems(py::class_<Host, HostPtr>& world);
 void defineWorlds(py::module_& m);

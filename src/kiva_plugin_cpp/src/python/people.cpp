@@ -18,7 +18,7 @@ struct PersonRow {
   double x, y, yaw, vx, vy, ahead_x, ahead_y;
 };
 
-void walk(Host& host, const std::string& person, const py::object& x, const py::object& y,
+void walk(Host& host, const std::string& person, const ArrayLike& x, const ArrayLike& y,
           double speed, bool loops) {
   const Numbers<double> xs("x", x), ys("y", y);
   if (xs.size() != ys.size()) {
@@ -66,24 +66,29 @@ py::dict lightCurtains(Host& host) {
 
 void definePeople(py::class_<Host, HostPtr>& world) {
   PYBIND11_NUMPY_DTYPE(PersonRow, x, y, yaw, vx, vy, ahead_x, ahead_y);
-  world.def("walk", &walk, py::arg("person"), py::arg("x") = py::tuple(),
-            py::arg("y") = py::tuple(), py::arg("speed") = 1.2, py::arg("loop") = false,
-            R"(Has somebody walk to places x, y in world [m], one after the other, at `speed` [m/s].
+  world.def(
+      "walk", &walk, py::arg("person"), py::arg("x") = py::tuple(), py::arg("y") = py::tuple(),
+      py::arg("speed") = 1.2, py::arg("loop") = false,
+      R"(Makes a person walk to places x, y in world [m], one after the other, at `speed` [m/s].
 
-`person`: the name of an actor, or of a static model no larger than a person, which is one from then
-on. Without places they stay where they are; `loop`: after the last one comes the first again. They
-walk around what is in their way, and never into it. ValueError, and nothing is changed, for who is
-none, and for places that are not finite or off the floor.)");
+`person`: the name of an actor, or of a static model no larger than a person, which counts as one
+from then on. Without places the person stays; `loop` begins with the first place again after the
+last. People walk around obstacles, and never into them. ValueError, with nothing changed, for a
+model that can't be a person and for places that are not finite or off the floor.)");
   world.def_property_readonly(
       "people", &people,
-      R"(Who is there: rows by name, of x, y [m], yaw [rad], vx, vy [m/s] in world, and ahead_x, ahead_y,
-where each is to be within 3 s, straight on; who waits now, wants to be.)");
-  world.def("set_light_curtain", &setLightCurtain, py::arg("name"), py::arg("area") = py::none(),
-            R"(While somebody is in `area`, (min_x, max_x, min_y, max_y) [m], robots in it stand.
+      R"(The people: rows by name, of x, y [m], yaw [rad], vx, vy [m/s] in world, and ahead_x, ahead_y,
+the place within 3 s, straight on, that a person walks to, or will walk to after waiting.)");
+  world.def(
+      "set_light_curtain", &setLightCurtain, py::arg("name"), py::arg("area") = py::none(),
+      R"(Sets a light curtain: robots in `area`, (min_x, max_x, min_y, max_y) [m], stand while a person
+is in it.
 
-In place of the one of that name; None takes it away. ValueError for an area that is none, KeyError
-if there is none to take away.)");
-  world.def_property_readonly("light_curtains", &lightCurtains, "Their areas by name.");
+It replaces the one of that name; None removes it. ValueError for an area that is not a rectangle,
+KeyError if there is none to remove.)");
+  world.def_property_readonly(
+      "light_curtains", &lightCurtains,
+      "The areas of the light curtains, (min_x, max_x, min_y, max_y) [m], by name.");
 }
 
 }  // namespace kiva::python

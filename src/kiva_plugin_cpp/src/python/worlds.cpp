@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Many worlds that are stepped at once. Each owns its memory, which moves when models come or go
-// or a checkpoint is restored; so who has just stepped a world copies its robots into the common
-// arrays while they are in the cache (under a microsecond for ten robots), and Python looks at
-// those without another copy.
+// or a checkpoint is restored. So the thread that has just stepped a world copies its robots into
+// the common arrays while they are in the cache (under a microsecond for ten robots), and Python
+// reads those without another copy.
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "arrays.h"
 #include "core/motion/wheels.h"
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 #include "host.h"
 #include "kiva_plugin_cpp/command.h"
 
@@ -20,6 +24,8 @@ namespace kiva::python {
 namespace {
 
 constexpr std::size_t kKinds = Event::kKinds;
+
+using Checkpoints = std::variant<py::bytes, std::vector<py::bytes>>;
 
 /// The robots of all worlds; rows are worlds.
 struct FleetRows {
@@ -68,7 +74,7 @@ bool isIdle(const Fleet& fleet) {
                      [](Status status) { return status == Status::kIdle; });
 }
 
-/// The number in `kiva12`; 0 if it is no robot.
+/// Returns the number in `kiva12`, 0 for a name that is not a robot's.
 int kivaId(const std::string& model) {
   if (model.compare(0, 4, "kiva") != 0 || model.size() == 4 || model.size() > 11) return 0;
   int id = 0;
@@ -90,7 +96,7 @@ class Worlds {
     if (hosts_.empty()) throw py::value_error("worlds: at least one was expected");
     for (std::size_t i = 0; i < hosts_.size(); ++i) {
       const auto lock = hosts_[i]->use();
-      look(i);
+      copyRobots(i);
     }
   }
 
@@ -125,7 +131,7 @@ class Worlds {
     return py::array_t<std::int64_t>(static_cast<py::ssize_t>(size()), made.data());
   }
 
-  void post(const py::object& which, const py::array& commands) {
+  void post(const ArrayLike& which, const py::array& commands) {
     const auto own = use();
     const Numbers<std::int32_t> worlds("world", which);
     const auto rows = commandRows(commands);
@@ -142,15 +148,15 @@ class Worlds {
     }
   }
 
-  void restore(const py::object& which, const py::object& checkpoints) {
+  void restore(const ArrayLike& which, const Checkpoints& checkpoints) {
     const auto own = use();
     const Numbers<std::int32_t> worlds("world", which);
     const auto count = static_cast<std::size_t>(worlds.size());
     std::vector<std::string> bytes;
-    if (py::isinstance<py::bytes>(checkpoints)) {
-      bytes.assign(1, checkpoints.cast<std::string>());
+    if (const auto* one = std::get_if<py::bytes>(&checkpoints)) {
+      bytes.assign(1, *one);
     } else {
-      bytes = checkpoints.cast<std::vector<std::string>>();
+      for (const py::bytes& each : std::get<1>(checkpoints)) bytes.push_back(each);
     }
     if (bytes.size() != 1 && bytes.size() != count) {
       throw py::value_error("world has " + std::to_string(count) + " entries and checkpoint has " +
@@ -164,13 +170,13 @@ class Worlds {
       Host& restored = *hosts_[at[i]];
       const auto lock = restored.use();
       restored.world.restore(bytes[bytes.size() == 1 ? 0 : i]);
-      hear(at[i], nullptr);
-      look(at[i]);
+      takeEvents(at[i], nullptr);
+      copyRobots(at[i]);
     });
   }
 
-  void place(const py::object& which, const py::object& kiva_id, const py::object& x,
-             const py::object& y, const py::object& yaw) {
+  void place(const ArrayLike& which, const ArrayLike& kiva_id, const ArrayLike& x,
+             const ArrayLike& y, const ArrayLike& yaw) {
     const auto own = use();
     const Numbers<std::int32_t> worlds("world", which), ids("kiva_id", kiva_id);
     const Numbers<double> xs("x", x), ys("y", y), yaws("yaw", yaw);
@@ -188,11 +194,11 @@ class Worlds {
       }
       at.world.setState(at.world.fleet().robots[robot].name,
                         {Pose(xs[i], ys[i], 0, 0, 0, yaws[i]), {}});
-      look(static_cast<std::size_t>(worlds[i]));
+      copyRobots(static_cast<std::size_t>(worlds[i]));
     }
   }
 
-  /// Who is at no command, (n, robots): those take it.
+  /// Returns which robots take the speeds, (n, robots): those without a command.
   py::array_t<bool> drive(
       const py::array_t<double, py::array::c_style | py::array::forcecast>& left,
       const py::array_t<double, py::array::c_style | py::array::forcecast>& right) {
@@ -222,7 +228,7 @@ class Worlds {
     return out;
   }
 
-  py::array scans() {
+  py::array_t<float> scans() {
     const auto own = use();
     std::size_t rays = 0;
     for (const HostPtr& host : hosts_) {
@@ -269,7 +275,7 @@ class Worlds {
     return out;
   }
 
-  /// (world, time, kind, model, other, text, command) of the last step().
+  /// Returns (world, time, kind, model, other, text, command) of each event of the last step().
   py::list events() const {
     const auto own = use();
     py::list out;
@@ -283,10 +289,10 @@ class Worlds {
   }
 
   template <typename Out, typename T>
-  py::array column(Column<T> FleetRows::*field) const {
+  py::array_t<Out> column(Column<T> FleetRows::*field) const {
     return view<Out>(rows_.*field, shape());
   }
-  py::array counts() const {
+  py::array_t<std::uint32_t> counts() const {
     return view<std::uint32_t>(rows_.counts, shape(static_cast<py::ssize_t>(kKinds)));
   }
 
@@ -305,7 +311,7 @@ class Worlds {
     return *hosts_[world];
   }
 
-  /// Whether the world is where it was asked to go.
+  /// Steps a world and returns whether all of its robots are idle.
   bool advance(std::size_t i, std::int64_t steps, bool until_idle, std::int64_t* made) {
     const auto lock = hosts_[i]->use();
     World& world = hosts_[i]->world;
@@ -314,12 +320,12 @@ class Worlds {
       world.step();
       idle = until_idle && isIdle(world.fleet());
     }
-    hear(i, &events_[i]);
-    look(i);
+    takeEvents(i, &events_[i]);
+    copyRobots(i);
     return idle;
   }
 
-  void look(std::size_t i) {
+  void copyRobots(std::size_t i) {
     if (hosts_[i]->world.fleet().size() != robots_) {
       throw std::invalid_argument(
           "world " + std::to_string(i) + " has " + std::to_string(hosts_[i]->world.fleet().size()) +
@@ -328,7 +334,7 @@ class Worlds {
     rows_.take(hosts_[i]->world, i * static_cast<std::size_t>(robots_));
   }
 
-  void hear(std::size_t i, std::vector<Event>* kept) {
+  void takeEvents(std::size_t i, std::vector<Event>* kept) {
     World& world = hosts_[i]->world;
     std::vector<Event> events = world.takeEvents();
     world.takeStatusChanges();
@@ -346,7 +352,7 @@ class Worlds {
     }
   }
 
-  /// In any order, on all threads.
+  /// Calls job(i) for each i below `count`, in any order, on all threads.
   template <typename Job>
   void forEach(std::size_t count, const Job& job) {
     workers_.share(static_cast<int>(count), 1, [&](int begin, int end) {
@@ -384,41 +390,43 @@ void defineWorlds(py::module_& m) {
   worlds.def("step", &Worlds::step, py::arg("steps") = 1, py::arg("until_idle") = false,
              R"(Advances all worlds by so many steps, on all threads, without the GIL.
 
-until_idle: a world stops as soon as no robot of it is at a command, after one step at the least.
+until_idle: a world stops as soon as none of its robots has a command, after one step at least.
 Returns how many steps each made, (n,) int64. ValueError for a negative number, RuntimeError for a
 world that another thread uses; Ctrl-C ends it between steps.)");
   worlds.def("post", &Worlds::post, py::arg("world"), py::arg("commands"),
              R"(Posts commands, (k,) of dtype COMMAND, each to the world of that index, (k,) or one.
 
-Errors as of World.post(), all or none; IndexError for a world that isn't.)");
-  worlds.def(
-      "restore", &Worlds::restore, py::arg("world"), py::arg("checkpoint"),
-      R"(Makes worlds of those indices, (k,) or one, what was saved: a checkpoint or k of them.
+Errors as of World.post(), all or none; IndexError for an index without a world.)");
+  worlds.def("restore", &Worlds::restore, py::arg("world"), py::arg("checkpoint"),
+             R"(Restores the worlds of those indices, (k,) or one, from one checkpoint or k of them.
 
 CheckpointError, with that world unchanged, if the bytes are damaged.)");
   worlds.def("place", &Worlds::place, py::arg("world"), py::arg("kiva_id"), py::arg("x"),
              py::arg("y"), py::arg("yaw"),
-             R"(Puts robots there, at rest: arrays (k,), in world [m, rad].
+             R"(Puts robots at those places, at rest: arrays (k,), in world [m, rad].
 
-ValueError for a robot that isn't or arrays of other lengths.)");
+ValueError for an unknown robot or arrays of different lengths.)");
   worlds.def("drive", &Worlds::drive, py::arg("left"), py::arg("right"),
-             R"(Asks the wheel motors of robots at no command for these speeds, (n, robots) [rad/s].
+             R"(Sets the wheel speeds of robots without a command, (n, robots) [rad/s].
 
-They keep them until the next call or command: no faster than the robot's top speed, with all the
-motors' torque; no laser stops them. Returns who took it, (n, robots) bool: not who is at a command.
-ValueError for another shape, NaN or infinity.)");
-  worlds.def("scans", &Worlds::scans,
-             R"(Laser ranges now: (n, robots, rays) float32 [m], rows as of World.scans().
+The motors keep a speed until the next call or command, with all their torque and no faster than the
+robot's top speed; no laser stops them. Returns (n, robots) bool: which robots took their speeds;
+robots with a command don't. ValueError for another shape, NaN or infinity.)");
+  worlds.def(
+      "scans", &Worlds::scans,
+      R"(Returns laser ranges of now: (n, robots, rays) float32 [m], rows as of World.scans().
 
 A read-only view, current until the next call.)");
-  worlds.def("events", &Worlds::events,
-             "What happened in the last step(): a list of (world, time, kind, model, other, text, "
-             "command), worlds in order.");
-  worlds.def("state_hash", &Worlds::stateHash, "World.state_hash() of each: (n,) uint64.");
+  worlds.def(
+      "events", &Worlds::events,
+      "Returns the events of the last step(): a list of (world, time, kind, model, other, text, "
+      "command), worlds in order.");
+  worlds.def("state_hash", &Worlds::stateHash,
+             "Returns World.state_hash() of each world: (n,) uint64.");
   worlds.def_property_readonly("storage_units", &Worlds::storageUnits,
-                               "World.storage_units of each: (n, units). A copy.");
+                               "World.storage_units of each world: (n, units). A copy.");
   worlds.def_property_readonly("threads", &Worlds::threads,
-                               "How many step, the caller among them.");
+                               "How many threads step the worlds, the caller's among them.");
   const auto add = [&worlds](const char* name, auto field, auto zero, const char* doc) {
     const auto get = [field](const Worlds& w) { return w.column<decltype(zero)>(field); };
     worlds.def_property_readonly(name, get, doc);

@@ -57,7 +57,7 @@ constexpr int kHeaps = 1;
 
 volatile std::sig_atomic_t serving = 0, asked_to_stop = 0;
 
-/// roscpp sees to SIGINT alone, and tells nobody before it takes its connections down.
+/// Handles signals: roscpp handles SIGINT alone, and closes its connections without notice.
 void onSignal(int) {
   asked_to_stop = 1;
   if (!serving) ros::requestShutdown();
@@ -93,7 +93,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
   Settings settings = readSettings(node);
   const kiva::WorldDescription description = load(settings);
-  PublishQueue publish_queue;  // outlives the plugins, as do their inputs
+  PublishQueue publish_queue;  // outlives the plugins, like their inputs
   PluginInputs inputs(settings.replay.empty());
   settings.world.plugins = pluginTable(root, publish_queue, inputs);
   kiva::World world(description, settings.world);
@@ -157,7 +157,7 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
   spinner.start();
   for (CallbackThread* thread : {&stepping, &spawning, &saving}) thread->start();
   serveUntilStopped();
-  simulation.stop();  // first: no callback waits for it any more
+  simulation.stop();  // first, so that no callback waits for it
   spinner.stop();
   if (recorder) recorder->finish(world);
   broadcaster.stop();
@@ -172,11 +172,11 @@ int run(ros::NodeHandle& root, ros::NodeHandle& node) {
 
 int main(int argc, char** argv) {
   mallopt(M_ARENA_MAX, kHeaps);
-  setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // that a log file has each line at once
+  setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // so that a log file gets each line at once
   if (argc == 3 && std::string(argv[1]) == kCheckBagOption) return checkBagHere(argv[2]);
   ros::init(argc, argv, "gazebo", ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, onSignal);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a write that fails
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails instead
   ros::NodeHandle root, node("~");
   try {
     return run(root, node);

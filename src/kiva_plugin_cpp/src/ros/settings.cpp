@@ -17,19 +17,19 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<std::string>;
 
-/// The value of an environment variable; empty if it is not set.
+/// Returns the value of an environment variable; empty if it is not set.
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
 }
 
-/// Where ROS keeps what it writes.
+/// Returns the folder of files that ROS writes.
 std::string rosHome() {
   const std::string set = environment("ROS_HOME");
   return set.empty() ? environment("HOME") + "/.ros" : set;
 }
 
-/// A list of paths, with colons between them, in its parts.
+/// Returns the parts of a list of paths with colons between them.
 Paths split(const std::string& list) {
   Paths out;
   std::istringstream folders(list);
@@ -47,7 +47,7 @@ Paths split(const std::string& list) {
   throw std::runtime_error(message.str() + ": " + expected + " was expected");
 }
 
-/// Nothing if it is not set.
+/// Returns a number, or nothing if the parameter is not set.
 std::optional<double> optionalNumber(const ros::NodeHandle& node, const std::string& name,
                                      double least, const std::string& expected) {
   XmlRpc::XmlRpcValue value;
@@ -103,7 +103,7 @@ std::optional<kiva::Drive> drive(const ros::NodeHandle& node, const std::string&
   refuse(node, name, XmlRpc::XmlRpcValue(drive), "traction, jointed or nothing");
 }
 
-/// Puts every text or number below `value` at its path, `section/name`.
+/// Sets every text or number below `value` at its path, `section/name`.
 void flatten(const std::string& path, XmlRpc::XmlRpcValue& value, kiva::Parameters* out) {
   const bool is_struct = value.getType() == XmlRpc::XmlRpcValue::TypeStruct;
   if (is_struct && (value.size() > 0 || path.empty())) {
@@ -139,7 +139,7 @@ std::optional<kiva::Realism> realism(const ros::NodeHandle& node) {
   return out;
 }
 
-/// The rest of the machine sends what the world tells.
+/// Returns the number of threads; by default one core is left for the broadcaster.
 int threads(const ros::NodeHandle& node) {
   const auto asked = static_cast<int>(
       wholeNumber(node, "threads", 0, kiva::kMostThreads, "a whole number from 0 to 256"));
@@ -147,13 +147,14 @@ int threads(const ros::NodeHandle& node) {
   return asked > 0 ? asked : std::clamp(cores - 1, 1, kiva::kMostThreads);
 }
 
-/// Where the worlds of package warehouse_layout are: in the source tree, or where it was installed.
+/// Returns the folder of warehouse_layout's worlds, in the source tree or where it was installed.
 std::string packagedWorlds() {
   const std::string package = ros::package::getPath("warehouse_layout");
   return package.empty() ? "" : package + "/worlds";
 }
 
-/// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.
+/// Returns the file of a world. A relative path begins in the user's working directory, since
+/// roslaunch starts nodes in another one.
 std::string findWorld(const std::string& world, const Paths& folders) {
   const std::string name = world.empty() ? "empty" : world;
   std::vector<fs::path> tried;
@@ -176,7 +177,7 @@ Paths joined(Paths first, const Paths& second) {
   return first;
 }
 
-/// A relative path starts where the person typed it: roslaunch starts its nodes elsewhere.
+/// Returns a path; a relative one begins in the user's working directory.
 std::string pathOf(const ros::NodeHandle& node, const std::string& name) {
   const std::string path = text(node, name, "");
   return path.empty() ? "" : (fs::path(environment("PWD")) / path).string();

@@ -13,7 +13,7 @@
 
 namespace kiva_ros {
 
-/// What the node's private parameters say, each checked.
+/// The node's private parameters, each checked.
 ///
 ///   ~world                   SDF file: its path, or its name in a world folder, with or without
 ///                            .sdf; empty: an empty floor
@@ -26,8 +26,7 @@ namespace kiva_ros {
 ///                            the world file says
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say
-///   ~realism                 sections of the real world, each with its numbers, as a YAML file has
-///   them
+///   ~realism                 sections of the real world, each with its numbers, as in a YAML file
 ///                            (doc/realism.md); not set: what the robots' files say
 ///   ~threads                 on which a large fleet is stepped, looks ahead and scans; default 0:
 ///                            the machine's cores but one. The result is the same
@@ -41,8 +40,7 @@ namespace kiva_ros {
 ///   ~record                  bag file to write a recording to; empty (default): none
 ///   ~replay                  recording to run again, in place of ~world; empty (default): none
 ///   ~replay_stays            false: it ends, with 0, when the recording has been reproduced;
-///   default
-///                            true: what stands there then may be looked at
+///                            true (default): the world stays for inspection
 ///   ~pub_clock_frequency     [Hz] of simulated time, default 100; 0: every step
 ///   ~model_states_frequency  [Hz] of simulated time, default 50; 0: every step
 ///   ~fleet_rate              [Hz] of simulated time, of /warehouse/fleet; default 10, at most 100

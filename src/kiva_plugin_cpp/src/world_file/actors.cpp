@@ -24,7 +24,7 @@ bool isSet(const XmlElement* flag, bool otherwise) {
   return text.empty() ? otherwise : text == "true" || text == "1";
 }
 
-/// Of a script; negative: it makes no sense.
+/// Returns a time in a script; negative if it is invalid.
 double secondsIn(const XmlElement* element, double otherwise) {
   if (!element) return otherwise;
   const auto numbers = parseNumbers(contentOf(element), 1);
@@ -36,7 +36,7 @@ struct KeyFrame {
   Waypoint at;
 };
 
-/// What a keyframe is to the walk, which ends with the one `before`.
+/// Adds a keyframe to the walk, whose last one is `before`.
 void append(const KeyFrame& frame, const KeyFrame& before, Walk* walk) {
   Waypoint to = frame.at;
   Waypoint& last = walk->waypoints.back();
@@ -49,7 +49,7 @@ void append(const KeyFrame& frame, const KeyFrame& before, Walk* walk) {
   walk->waypoints.push_back(to);
 }
 
-/// Nobody runs here.
+/// Limits the speed to that of walking, with a warning.
 void slowDown(const XmlElement& waypoint, Waypoint* to, Faults* warnings) {
   if (to->speed <= kMostWalkingSpeed) return;
   warnings->push_back(

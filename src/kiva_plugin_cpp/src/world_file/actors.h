@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// An `<actor>`, as Gazebo has it: somebody who walks by a script. Here all people look alike.
+// An `<actor>` of Gazebo: a person that walks by a script. Here all people look alike.
 #pragma once
 
 #include "kiva_plugin_cpp/people.h"

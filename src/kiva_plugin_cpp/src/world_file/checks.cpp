@@ -29,7 +29,7 @@ void rename(XmlElement* part, Names* names, Faults* warnings) {
   part->SetAttribute("name", free.c_str());
 }
 
-/// Empty: it has a name of its own, perhaps from now on.
+/// Returns the fault of a name; empty if it is unique, perhaps after adding it.
 std::string faultOfName(XmlElement* part, Names* names, Faults* warnings) {
   const std::string kind = part->Name();
   if (!part->Attribute("name") || kind == "plugin") return "";
@@ -42,20 +42,21 @@ std::string faultOfName(XmlElement* part, Names* names, Faults* warnings) {
          part->Parent()->ToElement()->Name() + "> to have a name of its own";
 }
 
-/// A model that holds nothing, perhaps since what it included is not there.
+/// Returns the fault of a model that holds nothing, perhaps since its include is missing.
 std::string faultOfModel(XmlElement* model) {
   const bool is_empty = !model->FirstChildElement("link") && !model->FirstChildElement("model");
   return is_empty ? "expected a <link> in <model>" : "";
 }
 
-/// What we can build, in one place.
+/// Returns whether joints of a type can be built.
 bool isKnownJoint(const std::string& type) {
   static const std::set<std::string> kTypes = {"fixed", "revolute", "continuous", "prismatic",
                                                "ball"};
   return kTypes.count(type) > 0;
 }
 
-/// The part of that name that poses in a model or a world can be relative to; null: none.
+/// Returns the part of that name that poses in a model or a world can be relative to; null if there
+/// is none.
 XmlElement* findPart(XmlElement* around, const std::string& name) {
   for (auto part = around->FirstChildElement(); part; part = part->NextSiblingElement()) {
     const std::string kind = part->Name();
@@ -67,7 +68,8 @@ XmlElement* findPart(XmlElement* around, const std::string& name) {
   return nullptr;
 }
 
-/// Whether a model or a world has a frame of that name: `link`, `model::link`, one that always is.
+/// Returns whether a model or a world has a frame of that name: `link`, `model::link`, or a
+/// built-in one.
 bool isThere(XmlElement* around, const std::string& name) {
   if (name.empty() || name == "world" || startsWith(name, "__")) return true;
   if (findPart(around, name)) return true;
@@ -77,7 +79,7 @@ bool isThere(XmlElement* around, const std::string& name) {
   return model && is(*model, "model") && isThere(model, name.substr(colons + 2));
 }
 
-/// The model around an element, or the world; null outside of both.
+/// Returns the model around an element, or the world; null outside of both.
 XmlElement* scopeOf(XmlElement* element) {
   do {
     element = element->Parent() ? element->Parent()->ToElement() : nullptr;
@@ -85,7 +87,7 @@ XmlElement* scopeOf(XmlElement* element) {
   return element;
 }
 
-/// The name that an element is placed or turned by, if there is nothing of that name.
+/// Returns the name of the frame that an element is relative to, if no such frame exists.
 std::string missingReference(XmlElement* element, XmlElement* scope) {
   for (const char* attribute : {"relative_to", "attached_to", "expressed_in"}) {
     if (!element->Attribute(attribute)) continue;
@@ -95,7 +97,8 @@ std::string missingReference(XmlElement* element, XmlElement* scope) {
   return "";
 }
 
-/// What is placed relative to something that is not there, its own parts apart; empty: nothing.
+/// Returns the fault of an element that is relative to a missing frame, its own parts apart; empty
+/// if there is none.
 std::string faultOfPlace(XmlElement* part) {
   XmlElement* const scope = scopeOf(part);
   if (!scope) return "";
@@ -145,7 +148,7 @@ std::string faultOfJoint(XmlElement* joint) {
   return "";
 }
 
-/// What is wrong with a part that its world can do without; empty: nothing.
+/// Returns the fault of a part that its world can do without; empty if there is none.
 std::string faultOf(XmlElement* part) {
   const std::string kind = part->Name();
   const std::string around = part->Parent()->ToElement()->Name();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "kiva_plugin_cpp/world_file.h"
-#include "world_file/parser.h"
+#include "world_file/document.h"
 
 namespace kiva {
 

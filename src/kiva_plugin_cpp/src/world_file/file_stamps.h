@@ -8,7 +8,7 @@
 namespace kiva {
 
 /// The files that a description was read from, as they were then: a model that is edited while the
-/// world runs is read anew.
+/// world runs is read again.
 class FileStamps {
  public:
   FileStamps() = default;

@@ -23,7 +23,7 @@ bool has(const fs::path& folder, const char* file) {
   return fs::exists(folder / file, ignored);
 }
 
-/// Sorted, so that which one comes first does not depend on the disk.
+/// Returns the folders in a folder, sorted, so that their order does not depend on the disk.
 std::vector<fs::path> foldersIn(const fs::path& folder) {
   std::vector<fs::path> folders;
   std::error_code ignored;
@@ -56,7 +56,7 @@ void addExports(const fs::path& package, ModelPaths* paths) {
   }
 }
 
-/// As rospack crawls: packages hold no packages.
+/// Searches for packages as rospack does: packages hold no packages.
 void crawl(const fs::path& folder, int depth, ModelPaths* paths) {
   if (has(folder, "CATKIN_IGNORE") || has(folder, "ROS_IGNORE")) return;
   if (has(folder, "package.xml")) return addExports(folder, paths);

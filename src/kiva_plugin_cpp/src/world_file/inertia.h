@@ -9,7 +9,7 @@ namespace kiva {
 /// positive, an inertia that no body can have. SDF's defaults of 1 kg and 1 kg m² are left.
 void repairInertial(XmlElement* link, Faults* warnings);
 
-/// Into mass, principal moments and axes of `link`; `inertial` null: the defaults.
+/// Reads an `<inertial>` into mass, principal moments and axes of `link`; null: the defaults.
 void setInertia(const XmlElement* inertial, Link* link);
 
 }  // namespace kiva

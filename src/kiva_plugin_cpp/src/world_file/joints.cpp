@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kUnlimited = 1e16;
 
-/// Other types did not pass the checks.
+/// Returns the kind of a joint; other types don't pass the checks.
 Joint::Kind kindOf(const XmlElement& joint) {
   const std::string type = attributeOf(joint, "type");
   if (type == "revolute") return Joint::Kind::kRevolute;

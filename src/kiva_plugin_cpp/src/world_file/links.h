@@ -19,13 +19,4 @@ struct Scope {
 Link describeLink(const XmlElement& link, const Scope& scope, Faults* warnings);
 Joint describeJoint(const XmlElement& joint, const Scope& scope);
 
-/// Calls visit(child) for each child of that name.
-template <typename Visit>
-void forEach(const XmlElement& element, const char* name, const Visit& visit) {
-  for (const XmlElement* child = element.FirstChildElement(name); child;
-       child = child->NextSiblingElement(name)) {
-    visit(*child);
-  }
-}
-
 }  // namespace kiva

@@ -30,7 +30,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Its ending, in lower case.
+/// Returns a file's ending, in lower case.
 std::string formatOf(const std::string& file) {
   const std::string ending = lower(fs::path(file).extension().string());
   for (const char* known : {".dae", ".obj", ".stl"}) {

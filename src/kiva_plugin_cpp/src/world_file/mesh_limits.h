@@ -12,7 +12,7 @@ constexpr std::size_t kMostTriangles = 1'000'000;
 /// each triangle, or too much stack: before it is given to Assimp. `ending` is in lower case.
 void checkMeshFile(const std::string& file, const std::string& ending);
 
-/// Throws DescriptionError at more than kMostTriangles.
+/// Throws DescriptionError for more than kMostTriangles.
 void checkTriangles(std::size_t count);
 
 }  // namespace kiva

@@ -19,21 +19,21 @@ std::string findModel(const std::string& uri, const ModelPaths& paths);
 /// if there is none.
 std::string findFile(const std::string& uri, const std::string& folder, const ModelPaths& paths);
 
-/// What to tell a person who asked for a file that is in none of the folders.
+/// Returns the message for a file that is in none of the folders.
 std::string fileNotFound(const std::string& uri, const std::string& folder,
                          const ModelPaths& paths);
-/// The parts of a list of folders, `a:b`.
+/// Returns the parts of a list of folders, `a:b`.
 ModelPaths splitPaths(const std::string& list);
 
-/// What to tell a person who asked for a model that is in none of the folders.
+/// Returns the message for a model that is in none of the folders.
 std::string modelNotFound(const std::string& uri, const ModelPaths& paths);
-/// The same, and that the include goes without it.
+/// Returns the warning that an include is left out since its model is missing.
 std::string leftOut(const std::string& uri, const ModelPaths& paths);
 
-/// The SDF file of the model in `folder`, as its model.config has it. Throws SdfError.
+/// Returns the SDF file of the model in `folder`, by its model.config. Throws SdfError.
 std::string modelFile(const std::string& folder);
 
-/// Adds the files that would make `uri` a model: what was missing may come.
+/// Adds the files that would make `uri` a model: a missing one may be added later.
 void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files);
 
 }  // namespace kiva

@@ -26,7 +26,7 @@ void holdToWorld(std::size_t first, ModelDescription* description) {
   }
 }
 
-/// The parts of `model`, then those of the models inside it.
+/// Adds the parts of `model`, then those of the models inside it.
 void addModel(const XmlElement& model, const Scope& scope, ModelDescription* description,
               Faults* warnings) {
   forEach(model, "link", [&](const XmlElement& link) {
@@ -52,7 +52,7 @@ void addModel(const XmlElement& model, const Scope& scope, ModelDescription* des
   });
 }
 
-/// A model that only wraps static ones is static.
+/// Returns whether a model is static: itself, or since it only wraps static ones.
 bool isStatic(const XmlElement& model) {
   if (flagIn(model, "static", false)) return true;
   if (model.FirstChildElement("link") || !model.FirstChildElement("model")) return false;

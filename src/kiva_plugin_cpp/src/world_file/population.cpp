@@ -29,7 +29,7 @@ std::size_t countOf(const XmlElement* around, const char* name) {
                          name + ">");
 }
 
-/// Where models may stand: a box, or an upright cylinder, about the origin.
+/// The region of a population: a box, or an upright cylinder, about the origin.
 struct Region {
   Vector3 size;
   bool is_round = false;
@@ -52,7 +52,7 @@ Region regionOf(const XmlElement& population) {
   return {{size[0], size[1], size[2]}, false};
 }
 
-/// The radical inverse: points of two or three of them are spread evenly (Halton 1960).
+/// Returns the radical inverse: points of two or three of them are spread evenly (Halton 1960).
 double radicalInverse(std::size_t index, std::size_t base) {
   double value = 0, digit = 1;
   for (; index > 0; index /= base) {
@@ -74,7 +74,7 @@ std::vector<Vector3> gridPlaces(const XmlElement* distribution, std::size_t coun
   return places;
 }
 
-/// In shares of the region along each axis.
+/// Returns the places in shares of the region along each axis.
 std::vector<Vector3> sharesOf(const std::string& type, std::size_t count) {
   std::mt19937_64 random;
   const auto any = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };

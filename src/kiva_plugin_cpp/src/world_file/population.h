@@ -15,7 +15,8 @@ struct Population {
   std::vector<Pose> poses;              ///< Of the clones, in world.
 };
 
-/// Random places are the same each time. Throws DescriptionError with the cause.
+/// Reads a `<population>`; random places are the same each time. Throws DescriptionError with the
+/// cause.
 Population readPopulation(const XmlElement& population);
 
 }  // namespace kiva

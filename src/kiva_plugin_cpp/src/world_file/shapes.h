@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// `<collision>` and `<visual>`: what touches and what is seen.
+// Reads `<collision>` and `<visual>`.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ enum class MeshUse { kTouched, kSeen };
 /// can't build.
 std::optional<Shape> readShape(const XmlElement& owner, const Origin& origin, MeshUse use);
 
-/// Friction and restitution of a `<collision>`.
+/// Reads friction and restitution of a `<collision>`.
 void readSurface(const XmlElement& element, Collision* collision, Faults* warnings);
 
-/// The colour of a `<visual>`.
+/// Reads the colour of a `<visual>`.
 void readMaterial(const XmlElement& element, Visual* visual, Faults* warnings);
 
 }  // namespace kiva

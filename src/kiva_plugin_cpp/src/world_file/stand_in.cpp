@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "world_file/frames.h"
-#include "world_file/links.h"
 #include "world_file/values.h"
 
 namespace kiva {

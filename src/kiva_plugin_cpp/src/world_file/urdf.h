@@ -16,7 +16,7 @@ std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf);
 /// and a hall's walls with them.
 std::string withInertias(const std::string& urdf);
 
-/// Makes a model static none of whose joints can move: as a world, it is a hall.
+/// Makes a model static if none of its joints can move: as a world, it is a hall.
 void letStand(ModelInstance* model);
 
 }  // namespace kiva

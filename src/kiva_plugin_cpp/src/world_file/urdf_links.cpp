@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "kiva_plugin_cpp/principal_inertia.h"
-#include "world_file/links.h"
 #include "world_file/values.h"
 
 namespace kiva {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 
-#include "world_file/links.h"
 #include "world_file/urdf.h"
 #include "world_file/urdf_links.h"
 #include "world_file/values.h"

@@ -24,11 +24,7 @@
 namespace kiva {
 namespace {
 
-// What World::setStepSize and World::setGravity take.
-constexpr double kLeastStep = 1e-6, kMostStep = 1;  // [s]
-constexpr double kMostGravity = 1000;               // [m/s²]
-
-/// What a text came to but for its includes.
+/// What a text came to, apart from its includes.
 struct ParsedText {
   bool is_world = false;
   WorldDescription world;

@@ -44,9 +44,9 @@ Fault noteAt(const XmlElement& element, const std::string& message);
 
 bool is(const XmlElement& element, const char* name);
 
-/// Blanks around it are left out; empty if there is no such attribute.
+/// Returns an attribute without the blanks around it; empty if there is none.
 std::string attributeOf(const XmlElement& element, const char* name);
-/// The text in an element, without the blanks around it; empty for null.
+/// Returns the text in an element, without the blanks around it; empty for null.
 std::string contentOf(const XmlElement* element);
 std::string trimmed(const std::string& text);
 bool startsWith(const std::string& text, const std::string& start);
@@ -63,11 +63,20 @@ void forAll(XmlElement* element, const Visit& visit) {
   }
 }
 
-/// So many finite numbers, and nothing else.
+/// Calls visit(child) for each child of that name.
+template <typename Visit>
+void forEach(const XmlElement& element, const char* name, const Visit& visit) {
+  for (const XmlElement* child = element.FirstChildElement(name); child;
+       child = child->NextSiblingElement(name)) {
+    visit(*child);
+  }
+}
+
+/// Returns that many finite numbers; nothing for any other text.
 std::optional<std::vector<double>> parseNumbers(const std::string& text, std::size_t count);
-/// Six finite numbers.
+/// Returns a pose of six finite numbers; nothing for any other text.
 std::optional<Pose> parsePose(const std::string& text);
-/// As SDF has it.
+/// Returns a pose as SDF writes it.
 std::string textOf(const Pose& pose);
 
 }  // namespace kiva

@@ -25,7 +25,7 @@ class BuildTransaction:
         self._engine.pause()
 
     def _resumes(self):
-        """Whether physics goes on afterwards: as it did before anybody built."""
+        """Whether physics goes on afterwards: as it did before the build."""
         mark = self._ros.get_param(BUILDING, None)
         if isinstance(mark, dict) and "resumes" in mark:
             return bool(mark["resumes"])
@@ -39,5 +39,5 @@ class BuildTransaction:
 
 
 def is_building(ros):
-    """Whether somebody builds, or died while building."""
+    """Returns whether a builder is at work, or died while building."""
     return ros.has_param(BUILDING)

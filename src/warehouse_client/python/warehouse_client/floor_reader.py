@@ -33,7 +33,7 @@ class FloorReader:
         self.stations, self.places = [], ([], [])
 
     def take(self, scenery):
-        """Reads the floor anew where a Scenery, or None, tells of other things. True if it did."""
+        """Reads the floor again if a Scenery (or None) has other things. Returns whether it did."""
         if scenery is None or same_things(scenery, self._scenery):
             return False
         try:

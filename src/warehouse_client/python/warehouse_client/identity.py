@@ -6,9 +6,9 @@ INT32 = 2**31
 
 
 def read(ros):
-    """(name, id) of the warehouse that stands; ("", 0) of one that nobody named.
+    """(name, id) of the warehouse that stands; ("", 0) of one without a name.
 
-    Anybody may set parameters: one of another type is warned of once and read as none.
+    Any node may set parameters: one of another type is warned of once and read as none.
     """
     name = ros.get_param(NAME, "")
     number = ros.get_param(NUMBER, 0)

@@ -44,7 +44,7 @@ class LatestMessages:
 
 
 class LazyPublisher:
-    """A latched topic whose message is made only where somebody reads it.
+    """A latched topic whose message is made only if it has subscribers.
 
     It is sent to all on publish(), and a newcomer gets the newest at once. `make()` returns the
     message, or None as long as there is nothing to tell. Where publish() shall send less than all
@@ -57,7 +57,7 @@ class LazyPublisher:
         self._publisher = ros.Publisher(
             topic, kind, subscriber_listener=self, latch=True, queue_size=1
         )
-        # Whoever connected within the line above found no publisher yet.
+        # A subscriber that connected within the line above found no publisher yet.
         self.publish()
 
     def publish(self):

@@ -20,7 +20,7 @@ class Survey:
     conveyor_belt: dict = field(default_factory=dict)
     floor_markings: dict = field(default_factory=dict)
     others: dict = field(default_factory=dict)
-    taken: set = None  # grid points in the way of which others are; None: not known
+    taken: set | None = None  # grid points in the way of which others are; None: not known
 
     def __str__(self):
         nouns = {"kiva": "robot", "storage_unit": "storage unit", "item": "item"}

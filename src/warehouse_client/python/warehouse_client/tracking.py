@@ -48,7 +48,7 @@ class StorageUnits:
 class Items:
     """The items of one WarehouseObjects message: those on a unit go where it goes.
 
-    Asked again, it works out anew only what lies on units that have moved.
+    Asked again, it computes only what lies on units that have moved.
     """
 
     def __init__(self, objects):

@@ -9,7 +9,7 @@ from warehouse_layout import models
 PROGRESS_EVERY = 3.0  # [s, wall]
 
 # Models in one document. A call for each takes forty times as long; one for all leaves the world
-# no time for anybody else.
+# no time for other clients.
 BATCH = 500
 
 
@@ -41,7 +41,7 @@ class WarehouseBuilder:
     def clear(self, floor=True):
         """Takes away the models of any warehouse; those with other names stay."""
         for kind in (*models.KINDS, models.MARKINGS):
-            # Asked for anew each time: items go with the storage unit on which they lie.
+            # Asked for again each time: items go with the storage unit on which they lie.
             names = self._engine.names()
             self._delete([name for name in names if models.kind_and_number(name)[0] == kind])
         if floor and models.FLOOR in self._engine.names():

@@ -21,7 +21,7 @@ class RightOfWay : public fleet::Planner {
 
   void plan(const fleet::Fleet& fleet, const fleet::Budget& /*budget*/,
             fleet::Plan& plan) override {
-    // No cell is entered that somebody is in or goes to: nobody swaps, follows or meets.
+    // No cell is entered that another robot is in or goes to: none swap, follow or meet.
     std::unordered_set<fleet::Cell> taken(fleet.cell.begin(), fleet.cell.end());
     taken.insert(fleet.closed.begin(), fleet.closed.end());
     plan.horizon = 1;

@@ -25,8 +25,8 @@ struct EpibtOptions {
   bool goals_are_stops = true;
   std::size_t table_bytes = std::size_t{640} << 20;  ///< of distance tables kept
   int table_work = 1500;   ///< states a robot that distance tables made in one step may have
-  int renewal_work = 200;  ///< states a robot that tables made anew in one step may have
-  int renewal_age = 20;    ///< ticks after which a table is made anew, if there is work left
+  int renewal_work = 200;  ///< states a robot that tables renewed in one step may have
+  int renewal_age = 20;    ///< ticks after which a table is renewed, if there is work left
   double against = 10;     ///< what it costs to meet one robot a tick head on [ticks]
   double crowd = 5;        ///< what it costs where one robot a tick waits [ticks]
   double resting = 0;      ///< what it costs where one stands that has come to its goal [ticks]

@@ -39,7 +39,7 @@ struct Rules {
 struct Fleet {
   std::vector<Cell> cell;
   std::vector<Heading> heading;
-  std::vector<Cell> goal;             ///< kNowhere: none, it stands where it is in nobody's way
+  std::vector<Cell> goal;             ///< kNowhere: none, it stands where it blocks no other
   std::vector<std::uint8_t> loaded;   ///< 1: drives on the aisles (default: none)
   std::vector<Cell> home;             ///< a storage place that it may enter loaded (default: none)
   std::vector<std::uint8_t> stopped;  ///< 1: stays where it is, whatever it is told (default: none)
@@ -47,7 +47,7 @@ struct Fleet {
   /// order. A robot's row ends with kFree from where it is free (default: all are).
   std::vector<std::uint8_t> committed;
   int committed_ticks = 0;
-  std::vector<Cell> closed;  ///< cells that nobody may enter now
+  std::vector<Cell> closed;  ///< cells that no robot may enter now
   std::vector<Cell> units;   ///< cells of the aisles where a unit stands: not for loaded robots
   std::vector<Cell> tight;   ///< cells where a load has no room to turn, but may pass
 

@@ -14,6 +14,7 @@ time of one cell at top speed, or of a quarter turn.
 """
 
 from enum import IntEnum
+from typing import Any
 
 from warehouse_fleet._core import (
     Execution,
@@ -43,8 +44,8 @@ __all__ = [
 ]
 
 
-def __getattr__(name):
-    """Orders and stock stand on the fleet, and are imported by those alone who want them."""
+def __getattr__(name: str) -> Any:
+    """Imports warehouse_operations.Operations, which was released under this name as well."""
     if name != "Operations":
         raise AttributeError(f"module {__name__} has no attribute {name}")
     from warehouse_operations import Operations

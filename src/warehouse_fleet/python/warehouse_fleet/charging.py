@@ -1,72 +1,123 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who is charged where, and when. Who decides when is a policy, one of NAMES or one's own."""
+"""Decides which robots charge, where and when. A policy decides when: one of NAMES, or a class with
+the same methods."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
-FULL = 0.98  # from there on nothing is to be gained
+if TYPE_CHECKING:
+    from warehouse_fleet.traffic import Traffic
+    from warehouse_layout.floor_plan import FloorPlan
+
+FULL = 0.98  # state of charge from which on charging gains nothing
+
+
+class Policy(Protocol):
+    """Decides when robots charge. All arrays are (n,); charge is the state of charge of batteries,
+    0…1."""
+
+    low: float  # a robot below it may take the place of one that could work already
+
+    def sends(self, charge: NDArray[np.float32], is_wanted: bool, /) -> NDArray[np.bool_]:
+        """Returns which robots without work are to charge. is_wanted: whether transports wait for
+        robots."""
+        ...
+
+    def frees(self, charge: NDArray[np.float32], /) -> NDArray[np.bool_]:
+        """Returns which charging robots may be given work."""
+        ...
+
+    def spares(self, charge: NDArray[np.float32], /) -> NDArray[np.bool_]:
+        """Returns which robots get no work even if no charging place is free."""
+        ...
 
 
 class Threshold:
-    """Works until the battery is down to `low`, then charges up to `high`, 0…1: as far as the power
-    of the charger lasts."""
+    """Lets robots work until the battery is down to `low`, then charges it up to `high`; both are
+    states of charge, 0…1. Between the two, charging robots keep their places.
 
-    def __init__(self, low=0.3, high=0.8):
+    Raises ValueError unless 0 < low < high <= 1.
+    """
+
+    def __init__(self, low: float = 0.3, high: float = 0.8) -> None:
         if not 0 < low < high <= 1:
             raise ValueError(f"low is {low} and high {high}; 0 < low < high <= 1 was expected")
         self.low, self.high = low, high
 
-    def sends(self, charge, _is_wanted):
-        """Which robots without work are to charge, (n,) bool. charge: of their batteries, (n,);
-        is_wanted: whether transports wait for robots."""
+    def sends(self, charge: NDArray[np.float32], _is_wanted: bool) -> NDArray[np.bool_]:
+        """Returns which robots without work are to charge, (n,): those below `low`."""
         return charge < self.low
 
-    def frees(self, charge):
-        """Which of those that charge may be given work, (n,) bool."""
+    def frees(self, charge: NDArray[np.float32]) -> NDArray[np.bool_]:
+        """Returns which charging robots may be given work, (n,): those from `high` on."""
         return charge >= self.high
 
-    def spares(self, charge):
-        """Which robots get no work even if no place to charge at is free, (n,) bool."""
+    def spares(self, charge: NDArray[np.float32]) -> NDArray[np.bool_]:
+        """Returns which robots get no work even if no charging place is free, (n,): those below
+        half of `low`."""
         return charge < self.low / 2
 
 
 class Opportunity(Threshold):
-    """The same, but whoever has nothing to do charges as well, and works from `enough` on: the more
-    that is, the fewer are the ways to a charger and back."""
+    """Charges robots without work as well, and lets them work from the state of charge `enough` on:
+    the higher that is, the fewer trips robots make to a charger and back.
 
-    def __init__(self, low=0.3, high=0.9, enough=0.6):
+    Raises ValueError unless 0 < low < enough <= high <= 1.
+    """
+
+    def __init__(self, low: float = 0.3, high: float = 0.9, enough: float = 0.6) -> None:
         super().__init__(low, high)
         if not low < enough <= high:
             raise ValueError(f"enough is {enough}; low < enough <= high was expected")
         self.enough = enough
 
-    def sends(self, charge, is_wanted):
+    def sends(self, charge: NDArray[np.float32], is_wanted: bool) -> NDArray[np.bool_]:
+        """Returns which robots without work are to charge, (n,): those below `low`, or below `high`
+        while no transport waits for a robot."""
         return charge < (self.low if is_wanted else self.high)
 
-    def frees(self, charge):
+    def frees(self, charge: NDArray[np.float32]) -> NDArray[np.bool_]:
+        """Returns which charging robots may be given work, (n,): those from `enough` on."""
         return charge >= self.enough
 
 
-NAMES = {"opportunity": Opportunity, "threshold": Threshold}
+# Policies by their names in YAML.
+NAMES: dict[str, type[Threshold]] = {"opportunity": Opportunity, "threshold": Threshold}
 
 
 class Charging:
-    """The places to charge at, and who has each. Batteries that are not simulated cost nothing."""
+    """Assigns charging places to robots. Does nothing where batteries are not simulated.
 
-    def __init__(self, plan, traffic, far):
-        """far(cell, cells): how far those are."""
+    Attributes: `policy` (decides when robots charge), `cell_of` (the charging place of each robot
+    that has one, by robot index), `robot_s` (robot seconds spent at charging places so far).
+    """
+
+    def __init__(
+        self,
+        plan: FloorPlan,
+        traffic: Traffic,
+        far: Callable[[int, np.ndarray], np.ndarray],
+    ) -> None:
+        """far(cell, cells) returns the distance from a cell to each of `cells`, (n,) [cells]."""
         self._cells, self._traffic, self._far = np.asarray(plan.charging, int), traffic, far
-        self.policy = Opportunity()
-        self.cell_of = {}  # by robot
-        self.robot_s = 0.0  # spent at a place to charge at, in all
-        self._time = None
+        self.policy: Policy = Opportunity()
+        self.cell_of: dict[int, int] = {}
+        self.robot_s = 0.0
+        self._time: float | None = None
 
     @property
-    def _is_simulated(self):
-        return len(self._cells) and (self._traffic.charge < 1).any()
+    def _is_simulated(self) -> bool:
+        return len(self._cells) > 0 and bool((self._traffic.robots.charge < 1).any())
 
-    def kept(self):
-        """Which robots get no work, (n,) bool: they charge, or have to before all else."""
-        charge = self._traffic.charge
+    def kept(self) -> NDArray[np.bool_]:
+        """Returns which robots get no work, (n,): those that charge, or must before anything
+        else."""
+        charge = self._traffic.robots.charge
         kept = np.zeros(len(charge), bool)
         if not self._is_simulated:
             return kept
@@ -74,42 +125,47 @@ class Charging:
         kept[charging] = ~self.policy.frees(charge[charging])
         return kept | self.policy.spares(charge)
 
-    def advance(self, idle, is_wanted):
-        """Sends robots to charge; idle: those without work, (n,) bool."""
+    def advance(self, idle: NDArray[np.bool_], is_wanted: bool) -> None:
+        """Sends robots to charging places. idle: which have no work, (n,); is_wanted: whether
+        transports wait for robots."""
         if not self._is_simulated:
             return
         traffic = self._traffic
         self._count()
-        for robot in [r for r in self.cell_of if not idle[r] or traffic.charge[r] >= FULL]:
+        for robot in [r for r in self.cell_of if not idle[r] or traffic.robots.charge[r] >= FULL]:
             del self.cell_of[robot]
-        wants = idle & ~traffic.broken & self.policy.sends(traffic.charge, is_wanted)
+        wants = idle & ~traffic.robots.broken & self.policy.sends(traffic.robots.charge, is_wanted)
         wants[list(self.cell_of)] = False
-        for robot in sorted(np.flatnonzero(wants), key=lambda r: traffic.charge[r]):
+        for robot in sorted(np.flatnonzero(wants), key=lambda r: float(traffic.robots.charge[r])):
             if not self._place(int(robot)):
                 break
-        for robot, cell in self.cell_of.items():  # back, too, whom others pushed out
-            if traffic.goal[robot] != cell:
-                traffic.send(robot, cell)
+        # Also sends back robots that others pushed out of their places.
+        for robot, cell in self.cell_of.items():
+            if traffic.robots.goal[robot] != cell:
+                traffic.robots.send(robot, cell)
 
-    def _place(self, robot):
-        """Whether there was a place for it: a free one, or that of a robot which needs it less."""
+    def _place(self, robot: int) -> bool:
+        """Assigns a charging place to the robot: a free one, or that of a robot which needs it
+        less. Returns whether there was one."""
         traffic = self._traffic
         cells = np.setdiff1d(self._cells, [*self.cell_of.values(), *traffic.closed.tolist()])
         if not len(cells):
             others = np.array(list(self.cell_of), int)
-            done = others[self.policy.frees(traffic.charge[others])]
-            if not len(done) or traffic.charge[robot] >= self.policy.low:
+            done = others[self.policy.frees(traffic.robots.charge[others])]
+            if not len(done) or traffic.robots.charge[robot] >= self.policy.low:
                 return False
-            fullest = int(done[traffic.charge[done].argmax()])
+            fullest = int(done[traffic.robots.charge[done].argmax()])
             cells = np.array([self.cell_of.pop(fullest)])
-        # Where others only wait it is to wait for them to go.
-        far = self._far(int(traffic.cell[robot]), cells) + 10 * np.isin(cells, traffic.cell)
-        far[cells == traffic.cell[robot]] = 0
+        # A place counts as farther while another robot stands in it: that robot must leave first.
+        own, taken = int(traffic.robots.cell[robot]), traffic.robots.cell
+        far = self._far(own, cells) + 10 * np.isin(cells, taken)
+        far[cells == own] = 0
         self.cell_of[robot] = int(cells[far.argmin()])
         return True
 
-    def _count(self):
+    def _count(self) -> None:
+        """Adds the time since the last call to `robot_s`, for each robot in its charging place."""
         traffic = self._traffic
         elapsed = 0.0 if self._time is None else traffic.time - self._time
         self._time = traffic.time
-        self.robot_s += elapsed * sum(traffic.cell[r] == c for r, c in self.cell_of.items())
+        self.robot_s += elapsed * sum(traffic.robots.cell[r] == c for r, c in self.cell_of.items())

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What robots report of what is broken in them, and what that cost."""
+"""Failures that robots report of themselves, and statistics of them."""
 
 import collections
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-# Bits of FleetState.failures: kinds of warehouse_msgs/Fail, before them an empty battery.
+# Bits of FleetState.failures: an empty battery, then the kinds of warehouse_msgs/Fail.
 EMPTY, MOTOR, LIFT_STUCK, LASER_BLIND, RADIO_LOST, WHEEL_SLIPS = range(6)
 NAMES = {
     EMPTY: "battery empty",
@@ -17,27 +19,29 @@ NAMES = {
     WHEEL_SLIPS: "wheels slip",
 }
 MISHAPS = {9: "lost their way", 12: "lost their load, which tipped"}  # by Event.kind
-STANDS = (
-    1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST
-)  # it stands, or can't be sent on
+# Masks of failures: the robot can't drive or can't be sent orders, can't lift, does no work.
+# A robot whose wheels slip works, slowly.
+STANDS = 1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST
 LIFTS_NOT = 1 << LIFT_STUCK
-DOWN = STANDS | LIFTS_NOT  # it does not work; one whose wheels slip does, slowly
+DOWN = STANDS | LIFTS_NOT
 
 
-def names_of(failures):
-    """What is broken, by the bits of FleetState.failures: words."""
+def names_of(failures: int) -> str:
+    """Returns the names of the failures of one robot, separated by commas; failures: its bits of
+    FleetState.failures."""
     return ", ".join(name for kind, name in NAMES.items() if failures >> kind & 1)
 
 
-def heard(world):
-    """What is heard of a World's robots: its Fleet; of those whose radio is lost, and where reports
-    come late, what was heard last. Who is silent is known by its bit in `failures`."""
+def heard(world: Any) -> Any:
+    """Returns the robots of a kiva_plugin_cpp.World as known from their reports: arrays (n,), named
+    as those of its Fleet. A robot whose radio is lost or whose reports are late has the values of
+    its last report, except for `failures`, which tell that the radio is lost, and `charge`."""
     fleet = world.fleet
     last = world.last_heard()
     if not len(last):
         return fleet
-    names = [name for name in last.dtype.names if name != "index"]
-    columns = {name: np.array(getattr(fleet, name)) for name in names}
+    names = [name for name in last.dtype.names or () if name != "index"]
+    columns: dict[str, NDArray[Any]] = {name: np.array(getattr(fleet, name)) for name in names}
     for name, column in columns.items():
         column[last["index"]] = last[name]
     return SimpleNamespace(
@@ -49,22 +53,28 @@ def heard(world):
 
 
 class FailureLog:
-    """Which failures there were, and how long robots were down, from the first report on; and what
-    else befell them, by note()."""
+    """Counts failures, repairs and mishaps, and sums up how long robots were down, from the first
+    report on. Dictionaries are keyed by kind of failure, a key of NAMES.
 
-    def __init__(self):
+    Attributes: `count` (failures), `repairs`, `repaired_s` (from failure to repair, of those
+    repaired [s]), `lasted_s` (robot seconds with the failure), `mishaps` (by name, see MISHAPS),
+    `down_s` (robot seconds without work for any failure), `robot_s` (robot seconds in all).
+    """
+
+    def __init__(self) -> None:
         self.count = dict.fromkeys(NAMES, 0)
         self.repairs = dict.fromkeys(NAMES, 0)
-        self.repaired_s = dict.fromkeys(NAMES, 0.0)  # from failure to repair, of those repaired
-        self.lasted_s = dict.fromkeys(NAMES, 0.0)  # robot seconds with it
-        self.mishaps = collections.Counter()  # by their names
-        self.down_s = 0.0  # robot seconds without work, whatever for
-        self.robot_s = 0.0  # robot seconds in all
-        self._time, self._before = None, None
-        self._since = {}  # by robot and kind [s]
+        self.repaired_s = dict.fromkeys(NAMES, 0.0)
+        self.lasted_s = dict.fromkeys(NAMES, 0.0)
+        self.mishaps: collections.Counter[str] = collections.Counter()
+        self.down_s = 0.0
+        self.robot_s = 0.0
+        self._time: float | None = None
+        self._before: NDArray[np.uint8] | None = None
+        self._since: dict[tuple[int, int], float] = {}  # failed at [s], by robot and kind
 
-    def observe(self, time, failures):
-        """Takes in the bits that robots report at that time [s], (n,)."""
+    def update(self, time: float, failures: NDArray[np.uint8]) -> None:
+        """Updates the statistics with the bits of FleetState.failures, (n,), at `time` [s]."""
         failures = np.array(failures)
         before = self._before
         if before is None or len(before) != len(failures):
@@ -77,9 +87,11 @@ class FailureLog:
             for kind in NAMES:
                 self.lasted_s[kind] += elapsed * np.count_nonzero(before >> kind & 1)
         if not np.array_equal(before, failures):
-            self._take_changes(time, before, failures)
+            self._count_changes(time, before, failures)
 
-    def _take_changes(self, time, before, failures):
+    def _count_changes(
+        self, time: float, before: NDArray[np.uint8], failures: NDArray[np.uint8]
+    ) -> None:
         for robot in np.flatnonzero(before != failures).tolist():
             for kind in NAMES:
                 was, now = before[robot] >> kind & 1, failures[robot] >> kind & 1
@@ -90,20 +102,20 @@ class FailureLog:
                     self.repairs[kind] += 1
                     self.repaired_s[kind] += time - self._since.pop((robot, kind), time)
 
-    def note(self, kinds):
-        """Takes in what kinds of events the world tells, (n,) of Event.kind."""
+    def note(self, kinds: NDArray[np.integer[Any]]) -> None:
+        """Counts the mishaps among events of the world; kinds: their Event.kind, (n,)."""
         for kind, name in MISHAPS.items():
             if count := int(np.count_nonzero(kinds == kind)):
                 self.mishaps[name] += count
 
     @property
-    def total(self):
-        """How many there were."""
+    def total(self) -> int:
+        """The number of failures of all kinds."""
         return sum(self.count.values())
 
-    def figures(self):
-        """Availability, mean time between failures and to repair, as kpis.json has them; empty
-        without a failure."""
+    def figures(self) -> dict[str, float]:
+        """Returns the figures for kpis.json: the number of failures, availability (0…1), mean time
+        between failures [h] and to repair [s]; empty without a failure."""
         if not self.total:
             return {}
         repairs = sum(self.repairs.values())
@@ -114,9 +126,10 @@ class FailureLog:
             "mttr_s": sum(self.repaired_s.values()) / max(repairs, 1),
         }
 
-    def by_kind(self):
-        """[{kind, count, repairs, mean_repair_s, robot_h, down_h}] of those that there were: robot
-        hours with it, and those of them without work for it."""
+    def by_kind(self) -> list[dict[str, Any]]:
+        """Returns [{kind, count, repairs, mean_repair_s, robot_h, down_h}], one for each kind of
+        failure that occurred: kind is its name, robot_h the robot hours with it, down_h those of
+        them in which it kept robots from working."""
         return [
             {
                 "kind": NAMES[kind],

@@ -6,126 +6,129 @@ driver.transports.submit(17, "pick3")
 driver.step_until(3600)
 """
 
+from typing import Any
+
 import numpy as np
 
+from warehouse_fleet.controller import Decision, FleetController, Observation
 from warehouse_fleet.failures import FailureLog, heard
+from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.people import PeopleLog, people_in
-from warehouse_fleet.towing import Towing
-from warehouse_fleet.traffic import STAYS, Traffic
-from warehouse_fleet.transports import Transports
+from warehouse_fleet.robot_table import reports_of
+from warehouse_fleet.towing import TowOrder
+from warehouse_fleet.unit_map import UnitPoses
 from warehouse_layout.floor_plan import FloorPlan
 
-UPDATE = 0.1  # between two releases [s]
+UPDATE = 0.1  # between two ticks [s]
 REFUSED, COLLISION, FELL, PICKED_UP = 1, 6, 13, 14  # EventKind
 
 
-def square(yaw):
-    """The nearest heading along an axis [rad]."""
+def square(yaw: float) -> float:
+    """Returns the nearest heading along an axis [rad]."""
     return round(yaw / (np.pi / 2)) * np.pi / 2
 
 
 class FleetDriver:
-    """Drives all robots of a kiva_plugin_cpp.World. `transports` is what it is told to do.
+    """Hosts a FleetController in the process of a kiva_plugin_cpp.World.
 
-    The same world, seed and requests give the same run. Events of the world that are about
-    something else than driving go to `events`, if that is a list. Robots that are lost, or broken
-    in others' way, are towed `tow_after` [s] later; None: when tow() is called.
+    The same world, seed and requests give the same run. Events of the world go to `events` as well,
+    if that is a list. Robots that are lost, or broken in others' way, are towed `tow_after` [s]
+    later; None: when tow() is called. `collisions` counts, `refusals` are texts, `fallen` the items
+    on the floor; `failures` and `people` sum up what those cost.
     """
 
-    def __init__(self, world, seed=1, planner=None, kinematics=None, tow_after=None):
+    def __init__(
+        self,
+        world: Any,
+        seed: int = 1,
+        planner: Any = None,
+        kinematics: Kinematics | None = None,
+        tow_after: float | None = None,
+    ) -> None:
         self.world = world
         self.plan = FloorPlan.of_world(world)
         self.plan.check(obstructed=False)
-        self.traffic = Traffic(self.plan, world.fleet.kiva_id, kinematics, seed, planner)
-        self.transports = Transports(self.plan, self.traffic, self._lift)
-        self._towing = None if tow_after is None else Towing(self.transports, self.tow, tow_after)
-        self._see_units()
-        self.traffic.loaded[:] = world.fleet.shelf_id != 0
-        for cell in np.flatnonzero(self.plan.obstructed):
-            self.traffic.shut(int(cell), STAYS)
-        self.events = None
+        self.controller = FleetController(
+            self.plan, world.fleet.kiva_id, kinematics, seed, planner, tow_after=tow_after
+        )
+        self.traffic, self.transports = self.controller.traffic, self.controller.transports
+        self.robots = self.controller.robots
+        self.transports.update_units(self._units())
+        self.robots.loaded[:] = world.fleet.shelf_id != 0
+        self.events: list[np.ndarray] | None = None
         self.collisions = 0
-        self.refusals = []  # texts
-        self.failures = FailureLog()
-        self.people = PeopleLog()
-        self.fallen = world.fallen_items["item_id"]  # items that lie on the floor
+        self.refusals: list[str] = []
+        self.failures, self.people = FailureLog(), PeopleLog()
+        self.fallen = world.fallen_items["item_id"]
         self._steps = max(1, round(UPDATE / world.step_size))
 
-    def close(self):
+    def close(self) -> None:
         """Ends the planner's thread."""
-        self.traffic.close()
-
-    def _lift(self, kiva_id, shelf_id, up):
-        if up:
-            self.world.carry(kiva_id, shelf_id)
-        else:
-            self.world.drop(kiva_id, shelf_id)
-
-    def tow(self, kiva_id):
-        """People move a broken or lost robot out of the way. Raises as Transports.refuge does."""
-        x, y = self.plan.point_of(self.transports.refuge(kiva_id))
-        yaw = self.world.fleet.yaw[self.world.fleet.index(kiva_id)]
-        self.world.set_pose(f"kiva{kiva_id}", float(x), float(y), yaw=square(yaw))
+        self.controller.close()
 
     @property
-    def time(self):
+    def time(self) -> float:
         """Simulated [s]."""
         return self.world.time
 
-    @property
-    def stations(self):
-        """The floor's Stations."""
-        return self.plan.stations
-
-    def step(self):
-        """Goes on by 0.1 s."""
-        self._hear()
-        if not self.traffic.is_stale(self.world.time):
-            self._drive()
-        self.world.step(self._steps)
-
-    def _drive(self):
-        gone = self.traffic.gone
-        report = self.traffic.aligned(heard(self.world))
-        self.traffic.observe(self.world.time, report)
-        self.failures.observe(self.world.time, report.failures)
-        self._see_people()
-        if self._towing:
-            self._towing.advance()
-        self.traffic.see_fallen(len(self.fallen))
-        looks = self.traffic.wants_map
-        if looks:
-            self.traffic.see(self.world.occupancy()[3])
-        self.transports.advance(report)
-        if looks or not np.array_equal(gone, self.traffic.gone):
-            self._see_units()
-        releases = self.traffic.releases()
-        if len(releases[0]):
-            self.world.follow(*releases)
-
-    def _see_people(self):
-        people = people_in(self.world)
-        self.people.observe(self.world.time, people, len(self.traffic.kiva_ids))
-        self.traffic.see_people(people)
-
-    def step_until(self, time):
+    def step_until(self, time: float) -> None:
         """Goes on until that simulated time [s]."""
         while self.world.time < time - 1e-9:
             self.step()
 
-    def _see_units(self):
-        """Takes in where units stand, when somebody else may have moved some."""
-        units = self.world.storage_units
-        self.transports.look(
-            units["shelf_id"],
-            units["x"],
-            units["y"],
-            units["yaw"],
-            units["kiva_id"] != 0,
+    def step(self) -> None:
+        """Goes on by 0.1 s."""
+        refused = self._take_events()
+        if not self.controller.is_stale(self.world.time):
+            self._carry_out(self.controller.tick(self._observe(refused)))
+        self.world.step(self._steps)
+
+    def _observe(self, refused: list[str]) -> Observation:
+        time, reports, people = (
             self.world.time,
+            reports_of(heard(self.world)),
+            people_in(self.world),
+        )
+        self.failures.update(time, reports["failures"])
+        self.people.update(time, people, len(self.robots))
+        return Observation(
+            time,
+            reports,
+            people,
+            fallen=len(self.fallen),
+            refused=refused,
+            look_at_map=lambda: self.world.occupancy()[3],
+            look_at_units=self._units,
         )
 
-    def _hear(self):
+    def _carry_out(self, decision: Decision) -> None:
+        world = self.world
+        for tow in decision.tows:
+            self._tow(tow)
+        for kiva_id, shelf_id, up in decision.lifts:
+            world.carry(kiva_id, shelf_id) if up else world.drop(kiva_id, shelf_id)
+        if decision.cancels:
+            world.cancel(decision.cancels)
+        if len(decision.releases.kiva_id):
+            world.follow(*decision.releases)
+
+    def tow(self, kiva_id: int) -> None:
+        """Moves a broken or lost robot out of the way. Raises ValueError as
+        FleetController.tow()."""
+        self._tow(self.controller.tow(kiva_id))
+
+    def _tow(self, order: TowOrder) -> None:
+        yaw = self.world.fleet.yaw[self.world.fleet.index(order.kiva_id)]
+        self.world.set_pose(f"kiva{order.kiva_id}", order.x, order.y, yaw=square(yaw))
+
+    def _units(self) -> UnitPoses:
+        units = self.world.storage_units
+        carried = units["kiva_id"] != 0
+        x, y, yaw = units["x"], units["y"], units["yaw"]
+        return UnitPoses(units["shelf_id"], x, y, yaw, carried, self.world.time)
+
+    def _take_events(self) -> list[str]:
+        """Takes in what the world tells; returns the models of robots that refused a path."""
         events = self.world.events()
         if self.events is not None:
             self.events.append(events)
@@ -134,31 +137,31 @@ class FleetDriver:
         if np.isin(kinds, (FELL, PICKED_UP)).any():
             self.fallen = self.world.fallen_items["item_id"]
         self.collisions += int(np.count_nonzero(kinds == COLLISION))
-        for event in events[kinds == REFUSED]:
-            self.refusals.append(f"{event['model']}: {event['text']}")
-            self.traffic.refused(event["model"])
+        refused = events[kinds == REFUSED]
+        self.refusals += [f"{event['model']}: {event['text']}" for event in refused]
+        return [event["model"] for event in refused]
 
     @property
-    def blocked(self):
+    def blocked(self) -> int:
         """How often a robot was BLOCKED."""
         return self.traffic.blocked
 
     @property
-    def watchdog(self):
-        """How often a robot made no progress for 30 s."""
-        return self.traffic.watchdog
+    def watchdog(self) -> int:
+        """How often a robot made no progress for watchdog.NO_PROGRESS."""
+        return self.traffic.watchdog.count
 
     @property
-    def distance_m(self):
-        """Driven with a plan by all robots, in whole journeys [m]."""
-        return self.transports.totals.cells * self.plan.spacing
-
-    @property
-    def executed_over_planned(self):
-        """Seconds that robots drove over those of their plans; 1 before anybody has arrived."""
+    def executed_over_planned(self) -> float:
+        """Seconds that robots drove over those of their plans; 1 before the first has arrived."""
         return self.transports.totals.executed_over_planned
 
     @property
-    def plan_ms(self):
+    def distance_m(self) -> float:
+        """Metres driven with a plan by all robots, in whole journeys."""
+        return self.transports.totals.cells * self.plan.spacing
+
+    @property
+    def plan_ms(self) -> list[float]:
         """Computing time of each plan [ms]."""
-        return [1e3 * seconds for seconds in self.traffic.plan_seconds]
+        return [1e3 * seconds for seconds in self.traffic.plans.seconds]

@@ -1,28 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Floors and problems like those of the competition: blocks of shelves between aisles, stations
-along the walls."""
+"""Generates floors and problems like those of the League of Robot Runners: blocks of shelves
+between aisles, stations along two walls."""
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass
 class Warehouse:
     """A floor. All arrays are (rows, columns) of bool."""
 
-    passable: np.ndarray  # the whole floor, beneath storage units too
-    storage: np.ndarray  # where storage units stand
-    stations: np.ndarray  # where goods are picked
+    passable: NDArray[np.bool_]  # the whole floor, beneath storage units too
+    storage: NDArray[np.bool_]  # where storage units stand
+    stations: NDArray[np.bool_]  # where goods are picked
 
-    def walls(self):
-        """The floor of robots that never drive beneath units: shelves are walls."""
+    def walls(self) -> NDArray[np.bool_]:
+        """Returns where robots can drive that never drive beneath units, (rows, columns): shelves
+        are walls."""
         return self.passable & ~self.storage
 
 
-def warehouse(blocks=(10, 6), block=(3, 2), aisle=1, margin=4, stations=14):
-    """Blocks of (columns, rows) of shelves with aisles so many cells wide between them, a margin
-    around, and so many stations along each of the two long walls."""
+def warehouse(
+    blocks: tuple[int, int] = (10, 6),
+    block: tuple[int, int] = (3, 2),
+    aisle: int = 1,
+    margin: int = 4,
+    stations: int = 14,
+) -> Warehouse:
+    """Returns a floor of `blocks` (columns, rows) blocks of `block` (columns, rows) shelves each,
+    with aisles of `aisle` cells between them, a margin of `margin` cells around them, and so many
+    stations along each of the top and bottom walls."""
     columns = blocks[0] * (block[0] + aisle) - aisle + 2 * margin
     rows = blocks[1] * (block[1] + aisle) - aisle + 2 * margin
     storage = np.zeros((rows, columns), bool)
@@ -35,15 +44,18 @@ def warehouse(blocks=(10, 6), block=(3, 2), aisle=1, margin=4, stations=14):
     return Warehouse(np.ones((rows, columns), bool), storage, places)
 
 
-def huge(times=1):
-    """About the floor of the preset `huge`, or so many times as large: blocks two deep, 4,000
-    storage places and more, 40 stations."""
+def huge(times: int = 1) -> Warehouse:
+    """Returns about the floor of the preset `huge`, or one `times` as large: blocks two deep, at
+    least 4,000 storage places and 40 stations."""
     rows = 34 * times
     return warehouse(blocks=(12, rows), block=(5, 2), aisle=2, margin=5, stations=20 * times)
 
 
-def tasks(floor, count, rng, at_stations=0.5):
-    """So many tasks of one errand: a station, or a cell of an aisle beside a shelf."""
+def tasks(
+    floor: Warehouse, count: int, rng: np.random.Generator, at_stations: float = 0.5
+) -> NDArray[np.int64]:
+    """Returns the cells of `count` random tasks of one errand, (count,): a station with probability
+    `at_stations`, else a cell of an aisle beside a shelf."""
     walls = floor.walls()
     beside = np.zeros_like(walls)
     for axis in (0, 1):
@@ -54,8 +66,9 @@ def tasks(floor, count, rng, at_stations=0.5):
     return np.where(at_station, rng.choice(stations, count), rng.choice(shelves, count))
 
 
-def starts(floor, robots, rng):
-    """Distinct cells of the aisles for so many robots."""
+def starts(floor: Warehouse, robots: int, rng: np.random.Generator) -> NDArray[np.int64]:
+    """Returns random distinct cells of the aisles, (robots,); raises ValueError if there are
+    fewer."""
     free = np.flatnonzero(floor.walls())
     if robots > free.size:
         raise ValueError(f"{robots} robots on {free.size} free cells")

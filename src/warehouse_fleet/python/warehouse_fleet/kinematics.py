@@ -1,35 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a robot can do, and how long that takes it in closed form."""
+"""Limits of a robot's motion, and closed forms for how long motions take."""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True)
 class Kinematics:
-    """Of a robot; the defaults are RAWSim-O's."""
+    """The motion of one robot; the defaults are RAWSim-O's."""
 
-    speed: float = 1.5  # [m/s]
-    acceleration: float = 1.0  # [m/s²]
-    quarter_turn: float = 0.625  # [s]
-    lift: float = 2.2  # [s]
+    speed: float = 1.5  # top speed [m/s]
+    acceleration: float = 1.0  # and deceleration [m/s²]
+    quarter_turn: float = 0.625  # time of one, at rest [s]
+    lift: float = 2.2  # time to raise or lower a unit [s]
 
     @property
-    def start_stop(self):
-        """What a start and a stop cost beside driving at top speed [s]."""
+    def start_stop(self) -> float:
+        """The time that a start and a stop add to driving at top speed [s]."""
         return self.speed / self.acceleration
 
-    def run(self, distance):
-        """The time for a straight run from rest to rest [s]; arrays too."""
+    def run(self, distance: ArrayLike) -> NDArray[np.float64]:
+        """Returns the time of straight runs from rest to rest [s], in the shape of `distance` [m],
+        whose sign does not matter."""
         distance = np.abs(distance)
         full = distance / self.speed + self.start_stop
         short = 2 * np.sqrt(distance / self.acceleration)
         return np.where(distance < self.speed * self.start_stop, short, full)
 
-    def leaving(self, distance):
-        """The time from rest until so far away [s], still accelerating or at top speed."""
+    def leaving(self, distance: float) -> float:
+        """Returns the time from rest to a point `distance` [m] ahead that is passed without braking
+        [s]."""
         ramp = self.speed**2 / (2 * self.acceleration)
         if distance <= ramp:
             return math.sqrt(2 * distance / self.acceleration)

@@ -2,25 +2,32 @@
 """Runs a problem of the League of Robot Runners with a planner, tick by tick."""
 
 import time
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from warehouse_fleet import Fleet
+from warehouse_fleet.planner_plugins import ActionPlanner
+from warehouse_fleet.problem import Problem
 from warehouse_layout import Floor
 
-NOWHERE = -1
+NOWHERE = -1  # no goal, no task
 LETTERS = np.array(["W", "F", "R", "C"])  # by Action; rows go down, so R is towards +y
 
 
 class RoundRobin:
-    """Task k belongs to robot k mod robots, in the order of the file."""
+    """Gives task k to robot k mod robots, in the order of the file."""
 
-    def __init__(self, problem):
+    def __init__(self, problem: Problem) -> None:
         self.tasks, self.robots = len(problem.tasks), len(problem.agents)
         self.next = np.arange(self.robots)
 
-    def give(self, free, _cells):
-        """A task for each of the robots that are free, as far as there are any."""
+    def give(
+        self, free: NDArray[np.integer[Any]], _cells: NDArray[np.integer[Any]]
+    ) -> Iterator[tuple[int, int]]:
+        """Yields (robot, task) for each robot of `free`, (m,), that has a task left."""
         for robot in free:
             if self.next[robot] < self.tasks:
                 yield robot, int(self.next[robot])
@@ -28,20 +35,25 @@ class RoundRobin:
 
 
 class Nearest:
-    """Of the tasks that are known, each robot gets the one that is done soonest."""
+    """Gives each robot the revealed task with the shortest way: to its first errand, and on to its
+    last."""
 
-    def __init__(self, problem):
+    def __init__(self, problem: Problem) -> None:
         self.width = problem.passable.shape[1]
         self.ends = np.array([[task[0], self._length(task)] for task in problem.tasks])
         self.revealed = max(1, int(problem.reveal * len(problem.agents)))
         self.shown = min(self.revealed, len(self.ends))
         self.open = list(range(self.shown))
 
-    def _length(self, task):
+    def _length(self, task: list[int]) -> int:
         rows, columns = np.divmod(np.array(task), self.width)
         return int(np.abs(np.diff(rows)).sum() + np.abs(np.diff(columns)).sum())
 
-    def give(self, free, cells):
+    def give(
+        self, free: NDArray[np.integer[Any]], cells: NDArray[np.integer[Any]]
+    ) -> Iterator[tuple[int, int]]:
+        """Yields (robot, task) for each robot of `free`, (m,), as far as tasks are revealed; cells:
+        the cells of all robots, (robots,)."""
         for robot in free:
             if not self.open:
                 return
@@ -50,16 +62,21 @@ class Nearest:
             row, column = divmod(int(cells[robot]), self.width)
             far = np.abs(rows - row) + np.abs(columns - column) + lengths
             yield robot, self.open.pop(int(far.argmin()))
-            # As many as were known before are known again.
+            # The number of revealed tasks stays the same.
             if self.shown < len(self.ends):
                 self.open.append(self.shown)
                 self.shown += 1
 
 
 class Lifelong:
-    """The state of a run. `planner` has plan(fleet, seconds, attempts), as a Door has."""
+    """A run of a problem, tick by tick, from its starts.
 
-    def __init__(self, problem, planner):
+    Attributes: `tick` (ticks so far), `finished` (tasks done), `seconds` (computing time of the
+    planner, one element a tick [s]); one element a robot have `cell`, `heading` (quarter turns from
+    +x towards +y), `goal` (a cell), `task` and `errand` (how many errands of its task are done).
+    """
+
+    def __init__(self, problem: Problem, planner: ActionPlanner) -> None:
         self.problem, self.planner = problem, planner
         robots = len(problem.agents)
         width = problem.passable.shape[1]
@@ -69,15 +86,20 @@ class Lifelong:
         self.goal = np.full(robots, NOWHERE, np.int32)
         self.task = np.full(robots, NOWHERE)
         self.errand = np.zeros(robots, int)
-        self.supply = RoundRobin(problem) if problem.round_robin else Nearest(problem)
+        self.supply: RoundRobin | Nearest = (
+            RoundRobin(problem) if problem.round_robin else Nearest(problem)
+        )
         self.tick = 0
         self.finished = 0
-        self.actions, self.seconds, self.events = [], [], []
-        self.schedule = [[] for _ in range(robots)]
+        self.actions: list[NDArray[np.uint8]] = []
+        self.seconds: list[float] = []
+        self.events: list[list[int]] = []  # [tick, robot, task, errand] as errands are done
+        self.schedule: list[list[str]] = [[] for _ in range(robots)]  # "tick:task"
         self._give()
 
-    def step(self, seconds=0.0, attempts=-1):
-        """One tick: plans, drives, and hands out new tasks."""
+    def step(self, seconds: float = 0.0, attempts: int = -1) -> None:
+        """Plans and drives one tick, and hands out new tasks. `seconds` and `attempts` limit the
+        planner, see ActionPlanner.plan. Raises PlanRefusedError."""
         fleet = Fleet(self.cell, self.heading, self.goal)
         begin = time.thread_time()
         actions = self.planner.plan(fleet, seconds, attempts)[:, 0]
@@ -91,7 +113,7 @@ class Lifelong:
             self._arrive(int(robot))
         self._give()
 
-    def _arrive(self, robot):
+    def _arrive(self, robot: int) -> None:
         task, errands = self.task[robot], self.problem.tasks[self.task[robot]]
         self.errand[robot] += 1
         self.events.append([self.tick, robot, int(task), int(self.errand[robot])])
@@ -101,15 +123,15 @@ class Lifelong:
         self.finished += 1
         self.task[robot] = self.goal[robot] = NOWHERE
 
-    def _give(self):
+    def _give(self) -> None:
         free = np.flatnonzero(self.task == NOWHERE)
         for robot, task in self.supply.give(free, self.cell):
             self.task[robot], self.errand[robot] = task, 0
             self.goal[robot] = self.problem.tasks[task][0]
             self.schedule[robot].append(f"{self.tick}:{task}")
 
-    def result(self):
-        """The competition's result, to be written as JSON."""
+    def result(self) -> dict[str, Any]:
+        """Returns the result in the competition's format, to be written as JSON."""
         width = self.problem.passable.shape[1]
         place = [divmod(int(cell), width) for cell in self.problem.agents]
         letters = LETTERS[np.array(self.actions, int).reshape(self.tick, len(place))]
@@ -135,10 +157,10 @@ class Lifelong:
             "tasks": [[task, 0, self._errands(task, width)] for task in given],
         }
 
-    def _errands(self, task, width):
+    def _errands(self, task: int, width: int) -> list[int]:
         return [part for cell in self.problem.tasks[task] for part in divmod(cell, width)]
 
 
-def floor_of(problem):
-    """Its floor, with no storage places."""
+def floor_of(problem: Problem) -> Floor:
+    """Returns the floor of a problem, without storage places."""
     return Floor(problem.passable)

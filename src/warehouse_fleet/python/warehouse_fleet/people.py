@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""People on the floor: the cells that are closed for their sake, and what they cost."""
+"""People on the floor: the cells that are closed around them, and what that costs."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
+
+from warehouse_layout.floor_plan import FloorPlan
 
 REACH = 0.9  # from a person's way to the middles of the cells that are closed; in cells
 
 
-def people_in(world):
-    """Who walks in a kiva_plugin_cpp.World, and which robots mind: as warehouse_msgs/People."""
+NO_PEOPLE = SimpleNamespace(name=[], x=[], y=[], ahead_x=[], ahead_y=[], slowed=[], stopped=[])
+
+
+def people_in(world: Any) -> SimpleNamespace:
+    """Returns the people in a kiva_plugin_cpp.World, and the robots that slow down or stop for
+    them: as warehouse_msgs/People."""
     people = world.people
     if not people:
-        return SimpleNamespace(name=[], x=[], y=[], ahead_x=[], ahead_y=[], slowed=[], stopped=[])
+        return NO_PEOPLE
     columns = {
         key: [float(person[key]) for person in people.values()]
         for key in ("x", "y", "ahead_x", "ahead_y")
@@ -25,8 +32,8 @@ def people_in(world):
     )
 
 
-def zone_around(plan, people):
-    """The cells of a FloorPlan where people are, or will be if they go straight on: int32."""
+def zone_around(plan: FloorPlan, people: Any) -> np.ndarray:
+    """Returns the cells (n,) int32 where people are, or will be if they go straight on."""
     zone = [
         _along(plan, np.array((x, y)), np.array((to_x, to_y)))
         for x, y, to_x, to_y in zip(people.x, people.y, people.ahead_x, people.ahead_y)
@@ -34,8 +41,8 @@ def zone_around(plan, people):
     return np.unique(np.concatenate(zone)) if zone else np.zeros(0, np.int32)
 
 
-def _along(plan, begin, end):
-    """Cells whose middles are within reach of the way from `begin` to `end` [m]."""
+def _along(plan: FloorPlan, begin: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Returns the cells whose middles are within reach of the way from `begin` to `end` [m]."""
     height, width = plan.shape
     reach = REACH * plan.spacing
     low = np.floor((np.minimum(begin, end) - reach - plan.origin) / plan.spacing).astype(int)
@@ -51,15 +58,16 @@ def _along(plan, begin, end):
 
 
 class PeopleLog:
-    """How long people were on the floor, and robots slow or standing for their sake."""
+    """Sums up how long people were on the floor, and robots slowed down or stopped for them."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.person_s = 0.0  # seconds of people
         self.slowed_s = self.stopped_s = self.robot_s = 0.0  # seconds of robots
-        self._time, self._before = None, (0, 0, 0)
+        self._time: float | None = None
+        self._before = (0, 0, 0)
 
-    def observe(self, time, people, robots):
-        """Takes in who is there at that time [s], and which of so many robots mind."""
+    def update(self, time: float, people: Any, robots: int) -> None:
+        """Takes in the people at a time [s], beside so many robots."""
         elapsed = 0.0 if self._time is None else max(0.0, time - self._time)
         there, slowed, stopped = self._before
         self._time = time
@@ -69,8 +77,8 @@ class PeopleLog:
         self.slowed_s += elapsed * slowed
         self.stopped_s += elapsed * stopped
 
-    def figures(self):
-        """As kpis.json has them; empty where nobody came."""
+    def figures(self) -> dict[str, float]:
+        """Returns the figures for kpis.json; none where no person came."""
         if not self.person_s:
             return {}
         return {

@@ -1,81 +1,122 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Planners of any origin, and the door at which their plans are checked before anybody drives.
+"""Loads planners by name, and checks their plans before robots drive them.
 
 A planner of your own is a class with two methods:
 
     class Mine:
         def start(self, floor, rules, seed): ...   # once
-        def plan(self, fleet): ...                 # at each tick: the cell each robot goes to next
+        def plan(self, fleet): ...                 # each tick: the cell that each robot enters next
 
-`plan` gets a Fleet (numpy arrays, one element a robot) and returns an integer array of the
-robots' next cells: the one it is in, or a neighbour. A robot that doesn't face its next cell turns
-towards it, a quarter a tick, and does not leave its cell meanwhile. A YAML file names it:
+`plan` gets a Fleet (numpy arrays, one element a robot) and returns the next cell of each robot, an
+integer array: the cell it is in, or a neighbour. A robot that doesn't face its next cell turns
+towards it, a quarter a tick, and stays in its cell meanwhile. A YAML file names the planner:
 
     planner: my_package.my_module:Mine      # Python
     planner: /path/to/libmine.so:Mine       # C++: a registered fleet::Planner
-    planner: epibt                          # the one of the house, which is the default
+    planner: epibt                          # the built-in planner, the default
     options: {depth: 5}                     # for epibt, or for the Python class
 """
 
 import importlib
+from collections.abc import Mapping, Sequence
+from os import PathLike
+from typing import Any, Protocol
 
 import numpy as np
 import yaml
+from numpy.typing import ArrayLike, NDArray
 
-from warehouse_fleet import _core
+from warehouse_fleet._core import Fleet, Planner, Rules, epibt, load_planner, validate
+from warehouse_layout import Floor
 
-MANOEUVRE = 3  # ticks in which a robot comes to any neighbour
-# Forward after so many quarter turns, by the shorter way.
+MANOEUVRE = 3  # ticks in which a robot reaches any neighbouring cell
+# (4, MANOEUVRE) of Action: forward after so many quarter turns (row), the shorter way round.
 TURNS = np.array([[1, 0, 0], [2, 1, 0], [2, 2, 1], [3, 1, 0]], np.uint8)
 FREE = 0xFF  # in Fleet.committed: no commitment
 
 
 class PlanRefusedError(Exception):
-    """A plan that can't be driven; the text names the robots."""
+    """A plan can't be driven; the text names the robots."""
 
 
 class PlannerError(Exception):
-    """There is no such planner; the text says what was expected."""
+    """There is no such planner, or its options are wrong; the text says what was expected."""
 
 
-class Door:
-    """A planner whose plans are checked before they are handed on: so many ticks, -1: all."""
+class CellPlanner(Protocol):
+    """A planner that answers with next cells: the methods of a planner class of your own."""
 
-    def __init__(self, planner, floor, rules, names=None, ticks=-1):
+    def start(self, floor: Floor, rules: Rules, seed: int) -> None:
+        """Prepares for planning on a floor; called once, before plan()."""
+        ...
+
+    def plan(self, fleet: Fleet) -> ArrayLike:
+        """Returns the next cell of each robot, (robots,) of int."""
+        ...
+
+
+class ActionPlanner(Protocol):
+    """A planner that answers with actions."""
+
+    def plan(self, fleet: Fleet, seconds: float, attempts: int) -> NDArray[np.uint8]:
+        """Returns the plan, (robots, ticks) of Action.
+
+        seconds: computing time of the calling thread for all of it [s], 0: that of the first plan;
+        attempts: how often the planner may try to improve the first plan, -1: as often as
+        `seconds` allow. With a number of attempts and 0 seconds plans are reproducible."""
+        ...
+
+
+class ValidatedPlanner:
+    """A planner whose plans are validated before they are returned.
+
+    `names`: of the robots, for messages; `ticks`: how many leading ticks of each plan are
+    validated, -1: all.
+    """
+
+    def __init__(
+        self,
+        planner: ActionPlanner,
+        floor: Floor,
+        rules: Rules,
+        names: Sequence[str] | None = None,
+        ticks: int = -1,
+    ) -> None:
         self.planner, self.floor, self.rules, self.names = planner, floor, rules, names or []
         self.ticks = ticks
 
-    def plan(self, fleet, seconds=0.0, attempts=-1):
-        """The plan, (robots, ticks) of Action; raises PlanRefusedError."""
+    def plan(self, fleet: Fleet, seconds: float = 0.0, attempts: int = -1) -> NDArray[np.uint8]:
+        """Returns the plan, (robots, ticks) of Action; raises PlanRefusedError."""
         actions = self.planner.plan(fleet, seconds, attempts)
-        found = _core.validate(self.floor, fleet, actions, self.rules, self.ticks)
+        found = validate(self.floor, fleet, actions, self.rules, self.ticks)
         if found:
-            first = {tuple(one.robots): one for one in reversed(found)}  # of the same robots
+            first = {tuple(one.robots): one for one in reversed(found)}  # one for the same robots
             texts = [one.describe(self.floor, self.names) for one in reversed(first.values())]
             raise PlanRefusedError("; ".join(texts[:5]))
         return actions
 
 
 class PythonPlanner:
-    """A Python class that says next cells, as a planner that says actions."""
+    """Makes an ActionPlanner of a CellPlanner."""
 
-    def __init__(self, planner, floor, rules, seed):
+    def __init__(self, planner: CellPlanner, floor: Floor, rules: Rules, seed: int) -> None:
         self.planner, self.floor = planner, floor
         planner.start(floor, rules, seed)
 
-    def plan(self, fleet, seconds=0.0, attempts=-1):
-        """Robots that can't take back what they do next keep to it, whatever the planner says; what
-        is before them is closed to all others."""
-        committed = fleet.committed  # (robots, ticks); no ticks if nobody is
+    def plan(self, fleet: Fleet, seconds: float = 0.0, attempts: int = -1) -> NDArray[np.uint8]:
+        """Returns the plan, (robots, ticks) of Action; raises PlanRefusedError.
+
+        A robot with committed actions performs them, whatever the planner answers for it; the cells
+        of those actions are closed to all others. `seconds` and `attempts` have no effect."""
+        committed = fleet.committed  # (robots, ticks); no ticks if no robot is committed
         kept = committed != FREE
-        if kept.any():
-            fleet = _Narrowed(fleet, _ahead(self.floor, fleet))
+        seen: Any = _Narrowed(fleet, _ahead(self.floor, fleet)) if kept.any() else fleet
         plan = np.zeros((len(fleet), max(MANOEUVRE, committed.shape[1])), np.uint8)
-        plan[:, :MANOEUVRE] = np.where(kept.any(axis=1)[:, None], 0, self._ask(fleet))
+        plan[:, :MANOEUVRE] = np.where(kept.any(axis=1)[:, None], 0, self._ask(seen))
         plan[:, : committed.shape[1]][kept] = committed[kept]
         return plan
 
-    def _ask(self, fleet):
+    def _ask(self, fleet: Fleet) -> NDArray[np.uint8]:
         cells = np.asarray(self.planner.plan(fleet))
         if cells.shape != (len(fleet),) or cells.dtype.kind not in "iu":
             raise PlanRefusedError(
@@ -88,19 +129,19 @@ class PythonPlanner:
 class _Narrowed:
     """A Fleet with more cells closed."""
 
-    def __init__(self, fleet, cells):
+    def __init__(self, fleet: Fleet, cells: NDArray[np.int32]) -> None:
         self._fleet = fleet
         self.closed = np.union1d(fleet.closed, cells)
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         return getattr(self._fleet, name)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._fleet)
 
 
-def _ahead(floor, fleet):
-    """The cells that robots are committed to come to."""
+def _ahead(floor: Floor, fleet: Fleet) -> NDArray[np.int32]:
+    """Returns the cells that robots are committed to enter."""
     cell, heading = fleet.cell.copy(), fleet.heading.copy()
     step, cells = np.array([1, floor.width, -1, -floor.width]), []
     for actions in fleet.committed.T:
@@ -110,8 +151,13 @@ def _ahead(floor, fleet):
     return np.concatenate(cells)
 
 
-def actions_towards(floor, fleet, cells):
-    """(robots, MANOEUVRE) of Action: how each comes to its next cell; raises PlanRefusedError."""
+def actions_towards(
+    floor: Floor, fleet: Fleet, cells: NDArray[np.integer[Any]]
+) -> NDArray[np.uint8]:
+    """Returns the actions that bring each robot to its next cell, (robots, MANOEUVRE) of Action.
+    cells: the next cells, (robots,).
+
+    Raises PlanRefusedError for a cell that is neither the robot's own nor a neighbour of it."""
     step = cells - fleet.cell
     directions = np.array([1, floor.width, -1, -floor.width])
     facing = step[:, None] == directions
@@ -130,30 +176,36 @@ def actions_towards(floor, fleet, cells):
     return np.where(stays[:, None], 0, TURNS[quarters])
 
 
-def make_planner(floor, rules, seed, spec=None, names=None, ticks=-1):
-    """The planner that `spec` (the content of a YAML file, None: epibt) names, behind a Door."""
+def make_planner(
+    floor: Floor,
+    rules: Rules,
+    seed: int,
+    spec: Mapping[str, Any] | None = None,
+    names: Sequence[str] | None = None,
+    ticks: int = -1,
+) -> ValidatedPlanner:
+    """Returns the planner that `spec` names; for `names` and `ticks` see ValidatedPlanner.
+    spec: the content of a YAML file; None: epibt.
+
+    Raises PlannerError."""
     spec = dict(spec or {})
     name, options = spec.pop("planner", "epibt"), spec.pop("options", None) or {}
     if spec:
         raise PlannerError(f"unknown key '{next(iter(spec))}'; planner, options were expected")
     planner = _started(str(name), options, floor, rules, seed)
-    return Door(planner, floor, rules, names, ticks)
+    return ValidatedPlanner(planner, floor, rules, names, ticks)
 
 
-def _started(name, options, floor, rules, seed):
+def _started(
+    name: str, options: dict[str, Any], floor: Floor, rules: Rules, seed: int
+) -> ActionPlanner:
     if name == "epibt":
-        try:
-            return _core.epibt(floor, rules, seed, **options)
-        except TypeError as error:
-            raise PlannerError(f"epibt: {error}") from error
+        return _built_in(options, floor, rules, seed)
     source, colon, class_name = name.rpartition(":")
     if not colon:
         raise PlannerError(f"planner '{name}'; epibt, MODULE:CLASS or LIBRARY.so:CLASS expected")
     if source.endswith(".so"):
-        try:
-            return _core.load_planner(source, class_name, floor, rules, seed)
-        except RuntimeError as error:
-            raise PlannerError(str(error)) from error
+        return _from_library(source, class_name, floor, rules, seed)
     try:
         planner = getattr(importlib.import_module(source), class_name)
     except (ImportError, AttributeError) as error:
@@ -161,8 +213,22 @@ def _started(name, options, floor, rules, seed):
     return PythonPlanner(planner(**options), floor, rules, seed)
 
 
-def read_spec(path):
-    """What a YAML file says about the planner; raises PlannerError."""
+def _built_in(options: dict[str, Any], floor: Floor, rules: Rules, seed: int) -> Planner:
+    try:
+        return epibt(floor, rules, seed, **options)
+    except TypeError as error:
+        raise PlannerError(f"epibt: {error}") from error
+
+
+def _from_library(path: str, class_name: str, floor: Floor, rules: Rules, seed: int) -> Planner:
+    try:
+        return load_planner(path, class_name, floor, rules, seed)
+    except RuntimeError as error:
+        raise PlannerError(str(error)) from error
+
+
+def read_spec(path: str | PathLike[str]) -> dict[str, Any]:
+    """Returns the content of a YAML file that names a planner; raises PlannerError."""
     try:
         with open(path, encoding="utf-8") as file:
             spec = yaml.safe_load(file)

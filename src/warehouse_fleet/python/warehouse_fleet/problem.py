@@ -1,40 +1,44 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files of the League of Robot Runners: problems read, results written.
+"""Reads and writes problems of the League of Robot Runners.
 
-A location is row * width + column; rows go down, so that the turn from +x towards +y is clockwise.
+A location is row * width + column. Rows count downwards, so the turn from +x towards +y is
+clockwise.
 """
 
 import json
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-PASSABLE, WALLS = ".ESG", "@TOW"
+PASSABLE, WALLS = ".ESG", "@TOW"  # the letters of a map
 
 
 class ProblemError(Exception):
-    """A file that can't be used: which, where in it, and what was expected."""
+    """A file can't be used; the text names the file, the line and what was expected."""
 
 
 @dataclass
 class Problem:
-    """What is to be done."""
+    """A floor, robots on it, and tasks for them."""
 
-    passable: np.ndarray  # (rows, columns) of bool
-    agents: np.ndarray  # location of each robot; all face east
-    tasks: list  # lists of the locations of each task, to be visited in order
+    passable: NDArray[np.bool_]  # (rows, columns)
+    agents: NDArray[np.int32]  # the location of each robot, (robots,); all face east
+    tasks: list[list[int]]  # the locations of each task, to be visited in order
     round_robin: bool = False  # task k belongs to robot k mod robots
-    reveal: float = 1.0  # tasks known at a time, of the number of robots
-    source: str = field(default="", repr=False)
+    reveal: float = 1.0  # tasks revealed at a time, as a multiple of the number of robots
+    source: str = field(default="", repr=False)  # the path of its file
 
 
-def read(path):
-    """The problem of a JSON file and of the files that it names; raises ProblemError."""
+def read(path: str | PathLike[str]) -> Problem:
+    """Reads a problem from a JSON file and the files that it names; raises ProblemError."""
     path = Path(path)
     data = _json(path)
-    width_of = _field(path, data, "mapFile", str)
-    passable = read_map(path.parent / width_of)
+    passable = read_map(path.parent / _field(path, data, "mapFile", str))
     agents = _numbers(path.parent / _field(path, data, "agentFile", str), one_a_line=True)
     tasks = _numbers(path.parent / _field(path, data, "taskFile", str), one_a_line=False)
     robots = _field(path, data, "teamSize", int, len(agents.lines))
@@ -65,8 +69,8 @@ def read(path):
     )
 
 
-def read_map(path):
-    """Where robots can drive, (rows, columns) of bool; raises ProblemError."""
+def read_map(path: str | PathLike[str]) -> NDArray[np.bool_]:
+    """Returns where robots can drive, (rows, columns); raises ProblemError."""
     lines = _text(path).splitlines()
     size = {}
     for number, expected in enumerate(("type", "height", "width", "map"), 1):
@@ -95,12 +99,14 @@ def read_map(path):
 
 
 class _Lines:
-    """The locations in a file of robots or tasks, each with the number of its line."""
+    """The locations in a file of robots or tasks: (number of the line, locations in it)."""
 
-    def __init__(self, path):
-        self.path, self.lines = path, []
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.lines: list[tuple[int, list[int]]] = []
 
-    def check(self, passable):
+    def check(self, passable: NDArray[np.bool_]) -> None:
+        """Raises ProblemError for a location outside the map or in a wall."""
         for number, locations in self.lines:
             for location in locations:
                 if not 0 <= location < passable.size:
@@ -111,8 +117,9 @@ class _Lines:
                 if not passable.flat[location]:
                     raise ProblemError(f"{self.path}:{number}: location {location} is in a wall")
 
-    def check_distinct(self):
-        first = {}
+    def check_distinct(self) -> None:
+        """Raises ProblemError for a location that occurs twice."""
+        first: dict[int, int] = {}  # the line of each location
         for number, (location,) in self.lines:
             if location in first:
                 raise ProblemError(
@@ -122,8 +129,9 @@ class _Lines:
             first[location] = number
 
 
-def _numbers(path, one_a_line):
-    result, count = _Lines(path), None
+def _numbers(path: Path, one_a_line: bool) -> _Lines:
+    result = _Lines(path)
+    count = None
     for number, line in enumerate(_text(path).splitlines(), 1):
         text = line.split("#", 1)[0].strip()
         if not text:
@@ -142,24 +150,24 @@ def _numbers(path, one_a_line):
     return result
 
 
-def _integer(word, path, number, least):
+def _integer(word: str, path: str | PathLike[str], number: int, least: int) -> int:
     try:
         value = int(word)
     except ValueError:
-        value = None
-    if value is None or value < least:
+        value = least - 1
+    if value < least:
         raise ProblemError(f"{path}:{number}: '{word}'; a whole number from {least} was expected")
     return value
 
 
-def _text(path):
+def _text(path: str | PathLike[str]) -> str:
     try:
         return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ProblemError(f"{path}: {getattr(error, 'strerror', None) or error}") from error
 
 
-def _json(path):
+def _json(path: Path) -> dict[str, Any]:
     try:
         data = json.loads(_text(path))
     except json.JSONDecodeError as error:
@@ -172,18 +180,34 @@ def _json(path):
 _MISSING = object()
 
 
-def _field(path, data, name, kind, default=_MISSING):
+def _field(
+    path: Path,
+    data: dict[str, Any],
+    name: str,
+    kind: type | tuple[type, ...],
+    default: Any = _MISSING,
+) -> Any:
+    """Returns a field of the JSON object if it is of that kind; raises ProblemError."""
     value = data.get(name, default)
     if value is _MISSING:
         raise ProblemError(f"{path}: there is no '{name}'")
     if isinstance(value, bool) or not isinstance(value, kind):
-        expected = {str: "a text", int: "a whole number"}.get(kind, "a number")
+        expected = "a text" if kind is str else "a whole number" if kind is int else "a number"
         raise ProblemError(f"{path}: {name} is {json.dumps(value)}; {expected} was expected")
     return value
 
 
-def write_problem(folder, name, passable, agents, tasks, round_robin=True, reveal=1):
-    """The four files of a problem in `folder`; the path of the one to read."""
+def write_problem(
+    folder: str | PathLike[str],
+    name: str,
+    passable: NDArray[np.bool_],
+    agents: Sequence[int] | NDArray[np.integer[Any]],
+    tasks: Sequence[Iterable[int]],
+    round_robin: bool = True,
+    reveal: float = 1,
+) -> Path:
+    """Writes the four files of a problem into `folder`, which is created if it does not exist.
+    Returns the path of the file for read(). The arguments are as the fields of Problem."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     rows = ["".join("." if cell else "@" for cell in row) for row in passable]

@@ -1,30 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Work for a fleet that has no orders: any units to any stations, each served for a while."""
+"""Random demand for a fleet without orders: any unit to any station, each served for a while."""
+
+from collections.abc import Iterable
 
 import numpy as np
 
-from warehouse_fleet.transports import Kind
+from warehouse_fleet.transports import Kind, TransportEvent, Transports
 from warehouse_layout.stations import PICK
 
 
 class RandomTransports:
-    """Keeps every picking station busy. `exchange` is the time from one unit to the next there [s],
-    of which a unit is served all but `CHANGE`.
+    """Submits and releases transports so that every picking station stays busy.
+
+    `exchange` is the time from one unit to the next at a station [s]; each unit is served for that
+    time less `CHANGE`.
     """
 
-    CHANGE = 4.0  # until the next unit stands where the last one stood [s]
+    CHANGE = 4.0  # from the release of a unit until the next one stands in its place [s]
 
-    def __init__(self, transports, seed=1, exchange=20.0):
+    def __init__(self, transports: Transports, seed: int = 1, exchange: float = 20.0) -> None:
         self._transports = transports
         self._dwell = max(0.0, exchange - self.CHANGE)
         self._random = np.random.default_rng(seed)
         self._stations = [s.name for s in transports.stations.values() if s.kind == PICK]
         self._idle = sorted(transports.cell_of_unit)  # units without a transport
-        self._own = set()  # numbers of transports
-        self._served = {}  # number of a transport: until when [s]
+        self._own: set[int] = set()  # numbers of the transports submitted here
+        self._served: dict[int, float] = {}  # end of service [s], by transport number
 
-    def advance(self, time, events):
-        """Goes on, by what has become of transports since the last call: TransportEvents."""
+    def advance(self, time: float, events: Iterable[TransportEvent]) -> None:
+        """Releases the units whose service is over at `time` [s], and submits new transports.
+        `events`: what happened to transports since the last call."""
         for event in events:
             if event.transport_id not in self._own:
                 continue
@@ -42,11 +47,11 @@ class RandomTransports:
                 chosen = int(self._random.integers(len(self._idle)))
                 unit = self._idle.pop(chosen)
                 answer = self._transports.submit(unit, station)
-                if not answer.accepted:  # somebody else has it brought somewhere
+                if not answer.accepted:  # perhaps another client has a transport for it
                     self._idle.append(unit)
                     break
                 self._own.add(answer.transport_id)
 
-    def _wants(self, station):
-        """One waits for a robot always."""
+    def _wants(self, station: str) -> bool:
+        """Returns whether the station is open and none of its transports waits for a robot."""
         return self._transports.open_for(station) == 0 and self._transports.is_open[station]

@@ -1,29 +1,60 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A coordinator that begins knows nothing of what robots were told before. Until all of that is
-over it releases nothing: so no robot drives into cells that another was released once."""
+"""Takes over robots that follow another coordinator's paths, and gives robots away."""
 
 import numpy as np
 
-from warehouse_fleet.traffic import IDLE, Mode
+from warehouse_fleet.robot_table import IDLE
+from warehouse_fleet.traffic import Traffic
 
-ON_ITS_WAY = 2.0  # for which a message may still come to a robot [s]
-MOST = 30.0  # after which it begins whatever a robot is still at [s]
+IN_TRANSIT = 2.0  # for which a message may still be on its way to a robot [s]
+LONGEST = 30.0  # after which a takeover ends whatever a robot is still doing [s]
+WAITING = 6  # KivaStatus.STATE_WAITING: the robot stands at the end of what was released to it
 
 
 class Takeover:
-    """Of the robots of a Traffic, which counts none as its own meanwhile; from `time` [s] on."""
+    """Keeps a Traffic from commanding robots until all of them stand, from `time` [s] on."""
 
-    def __init__(self, traffic, time):
+    def __init__(self, traffic: Traffic, time: float) -> None:
         self._traffic, self._since = traffic, time
         traffic.takes_over = True
 
-    def advance(self, time, report):
-        """Ends it when all of them stand, or are at work for a person."""
-        elapsed = time - self._since
-        is_over = elapsed > ON_ITS_WAY and not self._drive(report).any()
-        self._traffic.takes_over = not is_over and elapsed < MOST
+    def advance(self, reports: np.ndarray) -> None:
+        """Ends the takeover once no robot drives on a path any more, by reports (n,) of REPORT."""
+        elapsed = self._traffic.time - self._since
+        is_over = elapsed > IN_TRANSIT and not self._drive(reports).any()
+        self._traffic.takes_over = not is_over and elapsed < LONGEST
 
-    def _drive(self, report):
-        traffic = self._traffic
-        under_way = (np.asarray(report.path_id) != 0) & (np.asarray(report.status) != IDLE)
-        return under_way & (traffic.mode == Mode.AUTOMATIC) & ~traffic.broken
+    def _drive(self, reports: np.ndarray) -> np.ndarray:
+        robots = self._traffic.robots
+        under_way = (reports["path_id"] != 0) & (reports["status"] != IDLE)
+        return under_way & robots.automatic & ~robots.broken
+
+
+class Handover:
+    """Ends the paths of robots that leave the fleet: a path that was sent just before its
+    cancellation may have come to the robot after that."""
+
+    def __init__(self) -> None:
+        self._idle_since: dict[int, float | None] = {}  # by robot [s]; None: it is not idle
+
+    def begin(self, robot: int) -> None:
+        """Notes that a robot leaves the fleet."""
+        self._idle_since[robot] = None
+
+    def end(self, robot: int) -> None:
+        """Notes that a robot belongs to the fleet again."""
+        self._idle_since.pop(robot, None)
+
+    def waiting(self, time: float, reports: np.ndarray) -> list[int]:
+        """Returns the robots that wait on a path at that time [s], which is to be cancelled."""
+        found = []
+        for robot, since in list(self._idle_since.items()):
+            if reports["status"][robot] != IDLE:
+                self._idle_since[robot] = None
+                if reports["state"][robot] == WAITING:
+                    found.append(robot)
+            elif since is None:
+                self._idle_since[robot] = time
+            elif time - since > IN_TRANSIT:
+                del self._idle_since[robot]
+        return found

@@ -1,131 +1,68 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drives a fleet over the floor: from where each robot is to go, to paths that are released to it
-cell by cell. Neither ROS nor physics; whoever has robots tells what they report, and sends what is
-released.
+"""Drives a fleet over the floor: from the goal of each robot to paths that are released to it cell
+by cell. Neither ROS nor physics: the host hands in what robots report, and sends the releases.
 
     traffic = Traffic(plan, kiva_ids)
     every 0.1 s of simulated time:
-        traffic.observe(time, reports)            # x, y, yaw, …: the arrays of FleetState
-        traffic.send(robot, cell)                 # robots are indices into kiva_ids
+        traffic.update_robots(time, reports)      # (n,) of robot_table.REPORT
+        traffic.robots.send(robot, cell)          # robots are indices into kiva_ids
         world.follow(*traffic.releases())         # the arrays of FleetFollow
 """
 
-import collections
-import concurrent.futures
-import time as clock
-from enum import IntEnum
-from types import SimpleNamespace
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from warehouse_fleet import Execution, Rules, epibt
-from warehouse_fleet.failures import LIFTS_NOT, STANDS
+from warehouse_fleet import Execution
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_fleet.people import zone_around
-from warehouse_fleet.planner_plugins import PlanRefusedError, make_planner
-from warehouse_layout.floor_plan import is_taken
+from warehouse_fleet.plan_loop import PlanLoop
+from warehouse_fleet.robot_table import IDLE, NOWHERE, Mode, RobotTable
+from warehouse_fleet.watchdog import Watchdog
+from warehouse_layout.floor_plan import FloorPlan, is_taken
 
-NOWHERE = -1
-IDLE = 0  # KivaStatus.STATUS_IDLE
-HORIZON = 7  # ticks
-GUIDANCE = {  # measured
-    "turn_ticks": 2,
-    "crowd": 10,
-    "resting": 8,
-    "at_lanes": 1,
-    "memory": 50,
-    "patience": 15,
-}
 FOREIGN = 3  # reports after which a robot that is busy with something else is MANUAL
-TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
-STUCK = 30.0  # without progress, after which the watchdog counts a robot [s]
-WAITS = 5.0  # without progress, from when on it is looked at whom a robot waits for [s]
-MOVES_UP = 10.0  # who has moved in a lane within this is about to be served, or leaves [s]
-LOOK = 1.0  # between two looks at that map [s]
-STAYS = 2.5  # for which what was seen is taken to stay [s]
-REPORTED = (  # of FleetState, beside kiva_id
-    *("x", "y", "yaw", "vx", "vy"),
-    *("status", "state", "shelf_id", "path_id", "reached", "left"),
-    *("failures", "charge"),
-)
+MAP_PERIOD = 1.0  # between two looks at the world's map [s]
+STAYS = 2.5  # for which an obstacle is taken to stay where it was seen [s]
 
 
-class Mode(IntEnum):
-    """Who commands a robot."""
+class Releases(NamedTuple):
+    """Paths and how far each is released: the arrays of FleetFollow."""
 
-    AUTOMATIC = 0
-    MANUAL = 1
-    OUT_OF_SERVICE = 2
+    kiva_id: np.ndarray  # (m,) int32
+    path_id: np.ndarray  # (m,) uint32
+    first: np.ndarray  # (m,) uint32: the index on its path of the first point that is sent
+    points: np.ndarray  # (m,) uint32: how many points are sent
+    x: np.ndarray  # [m] in the frame world, of all points in a row
+    y: np.ndarray  # [m]
+    released: np.ndarray  # (m,) uint32: how many points of the path may be passed
 
 
 class Traffic:
-    """Who is where, who goes where, and by which plan.
+    """Execution of plans for the robots of a RobotTable, on the floor of a FloorPlan.
 
-    Arrays with an element a robot: `goal`, `home` (cells), `loaded`, `busy` (it lifts, or is at
-    work: it stays), `mode`, `gone` (it was deleted: its mode counts for nothing), `broken` (it
-    stands, or is not heard) and `lifts_not`, by what it reports of itself, `minds` (it is slow, or
-    waits, for people's sake). `planner` is what a YAML file says of one, see
-    warehouse_fleet.planner_plugins; None: the one of the house. `latency` [s] passes from a report
-    until what is released for it has reached the robot. While it `takes_over` all robots are
-    obstacles: what others told them is not
-    over yet. A plan is begun every tick on a thread of its own, and taken up `lag` seconds later,
-    whenever it is ready: so a run does not depend on the machine.
+    `latency` [s] passes from a report until what is released for it has reached the robot. While
+    the fleet `takes_over`, all robots are obstacles: paths that another coordinator sent them are
+    not over yet. For `planner` and `lag` see PlanLoop.
     """
 
     def __init__(
         self,
-        plan,
-        kiva_ids,
-        kinematics=None,
-        seed=1,
-        planner=None,
+        plan: FloorPlan,
+        kiva_ids: np.ndarray,
+        kinematics: Kinematics | None = None,
+        seed: int = 1,
+        planner: Any = None,
         *,
-        latency=0.25,
-        attempts=0,
-        lag=0.1,
-    ):
-        self.plan, self.kiva_ids = plan, np.asarray(kiva_ids, np.int32)
+        latency: float = 0.25,
+        attempts: int = 0,
+        lag: float = 0.1,
+    ) -> None:
         kinematics = kinematics or Kinematics()
-        self.floor = plan.floor()
-        # Whose turn it is to turn, Execution decides: robots turn when they may drive on.
-        rules = Rules(turning=True)
-        if planner is None:
-            self.planner = epibt(self.floor, rules, seed, horizon=HORIZON, **GUIDANCE)
-        else:
-            names = [f"kiva{kiva}" for kiva in self.kiva_ids]
-            self.planner = make_planner(self.floor, rules, seed, planner, names)
-        self.refused_plans = 0
-        self.alarm = ""  # why the last plan was refused
-        self.attempts, self.lag = attempts, lag
-        self.tick = plan.spacing / kinematics.speed
-        count = len(self.kiva_ids)
-        self.goal = np.full(count, NOWHERE, np.int32)
-        self.home = np.full(count, NOWHERE, np.int32)
-        self.loaded = np.zeros(count, bool)
-        self.busy = np.zeros(count, bool)
-        self.mode = np.zeros(count, np.uint8)
-        self.gone = np.zeros(count, bool)
-        self.failures = np.zeros(count, np.uint8)  # what is broken, as in FleetState
-        self.charge = np.ones(count, np.float32)  # of batteries, 0…1
-        self.broken = np.zeros(count, bool)
-        self.lifts_not = np.zeros(count, bool)
-        self.minds = np.zeros(count, bool)
-        self.cell = np.full(count, NOWHERE, np.int32)  # where each stands, or stood last
-        self.stands = np.zeros(count, bool)  # with nothing before it
-        self.waits_for = np.full(count, NOWHERE, np.int32)  # a robot
-        self.still_since = np.zeros(count)
-        self.stalled = np.zeros(count, bool)  # does not drive although it may
-        self.stalled_since = np.full(count, np.inf)  # [s]
-        self.astray = np.zeros(count, bool)  # was pushed off the middle of its cell
-        self.lost = np.zeros(count, bool)  # and did not find back: it is OUT_OF_SERVICE since then
-        self.plan_seconds = collections.deque(maxlen=10000)  # computing time of the last plans
-        self.watchdog = 0  # how often a robot made no progress for STUCK
+        self.plan, self.floor = plan, plan.floor()
+        self.robots = RobotTable(kiva_ids)
+        self.time = 0.0  # of the last reports [s]
         self.takes_over = False
-        self._settled = np.zeros(count, bool)  # has been idle since this began
-        self._foreign = np.zeros(count, np.uint8)  # reports in a row
-        self._stuck = np.zeros(count, bool)
-        self._excused = np.full(count, -np.inf)  # when it was seen to wait for work last [s]
-        self.time = 0.0
         self._execution = Execution(
             self.floor,
             origin=plan.origin,
@@ -135,282 +72,188 @@ class Traffic:
             quarter=kinematics.quarter_turn,
             latency=latency,
         )
-        self._after = {}  # the next cell of a lane, by cell
+        self.plans = PlanLoop(
+            self.floor,
+            self._execution,
+            [f"kiva{kiva}" for kiva in self.robots.kiva_ids],
+            tick=plan.spacing / kinematics.speed,
+            lag=lag,
+            seed=seed,
+            planner=planner,
+            attempts=attempts,
+        )
+        self.watchdog = Watchdog(self)
+        self._settled = np.zeros(len(self.robots), bool)  # has been idle since this began
+        self._foreign = np.zeros(len(self.robots), np.uint8)  # reports in a row
+        self._after: dict[int, int] = {}  # the next cell of a lane, by cell
         for station in plan.stations:
             cells = station.cells.tolist()
             self._after.update(zip(cells, cells[1:]))
-        self._thread = concurrent.futures.ThreadPoolExecutor(1, "planner")
-        self._plan, self._due, self._next = None, 0.0, 0.0
-        self._next_look = self._obstructed_until = 0.0
+        self._next_map = self._obstructed_until = 0.0
         self._units = np.zeros(0, np.int32)
-        self._somebody = False  # was there when people were told last
+        self._had_people = False
         self._fallen = 0  # items on the floor
 
-    def close(self):
+    def close(self) -> None:
         """Ends the planner's thread."""
-        self._thread.shutdown()
+        self.plans.close()
 
-    def is_stale(self, time):
-        """Whether a report of that time was overtaken by another."""
+    def is_stale(self, time: float) -> bool:
+        """Returns whether a later report than one of that time [s] has been taken in."""
         return time < self.time
 
-    def aligned(self, report):
-        """Returns the report with an element for each of `kiva_ids`. Robots that are gone stand
-        nowhere and are OUT_OF_SERVICE; those that come back are in the mode that they report."""
-        ids = np.asarray(report.kiva_id)
-        if np.array_equal(ids, self.kiva_ids):
-            gone = np.zeros(len(ids), bool)
-        else:
-            gone = ~np.isin(self.kiva_ids, ids)
-            report = self._spread(report, ids, gone)
-        back = self.gone & ~gone
-        self.mode[gone] = Mode.OUT_OF_SERVICE
-        self.mode[back] = np.asarray(getattr(report, "mode", np.zeros_like(self.mode)))[back]
-        self.gone = gone
-        return report
-
-    def _spread(self, report, ids, gone):
-        order = np.argsort(ids)
-        at = order[np.searchsorted(ids[order], self.kiva_ids[~gone])]
-        out = SimpleNamespace(kiva_id=self.kiva_ids)
-        for name in (*REPORTED, "mode"):
-            if not hasattr(report, name):
-                continue  # a world in this process keeps no modes
-            values = np.asarray(getattr(report, name))
-            column = np.zeros(len(gone), values.dtype)
-            column[~gone] = values[at]
-            setattr(out, name, column)
-        out.x[gone] = out.y[gone] = np.nan
-        return out
-
-    def observe(self, time, report):
-        """Takes in what all robots report: an object with the arrays of FleetState."""
+    def update_robots(self, time: float, reports: np.ndarray) -> None:
+        """Takes in what all robots report at that time [s]: aligned reports (n,) of REPORT."""
+        robots, execution = self.robots, self._execution
         self.time = time
-        self.charge = np.array(report.charge)
-        self._see_failures(np.asarray(report.failures))
-        self._execution.observe(
+        robots.update_health(reports)
+        execution.set_broken(robots.broken)
+        execution.observe(
             time,
-            report.x,
-            report.y,
-            report.yaw,
-            report.vx,
-            report.vy,
-            report.status,
-            report.state,
-            report.path_id,
-            report.reached,
-            report.left,
-            (self.mode == Mode.AUTOMATIC) & (not self.takes_over),
-            self.busy,
-            self.loaded,
+            reports["x"],
+            reports["y"],
+            reports["yaw"],
+            reports["vx"],
+            reports["vy"],
+            reports["status"],
+            reports["state"],
+            reports["path_id"],
+            reports["reached"],
+            reports["left"],
+            robots.automatic & (not self.takes_over),
+            robots.busy,
+            robots.loaded,
         )
-        self.cell = self._execution.cell()
-        self.stands = self._execution.stands()
-        self.stalled = self._execution.stalled()
-        self.stalled_since = np.where(self.stalled, np.minimum(self.stalled_since, time), np.inf)
-        self.astray = self._execution.astray()
-        self.lost = (self.lost & (self.mode == Mode.OUT_OF_SERVICE)) | self._execution.lost()
-        self.lost &= ~self.gone
-        self.mode[self.lost] = Mode.OUT_OF_SERVICE
-        self.still_since = self._execution.still_since()
-        self._find_foreign(report)
-        self._watch()
-        self._avoid_trapped()
+        robots.cell = execution.cell()
+        robots.stands = execution.stands()
+        robots.stalled = execution.stalled()
+        robots.stalled_since = np.where(
+            robots.stalled, np.minimum(robots.stalled_since, time), np.inf
+        )
+        robots.astray = execution.astray()
+        robots.lost = (robots.lost & (robots.mode == Mode.OUT_OF_SERVICE)) | execution.lost()
+        robots.lost &= ~robots.gone
+        robots.mode[robots.lost] = Mode.OUT_OF_SERVICE
+        robots.still_since = execution.still_since()
+        self._find_foreign(reports)
+        self.watchdog.update()
+        self._close_trapped()
 
-    def _see_failures(self, failures):
-        self.failures = failures
-        self.broken = (failures & STANDS) != 0
-        self.lifts_not = (failures & LIFTS_NOT) != 0
-        self._execution.set_broken(self.broken)
+    def inherited(self, reports: np.ndarray) -> np.ndarray:
+        """Returns (n,) bool: robots that have been on paths since before this began."""
+        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
 
-    def inherited(self, report):
-        """Which robots have been on paths since before this began, by what they report."""
-        return ~self._settled & (report.path_id != 0) & (report.status != IDLE)
-
-    def _find_foreign(self, report):
-        """A robot that was idle and is busy with something else is commanded by a person."""
-        foreign = self._execution.foreign() & self._settled & (self.mode == Mode.AUTOMATIC)
+    def _find_foreign(self, reports: np.ndarray) -> None:
+        """Sets robots MANUAL that were idle and are busy with a person's command."""
+        robots = self.robots
+        foreign = self._execution.foreign() & self._settled & robots.automatic
         if not self.takes_over:
-            self._settled |= np.asarray(report.status) == IDLE
+            self._settled |= reports["status"] == IDLE
         self._foreign = np.where(foreign, self._foreign + 1, 0).astype(np.uint8)
-        self.mode[self._foreign >= FOREIGN] = Mode.MANUAL
+        robots.mode[self._foreign >= FOREIGN] = Mode.MANUAL
 
-    def _watch(self):
-        """Counts who makes no progress; waiting for who is at work in a station, or broken, is none
-        of it."""
-        self._excused[self.broken | self.minds] = self.time
-        for robot in np.flatnonzero(self.stuck_for > WAITS):
-            if self._waits_for_work(robot):
-                self._excused[robot] = self.time
-        stuck = self.stuck_for > STUCK
-        self.watchdog += int(np.count_nonzero(stuck & ~self._stuck))
-        self._stuck = stuck
-
-    @property
-    def stuck_for(self):
-        """How long each has made no progress although it waits for nobody at work [s]; WAITS is
-        the first moment at which that is looked at."""
-        return self.time - np.maximum(self.still_since, self._excused)
-
-    def _avoid_trapped(self):
-        """Loaded robots can't turn back in a one-way street that ends before an obstacle. Whoever
-        is to take that away comes another way."""
+    def _close_trapped(self) -> None:
         if not len(self._units) and self.time > self._obstructed_until:
             return
-        trapped = (self.time - self.still_since > TRAPPED) & ~self.stalled & ~self.busy
-        trapped &= (self.mode == Mode.AUTOMATIC) & ~self.plan.lane.ravel()[self.cell]
-        for cell in self.cell[trapped]:
-            self._execution.close(int(cell), self.time + LOOK)
+        for cell in self.watchdog.trapped_cells():
+            self._execution.close(int(cell), self.time + MAP_PERIOD)
 
-    def _waits_for_work(self, robot):
-        seen = set()
-        while robot != NOWHERE and robot not in seen:
-            seen.add(robot)
-            robot = self.ahead_of(robot)
-            if robot != NOWHERE and (self.busy[robot] or self.mode[robot] != Mode.AUTOMATIC):
-                return True
-            if robot != NOWHERE and (self.broken[robot] or self.minds[robot]):
-                return True
-            if robot != NOWHERE and self._moves_up(robot):
-                return True
-        return False
-
-    def _moves_up(self, robot):
-        """Whether it has just moved in a lane, which all pass in their order."""
-        in_lane = self.plan.lane.flat[self.cell[robot]]
-        return in_lane and self.time - self.still_since[robot] < MOVES_UP
-
-    def ahead_of(self, robot):
-        """Whom it waits for: by the plan, or who holds the next cell of its lane; or NOWHERE."""
-        ahead = int(self.waits_for[robot])
-        if ahead != NOWHERE or self.busy[robot]:
+    def ahead_of(self, robot: int) -> int:
+        """Returns the robot for which one waits, by the plan or because it holds the next cell of
+        the lane; or NOWHERE."""
+        ahead = int(self.robots.waits_for[robot])
+        if ahead != NOWHERE or self.robots.busy[robot]:
             return ahead
-        after = self._after.get(int(self.cell[robot]), NOWHERE)
+        after = self._after.get(int(self.robots.cell[robot]), NOWHERE)
         return self.holder(after) if after != NOWHERE else NOWHERE
 
-    def holder(self, cell):
-        """The robot that a cell has been released to, or that stands there; or NOWHERE."""
+    def holder(self, cell: int) -> int:
+        """Returns the robot that a cell has been released to, or that stands there; or NOWHERE."""
         return self._execution.holder(int(cell))
 
     @property
-    def arrived(self):
-        """Which robots stand where they were sent."""
-        return np.flatnonzero(self.stands & ~self.busy & (self.cell == self.goal))
+    def arrived(self) -> np.ndarray:
+        """The robots that stand at their goal."""
+        robots = self.robots
+        return np.flatnonzero(robots.stands & ~robots.busy & (robots.cell == robots.goal))
 
-    def send(self, robot, cell, home=NOWHERE):
-        """A robot is to go there; `home` is a storage place that it may enter with a load."""
-        self.goal[robot], self.home[robot] = cell, home
-
-    def index(self, kiva_id):
-        """Which robot that is; NOWHERE if there is none."""
-        return next(iter(np.flatnonzero(self.kiva_ids == kiva_id).tolist()), NOWHERE)
-
-    def refused(self, model):
-        """A robot, by its model's name, has refused its path."""
-        robot = self.index(int(model.removeprefix("kiva")))
+    def on_refused(self, model: str) -> None:
+        """Notes that a robot, by its model's name, has refused its path."""
+        robot = self.robots.index(int(model.removeprefix("kiva")))
         if robot != NOWHERE:
             self._execution.refused(robot)
 
-    def shut(self, cell, until):
-        """Nobody may enter a cell for so long."""
+    def shut(self, cell: int, until: float) -> None:
+        """Closes a cell for all robots until that time [s]."""
         self._execution.close(cell, until)
         self._obstructed_until = max(self._obstructed_until, until)
 
     @property
-    def closed(self):
-        """Cells that nobody may enter now."""
+    def closed(self) -> np.ndarray:
+        """The cells that no robot may enter now."""
         return self._execution.closed()
 
     @property
-    def wants_map(self):
-        """Whether to look what stands on the floor now: only while something is in the way."""
-        if self.time < self._next_look or not (self._execution.closing or self._fallen):
-            return False
-        self._next_look = self.time + LOOK
-        return True
+    def wants_map(self) -> bool:
+        """Whether update_map() is due: only while something is in the way."""
+        return self.time >= self._next_map and bool(self._execution.closing or self._fallen)
 
-    def see(self, cells):
-        """What stands on the floor, (h, w) of the world's map: nobody may enter where something
-        does, until it is seen no more."""
-        cells = np.asarray(cells)
-        if cells.shape == self.plan.shape:
-            for cell in np.flatnonzero(is_taken(cells) & self.plan.passable).tolist():
-                self.shut(cell, self.time + STAYS)
-                if self._fallen:  # too low for lasers
-                    self._execution.recall(cell)
+    def update_map(self, occupancy: np.ndarray | None) -> None:
+        """Closes the cells where something stands, by the world's map (h, w) uint8, until the map
+        shows them free. None: there is no map now."""
+        self._next_map = self.time + MAP_PERIOD
+        if occupancy is None or occupancy.shape != self.plan.shape:
+            return
+        for cell in np.flatnonzero(is_taken(occupancy) & self.plan.passable).tolist():
+            self.shut(cell, self.time + STAYS)
+            if self._fallen:  # too low for lasers
+                self._execution.recall(cell)
 
-    def see_fallen(self, count):
-        """So many items lie on the floor: the cells where the map has them are closed while they
-        do, from now on."""
+    def update_fallen(self, count: int) -> None:
+        """Notes how many items lie on the floor: while some do, the map is looked at."""
         if count != self._fallen:
-            self._next_look = self.time
+            self._next_map = self.time
         self._fallen = count
 
-    def see_people(self, people):
-        """Who walks on the floor, as warehouse_fleet.people has them: a zone is closed around each,
-        and opened behind. Whoever stands at its edge waits for them."""
-        if not people.name and not self._somebody:
+    def update_people(self, people: Any) -> None:
+        """Closes a zone around each person, and opens it behind; see warehouse_fleet.people.
+        Robots at its edge wait for them."""
+        if not people.name and not self._had_people:
             return
-        self._somebody = bool(people.name)
+        self._had_people = bool(people.name)
         zone = zone_around(self.plan, people)
         self._execution.set_zone(zone)
         edge = self.plan.beside(zone) if len(zone) else zone
-        self.minds = np.isin(self.kiva_ids, [*people.slowed, *people.stopped])
-        self.minds |= np.isin(self.cell, edge)
+        robots = self.robots
+        robots.slowed_for_people = np.isin(robots.kiva_ids, [*people.slowed, *people.stopped])
+        robots.slowed_for_people |= np.isin(robots.cell, edge)
 
-    def set_units(self, cells):
-        """Units stand in these cells beyond storage places: nobody passes there with a load."""
+    def set_units(self, cells: Any) -> None:
+        """Closes cells for loaded robots: units stand there, off the storage places."""
         self._units = np.asarray(cells, np.int32)
         self._execution.set_units(self._units)
 
-    def journey(self, robot):
-        """(seconds driven, seconds planned, cells) since the last call."""
-        return self._execution.take_journey(robot)
+    def journey(self, robot: int) -> tuple[float, float, int]:
+        """Returns (seconds driven, seconds planned, cells) since the last call for that robot."""
+        driven, planned, cells = self._execution.take_journey(robot)
+        return driven, planned, cells
 
     @property
-    def blocked(self):
+    def blocked(self) -> int:
         """How often a robot was BLOCKED before a cell of its own."""
         return self._execution.blocked
 
-    def releases(self):
-        """What is to be sent now, as the arrays of FleetFollow: kiva_id, path_id, first, points, x,
-        y, released. Plans as well, when it is time."""
-        self._execution.set_work(self.busy, self.loaded)
-        if self._plan is not None and self.time >= self._due - 1e-9:
-            actions = self._take_plan()
-            if actions is not None:
-                self._execution.adopt(actions)
-        robots, path_id, first, points, cells, released = self._execution.release()
-        self.waits_for = self._execution.waits_for()
-        if self._plan is None and self.time >= self._next - 1e-9:
-            self._begin_plan()
+    def releases(self) -> Releases:
+        """Returns what is to be sent now; adopts and begins plans that are due."""
+        robots = self.robots
+        self._execution.set_work(robots.busy, robots.loaded)
+        self.plans.adopt_due(self.time)
+        index, path_id, first, points, cells, released = self._execution.release()
+        robots.waits_for = self._execution.waits_for()
+        self.plans.begin_due(self.time, robots.goal, robots.home)
         x, y = self.plan.point_of(cells)
-        return self.kiva_ids[robots], path_id, first, points, x, y, released
+        return Releases(robots.kiva_ids[index], path_id, first, points, x, y, released)
 
-    def _begin_plan(self):
-        fleet = self._execution.fleet(self.goal, self.home, HORIZON)
-        self._next = max(self._next + self.tick, self.time)
-        if len(fleet):
-            self._plan = self._thread.submit(self._think, fleet)
-            self._due = self.time + self.lag
-
-    def _think(self, fleet):
-        begin = clock.thread_time()
-        actions = self.planner.plan(fleet, attempts=self.attempts)
-        self.plan_seconds.append(clock.thread_time() - begin)
-        return actions
-
-    def _take_plan(self):
-        """The plan's actions; None if it was refused: robots go on with what they have then."""
-        plan, self._plan = self._plan, None
-        self.alarm = ""
-        try:
-            return plan.result()
-        except PlanRefusedError as error:
-            self.alarm = f"a plan was refused: {error}"
-            self.refused_plans += 1
-            return None
-
-    def paths(self, robot):
-        """(cells that it holds, cells planned beyond)."""
+    def paths(self, robot: int) -> tuple[list[int], list[int]]:
+        """Returns (the cells that a robot holds, the cells planned beyond)."""
         return self._execution.released(robot), self._execution.planned(robot)

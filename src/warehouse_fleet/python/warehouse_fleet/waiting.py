@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Why robots wait that have somewhere to go, in words for a person; and what each robot does."""
+"""Explains to a person why robots wait that have somewhere to go, and what each robot does."""
+
+from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.traffic import NOWHERE, Mode
-from warehouse_fleet.transports import Step
+from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.transport_book import Step, Transport
+
+if TYPE_CHECKING:
+    from warehouse_fleet.traffic import Traffic
 
 WAITS_LONG = 10.0  # [s]
 DOES = {
@@ -19,35 +25,42 @@ DOES = {
 
 
 class Waiting:
-    """Of a fleet, by its Traffic and Transports. `by_hand`: names of stations where a person
-    works."""
+    """The waiting robots of a Traffic with its transports. `by_hand`: names of the stations where a
+    person works."""
 
-    def __init__(self, traffic, transports, by_hand=frozenset()):
-        self._traffic, self._by_hand = traffic, by_hand
-        self._transports = transports
+    def __init__(
+        self,
+        traffic: "Traffic",
+        transports: Iterable[Transport],
+        by_hand: Collection[str] = frozenset(),
+    ) -> None:
+        self._traffic, self._robots, self._by_hand = traffic, traffic.robots, by_hand
         self._of_robot = {t.robot: t for t in transports if t.robot != NOWHERE}
 
-    def doing(self):
-        """What each robot does that is there, one word each: {kiva_id: word}."""
-        traffic = self._traffic
+    def doing(self) -> dict[int, str]:
+        """Returns {kiva_id: word}: what each robot that is there does."""
         return {
             int(kiva): self._does(robot)
-            for robot, kiva in enumerate(traffic.kiva_ids)
-            if not traffic.gone[robot]
+            for robot, kiva in enumerate(self._robots.kiva_ids)
+            if not self._robots.gone[robot]
         }
 
-    def _does(self, robot):
-        mode = Mode(self._traffic.mode[robot])
+    def _does(self, robot: int) -> str:
+        mode = Mode(self._robots.mode[robot])
         if mode != Mode.AUTOMATIC:
             return mode.name.lower()
         transport = self._of_robot.get(robot)
         return DOES[transport.step] if transport else "idle"
 
-    def long(self):
-        """[(robot, text)] of those that have stood for WAITS_LONG; none in the queue of a station
-        that itself waits for a person."""
+    def long(self) -> list[tuple[int, str]]:
+        """Returns [(robot, text)]: robots that have stood for WAITS_LONG, and the reason. Leaves
+        out those in the queue of a station that itself waits for a person."""
         traffic = self._traffic
-        still = (traffic.time - traffic.still_since > WAITS_LONG) & ~traffic.busy & ~traffic.gone
+        still = (
+            (traffic.time - self._robots.still_since > WAITS_LONG)
+            & ~self._robots.busy
+            & ~self._robots.gone
+        )
         found = []
         for robot in np.flatnonzero(still).tolist():
             last = self._last_ahead(robot)
@@ -56,8 +69,8 @@ class Waiting:
                 found.append((robot, self._reason(robot, last, station)))
         return found
 
-    def for_people(self):
-        """Sentences: which stations wait for a person to confirm, and for how long."""
+    def for_people(self) -> list[str]:
+        """Returns a sentence for each station that waits for a person to confirm, and how long."""
         return [
             f"{station} waits for a person, {_lasting(self._traffic.time - transport.since)}"
             for robot, transport in sorted(self._of_robot.items())
@@ -65,40 +78,40 @@ class Waiting:
             and self._traffic.time - transport.since > WAITS_LONG
         ]
 
-    def _served_at(self, robot):
-        """The station at which a robot's unit is served now; an empty name if at none."""
+    def _served_at(self, robot: int) -> str:
+        """Returns the station at which a robot's unit is served now; an empty name if at none."""
         transport = self._of_robot.get(robot)
         return transport.station if transport and transport.step == Step.WAITING else ""
 
-    def _last_ahead(self, robot):
-        """The robot at the head of the queue that a robot stands in; itself if it heads it."""
+    def _last_ahead(self, robot: int) -> int:
+        """Returns the robot at the head of the queue in which a robot is; itself at its head."""
         seen = {robot}
         while (ahead := self._traffic.ahead_of(robot)) != NOWHERE and ahead not in seen:
             seen.add(ahead)
             robot = ahead
         return robot
 
-    def _reason(self, robot, last, station):
-        traffic, ahead = self._traffic, self._traffic.ahead_of(robot)
+    def _reason(self, robot: int, last: int, station: str) -> str:
+        ahead = self._traffic.ahead_of(robot)
         if ahead == NOWHERE:
-            if traffic.minds[robot]:
+            if self._robots.slowed_for_people[robot]:
                 return "for people on the floor"
-            if traffic.broken[robot]:
+            if self._robots.broken[robot]:
                 return "until it is repaired"
-            return "for a way that is free"
-        behind = f"behind kiva{traffic.kiva_ids[ahead]}"
+            return "until its way is free"
+        behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
         if station:
             return f"in the queue of {station} {behind}"
-        if traffic.broken[ahead]:
+        if self._robots.broken[ahead]:
             return f"{behind}, which is broken"
-        if traffic.mode[ahead] != Mode.AUTOMATIC:
-            return f"{behind}, which is {Mode(traffic.mode[ahead]).name}"
+        if self._robots.mode[ahead] != Mode.AUTOMATIC:
+            return f"{behind}, which is {Mode(self._robots.mode[ahead]).name}"
         return (
             behind
             if last == ahead
-            else f"{behind}, in a row that kiva{traffic.kiva_ids[last]} heads"
+            else f"{behind}, in a row that kiva{self._robots.kiva_ids[last]} heads"
         )
 
 
-def _lasting(seconds):
+def _lasting(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"

@@ -29,15 +29,16 @@ class Candidates {
   /// Operations of `depth` ticks, in plans of `horizon` ticks.
   Candidates(const Floor& floor, const Edges& edges, int depth, int horizon);
 
-  /// A new step, nobody's candidates are known, no cell is kept.
+  /// Begins a step: no candidates are known, no cell is kept.
   void begin(int robots);
-  /// In this step nobody enters a cell whose goal it is not, but those who are committed to.
+  /// Closes a cell in this step for robots whose goal it is not, unless they are committed to it.
   void keep(Cell cell);
 
   /// Works them out, once a step.
   const std::vector<Path>& of(int robot, const Wish& wish);
 
-  /// Keeps to what is committed, and stands from then on. Allowed if nobody else does otherwise.
+  /// Returns the candidate that keeps to what is committed, and stands from then on. It is allowed
+  /// if no other robot is in its way.
   Path standing(const Wish& wish) const;
   /// What is left of a path that was planned from `begin`, a tick ago or longer: keeps to what is
   /// committed, goes on from there as planned, and stands from then on, or at once if the path does

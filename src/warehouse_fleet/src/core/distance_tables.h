@@ -59,7 +59,7 @@ class DistanceTables {
   /// is urgent to who does not get on with it.
   const DistanceTable* find(Deck deck, Cell goal, bool is_urgent);
 
-  /// Of those that were asked for in this step, makes at most so many anew, the urgent and the
+  /// Renews at most so many of the tables that were asked for in this step, the urgent and the
   /// oldest first, that are older than `max_age` or of earlier edges.
   void renew(int max_age, int builds);
 

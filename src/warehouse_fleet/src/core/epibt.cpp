@@ -167,7 +167,7 @@ void Epibt::observe(const Fleet& fleet) {
   if (now_ % kRefresh == 0) guidance_->refresh();
 }
 
-/// Takes the edges away that lead into cells where nobody may go, and gives those of others back.
+/// Removes the edges that lead into closed cells, and restores those of cells that are open again.
 void Epibt::close(const Fleet& fleet) {
   std::vector<Cell> under = fleet.closed;
   for (int robot = 0; robot < fleet.size(); ++robot) {
@@ -263,7 +263,8 @@ void Epibt::inherit(const Fleet& fleet) {
   for (int robot = 0; robot < fleet.size(); ++robot) reserved_->place(robot, rests[robot]);
 }
 
-/// All stand first but those who are committed, and who is in nobody's way takes up its path again.
+/// Has all robots stand but the committed ones; a robot that blocks no other takes up its path
+/// again.
 void Epibt::resume(const std::vector<Path>& rests) {
   const int robots = static_cast<int>(rests.size());
   for (const bool is_committed : {true, false}) {
@@ -290,8 +291,9 @@ void Epibt::resume(const std::vector<Path>& rests) {
 }
 
 /// Who is nearest to its goal goes first, which serves throughput; what a robot has waited counts
-/// against what it has still to go, so that nobody waits for ever. Who stands for long counts it
-/// manifold: beside a stream of robots that have waited elsewhere it would never be let in.
+/// against what it has still to go, so that no robot waits for ever. A robot that stands for long
+/// counts it manifold: beside a stream of robots that have waited elsewhere it would never be let
+/// in.
 void Epibt::prioritise(const Fleet& fleet) {
   constexpr int kWaitingWorth = 2;    // of kTickCost, a tick
   constexpr int kStandingWorth = 24;  // the same, of those after the first
@@ -327,9 +329,9 @@ void Epibt::prioritise(const Fleet& fleet) {
   pass_ = search_ = 0;
 }
 
-/// Of those who go to the same cell the nearest inherits the first place, and so on. Whoever has
-/// waited longer behind it would else push it past where both go. Those who make way are told
-/// something else.
+/// Of the robots that go to the same cell the nearest inherits the first place, and so on. A robot
+/// that has waited longer behind it would else push it past where both go. Those who make way are
+/// told something else.
 void Epibt::nearestFirst(const std::vector<int>& distance, std::vector<int>& key) const {
   std::vector<int> by_distance;
   for (int robot = 0; robot < static_cast<int>(key.size()); ++robot) {

@@ -37,7 +37,7 @@ class Guidance {
   /// The tick is over.
   void tick();
 
-  /// Works the costs out anew from what was seen.
+  /// Computes the costs again from the traffic seen.
   void refresh();
   /// By cell and heading, in kTickCost.
   const std::vector<std::uint8_t>& costs() const { return costs_; }

@@ -4,7 +4,7 @@
 namespace fleet {
 namespace {
 
-/// The one of two answers that tells more: the other if one is nobody, several if they differ.
+/// Returns the answer of two that tells more: the other if one is none, several if they differ.
 int merged(int one, int other) {
   if (one == Reservations::kNobody || one == other) return other;
   return other == Reservations::kNobody ? one : Reservations::kSeveral;

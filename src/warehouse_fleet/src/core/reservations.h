@@ -29,7 +29,7 @@ class Reservations {
 
   /// Where following is not allowed, only what is committed must keep to it: all else can wait.
   /// Whom of those that have a path `robot`, which has none, would be in the way of on this one:
-  /// nobody, a robot's number, or several (or one that can't give way).
+  /// none, a robot's number, or several (or one that can't give way).
   int conflict(int robot, const Path& path) const;
 
  private:

@@ -71,7 +71,7 @@ class Drive {
 
   bool moves(int robot) const { return now_[robot].cell != then_[robot].cell; }
 
-  /// The robot that leaves the cell that this one enters; -1: nobody does.
+  /// Returns the robot that leaves the cell which this one enters; -1: none does.
   int leader(int robot) const {
     if (!moves(robot)) return -1;
     const auto other = stood_.find(then_[robot].cell);

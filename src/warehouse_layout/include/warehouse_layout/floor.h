@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The grid that a fleet drives on: cells, and the two static graphs over them. A robot without a
+// Cells of the grid that a fleet drives on, and the two static graphs over them. A robot without a
 // load drives on the deck beneath the storage units, one with a load on the aisles alone.
 #pragma once
 
@@ -23,19 +23,18 @@ constexpr Heading turned(int heading, int quarters) {
   return static_cast<Heading>((heading + quarters) & 3);
 }
 
-/// Which graph a robot drives on.
+/// The graph that a robot drives on.
 enum class Deck : std::uint8_t {
   kUnder = 0,   ///< unloaded: the whole floor, beneath storage units too
   kAisles = 1,  ///< loaded: all but storage places; its own is allowed besides
 };
 
-/// What can't be planned with: the message says where and what was expected.
+/// Thrown for a floor that can't be planned on; the message says where and what was expected.
 struct FloorError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a floor is made from. All vectors have width * height elements, or none where a default is
-/// named.
+/// Describes a floor. All vectors have width * height elements, or none where a default is named.
 struct FloorDescription {
   int width = 0;                       ///< cells along x
   int height = 0;                      ///< cells along y
@@ -45,11 +44,11 @@ struct FloorDescription {
   std::vector<std::uint8_t> exits;     ///< bit h: may be left towards heading h (default: all)
 };
 
-/// Cells and who is whose neighbour. Never changes; what comes and goes (a dead robot, a closed
-/// cell) is told at each planning step.
+/// Cells and their neighbours. Never changes: temporary obstacles (a dead robot, a closed cell) are
+/// given to each planning step.
 class Floor {
  public:
-  /// Throws FloorError.
+  /// Throws FloorError if the size or the length of a vector is wrong.
   explicit Floor(const FloorDescription& description);
 
   int width() const { return width_; }
@@ -62,17 +61,17 @@ class Floor {
   bool isStorage(Cell cell) const { return storage_[cell]; }
   bool isLane(Cell cell) const { return lane_[cell]; }
 
-  /// The cell in front of one who stands in `cell`; kNowhere where the deck has no such edge.
+  /// Returns the cell beside `cell` in that heading; kNowhere where the deck has no such edge.
   Cell next(Deck deck, Cell cell, int heading) const {
     return next_[static_cast<int>(deck)][cell * kHeadings + heading];
   }
-  /// All of them, size() * kHeadings, by cell and heading.
+  /// Returns next() of every cell and heading, size() * kHeadings elements.
   const std::vector<Cell>& edges(Deck deck) const { return next_[static_cast<int>(deck)]; }
 
-  /// The neighbour on the grid, wall or not; kNowhere beyond the edge.
+  /// Returns the neighbour on the grid, passable or not; kNowhere beyond the edge.
   Cell beside(Cell cell, int heading) const;
 
-  /// "(x, y)", for messages.
+  /// Returns "(x, y)", for messages.
   std::string name(Cell cell) const;
 
  private:
@@ -81,14 +80,14 @@ class Floor {
   std::vector<Cell> next_[2];
 };
 
-/// Whether one on its way to `goal` would enter a station's lane there without having to: nobody
-/// takes lanes for short cuts.
+/// Tells whether a robot on its way to `goal` would enter a station's lane there without need:
+/// lanes are no short cuts.
 inline bool isPassingThrough(const Floor& floor, Cell from, Cell to, Cell goal) {
   return floor.isLane(to) && !floor.isLane(from) && (goal == kNowhere || !floor.isLane(goal));
 }
 
-/// Cells from one to another on the shortest way over a deck; a storage place may be its begin and
-/// its end. -1: there is none.
+/// Returns the number of steps of the shortest way over a deck, which may begin and end at a
+/// storage place; -1 if there is none.
 int shortest(const Floor& floor, Deck deck, Cell from, Cell to);
 
 }  // namespace layout

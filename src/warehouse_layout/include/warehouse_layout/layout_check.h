@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether loaded robots can always go on on a floor: looked at once, before anything drives.
+// Checks, before anything drives, that loaded robots can never be stuck on a floor.
 #pragma once
 
 #include <string>
@@ -10,28 +10,29 @@
 
 namespace layout {
 
+/// A fault of a floor, with the cells that have it.
 struct LayoutFault {
   enum class Kind : std::uint8_t {
     kNoAisles,  ///< there is nowhere for a loaded robot to drive
-    kCutOff,    ///< cells from or to which no loaded robot can come
-    kDeadEnd,   ///< edges on no cycle of three cells or more: two that meet there stay there
+    kCutOff,    ///< cells that no loaded robot can reach, or not leave
+    kDeadEnd,   ///< edges on no cycle of three cells or more: two robots that meet are stuck
   };
   Kind kind;
   std::vector<Cell> cells;  ///< for kDeadEnd in pairs: from, to
 };
 
-/// What is wrong with the aisles' deck: without storage places and lanes it must be strongly
-/// connected, and every edge must lie on a directed cycle of at least three cells; from every
-/// storage place and lane cell there must be a way to the aisles and back. Empty: nothing.
+/// Returns the faults of the aisles' deck; none if it is right. Without storage places and lanes it
+/// must be strongly connected, and every edge must lie on a directed cycle of at least three cells;
+/// from every storage place and lane cell there must be a way to the aisles and back.
 std::vector<LayoutFault> checkLayout(const Floor& floor);
 
-/// Where cells are: (x, y) of cell (0, 0) and the edge of a cell, for messages.
+/// The centre (x, y) [m] of cell (0, 0), and the edge of a cell [m], for messages.
 struct Raster {
   double x = 0, y = 0;
   double spacing = 1;
 };
 
-/// In a sentence, with the first cells named by where they are.
+/// Returns a sentence about a fault that names its first cells by their centres.
 std::string describe(const LayoutFault& fault, const Floor& floor, const Raster& raster = {});
 
 }  // namespace layout

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts between arrays of numpy and vectors, for Python modules of this package and others.
+// Converts between numpy arrays and vectors, for the Python modules of this package and others.
 #pragma once
 
 #include <pybind11/numpy.h>

@@ -5,21 +5,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from warehouse_layout.interfaces import OccupancyGrid
 from warehouse_layout.layout import Floor
 from warehouse_layout.request import RequestError
 
 
 @dataclass(frozen=True)
 class Cells:
-    """`taken[i, j]` tells whether something is in the way at the grid point (x + i, y + j) [m]."""
+    """`taken[i, j]` tells whether an obstacle is at the grid point (x + i, y + j) [m]."""
 
     x: int
     y: int
     taken: np.ndarray
 
     @classmethod
-    def of_map(cls, grid):
-        """From a nav_msgs/OccupancyGrid with one cell a grid point. Raises RequestError.
+    def of_map(cls, grid: OccupancyGrid) -> "Cells":
+        """Reads a nav_msgs/OccupancyGrid with one cell a grid point. Raises RequestError.
 
         Belts (99) and storage units (50) are no obstacles here: they go with their warehouse.
         """
@@ -33,11 +34,11 @@ class Cells:
         return cls(round(corner.x + 0.5), round(corner.y + 0.5), rows.T >= 100)
 
     @property
-    def floor(self):
+    def floor(self) -> Floor:
         """The rectangle that the cells cover."""
         x, y = self.x - 0.5, self.y - 0.5
         return Floor(x, x + self.taken.shape[0], y, y + self.taken.shape[1])
 
-    def points(self):
-        """The grid points (x, y) where something is in the way."""
+    def points(self) -> set[tuple[int, int]]:
+        """Returns the grid points (x, y) [m] at which there are obstacles."""
         return {(int(i) + self.x, int(j) + self.y) for i, j in np.argwhere(self.taken)}

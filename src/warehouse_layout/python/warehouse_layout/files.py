@@ -30,6 +30,8 @@ def model(name: str) -> Path:
 
 
 def box_size(name: str) -> tuple[float, ...]:
-    """Returns the edges (x, y, z) [m] of the only box in a model's collision."""
+    """Returns the edges (x, y, z) [m] of the box in a model's collision. Raises ValueError."""
     size = ElementTree.parse(model(name)).findtext(".//collision/geometry/box/size")
+    if size is None:
+        raise ValueError(f"the model {name} has no collision with a box")
     return tuple(map(float, size.split()))

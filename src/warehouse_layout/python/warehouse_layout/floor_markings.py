@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is painted on the floor of a warehouse: a static model that nothing collides with.
+"""Markings painted on the floor of a warehouse: a static model that nothing collides with.
 
 Each of its links is a kind of marking, each visual a rectangle of whole cells:
 
     storage              storage places
-    parking              where robots without work stand
+    parking              where idle robots stand
     charging             the same, and batteries are charged there
     keep_out             where no robot drives
     exits+x-y            cells that may be left towards +x and -y alone
@@ -12,18 +12,26 @@ Each of its links is a kind of marking, each visual a rectangle of whole cells:
     PICK/NAME/service    ... where a unit is served
     PICK/NAME/exit       ... and on to where it joins a street; REPLENISH likewise
 
-So whoever has the world, as a file, in a process or as messages, has its floor plan. Markings that
-are moved or turned by quarters mark what lies beneath them then.
+Thus a world holds its floor plan, be it a file, in a process or sent as messages. Markings that are
+moved or turned by quarters mark the cells that lie beneath them then.
 """
 
+from __future__ import annotations
+
 import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from warehouse_layout._core import FloorError
+from warehouse_layout.interfaces import Look, Scenery
 from warehouse_layout.stations import PICK, REPLENISH, Station, check_lane, with_lanes
+
+if TYPE_CHECKING:
+    from warehouse_layout.floor_plan import FloorPlan
 
 NAME = "floor_markings"
 HEADINGS = ("+x", "+y", "-x", "-y")
@@ -43,15 +51,18 @@ COLOURS = {  # red green blue, each in 0…1
 _GAP = {"exits": 0.0}  # between a marking and the border of its cells, of a cell
 _THICK = 0.004  # of paint [m]
 
+Rectangle = tuple[int, int, int, int]  # first x, first y, last x, last y in cells
+Point = Sequence[float]  # x, y [m]
 
-def is_name(model):
-    """Whether a model of that name is markings."""
+
+def is_name(model: str) -> bool:
+    """Tells whether a model of that name is markings."""
     return bool(_NAMED.fullmatch(model))
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A rectangle along the axes of the world [m]."""
+    """A rectangle on the floor, its centre and edges along the axes of `world` [m]."""
 
     label: str
     x: float
@@ -61,32 +72,36 @@ class Mark:
     model: str = ""  # of which it is a part
 
     @property
-    def kind(self):
-        """One of COLOURS, or what else it is called."""
+    def kind(self) -> str:
+        """One of COLOURS, or any other name."""
         return _kind(self.label)
 
     @property
-    def station(self):
+    def station(self) -> str:
         """The name of the station whose lane it marks; "" if it marks none."""
         return self.label.split("/")[1] if self.label.count("/") == 2 else ""
 
 
-def _kind(label):
+# The cells of each lane, by model and label.
+Lanes = dict[tuple[str, str], list[tuple[Mark, tuple[slice, slice]]]]
+
+
+def _kind(label: str) -> str:
     return "exits" if label.startswith("exits") else label.rpartition("/")[2]
 
 
 # --- painting
 
 
-def sdf(plan, name=f"{NAME}1"):
-    """The model that tells all of a FloorPlan that what stands there does not."""
+def sdf(plan: FloorPlan, name: str = f"{NAME}1") -> str:
+    """Returns the SDF text of the model that marks a FloorPlan on the floor."""
     links = "".join(_link(label, plan, cells) for label, cells in _painted(plan))
     return f'<model name="{name}"><static>true</static>{links}</model>'
 
 
-def _painted(plan):
-    """Pairs (label, rectangles), each rectangle (first x, first y, last x, last y) in cells."""
-    # A map of the world shows these too, where something stands; they hold without it as well.
+def _painted(plan: FloorPlan) -> Iterator[tuple[str, list[Rectangle]]]:
+    """Yields each label with its rectangles."""
+    # Obstacles show in a map of the world as well; the marking holds without them too.
     yield "keep_out", rectangles(~plan.passable)
     yield "storage", rectangles(plan.storage)
     charging = np.zeros(plan.shape, bool)
@@ -105,9 +120,10 @@ def _painted(plan):
             yield f"{station.kind}/{station.name}/{part}", np.column_stack([x, y, x, y]).tolist()
 
 
-def rectangles(mask):
-    """Rectangles (first x, first y, last x, last y) that cover the cells of a mask (h, w)."""
-    left, out = mask.copy(), []
+def rectangles(mask: np.ndarray) -> list[Rectangle]:
+    """Returns Rectangles that cover the cells of a mask (h, w)."""
+    left = mask.copy()
+    out: list[Rectangle] = []
     for y, x in np.argwhere(mask).tolist():
         if not left[y, x]:
             continue
@@ -120,12 +136,12 @@ def rectangles(mask):
     return out
 
 
-def _link(label, plan, cells):
+def _link(label: str, plan: FloorPlan, cells: Iterable[Rectangle]) -> str:
     visuals = "".join(_visual(i, label, plan, row) for i, row in enumerate(cells))
     return f'<link name="{label}">{visuals}</link>' if visuals else ""
 
 
-def _visual(i, label, plan, rectangle):
+def _visual(i: int, label: str, plan: FloorPlan, rectangle: Rectangle) -> str:
     kind = _kind(label)
     low, high = np.reshape(rectangle, (2, 2))
     x, y = np.array(plan.origin) + plan.spacing * (low + high) / 2
@@ -142,9 +158,9 @@ def _visual(i, label, plan, rectangle):
 # --- reading
 
 
-def of_scenery(scenery):
-    """The Marks in a Scenery. Raises FloorError."""
-    marks = []
+def of_scenery(scenery: Scenery) -> list[Mark]:
+    """Returns the Marks in a Scenery. Raises FloorError as read() does."""
+    marks: list[Mark] = []
     for name, look, pose in zip(
         scenery.models, scenery.model_look, np.reshape(scenery.pose, (-1, 7))
     ):
@@ -153,16 +169,19 @@ def of_scenery(scenery):
     return marks
 
 
-def _of_look(look):
-    """The visuals of a Look, as World.visuals() tells them: (link, pose (7,), size (3,)) each."""
+def _of_look(look: Look) -> list[Any]:
+    """Returns the visuals of a Look as World.visuals() does: (link, pose (7,), size (3,)) each."""
     poses = np.reshape(look.shape_pose, (-1, 7))
     sizes = np.reshape(look.shape_size, (-1, 3))
     return [(look.links[link], *row) for link, *row in zip(look.shape_link, poses, sizes)]
 
 
-def read(visuals, pose, model=""):
-    """The Marks of a model at a pose (x y z qx qy qz qw). FloorError if it is turned otherwise
-    than by quarters."""
+def read(visuals: Iterable[Any], pose: np.ndarray, model: str = "") -> list[Mark]:
+    """Returns the Marks of a model at a pose x y z [m] qx qy qz qw in `world`.
+
+    Each visual is (link, pose (7,), size (3,) [m]). Raises FloorError unless the model is turned by
+    a whole number of quarters.
+    """
     x, y, _, qx, qy, qz, qw = pose
     yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
     quarters = round(yaw / (np.pi / 2))
@@ -172,26 +191,31 @@ def read(visuals, pose, model=""):
     marks = []
     for link, place, size in visuals:
         wide, deep = size[:2] if s == 0 else size[1::-1]
-        at = (x + c * place[0] - s * place[1], y + s * place[0] + c * place[1])
-        marks.append(Mark(_turned(link, quarters % 4), *map(float, (*at, wide, deep)), model))
+        at_x, at_y = x + c * place[0] - s * place[1], y + s * place[0] + c * place[1]
+        rectangle = float(at_x), float(at_y), float(wide), float(deep)
+        marks.append(Mark(_turned(link, quarters % 4), *rectangle, model))
     return marks
 
 
-def _turned(label, quarters):
-    """Headings in a label turn with the markings."""
+def _turned(label: str, quarters: int) -> str:
+    """Returns the label with its headings turned, as the markings are."""
     if not quarters or not label.startswith("exits"):
         return label
     headings = [HEADINGS.index(label[i : i + 2]) for i in range(len("exits"), len(label), 2)]
     return "exits" + "".join(HEADINGS[(h + quarters) % 4] for h in headings)
 
 
-def applied(blank, marks, belts):
-    """A FloorPlan of what stands there, with Marks on its floor. Raises FloorError."""
+def applied(blank: FloorPlan, marks: Iterable[Mark], belts: Mapping[str, Point]) -> FloorPlan:
+    """Returns the FloorPlan of an unmarked floor with Marks on it.
+
+    `belts` is {name: (x, y)} [m]. Raises FloorError where markings are unknown, off the floor or
+    contradict each other.
+    """
     storage, parking, charging, keep_out = (np.zeros(blank.shape, bool) for _ in range(4))
     exits = np.full(blank.shape, 15, np.uint8)
     marked = np.zeros(blank.shape, bool)
     areas = {"storage": storage, "parking": parking, "charging": charging, "keep_out": keep_out}
-    lanes = {}
+    lanes: Lanes = {}
     for mark in marks:
         where = _cells(blank, mark)
         marked[where] = True
@@ -202,7 +226,7 @@ def applied(blank, marks, belts):
         else:
             lane = (mark.model, mark.label.rpartition("/")[0])
             lanes.setdefault(lane, []).append((mark, where))
-    # What is painted is floor, whatever stands there now.
+    # A marked cell is floor, even if an obstacle is there now.
     passable = (blank.passable | marked) & ~keep_out
     return type(blank).laid_out(
         origin=blank.origin,
@@ -217,9 +241,10 @@ def applied(blank, marks, belts):
     )
 
 
-def _cells(plan, mark):
-    """The cells of a Mark, as slices along y and x. FloorError if they are off the floor."""
-    low, high = [], []
+def _cells(plan: FloorPlan, mark: Mark) -> tuple[slice, slice]:
+    """Returns the cells of a Mark as slices along y and x. FloorError if they are off the floor."""
+    low: list[int] = []
+    high: list[int] = []
     for at, size, origin in zip((mark.x, mark.y), (mark.size_x, mark.size_y), plan.origin):
         cells = max(1, round(size / plan.spacing))
         low.append(round((at - origin) / plan.spacing - (cells - 1) / 2))
@@ -232,7 +257,9 @@ def _cells(plan, mark):
     return slice(low[1], high[1]), slice(low[0], high[0])
 
 
-def _stations(plan, lanes, passable, belts):
+def _stations(
+    plan: FloorPlan, lanes: Lanes, passable: np.ndarray, belts: Mapping[str, Point]
+) -> tuple[Station, ...]:
     stations = []
     for (_, label), cells in lanes.items():
         kind, slash, name = label.partition("/")
@@ -250,18 +277,18 @@ def _stations(plan, lanes, passable, belts):
     return _renamed(stations)
 
 
-def _belt_at(plan, cell, belts):
-    """The belt whose middle is nearest to a service cell; none that is further than two cells."""
+def _belt_at(plan: FloorPlan, cell: int, belts: Mapping[str, Point]) -> str:
+    """Returns the belt nearest to a service cell; "" if its middle is more than two cells away."""
     x, y = plan.point_of(cell)
     far = {name: abs(bx - x) + abs(by - y) for name, (bx, by, *_) in belts.items()}
-    nearest = min(far, key=far.get, default="")
+    nearest = min(far, key=lambda name: far[name], default="")
     return nearest if nearest and far[nearest] <= 2 * plan.spacing else ""
 
 
-def _renamed(stations):
-    """Of two stations of one name, as where a world was added to another, the later gets the
-    lowest number that is free."""
-    out, used = [], {station.name for station in stations}
+def _renamed(stations: Sequence[Station]) -> tuple[Station, ...]:
+    """Renumbers stations whose name is taken, as where a world was added to another."""
+    out: list[Station] = []
+    used = {station.name for station in stations}
     for station in stations:
         name = station.name
         if name in {other.name for other in out}:

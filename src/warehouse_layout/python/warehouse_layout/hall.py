@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse in a hall that has no room for stations with lanes.
 
-Its stations are bays without a queue: one cell beside a street, where the unit stands that is
-served, with the belt beyond. Streets go where the shape of the hall lets them: all of it is street
-at first, then cell after cell becomes a storage place, as long as what is left of the streets is
-without dead ends and passes every place and every bay.
+Its stations are bays without a queue: one cell beside a street, where a unit is served, with the
+belt beyond. Streets follow the shape of the hall: all of it is street at first, then one cell after
+the other becomes a storage place, as long as the streets that are left have no dead ends and pass
+every place and every bay.
 
     │ u u │       u  place, b  bay, ==  belt
     │ u u b ==    The streets around are two-way; a robot that meets another goes another way round.
@@ -12,10 +12,12 @@ without dead ends and passes every place and every bay.
 """
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from warehouse_layout.masks import beside_of
 from warehouse_layout.stations import STEPS
 from warehouse_layout.street_graph import without_dead_ends
 
@@ -25,35 +27,32 @@ MOST_CELLS = 600  # of a hall in which every cell is tried
 TRIED = 40  # belts' positions
 EFFORT = 120_000  # cells looked at, in all
 
+Cell = tuple[int, ...]  # i, j
+Bay = tuple[Cell, int | None]  # its cell, and the heading of the belt, if it has one
+
 
 @dataclass
 class Hall:
-    """Masks are (nx, ny) bool over the free cells. Bays are pairs (cell (i, j), heading of the belt
-    or None), those with a belt first."""
+    """The streets, places and bays of a hall, as masks (nx, ny) bool over the free cells."""
 
     streets: np.ndarray
     places: np.ndarray
-    bays: list = field(default_factory=list)
+    bays: list[Bay] = field(default_factory=list)  # those with a belt first
 
-    def serves(self, streets):
-        """Whether every place and every bay lies beside one of those streets."""
+    def serves(self, streets: np.ndarray) -> bool:
+        """Tells whether every place and every bay lies beside one of these streets."""
         beside = beside_of(streets)
-        return beside[self.places].all() and all(beside[cell] for cell, _ in self.bays)
+        return bool(beside[self.places].all()) and all(beside[cell] for cell, _ in self.bays)
 
 
-def beside_of(mask):
-    """The cells next to one of a mask (nx, ny)."""
-    out = np.zeros_like(mask)
-    out[1:] |= mask[:-1]
-    out[:-1] |= mask[1:]
-    out[:, 1:] |= mask[:, :-1]
-    out[:, :-1] |= mask[:, 1:]
-    return out
+def carve(
+    free: np.ndarray, picks: int, replenishments: int, patterns: Sequence[np.ndarray]
+) -> Iterator[Hall]:
+    """Yields Halls with so many bays of either kind on free cells, one for each pattern.
 
-
-def carve(free, picks, replenishments, patterns):
-    """Halls with so many bays of either kind on free cells, one for each of the patterns, (nx, ny)
-    bool, of cells that should rather be streets. None are too large to be tried."""
+    A pattern (nx, ny) bool marks the cells that should rather be streets. Yields nothing where the
+    free cells are too few, or more than MOST_CELLS.
+    """
     size = int(free.sum())
     start = without_dead_ends(free)
     if not 4 <= size <= MOST_CELLS or not start.any():
@@ -66,9 +65,17 @@ def carve(free, picks, replenishments, patterns):
         yield _filled(Hall(hall.streets, hall.places, hall.bays), free, pattern)
 
 
-def regular(free, picks, replenishments, pattern, middle):
-    """The Hall with streets along a pattern and bays beside them, the nearest to the middle; None
-    where there are too few."""
+def regular(
+    free: np.ndarray,
+    picks: int,
+    replenishments: int,
+    pattern: np.ndarray,
+    middle: np.ndarray,
+) -> Hall | None:
+    """Returns the Hall with streets along a pattern, and the bays nearest to the middle (i, j).
+
+    Returns None where there are too few bays.
+    """
     streets = without_dead_ends(pattern & free)
     room = free & ~pattern
     beside = room & beside_of(streets)
@@ -76,12 +83,12 @@ def regular(free, picks, replenishments, pattern, middle):
     cells = np.argwhere(beside)
     cells = cells[np.argsort(((cells - middle) ** 2).sum(1), kind="stable")].tolist()
     for kind in (True,) * picks + (False,) * replenishments:
-        for cell in map(tuple, cells):
-            bays = ([cells_of(cell, h), h] for h in (range(4) if kind else (None,)))
-            bay = next((b for b in bays if all(_holds(room, c) for c in b[0])), None)
+        for i, j in cells:
+            bays: Iterator[Bay] = (((i, j), h) for h in _headings(kind))
+            bay = next((b for b in bays if all(_holds(room, c) for c in cells_of(*b))), None)
             if bay:
-                room[tuple(np.transpose(bay[0]))] = False
-                found.bays.append((cell, bay[1]))
+                room[tuple(np.transpose(cells_of(*bay)))] = False
+                found.bays.append(bay)
                 break
         else:
             return None
@@ -89,19 +96,25 @@ def regular(free, picks, replenishments, pattern, middle):
     return found
 
 
-def _add_bay(hall, free, has_belt):
-    """Puts a bay where it costs the fewest streets, along walls if it may. False if nowhere."""
+def _headings(has_belt: bool) -> Sequence[int | None]:
+    """Returns the headings in which a bay's belt may lie."""
+    return range(4) if has_belt else (None,)
+
+
+def _add_bay(hall: Hall, free: np.ndarray, has_belt: bool) -> bool:
+    """Adds a bay where it costs the fewest streets, along walls if possible. False if nowhere."""
     used = np.zeros_like(free)
     for bay in hall.bays:
         used[tuple(np.transpose(list(cells_of(*bay))))] = True
     candidates = []
     for cell in np.argwhere(free & ~used).tolist():
-        for heading in range(4) if has_belt else (None,):
+        for heading in _headings(has_belt):
             cells = cells_of(tuple(cell), heading)
             if all(_holds(free, c) and not used[c] for c in cells):
                 open_sides = sum(_holds(free, n) for c in cells for n in _around(c))
                 candidates.append((open_sides, cells, heading))
-    best, found = -1, None
+    best = -1
+    found: tuple[np.ndarray, list[Bay]] | None = None
     for _, cells, heading in sorted(candidates, key=lambda one: one[0])[:TRIED]:
         taken = hall.streets.copy()
         taken[tuple(np.transpose(cells))] = False
@@ -114,29 +127,29 @@ def _add_bay(hall, free, has_belt):
     return found is not None
 
 
-def cells_of(cell, heading):
-    """A bay's cell and those of its belt."""
+def cells_of(cell: Cell, heading: int | None) -> list[Cell]:
+    """Returns a bay's cell and those of its belt, if it has one."""
     if heading is None:
         return [cell]
     dx, dy = STEPS[heading]
     return [(cell[0] + i * dx, cell[1] + i * dy) for i in range(BELT_CELLS + 1)]
 
 
-def _around(cell):
+def _around(cell: Cell) -> list[Cell]:
     return [(cell[0] + dx, cell[1] + dy) for dx, dy in STEPS]
 
 
-def _holds(mask, cell):
+def _holds(mask: np.ndarray, cell: Cell) -> bool:
     inside = all(0 <= at < size for at, size in zip(cell, mask.shape))
     return inside and bool(mask[cell])
 
 
-def _filled(hall, free, pattern):
-    """The hall with as many places as there can be; cells of the pattern become one last."""
+def _filled(hall: Hall, free: np.ndarray, pattern: np.ndarray) -> Hall:
+    """Makes as many cells places as there can be, those of the pattern last; returns the hall."""
     room = free.copy()
     for bay in hall.bays:
         room[tuple(np.transpose(cells_of(*bay)))] = False
-    # What is cut off from the streets but beside them holds units from the beginning.
+    # Cells beside the streets that are cut off from them hold units from the beginning.
     hall.places = room & ~hall.streets & beside_of(hall.streets)
     cells = np.argwhere(hall.streets).tolist()
     for cell in sorted(cells, key=lambda cell: bool(pattern[tuple(cell)])):
@@ -145,8 +158,8 @@ def _filled(hall, free, pattern):
     return hall
 
 
-def _give_up(hall, cell, room):
-    """Makes a street's cell, and what is a dead end then, places; if the rest still serves all."""
+def _give_up(hall: Hall, cell: Cell, room: np.ndarray) -> None:
+    """Makes a street's cell, and the dead ends that it leaves, places; if the rest serves all."""
     left = hall.streets.copy()
     left[cell] = False
     streets = without_dead_ends(left)
@@ -160,6 +173,6 @@ def _give_up(hall, cell, room):
         hall.streets, hall.places = streets, places & room
 
 
-def min_robots(places):
-    """So many work in a hall of so many places, at least."""
+def min_robots(places: int) -> int:
+    """Returns how many robots work in a hall of `places` places, at least."""
     return max(1, places // 8)

@@ -8,12 +8,12 @@ import numpy as np
 from warehouse_layout import files
 
 
-def _boards():
-    """Upper faces of the boards of a storage unit [m], from its model."""
+def _boards() -> np.ndarray:
+    """Returns the heights of the boards' upper faces in a storage unit [m], from its model."""
     visuals = ElementTree.parse(files.model("storage_unit")).iter("visual")
     boards = [v for v in visuals if v.get("name", "").startswith("board")]
-    z = [float(v.findtext("pose").split()[2]) for v in boards]
-    height = [float(v.findtext("geometry/box/size").split()[2]) for v in boards]
+    z = [float(v.findtext("pose", "").split()[2]) for v in boards]
+    height = [float(v.findtext("geometry/box/size", "").split()[2]) for v in boards]
     return np.round(np.add(z, np.divide(height, 2)), 6)
 
 
@@ -25,8 +25,10 @@ PLACES = np.array([(x, y) for y in (-0.27, -0.09, 0.09, 0.27) for x in (-0.24, 0
 CAPACITY = len(BOARDS) * len(PLACES)
 
 
-def spread(items, units, rng=None):
-    """Lays `items` items on `units` storage units, as evenly as they go; by chance with an `rng`.
+def spread(
+    items: int, units: int, rng: np.random.Generator | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Lays `items` items on `units` storage units as evenly as possible; by chance with an `rng`.
 
     Returns the unit of each item, (items,) indices, and its place in that unit's frame,
     (items, 3) [m]. At most CAPACITY items lie on a unit.
@@ -44,8 +46,8 @@ def spread(items, units, rng=None):
     return unit, np.column_stack([PLACES[place], BOARDS[board]])
 
 
-def _regular(unit, layer):
-    """StatePublisher and place of a unit's first, second … item."""
+def _regular(unit: np.ndarray, layer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns board and place of a unit's first, second … item."""
     layer, board = np.divmod(layer, len(BOARDS))
     # 5 and 12 share no divisor: each board's places come once before any comes again, and not
     # in a row. The other terms only keep units and boards from looking alike.

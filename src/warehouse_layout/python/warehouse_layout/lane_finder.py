@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lanes on a floor without markings: found where belts and room permit.
+"""Finds lanes on a floor without markings, where belts and room permit.
 
 Before a belt's side or end, seen with the belt to the right (q queue, s service, x exit):
 
@@ -10,7 +10,11 @@ Before a belt's side or end, seen with the belt to the right (q queue, s service
         x
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,16 +22,26 @@ from warehouse_layout._core import check_layout
 from warehouse_layout.stations import PICK, STEPS, Station, lane_mask, neighbour
 from warehouse_layout.street_graph import without_dead_ends
 
+if TYPE_CHECKING:
+    from warehouse_layout.floor_plan import FloorPlan
+
 CUTS = "every lane there would cut others off from the streets, or no cell beside it is free"
 QUEUE = 6  # cells, the entry and a corner among them
 
+Point = Sequence[float]  # x, y [m]
+Cell = tuple[int, int]  # x, y
 
-def find(plan, belts, belt_cells):
-    """The FloorPlan with a PICK station at every belt that has room for one; the others are named
-    in `without_lane`, with the reason. `belts` is {name: (x, y)} [m], `belt_cells` (h, w) bool."""
+
+def find(plan: FloorPlan, belts: Mapping[str, Point], belt_cells: np.ndarray) -> FloorPlan:
+    """Returns the FloorPlan with a PICK station at every belt that has room for one.
+
+    Its `without_lane` names the other belts, with the reason. `belts` is {name: (x, y)} [m],
+    `belt_cells` (h, w) bool.
+    """
     plan = _without_dead_ends(plan)
     before = _faults(plan)
-    stations, without = [], []
+    stations: list[Station] = []
+    without = []
     for name, at in belts.items():
         station = _station(plan, stations, name, at, belt_cells, before)
         if station:
@@ -38,8 +52,15 @@ def find(plan, belts, belt_cells):
     return replace(_with(plan, stations), without_lane=tuple(without))
 
 
-def _station(plan, stations, belt, at, belt_cells, faults):
-    """The first lane there with which the floor has no fault that it had not before, or None."""
+def _station(
+    plan: FloorPlan,
+    stations: Sequence[Station],
+    belt: str,
+    at: Point,
+    belt_cells: np.ndarray,
+    faults: set[str],
+) -> Station | None:
+    """Returns a station on the first lane there that adds no fault to the floor, or None."""
     for lane, service in _candidates(plan, stations, at, belt_cells):
         station = Station(f"pick{len(stations) + 1}", PICK, lane, service, belt)
         if _faults(_with(plan, [*stations, station])) <= faults:
@@ -47,7 +68,7 @@ def _station(plan, stations, belt, at, belt_cells, faults):
     return None
 
 
-def _with(plan, stations):
+def _with(plan: FloorPlan, stations: Iterable[Station]) -> FloorPlan:
     return type(plan).laid_out(
         origin=plan.origin,
         spacing=plan.spacing,
@@ -59,23 +80,25 @@ def _with(plan, stations):
     )
 
 
-def _faults(plan):
+def _faults(plan: FloorPlan) -> set[str]:
     return set(check_layout(plan.floor()))
 
 
-def _without_dead_ends(plan):
-    """What leads nowhere is for robots without a load alone: there two could not pass."""
+def _without_dead_ends(plan: FloorPlan) -> FloorPlan:
+    """Keeps loaded robots out of dead ends, where two could not pass each other."""
     streets = plan.passable & ~plan.storage & ~plan.parking
     kept = without_dead_ends(streets)
     return replace(plan, parking=plan.parking | (streets & ~kept))
 
 
-def _streets(plan, stations):
+def _streets(plan: FloorPlan, stations: Iterable[Station]) -> np.ndarray:
     return plan.passable & ~plan.storage & ~plan.parking & ~lane_mask(stations, plan.shape)
 
 
-def _services(plan, streets, at, belt_cells):
-    """Cells of streets beside the belt there, (x, y), each with the heading towards it."""
+def _services(
+    plan: FloorPlan, streets: np.ndarray, at: Point, belt_cells: np.ndarray
+) -> Iterator[tuple[Cell, int]]:
+    """Yields cells (x, y) of streets beside the belt there, each with the heading towards it."""
     column, row = (round((p - o) / plan.spacing) for p, o in zip(at, plan.origin))
     near = np.zeros_like(belt_cells)
     near[max(row - 2, 0) : row + 3, max(column - 2, 0) : column + 3] = True
@@ -85,8 +108,10 @@ def _services(plan, streets, at, belt_cells):
             yield (x, y), heading
 
 
-def _candidates(plan, stations, at, belt_cells):
-    """Pairs (cells, index of the service cell), the smoothest first."""
+def _candidates(
+    plan: FloorPlan, stations: Sequence[Station], at: Point, belt_cells: np.ndarray
+) -> Iterator[tuple[np.ndarray, int]]:
+    """Yields lanes as (cells, index of the service cell), the smoothest first."""
     streets = _streets(plan, stations)
     for points in _shapes(plan, streets, at, belt_cells):
         if not _lacking(points, streets):
@@ -94,8 +119,10 @@ def _candidates(plan, stations, at, belt_cells):
             yield (y * plan.width + x).astype(np.int32), QUEUE
 
 
-def _shapes(plan, streets, at, belt_cells):
-    """Lists of points (x, y) in cells."""
+def _shapes(
+    plan: FloorPlan, streets: np.ndarray, at: Point, belt_cells: np.ndarray
+) -> Iterator[list[np.ndarray]]:
+    """Yields the points (x, y) of each conceivable lane, in cells."""
     services = list(_services(plan, streets, at, belt_cells))
     for shape in (_straight, _back, _corner):
         for service, heading in services:
@@ -103,27 +130,28 @@ def _shapes(plan, streets, at, belt_cells):
                 yield shape(np.array(service), np.array(STEPS[heading]), side)
 
 
-def _straight(service, towards, side):
-    """Units pass the belt without turning."""
+def _straight(service: np.ndarray, towards: np.ndarray, side: int) -> list[np.ndarray]:
+    """Returns a lane on which units pass the belt without turning."""
     along = side * towards[::-1]
     return [service + i * along for i in range(-QUEUE, 2)]
 
 
-def _back(service, towards, side):
-    """They turn before and after it."""
+def _back(service: np.ndarray, towards: np.ndarray, side: int) -> list[np.ndarray]:
+    """Returns a lane on which units turn before the belt and after it."""
     along = side * towards[::-1]
     there = [service - along - i * towards for i in range(QUEUE)]
     return [*there[::-1], service, *(point + 2 * along for point in there)]
 
 
-def _corner(service, towards, side):
+def _corner(service: np.ndarray, towards: np.ndarray, side: int) -> list[np.ndarray]:
+    """Returns a lane on which units turn before the belt and go straight on after it."""
     along = side * towards[::-1]
     there = [service - along - i * towards for i in range(QUEUE)]
     return [*there[::-1], service, service + along]
 
 
-def _lacking(points, streets):
-    """Those that are not free."""
+def _lacking(points: Iterable[np.ndarray], streets: np.ndarray) -> list[Cell]:
+    """Returns the points that are no streets."""
     height, width = streets.shape
     return [
         (int(x), int(y))
@@ -132,10 +160,10 @@ def _lacking(points, streets):
     ]
 
 
-def _why(plan, stations, at, belt_cells):
-    """Which cells the lane lacks that lacks the fewest; "" if none lacks any."""
+def _why(plan: FloorPlan, stations: Sequence[Station], at: Point, belt_cells: np.ndarray) -> str:
+    """Names the cells that are missing for the best conceivable lane; "" if one lacks none."""
     streets = _streets(plan, stations)
-    least = min(
+    least: list[Cell] = min(
         (_lacking(points, streets) for points in _shapes(plan, streets, at, belt_cells)),
         key=len,
         default=[],

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A Layout as the models to spawn: names, SDF texts and poses."""
+"""The models of a Layout, to be spawned: names, SDF texts and poses."""
 
 import re
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from warehouse_layout import floor_markings
+from warehouse_layout.layout import Layout
 
 FLOOR = "ground_plane"
 
-# Of everything that a warehouse consists of, in the order in which it is taken away: what is
-# carried or lies on something goes after it.
+# The kinds of models in a warehouse, in the order in which they are taken away: what is carried or
+# lies on another model goes after it.
 KINDS = ("kiva", "storage_unit", "item", "conveyor_belt")
 MARKINGS = floor_markings.NAME
 _NUMBERED = re.compile(rf"({'|'.join((*KINDS, MARKINGS))})(\d+)")
@@ -35,21 +37,23 @@ _FLOOR = """<model name="ground_plane">
 
 
 class Part(NamedTuple):
-    """A model as a part of an SDF document."""
+    """One model of an SDF document."""
 
     name: str
     xml: str
 
 
-def kind_and_number(name):
-    """("storage_unit", 7) of `storage_unit7`; (None, 0) of what belongs to no warehouse."""
+def kind_and_number(name: str) -> tuple[str | None, int]:
+    """Returns ("storage_unit", 7) for `storage_unit7`; (None, 0) for names of other models."""
     match = _NUMBERED.fullmatch(name)
     return (match[1], int(match[2])) if match else (None, 0)
 
 
-def of_layout(layout):
-    """The Parts of a Layout: its own floor and what is painted on it first, items after the units
-    on which they lie."""
+def of_layout(layout: Layout) -> list[Part]:
+    """Returns the Parts of a Layout.
+
+    Its own floor and the markings on it come first, items after the units on which they lie.
+    """
     on_unit = np.pad(layout.units, ((0, 0), (0, 1)))[layout.item_unit]
     floor = [Part(FLOOR, _FLOOR.format(layout.floor.centre, layout.floor.size))]
     marks = f"{MARKINGS}1"
@@ -63,20 +67,20 @@ def of_layout(layout):
     ]
 
 
-def _numbered(kind, places, yaws=None):
-    """Parts of one kind at places (n, 2) or (n, 3), numbered from 1."""
+def _numbered(kind: str, places: np.ndarray, yaws: np.ndarray | None = None) -> list[Part]:
+    """Returns Parts of one kind at places (n, 2) or (n, 3), numbered from 1."""
     yaws = np.zeros(len(places)) if yaws is None else yaws
     rows = np.column_stack([places, np.zeros((len(places), 3 - places.shape[1])), yaws])
     return [include(kind, i, *row) for i, row in enumerate(rows.tolist(), start=1)]
 
 
-def include(kind, number, x, y, z=0.0, yaw=0.0):
-    """The Part of one model of worlds/models, at a place in world [m, rad]."""
+def include(kind: str, number: int, x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> Part:
+    """Returns the Part of one model of worlds/models, at a place in `world` [m, rad]."""
     name = f"{kind}{number}"
     return Part(name, _INCLUDE.format(kind, name, f"{x!r} {y!r} {z!r} 0 0 {yaw!r}"))
 
 
-def document(parts):
-    """One SDF text of all the Parts."""
+def document(parts: Iterable[Part]) -> str:
+    """Returns one SDF text of all the Parts."""
     xml = "".join(part.xml for part in parts)
     return f'<sdf version="1.9"><world name="warehouse">{xml}</world></sdf>'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which warehouse is asked for: presets, limits, and what is refused."""
+"""Requests for warehouses: how many of each kind, presets and limits."""
 
 import math
 from dataclasses import dataclass
@@ -8,19 +8,19 @@ from warehouse_layout.items import CAPACITY
 
 
 class RequestError(ValueError):
-    """A request that can't be met; the message tells a person why."""
+    """Says why a request can't be met."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """How many of each kind shall stand in the warehouse."""
+    """Counts of what shall stand in a warehouse."""
 
     robots: int = 0
     shelves: int = 0
     items: int = 0
     belts: int = 0
 
-    def __str__(self):
+    def __str__(self) -> str:
         counts = (
             (self.robots, "robot"),
             (self.shelves, "storage unit"),
@@ -38,19 +38,22 @@ PRESETS = {
     "huge": Request(1000, 4000, 20000, 40),
 }
 
-# Beyond these nobody has tried; the floor would be wider than a real warehouse.
+# Larger ones were never tried; the floor would be wider than a real warehouse.
 LIMITS = {"robots": 5000, "shelves": 20000, "items": 100000}
 MAX_BELTS = 60
 
 
-# The name for as much as there is room for in a world that is given.
+# The size that takes all the room of a given world.
 FIT = "fit"
 SPARE, TIGHT = 0.15, 20  # share of places that stay empty; of fewer places none does
 
 
-def proportioned(places, most_robots=LIMITS["robots"], belts=0):
-    """The Request of a warehouse in sensible proportions that takes up to so many places for robots
-    and storage units. belts: how many there are; 0: as many as it takes."""
+def proportioned(places: int, most_robots: int = LIMITS["robots"], belts: int = 0) -> Request:
+    """Returns the Request of a warehouse in sensible proportions.
+
+    Its robots and storage units take up to `places` places. `belts` is the number of belts; 0: as
+    many as it needs.
+    """
     robots = min(places // 8 + 2, max(1, places // 3), most_robots, LIMITS["robots"])
     spare = int(SPARE * places) if places >= TIGHT else 0
     units = max(0, min(places - robots - spare, LIMITS["shelves"]))
@@ -58,11 +61,11 @@ def proportioned(places, most_robots=LIMITS["robots"], belts=0):
     return Request(robots, units, items, belts or _belts_for(robots, units))
 
 
-def resolve(name, robots=0, items=0, shelves=0):
-    """The Request behind a preset's name (all counts 0) or explicit counts.
+def resolve(name: str, robots: int = 0, items: int = 0, shelves: int = 0) -> Request:
+    """Returns the Request for a preset's name (all counts 0) or for explicit counts.
 
-    Raises RequestError for an unknown preset, a negative count, a count above LIMITS, and items
-    that find no place: each storage unit holds CAPACITY of them.
+    Raises RequestError for an unknown preset, a negative count, a count above LIMITS, and more
+    items than the storage units hold: CAPACITY each.
     """
     counts = {"robots": robots, "shelves": shelves, "items": items}
     if not any(counts.values()):
@@ -72,7 +75,7 @@ def resolve(name, robots=0, items=0, shelves=0):
     return Request(robots, shelves, items, _belts_for(robots, shelves))
 
 
-def _preset(name):
+def _preset(name: str) -> Request:
     try:
         return PRESETS[name]
     except KeyError:
@@ -82,7 +85,7 @@ def _preset(name):
         ) from None
 
 
-def _check_counts(counts):
+def _check_counts(counts: dict[str, int]) -> None:
     for what, count in counts.items():
         if count < 0:
             raise RequestError(f"{what} is {count}; it can't be negative")
@@ -90,7 +93,7 @@ def _check_counts(counts):
             raise RequestError(f"{what} is {count}; the limit is {LIMITS[what]}")
 
 
-def _check_items(items, shelves):
+def _check_items(items: int, shelves: int) -> None:
     if items and not shelves:
         raise RequestError(f"{items} items, but no shelves to lay them on")
     if items > shelves * CAPACITY:
@@ -101,6 +104,6 @@ def _check_items(items, shelves):
         )
 
 
-def _belts_for(robots, shelves):
-    """One belt for every 100 storage units or 25 robots, whichever asks for more."""
+def _belts_for(robots: int, shelves: int) -> int:
+    """Returns one belt for every 100 storage units or every 25 robots, the larger of both."""
     return min(MAX_BELTS, max(1, math.ceil(shelves / 100), math.ceil(robots / 25)))

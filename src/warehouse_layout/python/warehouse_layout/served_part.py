@@ -1,49 +1,61 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of a floor that a fleet can serve: where each loaded robot comes from anywhere to
-anywhere. What lies beyond is left out, and told."""
+"""The part of a floor that a fleet can serve; the rest is left out, and named.
 
+In this part a loaded robot gets from each cell to each other.
+"""
+
+from collections.abc import Sequence, Sized
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from warehouse_layout._core import FloorError, layout_faults
+from warehouse_layout.floor_plan import FloorPlan
 
 NAMED = 10  # places that are named in a sentence, at most
 
 
 @dataclass(frozen=True, eq=False)
 class LeftOut:
-    """What a served part lacks of its floor; empty if that is served whole."""
+    """The cells and stations that a served part lacks of its floor; empty if it lacks none."""
 
-    cells: np.ndarray  # ascending
-    stations: tuple = ()  # names
+    cells: np.ndarray  # (n,) int, ascending
+    stations: tuple[str, ...] = ()  # names
 
-    def text(self, plan, units=(), robots=()):
-        """In a sentence, with the `units` and `robots` (ids) that stand there; or empty."""
+    def text(
+        self, plan: FloorPlan, units: Sequence[object] = (), robots: Sequence[int] = ()
+    ) -> str:
+        """Returns a sentence that names what is left out; "" if nothing is.
+
+        `units` and `robots` are the ids of those on the cells that are left out.
+        """
         if not len(self.cells):
             return ""
         x, y = plan.point_of(self.cells[:NAMED])
         places = ", ".join(f"({a:g}, {b:g})" for a, b in zip(x, y))
         cells = f"{len(self.cells)} cells and back: {_some(places, self.cells)}"
         parts = [f"loaded robots can't come to {cells}"]
-        for what, names in (
-            ("stations", self.stations),
-            ("storage units", units),
-            ("robots", [f"kiva{robot}" for robot in robots]),
-        ):
+        kinds: dict[str, Sequence[object]] = {
+            "stations": self.stations,
+            "storage units": units,
+            "robots": [f"kiva{robot}" for robot in robots],
+        }
+        for what, names in kinds.items():
             if len(names):
                 parts.append(f"{what} {_some(', '.join(map(str, names[:NAMED])), names)} are there")
         return "; ".join([*parts, "they are not used"])
 
 
-def _some(text, names):
+def _some(text: str, names: Sized) -> str:
     more = len(names) - NAMED
     return f"{text} and {more} more" if more > 0 else text
 
 
-def served_part(plan):
-    """(plan, LeftOut): a FloorPlan of the largest part of this one that passes its check. Raises
-    FloorError if there is none."""
+def served_part(plan: FloorPlan) -> tuple[FloorPlan, LeftOut]:
+    """Returns the largest part of a FloorPlan that passes its check, and what that leaves out.
+
+    Raises FloorError if there is none.
+    """
     passable, exits = plan.passable, plan.exits
     part = plan
     while faults := layout_faults(part.floor()):
@@ -63,16 +75,16 @@ def served_part(plan):
     return part, LeftOut(np.flatnonzero(plan.passable & ~part.passable), gone)
 
 
-def _cut(exits, edges, width):
-    """Nobody drives along these edges, nor back."""
+def _cut(exits: np.ndarray, edges: np.ndarray, width: int) -> None:
+    """Removes the edges (n, 2), pairs of cells, from `exits` in both directions."""
     steps = (1, width, -1, -width)
     for cell, after in edges.tolist():
         for at, to in ((cell, after), (after, cell)):
             exits.flat[at] &= ~np.uint8(1 << steps.index(to - at))
 
 
-def _without(plan, passable, exits):
-    """The plan on those cells alone; a station lacks no cell of its lane, or it is none."""
+def _without(plan: FloorPlan, passable: np.ndarray, exits: np.ndarray) -> FloorPlan:
+    """Returns the plan restricted to passable cells; a station needs its whole lane."""
     stations = [s for s in plan.stations if passable.flat[s.cells].all()]
     for station in plan.stations:
         if station not in stations:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stations and their lanes: one-way, entered at their first cell and left at their last."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))  # along x and y, by heading
 
 @dataclass(frozen=True, eq=False)
 class Station:
-    """Where units are served. Its lane leads from the entry over the service cell to the exit."""
+    """A place where units are served, on a lane from entry over service cell to exit."""
 
     name: str
     kind: str  # PICK or REPLENISH
@@ -22,25 +23,29 @@ class Station:
     belt: str = ""  # the conveyor belt there, if any
 
     @property
-    def service_cell(self):
+    def service_cell(self) -> int:
+        """The cell on which a unit is served, y * width + x."""
         return int(self.cells[self.service])
 
     @property
-    def queue(self):
-        """Cells where units wait, the entry first; the service cell is not among them."""
+    def queue(self) -> np.ndarray:
+        """Cells in which units wait, (n,) int32, the entry first; without the service cell."""
         return self.cells[: self.service]
 
 
-def lane_mask(stations, shape):
-    """(h, w) bool: the cells of their lanes."""
+def lane_mask(stations: Iterable[Station], shape: tuple[int, ...]) -> np.ndarray:
+    """Returns the cells of the stations' lanes, (h, w) bool."""
     out = np.zeros(shape, bool)
     for station in stations:
         out.flat[station.cells] = True
     return out
 
 
-def neighbour(values, heading):
-    """(h, w): what each cell's neighbour in that heading has; False or 0 beyond the edge."""
+def neighbour(values: np.ndarray, heading: int) -> np.ndarray:
+    """Returns for each cell the value of its neighbour in that heading, (h, w).
+
+    The value is False or 0 where the neighbour would be beyond the edge.
+    """
     (dx, dy), (height, width) = STEPS[heading], values.shape
     out = np.zeros_like(values)
     out[max(-dy, 0) : height - max(dy, 0), max(-dx, 0) : width - max(dx, 0)] = values[
@@ -49,9 +54,13 @@ def neighbour(values, heading):
     return out
 
 
-def with_lanes(exits, passable, stations):
-    """`exits` (h, w) uint8 of a floor with these lanes: none leads off what is passable or into a
-    lane but at its entry; in a lane they lead ahead, and from its last cell out of it."""
+def with_lanes(exits: np.ndarray, passable: np.ndarray, stations: Iterable[Station]) -> np.ndarray:
+    """Returns `exits`, (h, w) uint8, restricted by what is passable and by the stations' lanes.
+
+    No exit leads to an impassable cell, or into a lane except at its entry. Within a lane the only
+    exit leads ahead, and from its last cell out of it.
+    """
+    stations = list(stations)
     lane = lane_mask(stations, passable.shape)
     entry = lane_mask([], passable.shape)
     entry.flat[[int(station.cells[0]) for station in stations]] = True
@@ -68,8 +77,8 @@ def with_lanes(exits, passable, stations):
     return out
 
 
-def check_lane(name, cells, passable):
-    """Raises FloorError unless `cells` are neighbours in a row, passable, each but once."""
+def check_lane(name: str, cells: np.ndarray, passable: np.ndarray) -> None:
+    """Raises FloorError unless the cells (n,) are distinct, passable, and each beside the next."""
     width = passable.shape[1]
     y, x = np.divmod(cells, width)
     far = np.abs(np.diff(x)) + np.abs(np.diff(y))

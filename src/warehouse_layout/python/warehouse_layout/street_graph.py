@@ -1,19 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where two-way streets let robots pass each other: by another way round, or not at all."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from warehouse_layout.stations import STEPS
 
+Cell = tuple[int, ...]  # y, x
 
-def without_dead_ends(streets):
-    """(h, w) bool: of the cells of streets, the largest part in which two robots that meet can
-    both go on. Dead ends are taken away, and single ways between two parts, on which no way round
-    exists (bridges of the graph; found by chains of its depth-first tree, Schmidt 2013)."""
+
+def without_dead_ends(streets: np.ndarray) -> np.ndarray:
+    """Returns the largest part of the streets in which two robots that meet can both go on.
+
+    Both are (h, w) bool. Dead ends are taken away, and single ways between two parts, on which no
+    way round exists: bridges of the graph, found by chains of its depth-first tree (Schmidt 2013).
+    """
     cells = {tuple(cell) for cell in np.argwhere(streets).tolist()}
     parent, order = _depth_first(cells)
     rank = {cell: i for i, cell in enumerate(order)}
-    joined, seen = {cell: [] for cell in order}, set()
+    joined: dict[Cell, list[Cell]] = {cell: [] for cell in order}
+    seen: set[Cell] = set()
     for cell in order:
         for near in _beside(cell, cells):
             if rank[near] <= rank[cell] or parent[near] == cell:
@@ -24,26 +31,29 @@ def without_dead_ends(streets):
             end = near
             while end not in seen:
                 seen.add(end)
-                joined[end].append(parent[end])
-                joined[parent[end]].append(end)
-                end = parent[end]
+                before = parent[end]
+                assert before is not None, "only the root has none, and the chain began there"
+                joined[end].append(before)
+                joined[before].append(end)
+                end = before
     out = np.zeros_like(streets)
-    largest = max(_parts(joined), key=len, default=[])
+    largest: list[Cell] = max(_parts(joined), key=len, default=[])
     if len(largest) > 1:
         out[tuple(np.transpose(largest))] = True
     return out
 
 
-def _beside(cell, cells):
+def _beside(cell: Cell, cells: set[Cell]) -> list[Cell]:
     y, x = cell
     return [near for dx, dy in STEPS if (near := (y + dy, x + dx)) in cells]
 
 
-def _depth_first(cells):
-    """({cell: the one from which it was reached}, cells in the order in which they were)."""
-    parent, order = {}, []
+def _depth_first(cells: set[Cell]) -> tuple[dict[Cell, Cell | None], list[Cell]]:
+    """Returns the cell from which each one was reached, and the cells in the order of the visit."""
+    parent: dict[Cell, Cell | None] = {}
+    order: list[Cell] = []
     for start in sorted(cells):
-        stack = [(start, None)]
+        stack: list[tuple[Cell, Cell | None]] = [(start, None)]
         while stack:
             cell, before = stack.pop()
             if cell in parent:
@@ -54,8 +64,8 @@ def _depth_first(cells):
     return parent, order
 
 
-def _parts(joined):
-    """Lists of cells that hang together."""
+def _parts(joined: dict[Cell, list[Cell]]) -> Iterator[list[Cell]]:
+    """Yields the cells of each connected part."""
     left = set(joined)
     while left:
         part = [left.pop()]

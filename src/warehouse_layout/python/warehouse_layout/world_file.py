@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""World files, as far as it takes to add one to the world that runs."""
+"""World files, read in order to add their models to a running world."""
 
 import os
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Collection
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
@@ -11,17 +12,17 @@ from warehouse_layout.models import FLOOR, kind_and_number
 
 
 class WorldFileError(ValueError):
-    """No such file, or no SDF in it; the message names the file."""
+    """Names the file that does not exist or holds no SDF."""
 
 
-def find(world, worlds, cwd=None):
-    """The file that `world` means: a path, or a name in the folder `worlds`. Or WorldFileError.
+def find(world: str, worlds: str | Path, cwd: str | Path | None = None) -> Path:
+    """Returns the file of a world, given by a path or by a name in the folder `worlds`.
 
     A relative path is looked up from `cwd`: PWD by default, because roslaunch starts its nodes in
-    another folder than the one in which a person typed.
+    another folder than the one in which the command was typed. Raises WorldFileError.
     """
-    cwd = Path(cwd or os.environ.get("PWD", "."))
-    tried = [cwd / world, Path(worlds) / world, Path(worlds) / f"{world}.sdf"]
+    base = Path(cwd) if cwd else Path(os.environ.get("PWD", "."))
+    tried = [base / world, Path(worlds) / world, Path(worlds) / f"{world}.sdf"]
     for path in tried:
         if path.is_file():
             return path
@@ -30,22 +31,22 @@ def find(world, worlds, cwd=None):
 
 @dataclass(frozen=True)
 class Insertion:
-    """What a world file adds to a world: its SDF text, and the names of its models there.
+    """The models of a world file, ready to be added to a world: SDF text and names.
 
     Robots, storage units, items and belts whose name is taken get the lowest free number: `renamed`
-    maps names in the file to theirs. `left_out` names floors: the world keeps its own.
+    maps a name in the file to the new one. `left_out` names floors: the world keeps its own.
     """
 
     xml: str
-    names: list
-    renamed: dict
-    left_out: list
+    names: list[str]
+    renamed: dict[str, str]
+    left_out: list[str]
 
 
-def insertable(path, standing):
-    """The Insertion of a world file where the models `standing` stand already.
+def insertable(path: str | Path, standing: Collection[str]) -> Insertion:
+    """Returns the Insertion of a world file into a world that holds the models `standing`.
 
-    Raises WorldFileError, where other models have their names too.
+    Raises WorldFileError if the file can't be read, or has other models whose names are taken.
     """
     root, world = _parse(path)
     left_out = _leave_out_floors(world, FLOOR in standing)
@@ -60,14 +61,15 @@ def insertable(path, standing):
     for element in elements:
         _rename(element, renamed)
     for element in world.iter():
-        if element.get("relative_to") in renamed:
-            element.set("relative_to", renamed[element.get("relative_to")])
+        frame = element.get("relative_to")
+        if frame in renamed:
+            element.set("relative_to", renamed[frame])
     xml = ElementTree.tostring(root, encoding="unicode")
     return Insertion(xml, [_name(e) for e in elements], renamed, left_out)
 
 
-def _parse(path):
-    """The root of a file, and the <world> in it."""
+def _parse(path: str | Path) -> tuple[ElementTree.Element, ElementTree.Element]:
+    """Returns the root of a file, and the <world> in it."""
     try:
         root = ElementTree.parse(path).getroot()
     except ElementTree.ParseError as error:
@@ -78,8 +80,8 @@ def _parse(path):
     return root, world
 
 
-def _leave_out_floors(world, stands):
-    """Takes all floors but one out, or all if one stands there; returns their names."""
+def _leave_out_floors(world: ElementTree.Element, stands: bool) -> list[str]:
+    """Removes all floors but one, or all if the world has one already; returns their names."""
     floors = [e for e in world if e.tag in ("model", "include") and _is_floor(e)]
     spare = floors if stands else floors[1:]
     for element in spare:
@@ -87,14 +89,15 @@ def _leave_out_floors(world, stands):
     return [_name(element) for element in spare]
 
 
-def _is_floor(element):
+def _is_floor(element: ElementTree.Element) -> bool:
     uri = element.findtext("uri", "").strip().rstrip("/")
     return _name(element) == FLOOR or uri.rpartition("/")[2] == FLOOR
 
 
-def _free_names(names, standing):
-    """{name: another one} of the numbered names that are taken; lowest free numbers."""
-    used, out = {*names, *standing}, {}
+def _free_names(names: Collection[str], standing: Collection[str]) -> dict[str, str]:
+    """Maps each numbered name that is taken to the one with the lowest free number."""
+    used = {*names, *standing}
+    out: dict[str, str] = {}
     for name in names:
         kind, _ = kind_and_number(name)
         if not kind or name not in standing:
@@ -105,15 +108,15 @@ def _free_names(names, standing):
     return out
 
 
-def _name(element):
-    """Of a <model> or an <include>; an include without a name takes that of its file."""
+def _name(element: ElementTree.Element) -> str:
+    """Returns the name of a <model> or an <include>, which by default is that of its file."""
     if element.tag == "include":
         uri = element.findtext("uri", "").strip()
         return element.findtext("name", uri.removeprefix("model://")).strip()
     return element.get("name", "")
 
 
-def _rename(element, renamed):
+def _rename(element: ElementTree.Element, renamed: dict[str, str]) -> None:
     name = renamed.get(_name(element))
     if not name:
         return

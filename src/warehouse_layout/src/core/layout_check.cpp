@@ -9,7 +9,7 @@ namespace {
 
 using Kind = LayoutFault::Kind;
 
-/// The aisles' deck, on which one walks along edges or against them.
+/// Searches the aisles' deck along its edges and against them.
 class Aisles {
  public:
   explicit Aisles(const Floor& floor) : floor_(floor), seen_(floor.size(), 0) {
@@ -31,8 +31,8 @@ class Aisles {
     return floor_.isPassable(cell) && !floor_.isStorage(cell) && !floor_.isLane(cell);
   }
 
-  /// Core cells that are not strongly connected with the others; storage places and lane cells
-  /// without a way to them and back.
+  /// Returns core cells that are not strongly connected with the others, and storage places and
+  /// lane cells without a way to them and back.
   std::vector<Cell> cutOff() {
     std::vector<std::uint8_t> ahead, back;
     for (const bool is_forward : {true, false}) {
@@ -51,7 +51,7 @@ class Aisles {
     return cells;
   }
 
-  /// A cell of the largest strongly connected part of the core.
+  /// Returns a cell of the largest strongly connected part of the core.
   Cell largestPart() {
     Cell best = core_.front();
     std::size_t most = 0;
@@ -83,7 +83,7 @@ class Aisles {
       for (int heading = 0; heading < kHeadings; ++heading) {
         const Cell to = is_forward ? step(cell, heading) : stepBack(cell, heading);
         if (to == kNowhere || reached[to] || (core_only && !isCore(to))) continue;
-        // Nobody drives through a storage place.
+        // No loaded robot drives through a storage place.
         if (floor_.isStorage(cell) && floor_.isStorage(to)) continue;
         reached[to] = 1;
         queue.push_back(to);
@@ -111,7 +111,7 @@ class Aisles {
     return cells;
   }
 
-  /// Whether there is a way from `to` to `from` other than the one edge.
+  /// Tells whether there is a way from `to` to `from` other than the one edge.
   bool leadsBack(Cell from, Cell to) {
     ++search_;
     queue_.assign(1, to);

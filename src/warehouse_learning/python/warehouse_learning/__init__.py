@@ -12,6 +12,8 @@ Importing registers KivaWarehouse-v0 and KivaRobots-v0, of size `small`, and Kiv
 and KivaRobots-SIZE-v0 for each of SIZES. Options: help(warehouse_learning.Options).
 """
 
+from typing import Any
+
 from warehouse_learning.options import REWARDS, SIZES, OptionError, Options
 from warehouse_learning.warehouses import Action, ActionError, Warehouses
 
@@ -28,15 +30,15 @@ __all__ = [
 ]
 
 
-def parallel_env(**options):
-    """A PettingZoo ParallelEnv, warehouse_learning.parallel.KivaParallelEnv; options as of it."""
+def parallel_env(**options: Any) -> Any:
+    """Returns a PettingZoo ParallelEnv, a KivaParallelEnv; options as in Options."""
     from warehouse_learning.parallel import KivaParallelEnv
 
     return KivaParallelEnv(**options)
 
 
-def env(**options):
-    """The same for PettingZoo's other interface, in which agents take turns."""
+def env(**options: Any) -> Any:
+    """Returns the same for PettingZoo's other interface, in which agents take turns."""
     from warehouse_learning.parallel import in_turns
 
     return in_turns(parallel_env(**options))

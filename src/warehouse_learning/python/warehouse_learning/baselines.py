@@ -2,6 +2,9 @@
 """Policies to measure others by. Each is a function of observations (…, size) and action masks
 (…, 5) that returns actions (…,)."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from warehouse_fleet.fleet_driver import FleetDriver
@@ -15,8 +18,8 @@ from warehouse_learning.warehouses import Action, Warehouses
 IMPATIENCE = 0.2  # of robots that can't go on: how often they try something else
 
 
-def random_policy(seed=0):
-    """Any of the possible actions."""
+def random_policy(seed: int = 0) -> Callable[..., np.ndarray]:
+    """Returns a policy that takes any of the possible actions."""
     random = np.random.default_rng(seed)
 
     def act(_observations, masks):
@@ -25,8 +28,8 @@ def random_policy(seed=0):
     return act
 
 
-def greedy_policy(options, seed=0):
-    """To the goal by the shortest way, whoever is in it."""
+def greedy_policy(options: Options, seed: int = 0) -> Callable[..., np.ndarray]:
+    """Returns a policy that goes to the goal by the shortest way, whatever robot is in it."""
     random = np.random.default_rng(seed)
     robot_fields = fields.robot_fields(options)
     turns = np.array([Action.FORWARD, Action.LEFT, Action.LEFT, Action.RIGHT])
@@ -56,8 +59,10 @@ def _beneath_a_request(see):
     return here[..., middle, middle, fields.LAYERS.index("requested")] > 0
 
 
-def measure(policy, options, episodes=8, seed=0, threads=0):
-    """(episodes,) units delivered in each, and the simulated seconds of each."""
+def measure(
+    policy: Any, options: Options, episodes: int = 8, seed: int = 0, threads: int = 0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (episodes,) units delivered in each, and (episodes,) simulated seconds."""
     warehouses = Warehouses(episodes, options, threads)
     observer = Observer(warehouses)
     warehouses.reset(np.arange(episodes), [seed + i for i in range(episodes)])
@@ -67,7 +72,7 @@ def measure(policy, options, episodes=8, seed=0, threads=0):
     return warehouses.delivered.sum(1), seconds
 
 
-def measure_planner(options, seconds, seed=0):
+def measure_planner(options: Options, seconds: float, seed: int = 0) -> int:
     """Units that the fleet's own planner brings to stations in so many simulated seconds, with as
     many open requests, none of which is served for longer than it takes to let go."""
     world = building.build(1, options, threads=1)[0][0]
@@ -90,7 +95,7 @@ def measure_planner(options, seconds, seed=0):
     return delivered
 
 
-def main():
+def main() -> None:
     """python3 -m warehouse_learning.baselines [size]: prints what each delivers."""
     import sys
 
@@ -99,8 +104,8 @@ def main():
         delivered, seconds = measure(policy, options)
         hourly = 3600 * delivered.sum() / seconds.sum()
         print(f"{name:8} {delivered.mean():7.1f} units an episode, {hourly:7.1f} an hour")
-    delivered = measure_planner(options, 1800)
-    print(f"{'planner':8} {'':7} {'':19} {2 * delivered:7.1f} an hour")
+    planned = measure_planner(options, 1800)
+    print(f"{'planner':8} {'':7} {'':19} {2 * planned:7.1f} an hour")
 
 
 if __name__ == "__main__":

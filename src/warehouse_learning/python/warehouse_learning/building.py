@@ -5,13 +5,15 @@ for, all alike."""
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import Any
 
 from kiva_plugin_cpp import World, Worlds, worlds_folder
 from warehouse_layout import layout, request
+from warehouse_learning.options import Options
 
 
-def build(n, options, threads=0):
-    """(Worlds, checkpoint): n worlds as they are before an episode, and what brings them back."""
+def build(n: int, options: Options, threads: int = 0) -> tuple[Worlds, Any]:
+    """Returns (Worlds, checkpoint): n worlds before an episode, and that state to return to."""
     wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
     with tempfile.TemporaryDirectory() as folder:
         _write_kiva(Path(folder), options)

@@ -3,6 +3,7 @@
 own planner (warehouse_fleet) drives them there."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -38,14 +39,14 @@ class KivaDispatcherEnv(gymnasium.Env):
 
     metadata = {"render_modes": RENDER_MODES, "render_fps": 4}
 
-    def __init__(self, render_mode=None, **options):
+    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
         if options.get("continuous"):
             raise ValueError("continuous is for robots; a dispatcher gives tasks")
         options.setdefault("decision", DECISION)
         self.options = Options.of(options)
         worlds, self._checkpoint = building.build(1, self.options, threads=1)
         self._world = worlds[0]
-        self._driver = None
+        self._driver: Any = None
         robots, tasks = self.options.robots, self.options.requests
         self.fields = [
             Field("robot_position", (robots, 2), 0, 1, "floor", "1 is the last column or row"),
@@ -63,8 +64,10 @@ class KivaDispatcherEnv(gymnasium.Env):
         page = lambda: Page(self._world, self.options.title)  # noqa: E731
         self._screen = Screen(render_mode, lambda: Picture(self._scene), page)
 
-    def reset(self, *, seed=None, options=None):
-        """A new episode: the same seed, the same episode."""
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode; the same seed begins the same one. Returns (observation, info)."""
         super().reset(seed=seed)
         if self._driver:
             self._driver.close()
@@ -72,15 +75,20 @@ class KivaDispatcherEnv(gymnasium.Env):
         self._driver = FleetDriver(self._world)
         self._driver.transports.match_robots = self._match
         self._stations = [s for s in self._driver.plan.stations if s.kind == PICK]
-        self._tasks, self._released, self._wishes = [], {}, {}
+        self._tasks: list[Any] = []
+        self._released: dict[Any, Any] = {}
+        self._wishes: dict[Any, Any] = {}
         self._cycle = self.delivered = 0
         while len(self._tasks) < self.options.requests:
             self._ask()
         self._screen.stepped()
         return self._observation(), self._info()
 
-    def step(self, action):
-        """ActionError if the action is none."""
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Assigns a task; returns (observation, reward, terminated, truncated, info).
+
+        Raises ActionError if the action is none.
+        """
         if not self._driver:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
         given = np.asarray(action)
@@ -112,26 +120,28 @@ class KivaDispatcherEnv(gymnasium.Env):
         ends = self._cycle >= self.options.max_cycles
         return self._observation(), float(earned), False, ends, self._info()
 
-    def action_masks(self):
-        """(actions,) bool, as sb3_contrib's MaskablePPO asks for."""
+    def action_masks(self) -> np.ndarray:
+        """Returns (actions,) bool, as sb3_contrib's MaskablePPO asks for."""
         free = np.tile(self._free(), self.options.requests)
         return np.concatenate([[True], free])
 
-    def render(self):
+    def render(self) -> np.ndarray | None:
+        """Returns the picture, (height, width, 3) uint8, or shows it on the page."""
         units = self._world.storage_units["shelf_id"]
         asked = [task["shelf"] for task in self._tasks]
         self._scene.requested = np.isin(units, asked)[None]
         self._scene.busy = ~self._free()[None]
         return self._screen.render()
 
-    def close(self):
+    def close(self) -> None:
+        """Closes the page, if there is one."""
         self._screen.close()
         if self._driver:
             self._driver.close()
             self._driver = None
 
     def _match(self, asked, free):
-        """Transports and who was told to do them; one that is stuck does it when it is free."""
+        """Transports and the robots assigned to them; a stuck robot starts once it is free."""
         for transport in asked:
             robot = self._wishes.get(transport.shelf, NOWHERE)
             if robot in free:

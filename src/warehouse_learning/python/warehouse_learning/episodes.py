@@ -8,6 +8,7 @@ the same, bit by bit.
 import dataclasses
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,8 +21,8 @@ class EpisodeError(ValueError):
     """A file that is no episode; the message names it and why."""
 
 
-def save(path, options, seed, actions):
-    """actions: (decisions, robots) or, of wheels, (decisions, robots, 3)."""
+def save(path: Any, options: Options, seed: int, actions: Any) -> None:
+    """Writes an episode; actions are (decisions, robots) or, for wheels, (decisions, robots, 3)."""
     content = {
         "format": FORMAT,
         "options": dataclasses.asdict(options),
@@ -31,8 +32,8 @@ def save(path, options, seed, actions):
     Path(path).write_text(json.dumps(content))
 
 
-def load(path):
-    """(Options, seed, actions) of a file. Raises EpisodeError."""
+def load(path: Any) -> tuple[Options, int, np.ndarray]:
+    """Returns (Options, seed, actions) of a file. Raises EpisodeError."""
     try:
         content = json.loads(Path(path).read_text())
         if content["format"] != FORMAT:

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a robot observes, field by field."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+
+from warehouse_learning.options import Options
 
 LAYERS = ("blocked", "storage", "station", "unit", "requested", "robot", "loaded")
 LASER_RANGE = 5.0  # [m]
@@ -21,12 +24,13 @@ class Field:
     text: str
 
     @property
-    def size(self):
+    def size(self) -> int:
+        """How many numbers it takes."""
         return int(np.prod(self.shape))
 
 
-def robot_fields(options, rays=0):
-    """The Fields of one robot's observation, in order."""
+def robot_fields(options: Options, rays: int = 0) -> list[Field]:
+    """Returns the Fields of one robot's observation, in order."""
     edge = 2 * options.radius + 1
     fields = [
         Field("position", (2,), 0, 1, "floor", "column and row of its cell; 1 is the last one"),
@@ -63,8 +67,8 @@ def robot_fields(options, rays=0):
     return fields
 
 
-def state_fields(options):
-    """The Fields of the whole warehouse's state."""
+def state_fields(options: Options) -> list[Field]:
+    """Returns the Fields of the whole warehouse's state."""
     return [
         Field("robot_position", (options.robots, 2), 0, 1, "floor", "as position"),
         Field("robot_heading", (options.robots, 4), 0, 1, "", "as heading"),
@@ -78,8 +82,8 @@ def state_fields(options):
     ]
 
 
-def slices(fields):
-    """{name: slice} of each in the row of numbers."""
+def slices(fields: Iterable[Field]) -> dict[str, slice]:
+    """Returns {name: slice} of each in the row of numbers."""
     out, at = {}, 0
     for one in fields:
         out[one.name] = slice(at, at + one.size)
@@ -87,15 +91,15 @@ def slices(fields):
     return out
 
 
-def bounds(fields):
-    """(low, high), each (size,) float32."""
+def bounds(fields: Iterable[Field]) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (low, high), each (size,) float32."""
     low = np.concatenate([np.full(one.size, one.low, np.float32) for one in fields])
     high = np.concatenate([np.full(one.size, one.high, np.float32) for one in fields])
     return low, high
 
 
-def split(observation, fields):
-    """{name: array of the field's shape} of an observation, or of many: (…, size)."""
+def split(observation: np.ndarray, fields: Iterable[Field]) -> dict[str, np.ndarray]:
+    """Returns {name: array of the field's shape} of one observation or of many, (…, size)."""
     observation = np.asarray(observation)
     return {
         one.name: observation[..., part].reshape(observation.shape[:-1] + one.shape)

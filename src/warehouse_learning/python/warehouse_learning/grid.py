@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The floor as cells: who may go where.
 
-A cell is a number, row * width + column, of a floor with a rim of `rim` cells that nobody can
+A cell is a number, row * width + column, of a floor with a rim of `rim` cells that no robot can
 enter: so every neighbourhood lies inside. Headings count quarter turns from +x towards +y.
 """
+
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +16,7 @@ from warehouse_learning._core import Floor
 class Grid:
     """Of a warehouse_fleet FloorPlan. rim: cells around it, and how far robots see."""
 
-    def __init__(self, plan, rim):
+    def __init__(self, plan: Any, rim: int) -> None:
         self.spacing = plan.spacing
         self.height, self.width = (edge + 2 * rim for edge in plan.shape)
         self.rim, self.cells = rim, self.height * self.width
@@ -47,21 +49,21 @@ class Grid:
     def _rimmed(self, mask):
         return np.pad(mask, self.rim).ravel()
 
-    def locate(self, x, y, yaw):
-        """(cells, headings) nearest to places in world [m, rad]: int32 and int8, of their shape."""
+    def locate(self, x: Any, y: Any, yaw: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Returns (cells, headings), int32 and int8, nearest to places in world [m, rad]."""
         return self.native.locate(x, y, yaw)
 
-    def cell_of(self, x, y):
-        """The cells around places in world [m]."""
+    def cell_of(self, x: Any, y: Any) -> np.ndarray:
+        """Returns the cells around places in world [m]."""
         return self.locate(x, y, np.zeros(np.shape(x)))[0]
 
-    def point_of(self, cell):
-        """(x, y) of the centres of cells, in world [m]."""
+    def point_of(self, cell: Any) -> tuple[Any, Any]:
+        """Returns (x, y) of the centres of cells, in world [m]."""
         x, y = self._points
         return x[cell], y[cell]
 
-    def share_of(self, cell):
-        """(…, 2): column and row of cells, each in 0…1 over the floor."""
+    def share_of(self, cell: Any) -> np.ndarray:
+        """Returns (…, 2): column and row of cells, each in 0…1 over the floor."""
         row, column = np.divmod(cell, self.width)
         last = np.array([self.width, self.height]) - 1 - 2 * self.rim
         at = np.stack([column, row], -1) - self.rim

@@ -4,12 +4,13 @@
 import numpy as np
 
 from warehouse_learning import fields
+from warehouse_learning.warehouses import Warehouses
 
 
 class Observer:
     """Of `warehouses`. Each call makes new arrays."""
 
-    def __init__(self, warehouses):
+    def __init__(self, warehouses: Warehouses) -> None:
         self._of = warehouses
         options, grid = warehouses.options, warehouses.grid
         self._rays = warehouses.worlds.scans().shape[2] if options.lasers else 0
@@ -22,8 +23,8 @@ class Observer:
         self._share = np.clip(share, 0, 1)
         self._one_hot = np.eye(4, dtype=np.float32)
 
-    def observations(self):
-        """(n, robots, size) float32."""
+    def observations(self) -> np.ndarray:
+        """Returns (n, robots, size) float32."""
         see = self._of
         out = np.empty((see.n, see.robots, self.size), np.float32)
         see.task.observe(out)
@@ -34,8 +35,8 @@ class Observer:
             out[..., self._at["laser"]] = np.clip(ranges / fields.LASER_RANGE, 0, 1)
         return out
 
-    def state(self):
-        """(n, state_size) float32: of each warehouse as a whole."""
+    def state(self) -> np.ndarray:
+        """Returns (n, state_size) float32: each warehouse as a whole."""
         see = self._of
         out = np.empty((see.n, self.state_size), np.float32)
         part = fields.slices(self.state_fields)

@@ -3,7 +3,9 @@
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 REWARDS = {
     "delivered": 1.0,  # a requested unit stands at a station: its robot
@@ -99,14 +101,14 @@ class Options:
         object.__setattr__(self, "rewards", REWARDS | self.rewards)
 
     @property
-    def title(self):
-        """For a person."""
+    def title(self) -> str:
+        """What the page calls the warehouse."""
         own = SIZES.get(self.size) == Size(self.robots, self.shelves)
         return self.size if own else f"{self.robots} robots, {self.shelves} units"
 
     @classmethod
-    def of(cls, given):
-        """Of keyword arguments; OptionError for an unknown one."""
+    def of(cls, given: Mapping[str, Any]) -> "Options":
+        """Returns Options from keyword arguments. Raises OptionError for an unknown one."""
         known = [f.name for f in dataclasses.fields(cls)]
         for name in given:
             if name not in known:

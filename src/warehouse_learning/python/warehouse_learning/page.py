@@ -1,55 +1,64 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The warehouse's page for a world in this process: http://127.0.0.1:PORT, robots in 3D and all.
+"""The warehouse's page for a world in this process: http://127.0.0.1:PORT, in 3D.
 
-Who looks can pause, go on, step and choose a speed; what robots do is decided by the program.
+The page can pause, resume and step the world and set its speed; the program alone decides what
+robots do.
 """
 
 import sys
+from collections.abc import Iterable
 
-from kiva_plugin_cpp import EventKind
-from warehouse_learning.live import LiveWorld
-from warehouse_learning.pace import Pace
+from kiva_plugin_cpp import EventKind, World
 
 PORT = 8090  # the next free one if it is taken
-SPEED = 5.0  # simulated seconds a wall second, until somebody chooses another
+SPEED = 5.0  # simulated seconds per wall second, until the page sets another
 NEEDS = "the page needs starlette, uvicorn and wsproto: pip install 'kiva_warehouse[learning]'"
+
+Event = tuple[float, int, str, str, str, int]
 
 
 class Page:
-    """Shows a kiva_plugin_cpp.World, which others step, until it is closed. ImportError without
-    what it is served by, OSError without a free port."""
+    """Shows a World, which the program steps, until it is closed.
 
-    def __init__(self, world, name="", port=PORT, speed=SPEED):
+    `name` is the title, `port` the first one to try, `speed` the first target in simulated seconds
+    per wall second (0: as fast as possible); `url` says where to look. Raises ImportError without
+    the packages that serve it, OSError without a free port.
+    """
+
+    def __init__(
+        self, world: World, name: str = "", port: int = PORT, speed: float = SPEED
+    ) -> None:
         try:
-            from warehouse_learning.page_server import PageServer
-            from warehouse_viewer.journal import Journal
+            from warehouse_viewer.page import pace, world_source
+            from warehouse_viewer.server.local_server import LocalServer
         except ImportError as error:
             raise ImportError(f"{NEEDS} ({error})") from error
-        self._world, self._pace, self._journal = world, Pace(speed), Journal()
-        self._live = LiveWorld(world, self._pace)
-        told = self._live, self._journal, self._pace
-        self._server = PageServer(name, world.step_size, *told, port)
+        self._world, self._pace = world, pace.Pace(speed)
+        source, self._feed = world_source.source_of(world, name, self._pace)
+        self._journal = source.journal
+        self._server = LocalServer(source, port)
         self.url = self._server.url
         print(f"watch it: {self.url}", file=sys.stderr)
 
     @property
-    def watchers(self):
-        """How many look."""
+    def watchers(self) -> int:
+        """How many browsers have the page open."""
         return self._server.hub.pages
 
-    def show(self):
-        """The world as it is now."""
-        self._live.take()
-        self._server.hub.news()
+    def show(self) -> None:
+        """Shows the world's present state."""
+        self._feed.update()
+        self._server.hub.notify()
 
-    def moved(self):
-        """Shows it to those who look. Returns when its time may go on."""
+    def moved(self) -> None:
+        """Shows the world if a browser has the page open, and waits until time may go on."""
         if self.watchers:
             self.show()
         self._pace.wait(self._world.time)
 
-    def tell(self, events):
-        """What happened: (time, kind, model, other, text, command) each, as of World.events()."""
+    def tell(self, events: Iterable[Event]) -> None:
+        """Adds events to the page's log: (time [s], kind, model, other, text, command) each, as
+        World.events() returns them."""
         for time, kind, model, other, text, command in events:
             self._journal.add(
                 {
@@ -62,7 +71,7 @@ class Page:
                 }
             )
 
-    def close(self):
-        """Ends it; whoever looks keeps what was shown last."""
+    def close(self) -> None:
+        """Ends the page; open browsers keep what was shown last."""
         self._pace.end()
         self._server.close()

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each robot an agent: PettingZoo's parallel environment."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from gymnasium import spaces
 from pettingzoo import ParallelEnv
@@ -22,7 +25,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
     max_cycles decisions.
     """
 
-    def __init__(self, render_mode=None, **options):
+    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
         self._set_up(render_mode, options)
         self.metadata = {
             "name": "kiva_warehouse_v0",
@@ -31,30 +34,41 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
             "is_parallelizable": True,
         }
         self.possible_agents = [f"robot_{i + 1}" for i in range(self.options.robots)]
-        self.agents = []
+        self.agents: list[str] = []
         self.max_cycles = self.options.max_cycles
         low, high = fields.bounds(self.fields)
         self.observation_spaces = {a: spaces.Box(low, high) for a in self.possible_agents}
         self.action_spaces = {a: robot_action_space(self.options) for a in self.possible_agents}
         self.state_space = spaces.Box(*fields.bounds(self.state_fields))
-        self._random = None
+        self._random: np.random.Generator | None = None
 
-    def observation_space(self, agent):
+    def observation_space(self, agent: str) -> Any:
+        """Returns the space of an agent's observations."""
         return self.observation_spaces[agent]
 
-    def action_space(self, agent):
+    def action_space(self, agent: str) -> Any:
+        """Returns the space of an agent's actions."""
         return self.action_spaces[agent]
 
-    def reset(self, seed=None, options=None):
-        """A new episode: the same seed, the same episode. Without one, the next of the last."""
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Begins an episode; the same seed begins the same one, without one the next begins.
+
+        Returns (observations, infos) by agent.
+        """
         if seed is not None or self._random is None:
             self._random = np.random.default_rng(seed)
         self.agents = self.possible_agents[:]
         self._begin(self._random.integers(2**62) if seed is None else seed)
         return self._observations(), self._infos({})
 
-    def step(self, actions):
-        """{agent: action}, one for each agent. ActionError names the agent whose is none."""
+    def step(self, actions: Mapping[str, Any]) -> tuple[dict[str, Any], ...]:
+        """Takes {agent: action}, one for each agent, and makes one decision.
+
+        Returns observations, rewards, terminations, truncations and infos by agent. Raises
+        ActionError that names the agent whose action is none.
+        """
         if not self.agents:
             return {}, {}, {}, {}, {}
         rewards, happened, ends = self._decide(self._chosen(actions))
@@ -70,8 +84,8 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
         )
 
     @property
-    def unit_deliveries(self):
-        """(robots,) units that each has delivered in this episode."""
+    def unit_deliveries(self) -> np.ndarray:
+        """Returns (robots,) units that each has delivered in this episode."""
         return self._in.delivered[0].copy()
 
     def _chosen(self, actions):
@@ -112,13 +126,13 @@ class _Checked(BaseWrapper):
         super().step(action)
 
 
-def in_turns(env):
-    """The same for PettingZoo's other interface."""
+def in_turns(env: Any) -> Any:
+    """Returns the same for PettingZoo's other interface."""
     return _Checked(parallel_to_aec(env))
 
 
-def check_action(agent, action, space):
-    """ActionError that names the agent, unless the action is one of the space."""
+def check_action(agent: str, action: Any, space: Any) -> None:
+    """Raises ActionError that names the agent, unless the action is one of the space."""
     given = np.asarray(action)
     if isinstance(space, spaces.Discrete):
         good = given.shape == () and given.dtype.kind in "iu" and 0 <= given < space.n

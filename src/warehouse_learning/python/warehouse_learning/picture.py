@@ -3,6 +3,8 @@
 episodes. For print there is warehouse_sim's renderer, which takes a running warehouse's messages.
 """
 
+from typing import Any
+
 import numpy as np
 
 PIXELS = 24  # an edge of a cell, if that gives no more than MOST
@@ -17,7 +19,7 @@ UNIT_EDGE, ROBOT_LENGTH, ROBOT_WIDTH = 0.8, 0.76, 0.64  # [m]
 class Picture:
     """Draws one of the `warehouses`."""
 
-    def __init__(self, warehouses, world=0):
+    def __init__(self, warehouses: Any, world: int = 0) -> None:
         self._of, self._world = warehouses, world
         grid = warehouses.grid
         rows, columns = grid.height - 2 * grid.rim, grid.width - 2 * grid.rim
@@ -37,12 +39,12 @@ class Picture:
         self._metre = self._scale / grid.spacing
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """(height, width, 3) of the picture."""
         return self._back.shape
 
-    def draw(self):
-        """(height, width, 3) uint8; y goes up."""
+    def draw(self) -> np.ndarray:
+        """Returns the picture, (height, width, 3) uint8; y goes up."""
         see, w = self._of, self._world
         canvas = self._back.copy()
         rows = see.worlds[w].storage_units

@@ -9,7 +9,9 @@ import argparse
 import json
 import multiprocessing
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +44,7 @@ class Settings:
 class Network:
     """Observations → logits of the actions and a value, by two layers of tanh."""
 
-    def __init__(self, size, actions, hidden, random):
+    def __init__(self, size: int, actions: int, hidden: int, random: np.random.Generator) -> None:
         def layer(rows, columns, gain):
             q, _ = np.linalg.qr(random.standard_normal((max(rows, columns), min(rows, columns))))
             return (gain * (q if rows >= columns else q.T)).astype(np.float32)
@@ -57,16 +59,16 @@ class Network:
             zeros(actions + 1),
         ]
 
-    def forward(self, x):
-        """(logits, value, what backward needs)."""
+    def forward(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, Any]:
+        """Returns (logits, value, what backward needs)."""
         w1, b1, w2, b2, w3, b3 = self.parameters
         h1 = np.tanh(x @ w1 + b1)
         h2 = np.tanh(h1 @ w2 + b2)
         out = h2 @ w3 + b3
         return out[:, :-1], out[:, -1], (x, h1, h2)
 
-    def backward(self, kept, d_logits, d_value):
-        """The loss' slopes by all parameters."""
+    def backward(self, kept: Any, d_logits: np.ndarray, d_value: np.ndarray) -> list[np.ndarray]:
+        """Returns the loss's slopes by all parameters."""
         x, h1, h2 = kept
         _, _, w2, _, w3, _ = self.parameters
         d_out = np.column_stack([d_logits, d_value]).astype(np.float32)
@@ -76,12 +78,13 @@ class Network:
 
 
 class Adam:
-    def __init__(self, parameters):
+    def __init__(self, parameters: Sequence[np.ndarray]) -> None:
         self.parameters, self.steps = parameters, 0
         self.mean = [np.zeros_like(p) for p in parameters]
         self.square = [np.zeros_like(p) for p in parameters]
 
-    def step(self, slopes, rate):
+    def step(self, slopes: Sequence[np.ndarray], rate: float) -> None:
+        """Moves the parameters against the slopes."""
         norm = np.sqrt(sum(float((g * g).sum()) for g in slopes))
         scale = min(1.0, 0.5 / (norm + 1e-8))
         self.steps += 1
@@ -94,8 +97,8 @@ class Adam:
             self.parameters[i] -= rate * step
 
 
-def probabilities(logits, masks):
-    """(m, 5), 0 where the mask is."""
+def probabilities(logits: np.ndarray, masks: np.ndarray) -> np.ndarray:
+    """Returns (m, 5), 0 where the mask is."""
     logits = np.where(masks, logits, -1e9)
     logits = logits - logits.max(1, keepdims=True)
     out = np.exp(logits) * masks
@@ -105,10 +108,10 @@ def probabilities(logits, masks):
 class Policy:
     """A trained network as baselines.measure takes it; `seed` of its choices."""
 
-    def __init__(self, network, seed=0):
+    def __init__(self, network: Network, seed: int = 0) -> None:
         self.network, self._random = network, np.random.default_rng(seed)
 
-    def __call__(self, observations, masks):
+    def __call__(self, observations: np.ndarray, masks: np.ndarray) -> np.ndarray:
         rows = observations.reshape(-1, observations.shape[-1])
         logits, _, _ = self.network.forward(rows)
         return _drawn(probabilities(logits, masks.reshape(len(rows), -1)), self._random).reshape(
@@ -122,7 +125,13 @@ def _drawn(chances, random):
     return (sums < random.random((len(chances), 1)) * sums[:, -1:]).sum(1).clip(0, 4)
 
 
-def train(options, decisions, seed=0, settings=Settings(), report=None):  # noqa: B008
+def train(
+    options: Options,
+    decisions: int,
+    seed: int = 0,
+    settings: Settings = Settings(),
+    report: Callable[..., Any] | None = None,
+) -> tuple[Policy, np.ndarray]:  # noqa: B008
     """(Policy, curve): `decisions` of all robots together. The curve has rows (decisions so far,
     units delivered an episode). `report(row)` hears each."""
     random = np.random.default_rng(seed)
@@ -141,7 +150,9 @@ def train(options, decisions, seed=0, settings=Settings(), report=None):  # noqa
     curve, done, finished = [], 0, []
     full = np.zeros(n, bool)  # episodes that began at their beginning
     for update in range(updates):
-        rows = {name: [] for name in ("x", "mask", "action", "chance", "value", "reward", "end")}
+        rows: dict[str, list[Any]] = {
+            name: [] for name in ("x", "mask", "action", "chance", "value", "reward", "end")
+        }
         for _ in range(rollout):
             flat, mask = observations.reshape(n * robots, -1), masks.reshape(n * robots, -1)
             logits, value, _ = network.forward(flat)
@@ -220,7 +231,8 @@ def _slopes(network, part, settings):
     return network.backward(kept, d_logits, d_value)
 
 
-def main():
+def main() -> None:
+    """Trains with several seeds, and prints and draws the curves."""
     parser = argparse.ArgumentParser("python3 -m warehouse_learning.ppo", description=__doc__)
     parser.add_argument("--size", default="tiny")
     parser.add_argument("--decisions", type=int, default=600_000, help="of all robots (600,000)")
@@ -253,8 +265,8 @@ def _trained(job):
     return curve
 
 
-def draw(path, options, curves):
-    """Curves of several seeds beside what the other baselines deliver."""
+def draw(path: Any, options: Options, curves: Sequence[np.ndarray]) -> None:
+    """Draws the curves of several seeds beside what the other baselines deliver."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """All robots of a warehouse under one policy: a Gymnasium environment, and many of it at once."""
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -29,27 +31,33 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
 
     metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
 
-    def __init__(self, render_mode=None, **options):
+    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
         self._set_up(render_mode, options)
         self.observation_space = _joint_space(self.fields, self.options.robots)
         self.action_space = joint_action_space(self.options)
 
-    def reset(self, *, seed=None, options=None):
-        """A new episode: the same seed, the same episode."""
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begins an episode; the same seed begins the same one. Returns (observation, info)."""
         super().reset(seed=seed)
         self._begin(self.np_random.integers(2**62) if seed is None else seed)
         return self._observation(), self._mask()
 
-    def step(self, action):
-        """ActionError if the action is none."""
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Makes one decision for every robot.
+
+        Returns (observation, reward, terminated, truncated, info). Raises ActionError if the action
+        is none.
+        """
         if self._seed is None:
             raise gymnasium.error.ResetNeeded("reset() begins the first episode")
         rewards, happened, ends = self._decide(_by_robot(action, (), self.options)[0])
         info = self._mask() | {"rewards": rewards} | happened
         return self._observation(), float(rewards.sum()), False, ends, info
 
-    def action_masks(self):
-        """(robots * 5,) bool, as sb3_contrib's MaskablePPO asks for."""
+    def action_masks(self) -> np.ndarray:
+        """Returns (robots * 5,) bool, as sb3_contrib's MaskablePPO asks for."""
         return self._in.masks()[0].ravel()
 
     def _mask(self):
@@ -70,12 +78,12 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
 
     def __init__(
         self,
-        num_envs=1,
-        render_mode=None,
-        threads=0,
-        autoreset_mode=AutoresetMode.NEXT_STEP,
-        **options,
-    ):
+        num_envs: int = 1,
+        render_mode: str | None = None,
+        threads: int = 0,
+        autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
+        **options: Any,
+    ) -> None:
         self._set_up(num_envs, render_mode, options, threads)
         self.num_envs = num_envs
         self.autoreset_mode = AutoresetMode(autoreset_mode)
@@ -87,7 +95,9 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         self._ended = np.zeros(num_envs, bool)
         self._begun = False
 
-    def reset(self, *, seed=None, options=None):
+    def reset(
+        self, *, seed: Any = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
         """New episodes in all, or in those of options["reset_mask"], (num_envs,) bool.
 
         seed: a number, and environment i gets seed + i, or one for each; None: the next ones.
@@ -111,8 +121,12 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         self._screen.stepped()
         return self._observations(), self._infos(None, {})
 
-    def step(self, actions):
-        """ActionError if the action of an environment is none."""
+    def step(self, actions: Any) -> tuple[Any, ...]:
+        """Makes one decision in every environment.
+
+        Returns observations, rewards, terminated, truncated and infos. Raises ActionError if an
+        action is none.
+        """
         if not self._begun:
             raise gymnasium.error.ResetNeeded("reset() begins the first episodes")
         chosen = _by_robot(actions, (self.num_envs,), self.options)
@@ -141,16 +155,17 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
         none = np.zeros(self.num_envs, bool)
         return observations, rewards.sum(1).astype(np.float64), none, ends, infos
 
-    def state(self):
-        """(num_envs, size) float32: each whole warehouse, as `state_fields` says."""
+    def state(self) -> np.ndarray:
+        """Returns (num_envs, size) float32: each whole warehouse, as `state_fields` says."""
         return self._see.state()
 
-    def render(self):
-        """The first one's picture."""
+    def render(self) -> Any:
+        """Returns the first one's picture."""
         picture = super().render()
         return None if picture is None else (picture,)
 
-    def close_extras(self, **_):
+    def close_extras(self, **_: Any) -> None:
+        """Closes the page, if there is one (Gymnasium's hook)."""
         self._screen.close()
 
     def _next_seeds(self, count):

@@ -2,8 +2,11 @@
 """What environments of robots have in common, whatever their interface: warehouses, what is
 observed of them, who watches, and, of one warehouse, the episode as it goes."""
 
+from typing import Any
+
 import numpy as np
 
+from kiva_plugin_cpp import World
 from warehouse_learning import episodes
 from warehouse_learning.observing import Observer
 from warehouse_learning.options import Options
@@ -28,15 +31,17 @@ class Stage:
             self._in.on_moved = self._screen.moved
 
     @property
-    def render_mode(self):
+    def render_mode(self) -> str | None:
+        """As given: None, "human" or "rgb_array"."""
         return self._screen.mode
 
     @property
-    def page(self):
+    def page(self) -> Page | None:
         """The Page that shows it, with its `url`; None unless render_mode is "human"."""
         return self._screen.page
 
-    def render(self):
+    def render(self) -> np.ndarray | None:
+        """Returns the picture, (height, width, 3) uint8; shows it and returns None for "human"."""
         return self._screen.render()
 
     def _masks(self):
@@ -72,19 +77,20 @@ class OneWarehouse(Stage):
         return rewards[0], happened, bool(self._ends()[0])
 
     @property
-    def world(self):
-        """The kiva_plugin_cpp.World that it is, for whoever wants to look closer."""
+    def world(self) -> World:
+        """The kiva_plugin_cpp.World behind the environment."""
         return self._in.worlds[0]
 
-    def state(self):
-        """(size,) float32: the whole warehouse, as `state_fields` says, for centralised critics."""
+    def state(self) -> np.ndarray:
+        """Returns the warehouse, (size,) float32 as in `state_fields`, for central critics."""
         return self._see.state()[0]
 
-    def close(self):
+    def close(self) -> None:
+        """Closes the page, if there is one."""
         self._screen.close()
 
-    def save_episode(self, path):
-        """The episode up to now as a file; `python3 -m warehouse_learning.watch` plays it."""
+    def save_episode(self, path: Any) -> None:
+        """Writes the episode up to now; `python3 -m warehouse_learning.watch` plays it."""
         if self._seed is None:
             raise ValueError("there is no episode yet: reset() begins one")
         episodes.save(path, self.options, self._seed, self._actions)

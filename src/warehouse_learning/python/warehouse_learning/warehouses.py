@@ -6,7 +6,9 @@ service cell) and then put back on any free storage place. Arrays have the leadi
 (n, robots). Everything is decided by what the physics says: where robots stand, what they carry.
 """
 
+from collections.abc import Callable
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +16,7 @@ from warehouse_layout.floor_plan import FloorPlan
 from warehouse_learning import building
 from warehouse_learning._core import Task
 from warehouse_learning.grid import Grid
+from warehouse_learning.options import Options
 
 LONGEST_ACTION = 20.0  # a decision ends then, whatever robots are at [s]
 TOP_SPEED, WHEEL_RADIUS = 1.5, 0.1  # of the Kiva in worlds/models [m/s, m]
@@ -38,7 +41,7 @@ class ActionError(ValueError):
 class Warehouses:
     """n warehouses of the same Options. `threads` as of kiva_plugin_cpp.Worlds."""
 
-    def __init__(self, n, options, threads=0):
+    def __init__(self, n: int, options: Options, threads: int = 0) -> None:
         self.n, self.options = n, options
         self.worlds, self._checkpoint = building.build(n, options, threads)
         plan = FloorPlan.of_world(self.worlds[0])
@@ -66,28 +69,28 @@ class Warehouses:
         now = self.worlds
         self._robots = now.x, now.y, now.yaw, now.status, now.shelf_id  # views, as of Worlds
         self._counts = now.counts
-        self._masks = None  # of now, once somebody has asked
+        self._masks: Any = None  # of the present state, once it was asked for
         self.cycle = np.zeros(n, np.int64)
         self.delivered = np.zeros((n, self.robots), np.int64)  # in this episode
-        self._random = [None] * n
+        self._random: list[Any] = [None] * n
         self._limit = max(1, round(LONGEST_ACTION / options.physics_step))
         self._fixed = (
             0
             if options.decision == "action"
-            else max(1, round(options.decision / options.physics_step))
+            else max(1, round(float(options.decision) / options.physics_step))
         )
         seconds = 0 if not self._fixed else self._fixed * options.physics_step
         self.decision_seconds = seconds  # 0: as long as it takes
         # Called with what happened in the first world, as of Worlds.events(), as time passes.
-        self.on_moved = None
+        self.on_moved: Callable[[list[Any]], Any] | None = None
         self._shown_every = max(1, round(SHOWN_EVERY / options.physics_step))
         self._rewards = options.rewards
         self.top_wheel_speed = TOP_SPEED / WHEEL_RADIUS  # [rad/s]
 
     # --- episodes
 
-    def reset(self, which, seeds):
-        """Begins new episodes in worlds `which`, (k,) indices, from k seeds."""
+    def reset(self, which: Any, seeds: Any) -> None:
+        """Begins new episodes in the worlds `which`, (k,) indices, from k seeds."""
         which = np.asarray(which, np.int32)
         self.worlds.restore(which, self._checkpoint)
         cells = np.empty((len(which), self.robots), np.int32)
@@ -116,15 +119,15 @@ class Warehouses:
 
     # --- decisions
 
-    def masks(self):
-        """(n, robots, 5) bool, read-only: which actions are possible now."""
+    def masks(self) -> np.ndarray:
+        """Returns (n, robots, 5) bool, read-only: which actions are possible now."""
         if self._masks is None:
             self._masks = self.task.possible()
             self._masks.flags.writeable = False
         return self._masks
 
-    def check(self, actions):
-        """(n, robots) of Action as they are, or ActionError; of wheels, (n, robots, 3)."""
+    def check(self, actions: Any) -> np.ndarray:
+        """Returns actions as (n, robots) or, for wheels, (n, robots, 3). Raises ActionError."""
         given = np.asarray(actions)
         if self.options.continuous:
             return self._check_wheels(given)
@@ -155,12 +158,15 @@ class Warehouses:
 
     def _complaint(self, given, bad, expected="a whole number from 0 to 4"):
         w, robot = np.argwhere(bad)[0]
-        action = given.tolist()[w][robot]  # as whoever gave it would write it
+        action = given.tolist()[w][robot]  # as its caller would write it
         return f"robot_{robot + 1} of world {w}: action {action!r}; {expected} was expected"
 
-    def step(self, actions):
-        """One decision of every robot. Returns rewards (n, robots) and what happened by robot:
-        {name: (n, robots)}. ActionError if an action is none."""
+    def step(self, actions: Any) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        """Makes one decision of every robot.
+
+        Returns rewards (n, robots) and what happened by robot, {name: (n, robots)}. Raises
+        ActionError if an action is none.
+        """
         actions = self.check(actions)
         done = (self._begin_wheels if self.options.continuous else self._begin)(actions)
         goal = self.goal.copy()

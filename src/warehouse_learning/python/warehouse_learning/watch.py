@@ -7,24 +7,33 @@ python3 -m warehouse_learning.watch episode.json [--speed 5]
 import argparse
 import sys
 import time
+from typing import Any
+
+import numpy as np
 
 from warehouse_learning import episodes
 from warehouse_learning.page import SPEED, Page
 from warehouse_learning.warehouses import Warehouses
 
-LOOK = 0.1  # between two looks whether somebody has come [s, wall]
+POLL = 0.1  # between two checks whether a browser has opened the page [s, wall]
 
 
-def play(page, warehouses, actions):
-    """Returns how many units were delivered."""
-    warehouses.on_moved = lambda events: (page.tell(events), page.moved())
+def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
+    """Plays an episode on the page; returns how many units were delivered."""
+
+    def moved(events: Any) -> None:
+        page.tell(events)
+        page.moved()
+
+    warehouses.on_moved = moved
     for action in actions:
         warehouses.step(action[None])
     page.show()
     return int(warehouses.delivered.sum())
 
 
-def main():
+def main() -> None:
+    """Plays the episode of the command line."""
     parser = argparse.ArgumentParser("python3 -m warehouse_learning.watch", description=__doc__)
     parser.add_argument("file", help="an episode, as save_episode() writes it")
     speed = "simulated seconds a wall second, 0: as fast as it goes (5); the page can change it"
@@ -39,7 +48,7 @@ def main():
     page = Page(warehouses.worlds[0], options.title, speed=wanted.speed)
     try:
         while not page.watchers:
-            time.sleep(LOOK)
+            time.sleep(POLL)
         delivered = play(page, warehouses, actions)
         print(f"{len(actions)} decisions, {delivered} units delivered; Ctrl-C ends the page")
         while True:

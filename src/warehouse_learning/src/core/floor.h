@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The floor as cells: row * width + column, of a floor with a rim of cells that nobody can enter,
+// The floor as cells: row * width + column, of a floor with a rim of cells that no robot can enter,
 // so that every neighbourhood lies inside. Headings count quarter turns from +x towards +y.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each robot had better go for: hints to learn by, nobody is bound by them.
+// Goals that robots had better go for: hints to learn by, without force.
 //
 // A robot without a load: the nearest requested unit that is no other robot's goal. One with a
 // requested unit: the nearest station. One with another unit: the nearest free storage place that
@@ -20,7 +20,7 @@ class Goals {
  public:
   Goals(const Floor& floor, const State& state);
 
-  void begin(int w);           ///< An episode: all are found anew.
+  void begin(int w);           ///< Begins an episode: finds all goals again.
   void end(int w, int robot);  ///< It has lifted, delivered or put down.
   void changed(int w);         ///< Units stand elsewhere.
   /// Finds goals for those whose own is gone, which it can be only where there are news.

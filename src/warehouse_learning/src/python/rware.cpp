@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/state/workers.h"
+#include "core/parallel/workers.h"
 #include "python/arrays.h"
 #include "rware/observer.h"
 #include "rware/warehouse.h"

@@ -11,7 +11,7 @@ class Fallen:
         self._items = {one.item for one in self._bins.values() if one.fallen is not None}
         self.count = 0  # how often one fell
 
-    def see(self, items):
+    def update(self, items):
         """Takes in which items lie on the floor now, by name; those that are no bins are nothing
         to it."""
         items = self._bins.keys() & set(items)
@@ -36,8 +36,8 @@ class Fallen:
     def _is_back(self, one):
         self.shift.inventory.pick_up(one)
         if one.unit in self.shift.free_units:
-            self.shift.picking.unit_free(one.unit)
-            self.shift.replenishing.unit_free()
+            self.shift.picking.on_unit_free(one.unit)
+            self.shift.replenishing.on_unit_free()
 
     def figures(self):
         """As kpis.json has them; empty where nothing fell."""

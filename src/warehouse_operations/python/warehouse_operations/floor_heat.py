@@ -19,7 +19,7 @@ class FloorHeat:
         self._slice = self._slice_of(now)
         self._cells, self._time = None, now
 
-    def see(self, now, x, y, waits):
+    def update(self, now, x, y, waits):
         """Takes in where all robots are [m], and which of them wait (bool), at a time [s]."""
         self._turn(now)
         counts = self._slices[self._slice % SLICES]
@@ -58,7 +58,7 @@ class FloorHeat:
         return self._slices.sum(axis=0)
 
     def _turn(self, now):
-        """Empties the slices whose time begins anew."""
+        """Empties the slices whose time begins again."""
         current = self._slice_of(now)
         for number in range(self._slice + 1, min(current, self._slice + SLICES) + 1):
             self._slices[number % SLICES] = 0

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every piece in the warehouse: bins on storage units, each of one SKU.
 
-Stock changes by moves alone, which are told to whoever writes them down: the quantity of a bin is
-the sum of its moves. Reserved pieces are promised to a pick; expected ones are on their way.
+Stock changes by moves alone, which are reported to the journal: the quantity of a bin is the
+sum of its moves. Reserved pieces are promised to a pick; expected ones are on their way.
 """
 
 from collections import Counter, defaultdict
@@ -32,7 +32,7 @@ class StockError(ValueError):
 class Bin:
     """A place for one SKU on a unit; `sku` is of what lies there, or is expected, or last lay.
 
-    `fallen`: None, or the pieces with which it lies on the floor: they are in nobody's stock.
+    `fallen`: None, or the pieces with which it lies on the floor: they are not in stock.
     """
 
     __slots__ = (
@@ -48,7 +48,7 @@ class Bin:
 
     @property
     def available(self):
-        """Pieces nobody is promised."""
+        """Pieces promised to no order."""
         return self.quantity - self.reserved
 
     @property
@@ -93,7 +93,7 @@ class Inventory:
         return self.total / self.capacity if self.capacity else 0.0
 
     def available(self, sku):
-        """Pieces of a SKU that nobody is promised, units out of service included."""
+        """Pieces of a SKU promised to no order, units out of service included."""
         return self._available.get(sku, 0)
 
     def incoming(self, sku):

@@ -77,7 +77,7 @@ def of_shift(shift, fleet, kinematics, wall_s):
         "simulated_s": elapsed,
         "wall_s": wall_s,
         "real_time_factor": elapsed / wall_s if wall_s else 0.0,
-        "robots": fleet.robots,
+        "robots": fleet.robot_count,
         "pick_stations": len(picking),
         "replenish_stations": len(replenishing),
         "items_picked": tally.items_picked,

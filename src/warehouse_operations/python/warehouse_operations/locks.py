@@ -11,7 +11,7 @@ from datetime import datetime
 from pathlib import Path
 
 SUFFIX = ".lock"
-_HELD = weakref.WeakSet()
+_HELD: weakref.WeakSet = weakref.WeakSet()
 
 
 class InUseError(Exception):

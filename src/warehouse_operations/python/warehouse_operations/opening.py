@@ -34,7 +34,7 @@ def open_shift(
         policies = Policies(policies)
     if database:
         from warehouse_operations import stored as keeping
-        from warehouse_operations.database import DatabaseJournal
+        from warehouse_operations.database_journal import DatabaseJournal
 
         with database.reading():
             stored = keeping.read(database.engine, now)

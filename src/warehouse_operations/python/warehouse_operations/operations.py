@@ -97,7 +97,7 @@ class Operations:
             until = min(self.shift.next_time(), end, self.fleet.time + cycle)
             self.fleet.step_until(until)
             now = self.fleet.time
-            self.shift.fallen.see(self.fleet.fallen_items)
+            self.shift.fallen.update(self.fleet.fallen_items)
             # A world counts steps: what differs by rounding alone is the same time.
             self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
             count += 1

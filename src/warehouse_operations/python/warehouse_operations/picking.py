@@ -2,12 +2,10 @@
 """Picking: orders to stations, units for their lines, and piece by piece into the totes."""
 
 import math
-from collections import defaultdict, deque
+from collections import defaultdict
 
-from warehouse_operations.inventory import Reason
 from warehouse_operations.orders import OrderEventKind, OrderState
 from warehouse_operations.stations import Mode, Pick
-from warehouse_operations.tasks import Answer, Outcome
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
@@ -30,22 +28,22 @@ class Picking:
 
     # What makes work.
 
-    def backlog_changed(self):
+    def on_backlog_change(self):
         """Orders that come one after the other are looked at together: each look costs as much as
         there are orders and stations."""
         if self.shift.now >= self._next_look:
-            self._look(None)
+            self._check_backlog(None)
         elif not self._is_to_look:
             self._is_to_look = True
-            self.shift.at(self._next_look, self._look, None)
+            self.shift.events.schedule(self._next_look, self._check_backlog)
 
-    def _look(self, _):
+    def _check_backlog(self, _):
         self._is_to_look, self._next_look = False, self.shift.now + LOOK
         for station in self.stations:
             if station.free_slots and station.is_open:
                 self._to_assign[station] = None
 
-    def unit_free(self, unit):
+    def on_unit_free(self, unit):
         """A unit stands in storage: it may hold what stations lack."""
         for one in self.shift.inventory.of_unit[unit]:
             if one.available and one.sku in self._missing:
@@ -79,7 +77,7 @@ class Picking:
                 self._assign_later(station)
                 return
             self._effort -= self.shift.backlog.lines
-            order = self.shift.policies.orders.choose(station, self.shift)
+            order = self.shift.policies.orders.choose(station, self.shift.view)
             if order is None:
                 return
             self.shift.backlog.remove(order)
@@ -87,7 +85,7 @@ class Picking:
 
     def _assign_later(self, station):
         if not self._put_off:
-            self.shift.at(self.shift.now + LATER, self._assign_put_off, None)
+            self.shift.events.schedule(self.shift.now + LATER, self._assign_put_off)
         self._put_off[station] = None
 
     def _assign_put_off(self, _):
@@ -102,11 +100,11 @@ class Picking:
         )
         station.orders[order.order_id] = order
         self.shift.journal.assigned(order)
-        self.shift.tell_order(order, OrderEventKind.ASSIGNED)
+        self.shift.order_book.publish_event(order, OrderEventKind.ASSIGNED)
         for line in order.lines:
-            self._allot(station, line)
+            self.allot(station, line)
 
-    def _allot(self, station, line):
+    def allot(self, station, line):
         """What units at the station or on their way can serve is reserved for the line."""
         for visit in station.coming:
             for one in self.shift.inventory.of_unit[visit.unit]:
@@ -139,14 +137,14 @@ class Picking:
         del station.orders[order.order_id]
         for visit in station.inbound.values():
             for pick in [pick for pick in visit.picks if pick.line.order is order]:
-                self._drop(visit, pick)
+                self.drop(visit, pick)
         for line in order.lines:
             self._note(station, line)
         order.station = ""
         self._to_assign[station] = None
         self.shift.journal.unassigned(order, self.shift.now)
 
-    def _drop(self, visit, pick):
+    def drop(self, visit, pick):
         visit.picks.remove(pick)
         pick.line.allotted -= pick.quantity
         self.shift.inventory.reserve(pick.bin, -pick.quantity)
@@ -155,13 +153,13 @@ class Picking:
         """Takes an order away from the station that has it."""
         station = self.shift.station(order.station)
         self._return(station, order)
-        self._leave_if_done(station)
+        self.leave_if_done(station)
 
     def drop_visit(self, visit):
         """The unit does not come, or leaves early: what it was to serve is missing again."""
         lines = [pick.line for pick in visit.picks]
         for pick in list(visit.picks):
-            self._drop(visit, pick)
+            self.drop(visit, pick)
         for line in lines:
             self._note(visit.station, line)
         self._to_fetch[visit.station] = None  # there is room for another one
@@ -170,26 +168,30 @@ class Picking:
         """Nothing is to be taken out of a bin; returns (visit, line) of what it was to serve."""
         dropped = [(v, p) for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]
         for visit, pick in dropped:
-            self._drop(visit, pick)
+            self.drop(visit, pick)
         return [(visit, pick.line) for visit, pick in dropped]
 
     def serve_otherwise(self, dropped):
         """What drop_bin returned comes out of other bins."""
         for visit, line in dropped:
-            self._allot(visit.station, line)
-            self._leave_if_done(visit.station)
+            self.allot(visit.station, line)
+            self.leave_if_done(visit.station)
+
+    def open(self, station):
+        self.on_backlog_change()
+        self.next_piece(station)
 
     def close(self, station):
         """Its orders go to others, its units are sent away."""
         for visit in list(station.coming):
             self.drop_visit(visit)
             if not visit.here:
-                self.shift.cancel_visit(visit)
-        self._leave_if_done(station)
+                self.shift.visits.cancel(visit)
+        self.leave_if_done(station)
         for order in list(station.orders.values()):
             if not order.done:
                 self._return(station, order)
-                self.shift.reopen(order)
+                self.shift.order_book.reopen(order)
 
     # Units.
 
@@ -199,13 +201,13 @@ class Picking:
             candidates = self._candidates(station)
             if not candidates:
                 return
-            unit = self.shift.policies.units.choose(station, candidates, self.shift)
-            visit = self.shift.request(unit, station)
+            unit = self.shift.policies.units.choose(station, candidates, self.shift.view)
+            visit = self.shift.visits.request(unit, station)
             if not visit:
-                self.shift.at(self.shift.now + RETRY, self._retry, station)
+                self.shift.events.schedule(self.shift.now + RETRY, self._retry, station)
                 return
             for line in candidates[unit]:
-                self._allot(station, line)
+                self.allot(station, line)
 
     def _retry(self, station):
         self._to_fetch[station] = None
@@ -223,10 +225,10 @@ class Picking:
 
     # At the station.
 
-    def arrived(self, visit):
+    def on_arrival(self, visit):
         self._to_assign[visit.station] = None
         self.next_piece(visit.station)
-        self._leave_if_done(visit.station)
+        self.leave_if_done(visit.station)
 
     def next_piece(self, station):
         """Begins with the next piece, if the picker is free and a unit is there."""
@@ -235,21 +237,21 @@ class Picking:
             return
         station.at_work = True
         now = self.shift.now
-        self.shift.at(now + station.pick_seconds, self._taken, (station, visit))
-        self.shift.at(now + station.seconds_a_piece, self._in_tote, (station, now))
+        self.shift.events.schedule(now + station.pick_seconds, self._taken, (station, visit))
+        self.shift.events.schedule(now + station.seconds_a_piece, self._in_tote, (station, now))
 
     def _taken(self, argument):
         """A piece is out of its bin: the unit may leave if it was the last."""
         station, visit = argument
         if visit.here and visit.picks:  # else the order was cancelled meanwhile
             self.take(visit, visit.picks[0], 1)
-            self._leave_if_done(station)
+            self.leave_if_done(station)
 
     def _in_tote(self, argument):
         station, began = argument
         station.at_work = False
         station.busy_s += self.shift.now - began
-        self._complete(station)
+        self.complete(station)
         self.next_piece(station)
 
     def take(self, visit, pick, pieces):
@@ -267,132 +269,26 @@ class Picking:
         station.pieces += pieces
         self.shift.tally.picked(self.shift.now, pieces, line)
         self.shift.journal.line(line)
-        self.shift.tell_order(
+        self.shift.order_book.publish_event(
             line.order, OrderEventKind.PICKED, line.sku, pieces, station.name, visit.unit
         )
 
-    def _complete(self, station):
+    def complete(self, station):
         for order in [order for order in station.orders.values() if order.done]:
             del station.orders[order.order_id]
             order.state, order.completed = OrderState.COMPLETED, self.shift.now
-            self.shift.order_over(order, OrderEventKind.COMPLETED, station=station.name)
+            self.shift.order_book.end(order, OrderEventKind.COMPLETED, station=station.name)
             self._to_assign[station] = None
 
-    def _leave_if_done(self, station):
+    def leave_if_done(self, station):
         """A unit with nothing left to pick goes, unless an order that it serves can be taken on."""
         visit = station.here
         if not visit or visit.picks:
             return
         self._assign(station)
         if not visit.picks:
-            self.shift.release(visit)
+            self.shift.visits.release(visit)
             self._to_assign[station] = self._to_fetch[station] = None
-
-    # A person at the station.
-
-    def confirm(self, station, sku, quantity):
-        """A picker has taken so many pieces; returns success and why not."""
-        visit, picks = self._asked(station, sku)
-        asked = sum(pick.quantity for pick in picks)
-        if not 0 < quantity <= asked:
-            return False, f"{asked} of {sku} are asked for at {station.name} now"
-        for pick in picks:
-            pieces = min(quantity, pick.quantity)
-            if pieces:
-                self.take(visit, pick, pieces)
-                quantity -= pieces
-        self._complete(station)
-        self._leave_if_done(station)
-        return True, ""
-
-    def short(self, station, sku, lacking, reason=Reason.SHORT):
-        """So many pieces that the books say are there are not, or are damaged."""
-        visit, picks = self._asked(station, sku)
-        if not picks:
-            return False, f"none of {sku} is asked for at {station.name} now"
-        one = picks[0].bin
-        if not 0 < lacking <= one.quantity:
-            return False, f"{one.quantity} of {sku} are in {one.item} by the books"
-        self._write_off(visit, one, lacking, reason)
-        return True, ""
-
-    def _write_off(self, visit, one, lacking, reason):
-        """Pieces of a bin go out of the books; returns the lines that were to be served from it."""
-        station, tell, sku = visit.station, self.shift.tell_order, one.sku
-        lines = [line for _, line in self.drop_bin(one)]
-        self.shift.inventory.move(one, sku, -lacking, reason, station=station)
-        for line in lines:
-            told = sku, lacking, station.name, visit.unit, reason.value
-            tell(line.order, OrderEventKind.SHORT, *told)
-            self._allot(station, line)
-        self._leave_if_done(station)
-        return lines
-
-    def task(self, station, report):
-        """The Pick of the unit that is there which a tasks.Report names, or None."""
-        visit = station.here
-        named = report.order_id, report.item, report.sequence
-        picks = visit.picks if visit else ()
-        is_it = lambda p: (p.line.order.order_id, p.bin.item, p.sequence) == named  # noqa: E731
-        return next(filter(is_it, picks), None)
-
-    def asks(self, station):
-        """What a person is asked for now."""
-        visit = station.here
-        if not visit or not visit.picks:
-            return f"{station.name} asks for nothing now"
-        pick = visit.picks[0]
-        what = f"{pick.quantity} of {pick.line.sku} in {pick.bin.item}"
-        return f"{station.name} asks for {what} for {pick.line.order.reference} now"
-
-    def report(self, station, pick, report):
-        """Carries out what a person says of a Pick; returns a tasks.Answer."""
-        visit, one, sku = station.here, pick.bin, pick.line.sku
-        if report.outcome == Outcome.DONE:
-            if not 0 < report.quantity <= pick.quantity:
-                return Answer(False, f"{pick.quantity} of {sku} were expected at most")
-            self.take(visit, pick, report.quantity)
-            self._complete(station)
-            self._leave_if_done(station)
-            return Answer(True, "", report.quantity)
-        is_empty = report.outcome == Outcome.SHORT and not report.quantity
-        lacking = one.quantity if is_empty else report.quantity
-        if not 0 < lacking <= one.quantity:
-            return Answer(False, f"{one.quantity} of {sku} are in {one.item} by the books")
-        reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
-        lines = self._write_off(visit, one, lacking, reason)
-        undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
-        return Answer(True, f"{lacking} of {sku} in {one.item} are written off", lacking, undo)
-
-    def _put_back(self, station, one, pieces, lines):
-        """What was written off is in its bin after all, and serves the same lines if the unit is
-        still there. Returns why that can't be, or ""."""
-        sku, quantity = pieces
-        if one.room < quantity or not (one.empty or one.sku == sku):
-            return f"{one.item} has no room for {quantity} of {sku} any more"
-        self.shift.inventory.move(one, sku, quantity, Reason.UNDONE, station=station)
-        visit = station.here
-        if visit and visit.unit == one.unit:
-            for line in lines:
-                if line.order.order_id in station.orders:
-                    self._take_from_others(station, line)
-                    self._allot(station, line)
-            visit.picks = deque(sorted(visit.picks, key=lambda pick: pick.bin is not one))
-        elif one.unit in self.shift.free_units:
-            self.unit_free(one.unit)
-        return ""
-
-    def _take_from_others(self, station, line):
-        """Units on their way need not serve a line; those with nothing else to do need not come."""
-        for visit in [visit for visit in station.coming if not visit.here]:
-            for pick in [pick for pick in visit.picks if pick.line is line]:
-                self._drop(visit, pick)
-                if not visit.picks:
-                    self.shift.cancel_visit(visit)
-
-    def _asked(self, station, sku):
-        visit = station.here
-        return visit, [pick for pick in visit.picks if pick.line.sku == sku] if visit else []
 
     def _visits_of(self, unit):
         return [v for s in self.stations for v in s.inbound.values() if v.unit == unit]

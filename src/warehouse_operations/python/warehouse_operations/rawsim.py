@@ -7,7 +7,6 @@ follows there. Units and robots are numbered
 from 1, in the file's order.
 """
 
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,18 +15,20 @@ import numpy as np
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_layout.stations import PICK, REPLENISH, STEPS, Station
-from warehouse_operations.shift import Settings
+from warehouse_operations.rawsim_grid import Grid, read_waypoints
+from warehouse_operations.rawsim_xml import (
+    InstanceError,
+    children,
+    number_of,
+    read_root,
+    text_of,
+)
+from warehouse_operations.settings import Settings
 from warehouse_operations.site import Site
 
-PIECE = 5.0  # mean weight of a piece, in the unit of a pod's capacity
+__all__ = ["InstanceError", "ShiftSettings", "read_instance", "read_settings"]
+
 BIN = 100.0  # capacity of a pod that one bin stands for
-ON_A_LINE = 0.25  # of the spacing: waypoints this far apart may still be in one row
-MOST = 1e9  # of any number in a file
-MOST_CELLS = 4_000_000  # of a floor
-
-
-class InstanceError(Exception):
-    """A file that can't be used; the text names file, element and what was expected."""
 
 
 @dataclass(frozen=True)
@@ -36,18 +37,18 @@ class ShiftSettings:
 
     orders: str = "fill"
     policies: dict = field(default_factory=dict)
-    duration_s: float = None
-    seed: int = None
-    level: float = None  # of the stock at first
+    duration_s: float | None = None
+    seed: int | None = None
+    level: float | None = None  # of the stock at first
 
 
 def read_instance(path):
     """The Site of an .xinst file; raises InstanceError."""
-    root = _root(path, "Instance")
+    root = read_root(path, "Instance")
     _single_tier(path, root)
-    waypoints = _waypoints(path, root)
-    grid = _Grid(path, waypoints)
-    pods, bots = _children(root, "Pods", "Pod"), _children(root, "Bots", "Bot")
+    waypoints = read_waypoints(path, root)
+    grid = Grid(path, waypoints)
+    pods, bots = children(root, "Pods", "Pod"), children(root, "Bots", "Bot")
     stations, overrides = _stations(path, root, waypoints, grid)
     plan = _plan(path, waypoints, grid, stations)
     units = {i: grid.cell_at(pod, path) for i, pod in enumerate(pods, 1)}
@@ -60,7 +61,7 @@ def read_instance(path):
     items = [
         (f"item{unit}.{i + 1}", unit)
         for unit, pod in zip(units, pods)
-        for i in range(max(1, round(_number(path, pod, "Capacity", 500.0) / BIN)))
+        for i in range(max(1, round(number_of(path, pod, "Capacity", 500.0) / BIN)))
     ]
     return Site(
         plan,
@@ -75,7 +76,7 @@ def read_instance(path):
 
 def read_settings(path):
     """The ShiftSettings of an .xsett file; raises InstanceError."""
-    root = _root(path, "SettingConfiguration")
+    root = read_root(path, "SettingConfiguration")
     mode = root.findtext(".//OrderMode", "Fill")
     demand = root.find(".//DemandInventoryConfiguration")
     if mode not in ("Fill", "Poisson"):
@@ -83,177 +84,30 @@ def read_settings(path):
     orders, options = mode.lower(), {}
     if demand is not None:
         if mode == "Fill":
-            orders = f"fill:{int(_text(path, demand, 'OrderCount', 200))}"
+            orders = f"fill:{int(text_of(path, demand, 'OrderCount', 200))}"
         options = {
-            "begin": _text(path, demand, "InventoryLevelBundleRestartThreshold", 0.65),
-            "stop": _text(path, demand, "InventoryLevelBundleStopThreshold", 0.85),
-            "waiting": int(_text(path, demand, "BundleCount", 200)),
+            "begin": text_of(path, demand, "InventoryLevelBundleRestartThreshold", 0.65),
+            "stop": text_of(path, demand, "InventoryLevelBundleStopThreshold", 0.85),
+            "waiting": int(text_of(path, demand, "BundleCount", 200)),
         }
-    seed = _text(path, root, "Seed", None)
+    seed = text_of(path, root, "Seed", None)
     return ShiftSettings(
         orders,
         {"replenishment": {"name": "threshold", **options}} if options else {},
-        _text(path, root, "SimulationDuration", None),
+        text_of(path, root, "SimulationDuration", None),
         None if seed is None else int(seed),
-        _text(path, root, ".//InitialInventory", None),
+        text_of(path, root, ".//InitialInventory", None),
     )
 
 
-def _root(path, tag):
-    try:
-        root = ElementTree.parse(path).getroot()
-    except OSError as error:
-        raise InstanceError(f"{path}: {error.strerror}") from error
-    except ElementTree.ParseError as error:
-        raise InstanceError(f"{path}:{error.position[0]}: {error}") from error
-    except (LookupError, ValueError) as error:  # an unknown encoding
-        raise InstanceError(f"{path}:1: {error}") from error
-    if root.tag != tag:
-        raise InstanceError(f"{path}: <{root.tag}>; <{tag}> was expected")
-    return root
-
-
-def _children(root, group, tag):
-    return root.findall(f"{group}/{tag}")
-
-
-def _number(path, element, name, default=None):
-    text = element.get(name)
-    if text is None and default is not None:
-        return default
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        value = float("nan")
-    if not abs(value) <= MOST:
-        what = f"{element.tag} {element.get('ID')}"
-        raise InstanceError(f"{path}: {what}: {name} is {text!r}; a number was expected")
-    return value
-
-
-def _text(path, root, name, default):
-    text = root.findtext(name)
-    if text is None:
-        return default
-    try:
-        value = float(text)
-    except ValueError:
-        value = float("nan")
-    if not 0 <= value <= MOST:
-        name = name.rpartition("/")[2]
-        raise InstanceError(f"{path}: {name} is '{text}'; a number from 0 to {MOST:g} was expected")
-    return value
-
-
 def _id(path, element):
-    return int(_number(path, element, "ID")) + 1
+    return int(number_of(path, element, "ID")) + 1
 
 
 def _single_tier(path, root):
     tiers = {element.get("Tier") for element in root.iter() if element.get("Tier") is not None}
     if len(tiers) > 1:
         raise InstanceError(f"{path}: {len(tiers)} tiers; robots here drive on one floor")
-
-
-@dataclass
-class _Waypoint:
-    number: str
-    x: float
-    y: float
-    storage: bool
-    queue: bool
-    paths: list
-    station: tuple = None  # ("OutputStation" or "InputStation", its ID)
-
-
-def _waypoints(path, root):
-    result = {}
-    for element in _children(root, "Waypoints", "Waypoint"):
-        number = element.get("ID")
-        if number in result:
-            raise InstanceError(f"{path}: there are two Waypoints {number}")
-        kinds = ("OutputStation", "InputStation")
-        station = next(((k, element.get(k)) for k in kinds if element.get(k, "-1") != "-1"), None)
-        result[number] = _Waypoint(
-            number,
-            _number(path, element, "X"),
-            _number(path, element, "Y"),
-            element.get("PodStorageLocation", "").lower() == "true",
-            element.get("IsQueueWaypoint", "").lower() == "true",
-            [(other.text or "").strip() for other in element.findall("Paths/Waypoint")],
-            station,
-        )
-    if not result:
-        raise InstanceError(f"{path}: there is no Waypoint")
-    for one in result.values():
-        for other in one.paths:
-            if other not in result:
-                raise InstanceError(
-                    f"{path}: Waypoint {one.number} has a path to {other}, which is not there"
-                )
-    return result
-
-
-class _Grid:
-    """Rows and columns of the waypoints."""
-
-    def __init__(self, path, waypoints):
-        self.columns, self.step_x = _lines(sorted({one.x for one in waypoints.values()}))
-        self.rows, self.step_y = _lines(sorted({one.y for one in waypoints.values()}))
-        if not self.step_x and not self.step_y:
-            raise InstanceError(f"{path}: two waypoints or more were expected")
-        self.step_x, self.step_y = self.step_x or self.step_y, self.step_y or self.step_x
-        self.width = max(self.columns.values()) + 1
-        self.height = max(self.rows.values()) + 1
-        if self.width * self.height > MOST_CELLS:
-            raise InstanceError(
-                f"{path}: waypoints make a floor of {self.width} by {self.height} cells; "
-                f"{MOST_CELLS} cells at most were expected"
-            )
-        self.cell = {n: self._cell(one.x, one.y) for n, one in waypoints.items()}
-        taken = {}
-        for number, cell in self.cell.items():
-            if cell in taken:
-                raise InstanceError(
-                    f"{path}: Waypoints {taken[cell]} and {number} fall into one cell"
-                )
-            taken[cell] = number
-
-    @property
-    def origin(self):
-        return min(self.columns), min(self.rows)
-
-    @property
-    def spacing(self):
-        """Of the cells [m]: the mean of both axes."""
-        return (self.step_x + self.step_y) / 2
-
-    def cell_at(self, element, path):
-        """The cell of a bot or pod, the nearest waypoint's."""
-        x, y = _number(path, element, "X"), _number(path, element, "Y")
-        return self._cell(
-            min(self.columns, key=lambda one: abs(one - x)),
-            min(self.rows, key=lambda one: abs(one - y)),
-        )
-
-    def _cell(self, x, y):
-        return self.rows[y] * self.width + self.columns[x]
-
-
-def _lines(values):
-    """The index of each coordinate's row, and the spacing; 0 if there is but one row."""
-    gaps = np.diff(values)
-    wide = gaps[gaps > ON_A_LINE * gaps.max()] if len(gaps) else gaps
-    if not len(wide):
-        return {values[0]: 0}, 0.0
-    step = float(np.median(wide))
-    index, result, last = 0, {values[0]: 0}, values[0]
-    for value in values[1:]:
-        if value - last > ON_A_LINE * step:
-            index += max(1, round((value - last) / step))
-            last = value
-        result[value] = index
-    return result, step
 
 
 def _stations(path, root, waypoints, grid):
@@ -263,7 +117,7 @@ def _stations(path, root, waypoints, grid):
         ("OutputStations", "OutputStation", PICK),
         ("InputStations", "InputStation", REPLENISH),
     ):
-        for element in _children(root, group, tag):
+        for element in children(root, group, tag):
             number = _id(path, element)
             name = f"{'pick' if kind == PICK else 'replenish'}{number}"
             lane, service = _lane(path, element, waypoints)
@@ -275,12 +129,12 @@ def _stations(path, root, waypoints, grid):
 
 def _times(path, element, kind):
     if kind == REPLENISH:
-        return {"bundle_s": _number(path, element, "ItemBundleTransferTime", 10.0)}
-    piece = _number(path, element, "ItemTransferTime", 10.0)
+        return {"bundle_s": number_of(path, element, "ItemBundleTransferTime", 10.0)}
+    piece = number_of(path, element, "ItemTransferTime", 10.0)
     return {
         "piece_s": piece,
-        "pick_s": min(_number(path, element, "ItemPickTime", Settings.pick_s), piece),
-        "slots": int(_number(path, element, "Capacity", Settings.slots)),
+        "pick_s": min(number_of(path, element, "ItemPickTime", Settings.pick_s), piece),
+        "slots": int(number_of(path, element, "Capacity", Settings.slots)),
     }
 
 
@@ -344,7 +198,7 @@ def _kinematics(path, bots):
     names = ("MaxVelocity", "MaxAcceleration", "TurnSpeed", "PodTransferTime")
     defaults = (1.5, 1.0, 2.5, 2.2)
     kinds = {
-        tuple(_number(path, bot, name, value) for name, value in zip(names, defaults))
+        tuple(number_of(path, bot, name, value) for name, value in zip(names, defaults))
         for bot in bots
     }
     if len(kinds) > 1:

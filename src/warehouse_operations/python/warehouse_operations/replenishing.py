@@ -6,7 +6,6 @@ from itertools import islice
 
 from warehouse_operations.orders import Bundle
 from warehouse_operations.stations import Mode
-from warehouse_operations.tasks import Answer, Outcome
 
 PERIOD = 10.0  # between two looks at what is to be ordered [s]
 RETRY = 1.0  # after the fleet refused a unit [s]
@@ -34,10 +33,10 @@ class Replenishing:
     def refill(self):
         """Orders what the policy says; called every PERIOD."""
         if self.stations:
-            for sku, quantity in self.shift.policies.replenishment.bundles(self.shift):
+            for sku, quantity in self.shift.policies.replenishment.bundles(self.shift.view):
                 self.order(sku, quantity)
 
-    def unit_free(self):
+    def on_unit_free(self):
         self._look = True
 
     def work(self):
@@ -57,13 +56,13 @@ class Replenishing:
         for bundle in islice(self.bundles.values(), LOOK_AHEAD):
             candidates = self._candidates(bundle)
             if candidates:
-                one = self.shift.policies.bins.choose(bundle, candidates, self.shift)
-                visit = self.shift.request(one.unit, station)
+                one = self.shift.policies.bins.choose(bundle, candidates, self.shift.view)
+                visit = self.shift.visits.request(one.unit, station)
                 if visit:
                     self._place(bundle, one, visit)
                     self._fill_up(visit)
                     return True
-                self.shift.at(self.shift.now + RETRY, self._retry, None)
+                self.shift.events.schedule(self.shift.now + RETRY, self._retry)
                 return False
         return False
 
@@ -90,7 +89,7 @@ class Replenishing:
             same = [one for one in places if one.sku == bundle.sku]
             if same:
                 self._place(bundle, min(same, key=lambda one: one.room), visit)
-            elif places and self.shift.stock_of(bundle.sku) < bundle.quantity:
+            elif places and self.shift.view.stock_of(bundle.sku) < bundle.quantity:
                 self._place(bundle, places[0], visit)
 
     def _place(self, bundle, one, visit):
@@ -106,17 +105,18 @@ class Replenishing:
 
     # At the station.
 
-    def arrived(self, visit):
+    def on_arrival(self, visit):
         self.next_bundle(visit.station)
-        self._leave_if_done(visit.station)
+        self.leave_if_done(visit.station)
 
     def next_bundle(self, station):
         visit = station.here
         if station.at_work or not visit or not visit.puts or station.mode == Mode.MANUAL:
             return
         station.at_work = True
-        self.shift.at(
-            self.shift.now + station.seconds_a_piece, self._put_in, (station, visit, self.shift.now)
+        now = self.shift.now
+        self.shift.events.schedule(
+            now + station.seconds_a_piece, self._put_in, (station, visit, now)
         )
 
     def _put_in(self, argument):
@@ -126,7 +126,7 @@ class Replenishing:
         if visit.here and visit.puts:
             self.put(visit, visit.puts[0])
         self.next_bundle(station)
-        self._leave_if_done(station)
+        self.leave_if_done(station)
 
     def put(self, visit, bundle):
         """A bundle is in its bin."""
@@ -138,83 +138,6 @@ class Replenishing:
         station = visit.station
         station.pieces += bundle.quantity
         self.shift.tally.stored(self.shift.now, bundle)
-
-    def confirm(self, station, sku, quantity):
-        """A person has put in the bundle of a SKU; returns success and why not."""
-        visit, bundle = self._asked(station, sku)
-        if not bundle or bundle.quantity != quantity:
-            asked = f"{bundle.quantity} of {sku}" if bundle else f"none of {sku}"
-            return False, f"{asked} are to be put in at {station.name} now"
-        self.put(visit, bundle)
-        self._leave_if_done(station)
-        return True, ""
-
-    def short(self, station, sku, lacking, _reason):
-        """So many pieces of a bundle did not come, or are damaged: they were never in the stock."""
-        visit, bundle = self._asked(station, sku)
-        there = bundle.quantity if bundle else 0
-        if not 0 < lacking <= there:
-            return False, f"{there} of {sku} are to be put in at {station.name} now"
-        self._shorten(visit, bundle, lacking)
-        return True, ""
-
-    def _shorten(self, visit, bundle, lacking):
-        """So many pieces of a bundle stay out."""
-        self.shift.inventory.unexpect(bundle.bin, bundle.sku, lacking)
-        bundle.quantity -= lacking
-        bundle.sequence = self.shift.tasks.number()  # what is left is another task
-        if not bundle.quantity:
-            visit.puts.remove(bundle)
-        self._leave_if_done(visit.station)
-
-    def task(self, station, report):
-        """The Bundle for the unit that is there which a tasks.Report names, or None."""
-        visit, named = station.here, (0, report.item, report.sequence)
-        puts = visit.puts if visit and not report.order_id else ()
-        return next((b for b in puts if (0, b.bin.item, b.sequence) == named), None)
-
-    def asks(self, station):
-        """What a person is asked for now."""
-        visit = station.here
-        if not visit or not visit.puts:
-            return f"{station.name} asks for nothing now"
-        bundle = visit.puts[0]
-        return (
-            f"{station.name} asks for {bundle.quantity} of {bundle.sku} into {bundle.bin.item} now"
-        )
-
-    def report(self, station, bundle, report):
-        """Carries out what a person says of a Bundle; returns a tasks.Answer."""
-        visit, there = station.here, bundle.quantity
-        if report.outcome == Outcome.DONE:
-            if report.quantity != there:
-                return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
-            self.put(visit, bundle)
-            self._leave_if_done(station)
-            return Answer(True, "", there)
-        lacking = report.quantity
-        if not 0 < lacking <= there:
-            return Answer(False, f"{there} of {bundle.sku} are to be put in")
-        self._shorten(visit, bundle, lacking)
-        undo = lambda: self._lengthen(visit, bundle, lacking)  # noqa: E731
-        return Answer(True, f"{lacking} of {bundle.sku} are not put in", lacking, undo)
-
-    def _lengthen(self, visit, bundle, pieces):
-        """Pieces that stayed out are put in after all: with their bundle, or as another one."""
-        is_there = visit.here and (bundle in visit.puts or not bundle.quantity)
-        if is_there and self.shift.inventory.takes(bundle.bin, bundle.sku, pieces):
-            self.shift.inventory.expect(bundle.bin, bundle.sku, pieces)
-            if not bundle.quantity:
-                visit.puts.appendleft(bundle)
-            bundle.quantity += pieces
-            bundle.sequence = self.shift.tasks.number()
-        else:
-            self.order(bundle.sku, pieces)
-        return ""
-
-    def _asked(self, station, sku):
-        visit = station.here
-        return visit, next((b for b in visit.puts if b.sku == sku), None) if visit else None
 
     def drop_visit(self, visit):
         """The unit does not come, or leaves early: its bundles are at the door again."""
@@ -230,7 +153,7 @@ class Replenishing:
                 visit.puts.remove(bundle)
                 self._return(bundle)
             if dropped:
-                self._leave_if_done(visit.station)
+                self.leave_if_done(visit.station)
 
     def _return(self, bundle):
         self.shift.inventory.unexpect(bundle.bin, bundle.sku, bundle.quantity)
@@ -239,16 +162,20 @@ class Replenishing:
         self._ordered(bundle.sku, bundle.quantity)
         self._look = True
 
+    def open(self, station):
+        self.on_unit_free()
+        self.next_bundle(station)
+
     def close(self, station):
         for visit in list(station.coming):
             self.drop_visit(visit)
             if not visit.here:
-                self.shift.cancel_visit(visit)
-        self._leave_if_done(station)
+                self.shift.visits.cancel(visit)
+        self.leave_if_done(station)
 
-    def _leave_if_done(self, station):
+    def leave_if_done(self, station):
         visit = station.here
         if visit and not visit.puts:
-            self.shift.release(visit)
+            self.shift.visits.release(visit)
             self._look = True
             self.next_bundle(station)

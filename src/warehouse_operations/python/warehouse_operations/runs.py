@@ -89,7 +89,7 @@ def describe(ops, config, seed):
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
         "robots": ops.fleet.activities(),
-        "traffic": _map(ops.fleet, "traffic"),
+        "traffic": _map(ops.fleet, "passages"),
         "waiting": _map(ops.fleet, "waiting_map"),
         "failures": log.by_kind() if log else [],
         "mishaps": dict(log.mishaps) if log else {},

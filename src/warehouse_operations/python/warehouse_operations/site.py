@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.assortment import INITIAL_LEVEL
-from warehouse_operations.shift import Settings
+from warehouse_operations.settings import Settings
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Site:
     name: str = ""
     kinematics: Kinematics = field(default_factory=Kinematics)
     settings: Settings = field(default_factory=Settings)
-    skus: int = None  # how many; None: by the number of bins
+    skus: int | None = None  # how many; None: by the number of bins
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
 
     @classmethod

@@ -30,14 +30,14 @@ class Visit:
     visit_id: int
     transport_id: int
     unit: int
-    station: object
+    station: "WorkStation"
     requested: float
     picks: deque = field(default_factory=deque)
     puts: deque = field(default_factory=deque)  # Bundles, each with its bin
-    lifted: float = None
-    arrived: float = None
-    released: float = None
-    ended: float = None
+    lifted: float | None = None
+    arrived: float | None = None
+    released: float | None = None
+    ended: float | None = None
     outcome: str = ""
     pieces: int = 0  # picked from it, or put into it
     stored: bool = False  # whether a journal has it
@@ -86,7 +86,7 @@ class WorkStation:
         return max(0.0, now - max(visit.arrived, self.attended))
 
     def stock_here(self):
-        """Pieces nobody is promised, by SKU, on the unit that is here."""
+        """Returns the pieces promised to no order, by SKU, on the unit in the service cell."""
         visit = self.here
         return self._stock([visit] if visit else [])
 

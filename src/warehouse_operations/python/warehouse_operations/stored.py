@@ -171,7 +171,7 @@ def _orders(connection, now):
 
 def _shifts(connection, now):
     """What is added to a time of each run to make it one of a run that begins at `now`: nothing if
-    simulated time has gone on; where it began anew, or went back, the next run follows at once."""
+    simulated time has gone on; where it began again, or went back, the next run follows at once."""
     rows = connection.execute(select(schema.run).order_by(schema.run.c.id.desc()))
     result, begins, by = {}, now, 0.0
     for row in rows:

@@ -76,7 +76,7 @@ class Tasks:
         station, refusal = self._station(report.station)
         if refusal:
             return Answer(False, refusal)
-        part, now = self._shift.part_of(station), self._shift.now
+        part, now = self._shift.manual_part_of(station), self._shift.now
         task = part.task(station, report)
         if task is None:
             return Answer(False, f"that is no longer asked for; {part.asks(station)}")

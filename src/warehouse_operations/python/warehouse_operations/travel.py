@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How long robots take that nobody stands in the way of, in closed form on a floor plan.
+"""How long robots take without traffic, in closed form on a floor plan.
 
 A run of n cells takes n * spacing / speed plus one start and stop (speed / acceleration); a quarter
 turn takes its time, and a start and stop more.

@@ -8,6 +8,7 @@ executes has ended: no further one is sent.
 import queue
 import time
 from dataclasses import dataclass
+from typing import Any
 
 from actionlib import ActionServer
 from actionlib_msgs.msg import GoalStatus
@@ -46,14 +47,14 @@ class Step:
     phase: int = 0
 
 
-def move(goal):
-    """The Steps of a MoveGoal."""
+def move(goal: Any) -> list[Step]:
+    """Returns the Steps of a MoveGoal."""
     target = (goal.x, goal.y)
     return [Step(command("/mov", goal.kiva_id, x=goal.x, y=goal.y), target)]
 
 
-def carry(goal, unit):
-    """The Steps of a CarryGoal, whose storage unit stands at the grid point `unit`."""
+def carry(goal: Any, unit: Any) -> list[Step]:
+    """Returns the Steps of a CarryGoal, whose storage unit is at the grid point `unit` [m]."""
     kiva, target = goal.kiva_id, (goal.x, goal.y)
     lift, drop = (
         command("/lift", kiva, status=status, shelf_id=goal.shelf_id)
@@ -70,17 +71,18 @@ def carry(goal, unit):
 class Work:
     """A goal on which a robot works: `handle` is actionlib's, `steps` are what is left to do."""
 
-    def __init__(self, handle, steps, feedback, result):
+    def __init__(self, handle: Any, steps: Any, feedback: Any, result: Any) -> None:
         self.handle, self.steps = handle, steps
         self.feedback, self.result = feedback, result
         self.command = None  # the number of the first step's, once it was accepted
 
     @property
-    def robot(self):
+    def robot(self) -> str:
+        """The name of the robot that does it."""
         return f"kiva{self.handle.get_goal().kiva_id}"
 
-    def hears(self, event):
-        """Takes an event of its robot in; True if it ends the command that was sent."""
+    def hears(self, event: Event) -> bool:
+        """Takes an event of its robot in; returns whether it ends the command that was sent."""
         if self.command is None:
             if event.kind == Event.ACCEPTED:
                 self.command = event.command
@@ -95,8 +97,10 @@ def _is_cancelled(handle):
 class RobotActions:
     """Serves /warehouse/move and /warehouse/carry. `ros` is rospy."""
 
-    def __init__(self, ros):
-        self._ros, self._inbox, self._works = ros, queue.Queue(), {}
+    def __init__(self, ros: Any) -> None:
+        self._ros = ros
+        self._inbox: queue.Queue[Any] = queue.Queue()
+        self._works: dict[Any, Any] = {}
         self._fleet, self._hearing = None, None
         self._publishers = {t: ros.Publisher(t, k, queue_size=10) for t, k in COMMANDS.items()}
         self._places = LatestMessages(
@@ -127,8 +131,8 @@ class RobotActions:
     def _on_fleet(self, fleet):
         self._fleet = fleet
 
-    def run(self):
-        """Until shutdown."""
+    def run(self) -> None:
+        """Serves goals until shutdown."""
         while not self._ros.is_shutdown():
             try:
                 act, what = self._inbox.get(timeout=FEEDBACK_GAP)

@@ -7,12 +7,15 @@ Played over topics alone. What shall come true is checked against the events and
 
 import math
 import subprocess
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 from warehouse_client import survey
 from warehouse_client.engine import Engine
 from warehouse_client.latest import LatestMessages
 from warehouse_client.routes import goals, route
+from warehouse_client.survey import Survey
 from warehouse_layout import poses
 from warehouse_layout.layout import Floor
 from warehouse_msgs.msg import CoordinatorState, Event, Lift, TrackedObjects, TransportEvent
@@ -35,17 +38,19 @@ class DemoError(RuntimeError):
 class Demo:
     """`ros` is rospy, `executor` a ScriptExecutor; `tell(text)` reaches who watches."""
 
-    def __init__(self, ros, executor, tell):
+    def __init__(self, ros: Any, executor: Any, tell: Callable[[str], Any]) -> None:
         self._ros, self._executor, self._tell = ros, executor, tell
-        self._found, self.cast, self.failed = None, (), []
+        self._found: Any = None
+        self.cast: list[int] = []
+        self.failed: list[str] = []
         self._newest = LatestMessages(
             ros,
             units=("/storage_units", TrackedObjects),
             items=("/items", TrackedObjects),
         )
 
-    def play(self):
-        """All acts. Raises NoRouteError, DeadlineError, DemoError where it can't go on."""
+    def play(self) -> None:
+        """Plays all acts. Raises NoRouteError, DeadlineError or DemoError if it can't go on."""
         self._look()
         missions = two_missions(self._map())
         self.cast = [mission.kiva for mission in missions]
@@ -56,8 +61,8 @@ class Demo:
         for kind, name in ((Event.REFUSED, "refused"), (Event.COLLISION, "a collision")):
             self._expect(f"nothing was {name}", not self._models(kind))
 
-    def deliver(self, seconds):
-        """The last act: a whole fleet delivers for so long [s, simulated]. Raises DemoError."""
+    def deliver(self, seconds: float) -> None:
+        """Plays the last act: a fleet delivers for so long [s, simulated]. Raises DemoError."""
         self._tell(f"\nThe robots of a {FLEET} warehouse bring storage units to the stations.\n")
         code, *_ = self._ros.get_master().lookupService("/warehouse/transport")
         if code == 1:
@@ -114,7 +119,7 @@ class Demo:
         return {a: end_b, b: end_a}
 
     def _meet(self, wanted):
-        self._tell("\nEach sets off for the other's place. Who is blocked finds another way.\n")
+        self._tell("\nEach sets off for the other's place. A blocked robot finds another way.\n")
         self._executor.play({kiva: _try(kiva, goal) for kiva, goal in wanted.items()})
         blocked = self._models(Event.BLOCKED) & {f"kiva{kiva}" for kiva in self.cast}
         self._expect("meeting head on, one of them was blocked at least", blocked)
@@ -194,7 +199,7 @@ class Demo:
 class FleetWatch:
     """What the coordinator tells. `ros` is rospy."""
 
-    def __init__(self, ros):
+    def __init__(self, ros: Any) -> None:
         self._state, self.delivered = CoordinatorState(), 0
         ros.Subscriber("/warehouse/coordinator", CoordinatorState, self._take, queue_size=1)
         ros.Subscriber("/warehouse/transports", TransportEvent, self._count, queue_size=1000)
@@ -206,26 +211,29 @@ class FleetWatch:
         self.delivered += event.kind == TransportEvent.ARRIVED
 
     @property
-    def time(self):
-        """Of the last state [s, simulated]."""
+    def time(self) -> float:
+        """The time of the last state [s, simulated]."""
         return self._state.header.stamp.to_sec()
 
     @property
-    def robots(self):
+    def robots(self) -> int:
+        """How many robots the coordinator commands."""
         return self._state.automatic
 
     @property
-    def watchdog(self):
+    def watchdog(self) -> int:
+        """How often robots made no progress."""
         return self._state.watchdog
 
     @property
-    def alarm(self):
+    def alarm(self) -> str:
+        """The coordinator's first alarm, or nothing."""
         return "; ".join(self._state.alarms)
 
 
 @contextmanager
-def coordinator():
-    """A coordinator that keeps all stations busy, while within."""
+def coordinator() -> Iterator[None]:
+    """Runs a coordinator that keeps all stations busy, within a `with` block."""
     # It ends with this process, however that ends.
     node = [
         "setpriv",
@@ -244,8 +252,8 @@ def coordinator():
         process.wait()
 
 
-def of_tracked(message):
-    """A Survey of the objects in a TrackedObjects message."""
+def of_tracked(message: TrackedObjects) -> Survey:
+    """Returns a Survey of the objects in a TrackedObjects message."""
     planar = poses.planar_of(o.pose for o in message.objects)
     return survey.of_models({o.name: tuple(at) for o, at in zip(message.objects, planar)})
 

@@ -4,6 +4,8 @@
 import os
 import re
 from collections import Counter
+from collections.abc import Collection, Mapping
+from typing import Any
 
 from warehouse_client.message_names import EVENT
 from warehouse_layout.models import kind_and_number
@@ -28,12 +30,13 @@ COLOURS = {
 _CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f]")
 
 
-def word(event):
+def word(event: Event) -> str:
+    """Returns the word for an event's kind."""
     return EVENT.get(event.kind, str(event.kind))
 
 
-def line(event, coloured=False):
-    """Time [s, simulated], model, what happened, which command, who else took part, and why."""
+def line(event: Event, coloured: bool = False) -> str:
+    """Returns a line: time [s, simulated], model, kind, command, the other model, reason."""
     number = f"#{event.command}" if event.command else ""
     kind = _kind(event, coloured)
     model, other, text = map(_plain, (event.model, event.other, event.text))
@@ -63,19 +66,20 @@ class Teller:
     for a while. `each`: every event is told by itself.
     """
 
-    def __init__(self, coloured=False, each=False):
-        self._coloured, self._each, self._row = coloured, each, []
+    def __init__(self, coloured: bool = False, each: bool = False) -> None:
+        self._coloured, self._each = coloured, each
+        self._row: list[Event] = []
 
-    def take(self, event):
-        """The lines of what is over now that this Event has come."""
+    def take(self, event: Event) -> list[str]:
+        """Takes an Event in; returns the lines of what is over now."""
         if self._each or event.kind not in SUMMED:
             return [*self.rest(), line(event, self._coloured)]
         told = self.rest() if self._row and self._row[0].kind != event.kind else []
         self._row.append(event)
         return told
 
-    def rest(self):
-        """The lines of what has been kept."""
+    def rest(self) -> list[str]:
+        """Returns the lines of what has been kept."""
         row, self._row = self._row, []
         if len(row) <= FEW:
             return [line(event, self._coloured) for event in row]
@@ -97,14 +101,14 @@ def _plain(text):
     return _CONTROL.sub("?", text)
 
 
-def fits(event, models=(), kinds=()):
-    """Whether it is about one of the models, if any are named, and of one of these kinds."""
+def fits(event: Event, models: Collection[str] = (), kinds: Collection[str] = ()) -> bool:
+    """Returns whether an event is about one of the models and of one of the kinds; empty: any."""
     about = not models or event.model in models or event.other in models
     return about and (not kinds or word(event).lower() in kinds)
 
 
-def wants_colour(choice, file, environment=os.environ):
-    """`choice` is always, never, or auto: on a terminal that shall have some."""
+def wants_colour(choice: str, file: Any, environment: Mapping[str, str] = os.environ) -> bool:
+    """Returns whether to colour; `choice` is always, never, or auto: on a terminal with colours."""
     if choice != "auto":
         return choice == "always"
     return file.isatty() and "NO_COLOR" not in environment and environment.get("TERM") != "dumb"

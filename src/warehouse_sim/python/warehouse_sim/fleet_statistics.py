@@ -4,6 +4,7 @@
 import math
 from collections import defaultdict
 from dataclasses import dataclass
+from typing import Any
 
 from warehouse_msgs.msg import Event, FleetState
 
@@ -22,9 +23,10 @@ class Odometer:
 
     metres: float = 0.0
     radians: float = 0.0
-    last: tuple = None
+    last: tuple[float, float, float] | None = None
 
-    def add(self, x, y, yaw):
+    def add(self, x: float, y: float, yaw: float) -> None:
+        """Adds the way from the last pose to this one [m, rad]."""
         if self.last:
             self.metres += math.dist((x, y), self.last[:2])
             self.radians += abs(math.remainder(yaw - self.last[2], math.tau))
@@ -34,16 +36,16 @@ class Odometer:
 class FleetStatistics:
     """`ros` is rospy."""
 
-    def __init__(self, ros):
-        self._odometers = defaultdict(Odometer)
+    def __init__(self, ros: Any) -> None:
+        self._odometers: dict[Any, Odometer] = defaultdict(Odometer)
         ros.Subscriber("/warehouse/fleet", FleetState, self._measure, queue_size=100)
 
     def _measure(self, fleet):
         for kiva, x, y, yaw in zip(fleet.kiva_id, fleet.x, fleet.y, fleet.yaw):
             self._odometers[kiva].add(x, y, yaw)
 
-    def table(self, kivas, events):
-        """Text with a line for each of the robots `kivas`, from these Event messages."""
+    def table(self, kivas: Any, events: Any) -> str:
+        """Returns a line of text for each of the robots `kivas`, from these Event messages."""
         titles = ["robot", "metres", "quarter turns", *COLUMNS]
         lines = [[f"kiva{k}", *self._way(k), *_counts(f"kiva{k}", events)] for k in kivas]
         wide = [max(len(title), 6) for title in titles]

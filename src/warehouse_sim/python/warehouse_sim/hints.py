@@ -2,8 +2,10 @@
 """Commands to try first: such as work in the very warehouse that stands."""
 
 import math
+from typing import Any
 
 from warehouse_client.routes import elbow, point
+from warehouse_client.survey import Survey
 
 NEAREST = 20  # units tried for each robot
 
@@ -15,8 +17,8 @@ _WITHOUT_ROBOTS = [
 ]
 
 
-def commands(survey):
-    """Three pairs (shell command, what it does) for a survey.Survey."""
+def commands(survey: Survey) -> list[tuple[str, str]]:
+    """Returns three pairs (shell command, what it does) for a Survey."""
     if not survey.kiva:
         return _WITHOUT_ROBOTS
     return _fetch(survey) or _stroll(survey)
@@ -69,8 +71,8 @@ def _pub(topic, kind, **fields):
     return f"rostopic pub -1 /{topic} warehouse_msgs/{kind} '{{{text}}}'"
 
 
-def greeting(title, pairs):
-    """What a person reads once the warehouse stands."""
+def greeting(title: str, pairs: Any) -> str:
+    """Returns what the terminal shows once a warehouse is built."""
     wide = max(len(command) for command, _ in pairs)
     lines = [f"    {command:{wide}}   # {meaning}" for command, meaning in pairs]
     how = "Try in another terminal, each line once the one before is done:"

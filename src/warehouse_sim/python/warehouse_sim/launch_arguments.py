@@ -15,7 +15,7 @@ from pathlib import Path
 
 from warehouse_layout import world_file
 from warehouse_layout.request import FIT, PRESETS
-from warehouse_viewer import token
+from warehouse_viewer.server import token
 
 MOST_PORT, MOST_THREADS, MOST_CHECKPOINTS = 65535, 256, 100_000
 MOST_WHOLE = 2**31 - 1  # of a parameter of ROS

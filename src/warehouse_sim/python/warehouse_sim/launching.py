@@ -128,7 +128,7 @@ def check_master(uri, connect=ServerProxy):
             return
         name = connect(uri).getParam("/launch_check", "/warehouse/name")
         page = connect(uri).getParam("/launch_check", "/viewer/address")
-    except OSError:  # nobody answers: no master, or a world that died
+    except OSError:  # no answer: no master, or a world that died
         return
     raise LaunchError(_runs_already(uri, *(v if code == 1 else "" for code, _, v in (name, page))))
 

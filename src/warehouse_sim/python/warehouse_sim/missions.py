@@ -7,12 +7,13 @@ Grid points are (x, y) in whole metres; a route is a list of them, both ends inc
 import math
 from dataclasses import dataclass
 from itertools import combinations
+from typing import Any
 
 from warehouse_client.routes import STEPS, Grid, NoRouteError, covered, point, route
-from warehouse_client.survey import BELT
+from warehouse_client.survey import BELT, Survey
 from warehouse_layout.layout import Floor
 
-# So many robots, units of each and belts of each unit are tried; nobody needs the optimum.
+# So many robots, units of each and belts of each unit are tried; the optimum is not needed.
 TRIES = 6
 CORRIDOR = 5  # cells two robots need to meet head on and see each other in time
 
@@ -28,16 +29,18 @@ class Mission:
     to_drop: list
 
     @property
-    def out(self):
+    def out(self) -> tuple[float, float]:
         """The point before the drop point, to which the robot leaves."""
         return self.to_drop[-2]
 
     @property
-    def cells(self):
+    def cells(self) -> set[tuple[float, float]]:
+        """The points of both its ways [m]."""
         return {*self.to_unit, *self.to_drop}
 
     @property
-    def length(self):
+    def length(self) -> int:
+        """How many points both its ways have."""
         return len(self.to_unit) + len(self.to_drop)
 
 
@@ -47,7 +50,7 @@ class Map:
     Where the `floor` is not known, it is taken to reach a step beyond what stands on it.
     """
 
-    def __init__(self, survey, floor=None):
+    def __init__(self, survey: Survey, floor: Any = None) -> None:
         self.robots = {number: point(pose) for number, pose in survey.kiva.items()}
         self.headings = {number: _step(pose[2]) for number, pose in survey.kiva.items()}
         self.units = {number: point(pose) for number, pose in survey.storage_unit.items()}
@@ -55,8 +58,8 @@ class Map:
         self.floor = floor or _bounds({*self.robots.values(), *self.units.values(), *self.fixed})
         self.drops = {n: _drop(pose, self.grid()) for n, pose in survey.conveyor_belt.items()}
 
-    def grid(self, without=(), loaded_from=None, also=()):
-        """For a robot without a load, or with the one that stood at the point `loaded_from`.
+    def grid(self, without: Any = (), loaded_from: Any = None, also: Any = ()) -> Any:
+        """Returns the grid for a robot without a load, or with that from the point `loaded_from`.
 
         The robots `without` are no obstacles; the points `also` are.
         """
@@ -86,8 +89,8 @@ def _drop(belt, grid):
     return None
 
 
-def two_missions(chart):
-    """The two shortest missions that can be driven at once: their ways share no cell.
+def two_missions(chart: Map) -> list[Mission]:
+    """Returns the two shortest missions that can be driven at once: their ways share no cell.
 
     Raises NoRouteError if there is no such pair on the Map.
     """
@@ -147,8 +150,11 @@ def _leave(grid, start, heading, goal):
     return route(grid, start, goal)
 
 
-def meeting(grid, a, b):
-    """Two ends of a free straight corridor, near to the points a and b. Raises NoRouteError."""
+def meeting(grid: Any, a: Any, b: Any) -> Any:
+    """Returns two ends of a free straight corridor, near to the points a and b.
+
+    Raises NoRouteError.
+    """
     runs = [run for p in _free_points(grid) for run in _corridors(grid, p)]
     ends = [(run[0], run[-1]) for run in runs] + [(run[-1], run[0]) for run in runs]
     if not ends:

@@ -7,7 +7,9 @@ DONE, BLOCKED or REFUSED. All scripts of a scene run at once, driven by the robo
 
 import queue
 import time
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from warehouse_client.commands import COMMANDS
 from warehouse_client.message_names import EVENT
@@ -18,7 +20,7 @@ SILENT = (Event.ACCEPTED, Event.SPAWNED, Event.DELETED)
 
 
 class DeadlineError(TimeoutError):
-    """The scene did not end in time; the message says who was still waiting for what."""
+    """The scene did not end in time; the message says which robots still wait, and for what."""
 
 
 class Interrupted(Exception):  # noqa: N818 (nothing went wrong)
@@ -37,34 +39,38 @@ class Command:
         return f"{self.topic} {', '.join(f for f in fields if not f.startswith('kiva_id'))}"
 
 
-def command(topic, kiva, **fields):
-    """A Command for the robot number `kiva`; fields as in interface messages."""
+def command(topic: str, kiva: int, **fields: Any) -> Command:
+    """Returns a Command for the robot number `kiva`; fields as in interface messages."""
     return Command(topic, COMMANDS[topic](kiva_id=kiva, **fields))
 
 
 class ScriptExecutor:
     """`ros` is rospy. `say(seconds, who, text)` tells what happens; seconds are simulated."""
 
-    def __init__(self, ros, say, deadline):
+    def __init__(self, ros: Any, say: Callable[[str], Any], deadline: float) -> None:
         """`deadline` [s, wall] bounds each scene."""
         self._ros, self._say, self._deadline = ros, say, deadline
-        self._inbox, self._publishers, self._status = queue.Queue(), {}, {}
-        self._scripts, self._pending, self._ended = {}, {}, {}
+        self._inbox: queue.Queue[Any] = queue.Queue()
+        self._publishers: dict[str, Any] = {}
+        self._status: dict[int, KivaStatus] = {}
+        self._scripts: dict[int, Any] = {}
+        self._pending: dict[int, Any] = {}
+        self._ended: dict[int, Any] = {}
         self._now = 0.0  # [s, simulated]
-        self.events = []
+        self.events: list[Event] = []
         ros.Subscriber("/warehouse/events", Event, self._inbox.put, queue_size=1000)
         for topic, kind in COMMANDS.items():
             self._publishers[topic] = ros.Publisher(topic, kind, queue_size=10)
 
-    def watch(self, kiva):
+    def watch(self, kiva: int) -> None:
         """Follows the status of a robot, so that it can take part."""
         self._ros.Subscriber(f"/kiva{kiva}/status", KivaStatus, self._inbox.put, queue_size=100)
 
-    def status(self, kiva):
-        """The robot's newest KivaStatus; None if none has come yet."""
+    def status(self, kiva: int) -> KivaStatus | None:
+        """Returns the robot's newest KivaStatus; None if none has come yet."""
         return self._status.get(kiva)
 
-    def play(self, scripts):
+    def play(self, scripts: Mapping[int, Any]) -> None:
         """Runs scripts, {kiva: generator}, until all have ended. Raises DeadlineError."""
         end = time.monotonic() + self._deadline
         self._scripts = dict(scripts)
@@ -74,11 +80,11 @@ class ScriptExecutor:
         self._pump(end, lambda: not self._scripts)
 
     def _heard(self):
-        """Whether somebody receives the commands."""
+        """Returns whether the commands have a subscriber."""
         return all(p.get_num_connections() for p in self._publishers.values())
 
-    def until(self, condition, patience=10.0):
-        """Takes in what happens until condition(), at most so many wall seconds. Its last value."""
+    def until(self, condition: Callable[[], Any], patience: float = 10.0) -> Any:
+        """Waits for condition() at most `patience` [s, wall]; returns its last value."""
         try:
             self._pump(time.monotonic() + patience, condition)
         except DeadlineError:
@@ -91,7 +97,7 @@ class ScriptExecutor:
                 raise Interrupted
             if time.monotonic() > end:
                 waiting = ", ".join(f"kiva{k} for {c}" for k, c in self._pending.items())
-                raise DeadlineError(f"out of time; waiting: {waiting or 'nobody'}")
+                raise DeadlineError(f"out of time; waiting: {waiting or 'no robot'}")
             try:
                 self._take(self._inbox.get(timeout=0.1))
             except queue.Empty:

@@ -2,7 +2,9 @@
 """Answers requests for a warehouse."""
 
 import threading
+from collections.abc import Callable
 from dataclasses import astuple
+from typing import Any
 
 from std_msgs.msg import Header
 
@@ -24,17 +26,24 @@ GREETED = "~greeted"
 class WarehouseService:
     """One at a time. `ros` is rospy; `tell(text)` reaches the person who started the simulation.
 
-    In a world of somebody else's, `keeps_floor`, a warehouse stands on the free cells of the floor
+    In a world of another origin, `keeps_floor`, a warehouse stands on the free cells of the floor
     that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
     `seed` decides what in a layout is left to chance.
     """
 
-    def __init__(self, ros, tell, keeps_floor=False, seed=SEED, at=None):
+    def __init__(
+        self,
+        ros: Any,
+        tell: Callable[[str], Any],
+        keeps_floor: bool = False,
+        seed: int = SEED,
+        at: Any = None,
+    ) -> None:
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
         self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
 
-    def handle(self, request):
-        """CreateWarehouse: a refused request changes nothing."""
+    def handle(self, request: Any) -> Any:
+        """Answers a CreateWarehouse request; a refused one changes nothing."""
         try:
             message = self.create(
                 request.warehouse_name,
@@ -47,8 +56,8 @@ class WarehouseService:
         header = Header(stamp=self._ros.Time.now(), frame_id="world")
         return CreateWarehouseResponse(header, success, message)
 
-    def create(self, name, number=0, counts=(0, 0, 0)):
-        """Returns what stands then. Raises RequestError, EngineError."""
+    def create(self, name: str, number: int = 0, counts: tuple[int, int, int] = (0, 0, 0)) -> str:
+        """Builds a warehouse and returns a description of it. Raises RequestError, EngineError."""
         fits = name == FIT and not any(counts)
         wanted = None if fits else resolve(name, *counts)
         with self._lock, Engine(self._ros) as engine:
@@ -80,7 +89,7 @@ class WarehouseService:
         self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
         transaction.commit()
 
-    def start(self, size):
+    def start(self, size: str) -> None:
         """Finds the warehouse as it stands; builds the preset `size`, if any, where none does.
 
         What a node that died has left half-built is taken away first, and its pause with it.

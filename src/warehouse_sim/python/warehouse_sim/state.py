@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse at a glance: one message with every robot's status and every unit's carrier."""
 
+from typing import Any
+
 from geometry_msgs.msg import Pose2D
 from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
@@ -21,16 +23,18 @@ from warehouse_msgs.msg import (
 PERIOD = 1.0  # [s, simulated]
 
 
-def statuses(fleet):
-    """KivaStatus of every robot in a FleetState."""
+def statuses(fleet: FleetState) -> list[KivaStatus]:
+    """Returns the KivaStatus of every robot in a FleetState."""
     header = Header(stamp=fleet.stamp, frame_id="world")
     poses = map(Pose2D, fleet.x, fleet.y, fleet.yaw)
     columns = (fleet.kiva_id, fleet.status, fleet.state, fleet.shelf_id, poses)
     return [KivaStatus(header, *robot) for robot in zip(*columns)]
 
 
-def glance(fleet, objects, states):
-    """A WarehouseState without name and id; `fleet` is None until robots have reported."""
+def glance(
+    fleet: FleetState | None, objects: WarehouseObjects, states: UnitStates
+) -> WarehouseState:
+    """Returns a WarehouseState without name and id; `fleet` is None until robots have reported."""
     units = tracking.storage_units(objects, states)
     stamp = max([states.header.stamp] + ([fleet.stamp] if fleet else []))
     return WarehouseState(
@@ -47,8 +51,10 @@ def glance(fleet, objects, states):
 class StatePublisher:
     """Publishes /warehouse/state. `ros` is rospy."""
 
-    def __init__(self, ros):
-        self._ros, self._shown, self._next = ros, None, None
+    def __init__(self, ros: Any) -> None:
+        self._ros = ros
+        self._shown: Any = None  # (revision, (name, id)) of the last message
+        self._next: float | None = None  # when to publish again [s, simulated]
         self._newest = LatestMessages(
             ros,
             fleet=("/warehouse/fleet", FleetState),
@@ -59,8 +65,8 @@ class StatePublisher:
         self._floor = FloorReader(ros)
         self._topic = LazyPublisher(ros, "/warehouse/state", WarehouseState, self.message)
 
-    def message(self):
-        """The newest WarehouseState, or None if nothing is known yet."""
+    def message(self) -> WarehouseState | None:
+        """Returns the newest WarehouseState, or None if nothing is known yet."""
         if not self._newest.units_and_objects:
             return None
         out = glance(self._newest["fleet"], *self._newest.units_and_objects)
@@ -69,8 +75,8 @@ class StatePublisher:
         out.place_x, out.place_y = self._floor.places
         return out
 
-    def turn(self, patience=1.0):
-        """Waits for news, at most `patience` wall seconds, and publishes them where it is time."""
+    def turn(self, patience: float = 1.0) -> None:
+        """Waits at most `patience` [s, wall] for new messages, and publishes them if it is time."""
         news = self._newest.wait(patience)
         now, fit = self._ros.Time.now().to_sec(), self._newest.units_and_objects
         if not fit:
@@ -88,8 +94,8 @@ class StatePublisher:
         return revision != self._shown[0] or name not in (None, self._shown[1])
 
 
-def follow(ros):
-    """Until shutdown; the body of create_warehouse_topics."""
+def follow(ros: Any) -> None:
+    """Publishes until shutdown: the body of create_warehouse_topics."""
     for topic, kind in COMMANDS.items():
         ros.Publisher(topic, kind, queue_size=10)
     publisher = StatePublisher(ros)

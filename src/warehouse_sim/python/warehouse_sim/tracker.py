@@ -4,6 +4,8 @@
 import resource
 import threading
 import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped
@@ -27,15 +29,24 @@ class PoseTopics:
     `advertise(topic)` returns something with publish(message) and unregister().
     """
 
-    def __init__(self, prefix, advertise, limit, linger=LINGER, clock=time.monotonic):
+    def __init__(
+        self,
+        prefix: str,
+        advertise: Callable[[str], Any],
+        limit: int,
+        linger: float = LINGER,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._prefix, self._advertise, self._limit = prefix, advertise, limit
-        self._topics = {}
-        self._names, self._rows = None, {}  # as of the last update
-        self._gone, self._new = [], []  # names whose topics are still to go, or to come
+        self._topics: dict[str, Any] = {}
+        self._names: Any = None  # at the last update
+        self._rows: dict[str, int] = {}  # likewise
+        self._gone: list[str] = []  # names whose topics are still to be removed
+        self._new: list[str] = []  # and to be added
         self._linger, self._clock, self._gone_at = linger, clock, 0.0
 
-    def update(self, objects, moved, stamp):
-        """Publishes the poses that `moved` marks. True if topics are to come, or go, at once."""
+    def update(self, objects: Any, moved: Any, stamp: Any) -> bool:
+        """Publishes the poses that `moved` marks. Returns whether topics still have to change."""
         if objects.names is not self._names:
             self._plan(objects.names)
         is_full = len(self._topics) + len(self._new) > self._limit
@@ -64,22 +75,24 @@ class PoseTopics:
 
 
 class ObjectList:
-    """The TrackedObjects message; only what changed since it was last asked for is made anew."""
+    """The TrackedObjects message; only what changed since the last call is rebuilt."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._lock = threading.Lock()
         self._objects, self._stamp = tracking.Tracked(), None
-        self._messages, self._stale = [], np.zeros(0, bool)
+        self._messages: list[Any] = []
+        self._stale = np.zeros(0, bool)
 
-    def update(self, objects, changed, stamp):
+    def update(self, objects: Any, changed: Any, stamp: Any) -> None:
+        """Takes over the objects that `changed` marks."""
         with self._lock:
             if len(changed) != len(self._stale):
                 self._messages = [None] * len(changed)
                 self._stale = np.ones(len(changed), bool)
             self._objects, self._stale, self._stamp = objects, self._stale | changed, stamp
 
-    def message(self):
-        """None before the first update."""
+    def message(self) -> TrackedObjects | None:
+        """Returns the message; None before the first update."""
         with self._lock:
             if self._stamp is None:
                 return None
@@ -92,19 +105,22 @@ class ObjectList:
 class Tracker:
     """Follows one kind of object; `kind` is tracking.Items or tracking.StorageUnits."""
 
-    def __init__(self, kind, pose_topics):
+    def __init__(self, kind: Any, pose_topics: PoseTopics) -> None:
         self._kind, self._pose_topics = kind, pose_topics
-        self._objects, self._places = None, None  # the message, and where what is in it is
-        self._last, self._stamp, self._list = None, None, ObjectList()
+        self._objects: Any = None  # the message
+        self._places: Any = None  # where the objects in it are
+        self._last: Any = None
+        self._stamp: Any = None
+        self._list = ObjectList()
         self.message = self._list.message
 
     @property
-    def count(self):
-        """Objects at the last update."""
+    def count(self) -> int:
+        """How many objects the last update had."""
         return len(self._last.names) if self._last else 0
 
-    def update(self, objects, states):
-        """Takes the newest messages in. Returns whether the list changed, and if work is left."""
+    def update(self, objects: WarehouseObjects, states: UnitStates) -> tuple[bool, bool]:
+        """Takes over the newest messages. Returns whether the list changed, and if work is left."""
         if objects is not self._objects:
             self._objects, self._places = objects, self._kind(objects)
         new, old = self._places.at(states), self._last or tracking.Tracked()
@@ -115,8 +131,8 @@ class Tracker:
         self._last = new
         return bool(differs), self._pose_topics.update(new, moved, self._stamp)
 
-    def go_on(self):
-        """Does more of the work that update left. Returns if there is still some left."""
+    def go_on(self) -> bool:
+        """Does more of the work that update left. Returns whether there is still some left."""
         if self._last is None:
             return False
         nothing = np.zeros(self.count, bool)
@@ -126,11 +142,11 @@ class Tracker:
 class PoseTopic:
     """What PoseTopics advertises. `ros` is rospy."""
 
-    def __init__(self, ros, topic):
+    def __init__(self, ros: Any, topic: str) -> None:
         self._publisher = ros.Publisher(topic, PoseStamped, latch=True, queue_size=1)
         self.publish = self._publisher.publish
 
-    def unregister(self):
+    def unregister(self) -> None:
         """Closes the topic's file at once: rospy leaves it to the garbage collector, which comes
         late, and with thousands of topics none could be opened any more."""
         poller = self._publisher.impl.connection_poll.poller
@@ -138,7 +154,7 @@ class PoseTopic:
         poller.close()
 
 
-def topics_allowed(wanted):
+def topics_allowed(wanted: int) -> int:
     """How many topics a process can have: rospy opens a file for each, beside those of sockets."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     needed = wanted + SPARE_FILES
@@ -148,8 +164,8 @@ def topics_allowed(wanted):
     return min(wanted, max(0, soft - SPARE_FILES))
 
 
-def follow(ros, kind, prefix):
-    """Until shutdown; the body of a tracking node. `ros` is rospy."""
+def follow(ros: Any, kind: Any, prefix: str) -> None:
+    """Publishes until shutdown: the body of a tracking node. `ros` is rospy."""
 
     def advertise(topic):
         return PoseTopic(ros, topic)

@@ -2,6 +2,7 @@
 """Many robots that drive all the time: for benchmarks and tests of what follows them."""
 
 import time
+from typing import Any
 
 from warehouse_client.engine import Engine
 from warehouse_layout import models
@@ -10,8 +11,8 @@ from warehouse_msgs.msg import Event, MoveAlong
 PITCH = 3  # of the robots [m]; each needs the metre before it
 
 
-def build(ros, robots):
-    """Adds them to an empty floor, on a square lattice around the origin. Raises EngineError."""
+def build(ros: Any, robots: int) -> None:
+    """Adds robots to an empty floor, on a square lattice around the origin. Raises EngineError."""
     side = int((robots - 1) ** 0.5) + 1
     cells = [
         ((i % side - side // 2) * PITCH, (i // side - side // 2) * PITCH) for i in range(robots)
@@ -24,14 +25,15 @@ def build(ros, robots):
 class Traffic:
     """Keeps the robots 1 … n driving: a metre forth, a metre back. `ros` is rospy."""
 
-    def __init__(self, ros, robots):
+    def __init__(self, ros: Any, robots: int) -> None:
         self._way = dict.fromkeys(range(1, robots + 1), 1)
         self._topic = ros.Publisher("/movx", MoveAlong, queue_size=0)
         ros.Subscriber("/warehouse/events", Event, self._go_on, queue_size=100000)
         while not self._topic.get_num_connections():
             time.sleep(0.05)
 
-    def start(self):
+    def start(self) -> None:
+        """Sends every robot its first command."""
         for kiva in self._way:
             self._send(kiva)
 

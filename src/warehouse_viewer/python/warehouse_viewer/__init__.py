@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The warehouse in a browser: a live picture and an HTTP API.
+"""The warehouse in a browser, in RViz and as a picture.
 
-feed → model → hub → browser, and api → commander, simulation, coordination → world. Only feed and
-these three talk to ROS, through the `ros` they are given.
+    page      what the page shows, made from the newest messages, for each browser
+    server    the HTTP server: access control, tokens, connections, files
+    api       the HTTP API of a warehouse behind ROS
+    ros       the topics that are read and the services that are called
+    drawing   the warehouse from above, as a picture or a film
+    rviz      markers for RViz
+
+`page` and `server` import no ROS: they show a world of this process too.
 """

@@ -23,7 +23,7 @@ export class Actors {
     this.build();
   }
 
-  /** Makes all anew, for the World's scene. */
+  /** Rebuilds everything for the World's scene. */
   build() {
     for (const mesh of this.group.children) mesh.geometry.dispose();
     this.group.remove(...this.group.children);

@@ -23,7 +23,7 @@ export class Bar {
     on($('undo'), 'click', () => this.act('undo', { seconds: UNDO }, `${UNDO} s undone`));
     on($('reset'), 'click', () => this.reset());
     on($('checkpoint'), 'click', () => this.keep());
-    on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, 'back at the checkpoint'));
+    on($('restore'), 'click', () => this.act('restore', { name: CHECKPOINT }, 'checkpoint restored'));
     on($('speed'), 'change', () => this.act('speed', { factor: Number($('speed').value) }));
   }
 
@@ -34,7 +34,7 @@ export class Bar {
   }
 
   async keep() {
-    if (!await this.act('checkpoint', { name: CHECKPOINT }, 'checkpoint kept')) return;
+    if (!await this.act('checkpoint', { name: CHECKPOINT }, 'checkpoint saved')) return;
     sessionStorage.setItem('checkpoint', 'kept');
     this.enable();
   }
@@ -43,8 +43,8 @@ export class Bar {
   async reset() {
     const lack = this.lacks.checkpoint;
     const undone = lack ? `This can't be undone: ${lack}.` : 'It can be undone.';
-    const text = 'Robots, storage units and items go back to where they came, and the time to 0:00. '
-      + `What robots are doing ends; what was sent while time stands still is carried out after it. ${undone}`;
+    const text = 'Robots, storage units and items go back to where they started, and the time to 0:00. '
+      + `Running commands are cancelled; commands sent while time stands still are carried out afterwards. ${undone}`;
     if (!await confirmed('Reset the warehouse?', text, 'Reset')) return;
     const kept = !lack && await this.act('checkpoint', { name: BEFORE_RESET });
     if (!lack && !kept) return;
@@ -88,7 +88,7 @@ export class Bar {
   showStatus(status) {
     this.lacks = status.lacks;
     if (status.away) {
-      this.link('away', 'the simulation is away');
+      this.link('away', 'the simulation does not answer');
       this.enable();
       return;
     }
@@ -119,7 +119,7 @@ export class Bar {
 
   enable() {
     const early = {
-      restore: !sessionStorage.getItem('checkpoint') && 'none was kept on this page',
+      restore: !sessionStorage.getItem('checkpoint') && 'no checkpoint was saved on this page',
       undo: this.latest < UNDO + SAVED_EVERY && `less than ${UNDO} s have passed`,
     };
     for (const [id, action] of Object.entries(NEEDS)) {

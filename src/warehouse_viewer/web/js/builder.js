@@ -11,7 +11,7 @@ const COUNTS = ['robots', 'shelves', 'items'];
 export class Builder extends Placer {
   /** `say(text, kind, at)` tells the person at the page. */
   constructor(say) {
-    super('add', { what: 'a robot', hint: 'click the cell where the new robot shall stand' }, say);
+    super('add', { what: 'a robot', hint: 'click a cell for the new robot' }, say);
     this.sizes = { presets: {}, limits: {} };
     on($('build'), 'click', () => this.open());
     on($('size'), 'change', () => this.showCounts());
@@ -49,7 +49,7 @@ export class Builder extends Placer {
     $('own-name-label').hidden = $('own-name').disabled = $('size').value !== '';
   }
 
-  /** The dialog stays open, and says why, where the server says no. */
+  /** Builds the warehouse; if the server refuses, the dialog stays open and shows why. */
   async build(event) {
     event.preventDefault();
     this.answer('building …', 'sent');
@@ -79,7 +79,7 @@ export class Builder extends Placer {
   }
 
   async remove(name) {
-    if (!await confirmed(`Take ${name} away?`, 'It ends what it does and is gone.', 'Remove')) return;
+    if (!await confirmed(`Remove ${name}?`, 'Its present command is cancelled.', 'Remove')) return;
     await this.attempt(() => remove(`/robots/${name.match(/\d+$/)[0]}`));
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes in the work of the warehouse, over the WebSocket /api/v1/changes, which comes back by
+// What changes in the work of the warehouse, over the WebSocket /api/v1/changes, which reconnects by
 // itself.
 
 import { reloadIfLockedOut } from './api.js';
@@ -8,8 +8,8 @@ import { on } from './dom.js';
 const RETRY = 1000; // [ms]
 
 export class Changes {
-  /** handlers: for each of `topics`, and `shift`, what takes its message; `state(live)`, called once
-   *  it is open too: whoever reads a list from then on misses nothing. */
+  /** handlers: for each of `topics`, and `shift`, what takes its message; `state(live)`, called as soon
+   *  as it is open: a list that is read from then on misses no change. */
   constructor(topics, handlers) {
     Object.assign(this, { topics, handlers });
     this.open();

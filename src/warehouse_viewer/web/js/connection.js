@@ -52,7 +52,7 @@ export class Connection {
     this.bytes += data.byteLength;
     const message = decode(data);
     this.handlers[message.kind](message);
-    // The next ones come only to who has seen these.
+    // The server sends further updates only after these are acknowledged.
     if (message.kind !== 'update') return;
     this.updates += 1;
     this.send({ ack: 1 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is selected: its facts, and what it can be told to do.
+// The panel of the selection: its facts, and the commands for it.
 
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
@@ -7,9 +7,9 @@ import { ACTIVITY, FAILURE, STATE } from './words.js';
 
 const LIFT = { drop: 0, carry: 1 };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
-const MODE = { AUTOMATIC: 'the coordinator commands it', MANUAL: 'you command it; others drive around it',
-  OUT_OF_SERVICE: 'nobody commands it; others drive around it' };
-const WAITS = 'sent; time stands still: it is taken when time goes on, after a reset too';
+const MODE = { AUTOMATIC: 'the coordinator commands it', MANUAL: 'you command it; other robots drive around it',
+  OUT_OF_SERVICE: 'it takes no commands; other robots drive around it' };
+const WAITS = 'sent; time stands still: the robot starts when time goes on, even after a reset';
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
@@ -100,7 +100,7 @@ export class Details {
   factsOfUnit(index) {
     const carrier = this.world.carrier[index];
     const items = this.world.itemsOf[index].map((i) => this.world.scene.items[i]);
-    return [['carried by', carrier ? link(`kiva${carrier}`) : 'nobody'], ['items', items.join(', ') || 'none']];
+    return [['carried by', carrier ? link(`kiva${carrier}`) : 'no robot'], ['items', items.join(', ') || 'none']];
   }
 
   factsOfItem(index) {
@@ -147,7 +147,7 @@ export class Details {
     return this.order(this.name, 'lift', { status: LIFT[what], shelf_id: shelf });
   }
 
-  /** Gives the selected robot to the coordinator, a person or nobody. */
+  /** Sets whether the coordinator commands the selected robot, a person does, or it is out of service. */
   async setMode(mode) {
     const robot = this.name;
     const answer = (text, kind) => {

@@ -4,10 +4,10 @@
 import { $, make, on } from './dom.js';
 
 const KEYS = {
-  ' ': ['pause', 'pause or go on', 'space'], '.': ['step', 'one step'], z: ['undo', 'undo 5 s'],
+  ' ': ['pause', 'pause or resume', 'space'], '.': ['step', 'one step'], z: ['undo', 'undo 5 s'],
   h: ['home', 'see all'], t: ['top', 'from above'], f: ['follow', 'follow the selected'],
   l: ['scan', 'its laser'], p: ['path', 'its path'], r: ['trails', 'trails of all'],
-  w: ['ways', 'ways of the fleet'], m: ['heat', 'heat map'], x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
+  w: ['ways', 'routes of the fleet'], m: ['heat', 'heat map'], x: ['xray', 'see through units'], q: ['left', 'turn left'], e: ['right', 'turn right'],
   c: ['carry', 'carry the unit above'], v: ['drop', 'drop it'], d: ['theme', 'dark or light'],
   n: ['add', 'add a robot'], a: ['add-person', 'add a person'], b: ['build', 'build a warehouse'], '?': ['help', 'this help'],
 };
@@ -19,8 +19,8 @@ export class Keys {
   constructor(next, leave) {
     Object.assign(this, { next, leave });
     on(window, 'keydown', (event) => this.take(event));
-    // What was clicked keeps no keys to itself: the next one is meant for the page. Whoever
-    // comes by the tab key presses a button with space, as ever.
+    // What was clicked keeps no keys to itself: the next one is meant for the page. A
+    // button reached by the tab key is still pressed with space.
     on(window, 'pointerdown', () => { this.isPointing = true; });
     on(window, 'keydown', () => { this.isPointing = false; });
     for (const type of ['click', 'change']) on(document, type, (event) => this.release(event));

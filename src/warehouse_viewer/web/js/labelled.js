@@ -2,13 +2,13 @@
 // Which robots and stations have a label.
 
 export const LABEL_HEIGHT = 0.42; // above the floor [m]
-const LARGE = 24; // [px] a metre: who is seen so large has a number
+const LARGE = 24; // [px] a metre: robots seen so large have a number
 const MOST = 60; // of numbers, and of names
 const BLOCKED = 2;
 const READABLE = 10; // [px] a metre: a station that is seen so large has its name
 
 /** Indices of robots in sight of a View: {names, numbers}. Names have those of the set `wanted` and
- *  who is blocked; numbers the nearest of those that are seen large. */
+ *  blocked robots; numbers the nearest of those that are seen large. */
 export function labelled({ shown, status }, view, wanted) {
   const scales = Array.from(status, (_, i) => (
     view.scaleAt(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT, 0.5)));

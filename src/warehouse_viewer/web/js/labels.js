@@ -11,7 +11,7 @@ export class Labels {
     Object.assign(this, { stage, world, box });
   }
 
-  /** Draws them anew, for a View; `wanted`: a set of indices of robots to name; `more` labels
+  /** Draws all labels, for a View; `wanted`: a set of indices of robots to name; `more` labels
    *  {text, kind, at [x, y, z]}. */
   draw(view, wanted, more) {
     const { names, numbers } = labelled(this.world, view, wanted);

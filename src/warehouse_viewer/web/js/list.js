@@ -81,7 +81,7 @@ export class RobotList {
     this.refresh();
   }
 
-  /** Counts, sorts and draws anew. */
+  /** Counts and sorts the robots, and draws the rows. */
   refresh() {
     const { status } = this.world;
     const counts = ACTIVITY.map(() => 0);

@@ -15,7 +15,7 @@ export class EventLog {
     on($('trouble'), 'change', () => this.drawAll());
   }
 
-  /** Takes new ones in; a server that began anew counts from 1 again. */
+  /** Adds new events; a server that was restarted counts from 1 again. */
   add(events) {
     if (events[0].id <= this.lastId) this.events = this.events.filter((e) => e.id < events[0].id);
     this.lastId = events[events.length - 1].id;

@@ -98,7 +98,7 @@ class Page {
     else act();
   }
 
-  /** More seldom than the processor can draw it nobody needs to tell the page anything. */
+  /** Asks the server for no more updates than the page can draw. */
   showPace(gap) {
     this.connection.slowTo(gap / 1000);
     $('pace').hidden = gap < NOTABLE;
@@ -275,7 +275,7 @@ class Page {
   lookFor(text) {
     clearTimeout(this.typing);
     const sku = skuIn(text);
-    if (sku && !this.fleet.runs) return; // nobody knows what lies where
+    if (sku && !this.fleet.runs) return; // the stock is known only while a coordinator runs
     this.typing = setTimeout(() => this.where.ask(sku), sku ? TYPING : 0);
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the camera is: see all, from above, along with somebody.
+// The camera: everything in view, from above, or following a robot or a person.
 
 import * as THREE from '/three/build/three.module.js';
 import { seeAll } from './fit.js';

@@ -16,7 +16,7 @@ import { WorkScreen } from './work_screen.js';
 
 const PLACES = 200;
 const FIGURES = [
-  ['item_throughput_per_hour', 'pieces an hour', count],
+  ['item_throughput_per_hour', 'pieces per hour', count],
   ['item_score', 'of the upper bound', percent],
   ['orders_completed', 'orders complete', count],
   ['orders_waiting', 'orders waiting', count],

@@ -11,7 +11,7 @@ const AROUND = 30; // rows beside those in sight that are asked for too
 const TYPING = 200; // after a key [ms]
 
 export class OrderList {
-  /** `cancel(order)` is called for a row's button, `fail(error)` where the server says no. */
+  /** `cancel(order)` is called for a row's button, `fail(error)` where the server refuses. */
   constructor(cancel, fail) {
     Object.assign(this, { cancel, fail, filter: '', total: 0, first: 0, rows: [], now: 0 });
     this.shown = new Map(); // OrderRows by their orders' numbers
@@ -21,13 +21,13 @@ export class OrderList {
     this.box.append(this.inside);
     on(this.box, 'scroll', () => this.scrolled());
     on($('find'), 'submit', (event) => event.preventDefault());
-    on($('search'), 'input', () => this.lookAnew(TYPING));
-    on($('news'), 'click', () => this.lookAnew(0));
+    on($('search'), 'input', () => this.reload(TYPING));
+    on($('news'), 'click', () => this.reload(0));
     for (const button of $('filters').children) {
       on(button, 'click', () => {
         this.filter = button.dataset.filter;
         for (const other of $('filters').children) press(other, other === button);
-        this.lookAnew(0);
+        this.reload(0);
       });
     }
     new ResizeObserver(() => this.scrolled()).observe(this.box);
@@ -47,16 +47,16 @@ export class OrderList {
     return $('search').value.trim();
   }
 
-  /** Nothing is known to have come since the list was asked for. */
+  /** Forgets which orders came since the list was read. */
   forget() {
     this.news = new Set(); // numbers of orders that belong into the list, and are not in it yet
     this.missed = false; // whether others may
     this.shift = 0; // rows by which the server's list, where new ones come first, is ahead of this one
   }
 
-  /** Another list is wanted, from its beginning. */
-  lookAnew(delay) {
-    this.isAnew = true;
+  /** Reads another list, from its beginning, after a delay [ms]. */
+  reload(delay) {
+    this.isReload = true;
     this.soon(delay);
   }
 
@@ -76,7 +76,7 @@ export class OrderList {
   /** The server is there, perhaps again: what changed meanwhile was not told. */
   begin() {
     if (this.rows.length) this.take({ orders: [], missed: true });
-    else this.lookAnew(0);
+    else this.reload(0);
   }
 
   /** How many orders wait to be shown. */
@@ -96,18 +96,18 @@ export class OrderList {
     }
     this.isLooking = true;
     this.isStale = false;
-    const { isAnew } = this;
-    this.isAnew = false;
+    const { isReload } = this;
+    this.isReload = false;
     const [sight, count] = this.inSight;
-    const offset = isAnew ? 0 : Math.max(0, sight - AROUND + this.shift);
-    if (isAnew) this.forget();
+    const offset = isReload ? 0 : Math.max(0, sight - AROUND + this.shift);
+    if (isReload) this.forget();
     const query = new URLSearchParams(this.filter);
     query.set('limit', count + 2 * AROUND);
     query.set('offset', offset);
     if (this.text) query.set('search', this.text);
     try {
       const { total, orders } = await get(`/orders?${query}`);
-      if (isAnew) this.begun(total, orders);
+      if (isReload) this.begun(total, orders);
       else this.went(offset, orders);
       this.draw();
     } catch (error) {
@@ -145,7 +145,7 @@ export class OrderList {
       else this.news.delete(id);
     }
     if (this.isWhole) this.shift = Math.max(this.shift, this.news.size);
-    if (!this.total && (this.news.size || missed)) this.lookAnew(0); // nothing that could move
+    if (!this.total && (this.news.size || missed)) this.reload(0); // nothing that could move
     else if (missed) this.soon(0);
     this.draw();
   }
@@ -153,7 +153,7 @@ export class OrderList {
   draw() {
     $('total').textContent = `${this.total.toLocaleString('en')} orders`;
     $('news').hidden = !this.fresh && !this.missed;
-    $('news').textContent = this.fresh ? `${this.fresh} new: show` : 'there may be new ones: show';
+    $('news').textContent = this.fresh ? `${this.fresh} new: show` : 'there may be new orders: show';
     this.inside.style.height = `${this.rowHeight * this.total}px`;
     const [first, count] = this.inSight;
     const from = Math.max(first, this.first);

@@ -10,10 +10,10 @@ export const isPerson = (name) => /^person\d+$/.test(name ?? '');
 export class People extends Placer {
   /** `say(text, kind, at)` tells the person at the page. */
   constructor(say) {
-    super('add-person', { what: 'a person', hint: 'click where the person shall stand' }, say);
+    super('add-person', { what: 'a person', hint: 'click where to put the person' }, say);
   }
 
-  /** Somebody comes to [x, y]. */
+  /** Adds a person at [x, y] [m]. */
   async place([x, y], at) {
     await this.put(() => post('/people', { x: [x], y: [y] }), [x, y], at);
   }

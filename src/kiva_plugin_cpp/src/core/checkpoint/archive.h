@@ -35,7 +35,7 @@ class ArchiveError : public std::runtime_error {
   explicit ArchiveError(const std::string& why, const std::string& field = "")
       : std::runtime_error(field.empty() ? why : field + ": " + why), why_(why), field_(field) {}
 
-  /// The same, as a part of `outer`.
+  /// Returns the same, as a part of `outer`.
   ArchiveError in(const std::string& outer) const {
     const bool follows = !field_.empty() && field_.front() != '[';
     return ArchiveError(why_, outer + (follows ? "." : "") + field_);
@@ -304,7 +304,7 @@ class Archive : public Bytes {
     }
   }
 
-  /// The size of what follows; at least a byte for each is left, or the size is wrong.
+  /// Returns the size of what follows; at least a byte for each is left, or the size is wrong.
   std::size_t count(std::size_t size) {
     auto number = static_cast<std::uint32_t>(size);
     this->raw(&number, sizeof number);

@@ -9,9 +9,9 @@
 #include "core/checkpoint/consistency.h"
 #include "core/checkpoint/describe.h"
 #include "core/checkpoint/rebuild.h"
-#include "core/control/energy.h"
-#include "core/control/failures.h"
-#include "core/control/protective_fields.h"
+#include "core/disturbances/batteries.h"
+#include "core/disturbances/failures.h"
+#include "core/people/protective_fields.h"
 #include "core/sensing/scans.h"
 #include "core/state/path_progress.h"
 
@@ -49,16 +49,16 @@ void makeModels(WorldState& world, DescriptionTable table) {
   for (ModelDescription& d : table.descriptions) {
     shared.push_back(std::make_shared<ModelDescription>(std::move(d)));
   }
-  world.models.reserve(table.of_slot.size());
+  world.models.slots.reserve(table.of_slot.size());
   for (std::size_t slot = 0; slot < table.of_slot.size(); ++slot) {
     const std::int32_t description = table.of_slot[slot];
     if (description >= static_cast<std::int32_t>(shared.size())) {
       throw ArchiveError("there is no such description", "of_slot[" + std::to_string(slot) + "]");
     }
-    world.models.push_back(description < 0 ? nullptr : std::make_unique<Model>());
+    world.models.slots.push_back(description < 0 ? nullptr : std::make_unique<Model>());
     if (description < 0) continue;
-    world.models.back()->description = shared[description];
-    world.models.back()->slot = static_cast<int>(world.models.size()) - 1;
+    world.models.slots.back()->description = shared[description];
+    world.models.slots.back()->slot = static_cast<int>(world.models.size()) - 1;
   }
 }
 
@@ -69,14 +69,16 @@ void describeSetting(A& a, WorldState& world) {
   if constexpr (!A::kReads) table = tableOf(world);
   FIELDS(table.descriptions, table.of_slot);
   if constexpr (A::kReads) makeModels(world, std::move(table));
-  FIELDS(world.name, world.gravity, world.options, world.realism, world.realism_of_models,
-         within(world.dt, 1e-6, 1), within(world.grid_spacing, 0.1, 100), world.floor,
-         within(world.floor_friction, 0, 1e6), world.floor_patches);
-  if constexpr (A::kReads) world.applyRealism();
-  FIELDS(world.free_slots, world.next_serial, world.world_plugin_descriptions);
+  FIELDS(world.settings.name, world.settings.gravity, world.settings.options,
+         world.settings.realism, world.settings.realism_of_models,
+         within(world.clock.dt, kLeastStep, kMostStep),
+         within(world.settings.grid_spacing, kLeastGridSpacing, kMostGridSpacing),
+         world.floor.extent, within(world.floor.friction, 0, 1e6), world.floor.patches);
+  if constexpr (A::kReads) world.fleet.applyRealism(world.settings.realism, world.clock.dt);
+  FIELDS(world.models.free_slots, world.models.next_serial, world.plugins.world_descriptions);
 }
 
-/// Whether a model has a state of its own; what is static or lies on a unit has none.
+/// Returns whether a model has a state of its own; what is static or lies on a unit has none.
 bool hasState(const Model& model) {
   return model.owner->isActivatedWhenNear() || (model.in_physics && !model.isStatic());
 }
@@ -84,54 +86,90 @@ bool hasState(const Model& model) {
 /// What changes from step to step.
 template <class A>
 void describeMotion(A& a, WorldState& world, PhysicsState& physics) {
-  FIELDS(world.steps, world.total_steps, world.dt_since, world.dt_since_time);
+  FIELDS(world.clock.steps, world.clock.total_steps, world.clock.dt_since,
+         world.clock.dt_since_time);
   for (auto& model : world.models) {
     if (model && (!std::is_same_v<A, Hasher> || hasState(*model))) FIELDS(*model);
   }
-  FIELDS(world.fleet, world.units, world.items);
+  FIELDS(world.fleet, world.storage.units, world.storage.items);
   if (!std::is_same_v<A, Hasher>) FIELDS(within(world.fleet.mode, 0, kMostMode));
   if (world.fleet.localises) FIELDS(world.fleet.localisation);
-  if (world.realism.loads.enabled) FIELDS(world.fleet.sway, world.off_shelf);
+  if (world.settings.realism.loads.enabled) FIELDS(world.fleet.sway, world.fallen.items);
   if (!world.fleet.lag.isNone()) FIELDS(world.fleet.command_speed);
-  FIELDS(world.bodies, world.models_with_plugins, world.activated, world.touching, world.scans_due,
-         world.sighted, world.crashes);
-  FIELDS(within(world.top_speed, 0, 1e4), world.external_inputs);
+  FIELDS(world.models.bodies, world.models.with_plugins, world.models.activated,
+         world.contact_log.touching, world.scans.due, world.scans.sighted,
+         world.contact_log.crashes);
+  FIELDS(within(world.fleet.fastest, 0, 1e4), world.external_inputs);
   FIELDS(physics);
-  if (!std::is_same_v<A, Hasher> || mayFail(world)) FIELDS(world.failures);
-  if (world.realism.energy.enabled) FIELDS(world.fleet.battery);
-  if (world.realism.radio.delaysReports()) {
-    FIELDS(world.fleet.heard, world.reports_on_air, world.reports, world.to_report);
+  if (!std::is_same_v<A, Hasher> || mayFail(world.settings.realism, world.failures))
+    FIELDS(world.failures);
+  if (world.settings.realism.energy.enabled) FIELDS(world.fleet.battery);
+  if (world.settings.realism.radio.delaysReports()) {
+    FIELDS(world.fleet.heard, world.report_link.messages, world.report_link.sent,
+           world.report_link.changed);
   }
-  if (!std::is_same_v<A, Hasher> || minds(world)) {
-    FIELDS(world.walkers, world.keeps_off, world.curtains,
+  if (!std::is_same_v<A, Hasher> || world.people.slowsRobots()) {
+    FIELDS(world.people.walkers, world.people.field_was_occupied, world.people.curtains,
            within(world.fleet.allowed_speed, 0, kEndless), within(world.fleet.curtained, 0, 1));
   }
+}
+
+/// Gives each command that is to follow a path its own. Throws ArchiveError.
+void pairUp(std::deque<Command> commands, std::deque<FollowPath> paths, Inbox* inbox) {
+  const auto follow = static_cast<std::size_t>(
+      std::count_if(commands.begin(), commands.end(),
+                    [](const Command& command) { return command.kind == Command::Kind::kFollow; }));
+  if (follow != paths.size()) {
+    throw ArchiveError("there is one for every command that follows one",
+                       "paths[" + std::to_string(paths.size()) + "]");
+  }
+  for (const Command& command : commands) {
+    inbox->pending.push_back({command, {}});
+    if (command.kind != Command::Kind::kFollow) continue;
+    inbox->pending.back().path = std::move(paths.front());
+    paths.pop_front();
+  }
+}
+
+/// Pending commands are stored apart from the paths that some of them stand for.
+template <class A>
+void describeInbox(A& a, Inbox& inbox) {
+  std::deque<Command> commands;
+  std::deque<FollowPath> paths;
+  for (const PendingCommand& pending : inbox.pending) {
+    commands.push_back(pending.command);
+    if (pending.command.kind == Command::Kind::kFollow) paths.push_back(pending.path);
+  }
+  FIELDS(inbox.last_number, commands, paths);
+  if constexpr (A::kReads) pairUp(std::move(commands), std::move(paths), &inbox);
 }
 
 /// What is on its way in or out.
 template <class A>
 void describeQueues(A& a, WorldState& world) {
-  FIELDS(world.last_command, world.commands, world.paths, world.on_air, world.radio_messages,
-         world.events, world.status_changes);
+  describeInbox(a, world.inbox);
+  FIELDS(world.command_link.messages, world.command_link.sent, world.log.events,
+         world.log.status_changes);
 }
 
 void indexModels(WorldState& world) {
   for (std::size_t slot = 0; slot < world.models.size(); ++slot) {
-    if (world.models[slot]) world.slot_of_name[world.models[slot]->name] = static_cast<int>(slot);
+    if (world.models[slot])
+      world.models.slot_of_name[world.models[slot]->name] = static_cast<int>(slot);
   }
-  for (std::size_t i = 0; i < world.units.size(); ++i) {
-    world.unit_of_id[world.units[i].id] = static_cast<int>(i);
+  for (std::size_t i = 0; i < world.storage.units.size(); ++i) {
+    world.storage.unit_of_id[world.storage.units[i].id] = static_cast<int>(i);
   }
-  for (Item& item : world.items) item.name = world.models[item.model]->name;
-  for (Robot& robot : world.fleet.robots) setRays(world, &robot);
-  markDefects(world);
-  markCharge(world);
+  for (Item& item : world.storage.items) item.name = world.models[item.model]->name;
+  for (Robot& robot : world.fleet.robots) setRays(world.scans, &robot);
+  restoreDefects(world.fleet, world.settings.realism, world.failures);
+  restoreCharge(world.fleet, world.settings.realism.energy);
   world.fleet.sway.resize(world.fleet.size());
   world.fleet.heard.resize(world.fleet.size());
   world.fleet.command_speed.resize(world.fleet.size());
   world.fleet.count_at.clear();
   for (int i = 0; i < world.fleet.size(); ++i) {
-    world.fleet.count_at.push_back(nextCount(world, i));
+    world.fleet.count_at.push_back(nextCount(world.view, i));
   }
 }
 
@@ -148,7 +186,7 @@ std::string sealed(const std::string& content) {
   return header.bytes + content;
 }
 
-/// What is under the seal. Throws ArchiveError if it is broken.
+/// Returns what is under the seal. Throws ArchiveError if it is broken.
 Reader opened(const std::string& bytes) {
   Reader reader(bytes);
   char magic[8];

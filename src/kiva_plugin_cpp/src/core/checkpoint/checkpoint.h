@@ -11,7 +11,7 @@
 
 namespace kiva {
 
-/// The whole state as bytes: all that the world's future follows from.
+/// Returns the whole state as bytes: all that the world's future follows from.
 std::string checkpoint(const WorldState& world);
 
 /// A world read back; its plugins are still to be restored.

@@ -96,7 +96,7 @@ bool isActivatable(const Model& model) {
   return model.kind == ModelKind::kRobot || model.kind == ModelKind::kStorageUnit;
 }
 
-/// Whether the entry of that index in the table of its kind is about that model.
+/// Returns whether the entry of that index in the table of its kind is about that model.
 bool isListed(const WorldState& world, const Model& model) {
   const auto leads_back = [&](const auto& list) {
     return isIn(model.index, list.size()) && list[model.index].model == model.slot;
@@ -105,9 +105,9 @@ bool isListed(const WorldState& world, const Model& model) {
     case ModelKind::kRobot:
       return leads_back(world.fleet.robots);
     case ModelKind::kStorageUnit:
-      return leads_back(world.units);
+      return leads_back(world.storage.units);
     case ModelKind::kItem:
-      return leads_back(world.items);
+      return leads_back(world.storage.items);
     default:
       return model.index == -1;
   }
@@ -118,9 +118,9 @@ bool mayBeInPhysics(const WorldState& world, const Model& model) {
     case ModelKind::kRobot:
       return model.in_physics == (world.fleet.activated[model.index] != 0);
     case ModelKind::kStorageUnit:
-      return !model.in_physics || world.units[model.index].carrier < 0;
+      return !model.in_physics || world.storage.units[model.index].carrier < 0;
     case ModelKind::kItem:
-      return model.in_physics == (world.items[model.index].unit < 0);
+      return model.in_physics == (world.storage.items[model.index].unit < 0);
     default:
       return model.in_physics;
   }
@@ -131,7 +131,7 @@ void checkModel(const WorldState& world, const Model& model, std::size_t slot) {
   checkLinks(description, slot);
   checkJoints(description, slot);
   require(!model.name.empty(), "models", slot, "name", "it is empty");
-  require(model.serial < world.next_serial, "models", slot, "serial", "it has not come yet");
+  require(model.serial < world.models.next_serial, "models", slot, "serial", "it has not come yet");
   const bool must_move = isActivatable(model) || model.kind == ModelKind::kItem;
   require(!must_move || !model.isStatic(), "models", slot, "kind", "it can't be static");
   require(isListed(world, model), "models", slot, "index", "it leads to something else");
@@ -183,12 +183,13 @@ void checkModels(const WorldState& world, const PhysicsState& physics) {
     require(serials.insert(model->serial).second, "models", slot, "serial", "there are two of it");
   }
   const auto is_in = [](const Model* m) { return m && m->in_physics; };
-  checkSlots(world.free_slots, slotsOf(world, [](const Model* m) { return !m; }), "free_slots");
-  checkSlots(world.activated,
+  checkSlots(world.models.free_slots, slotsOf(world, [](const Model* m) { return !m; }),
+             "free_slots");
+  checkSlots(world.models.activated,
              slotsOf(world, [&](const Model* m) { return is_in(m) && isActivatable(*m); }),
              "activated");
   checkSlots(
-      world.bodies,
+      world.models.bodies,
       slotsOf(world,
               [&](const Model* m) { return is_in(m) && !isActivatable(*m) && !m->isStatic(); }),
       "bodies");
@@ -196,8 +197,8 @@ void checkModels(const WorldState& world, const PhysicsState& physics) {
   for (const ModelInPhysics& model : physics.models) built.push_back(model.slot);
   checkSlots(built, slotsOf(world, is_in), "physics.models");
   std::set<int> once;
-  for (std::size_t i = 0; i < world.models_with_plugins.size(); ++i) {
-    const int slot = world.models_with_plugins[i];
+  for (std::size_t i = 0; i < world.models.with_plugins.size(); ++i) {
+    const int slot = world.models.with_plugins[i];
     require(modelAt(world, slot) && once.insert(slot).second, "models_with_plugins", i, "",
             "there is no such model");
   }
@@ -267,7 +268,7 @@ bool fits(const Task& task, std::size_t units) {
   }
 }
 
-/// Whether every point that its numbers lead to is one of the path's.
+/// Returns whether every point that its numbers lead to is one of the path's.
 bool fits(const ReleasedPath& path, std::uint32_t reached, std::uint32_t left) {
   if (!path.isUnderWay()) return path.points.empty();
   constexpr std::size_t kMost = 0xffffffffu;
@@ -293,9 +294,11 @@ void checkRobot(const WorldState& world, int i) {
   require(fastest <= kMostSpeed, "fleet.vx", i, "", "too fast");
   require(f.tower[i] >= 0 && f.tower[i] <= 10, "fleet.tower", i, "", "no tower is so high");
   const bool carries = f.unit[i] != -1;
-  require(!carries || (isIn(f.unit[i], world.units.size()) && world.units[f.unit[i]].carrier == i),
+  require(!carries || (isIn(f.unit[i], world.storage.units.size()) &&
+                       world.storage.units[f.unit[i]].carrier == i),
           "fleet.unit", i, "", "it is not carried by this robot");
-  require(fits(task, world.units.size()), "fleet.tasks", i, "segments", "they don't fit its phase");
+  require(fits(task, world.storage.units.size()), "fleet.tasks", i, "segments",
+          "they don't fit its phase");
   require(fits(task.path, f.reached[i], f.left[i]), "fleet.tasks", i, "path",
           "it has no such points");
   for (const Sighting* sighting : {&task.sighting, &task.last_sighting}) {
@@ -312,14 +315,14 @@ void checkFleet(WorldState& world) {
           "there is one for every robot");
   require(f.mode.size() == f.robots.size(), "fleet.mode", f.mode.size(), "",
           "as many as there are robots were expected");
-  require(!world.realism.loads.enabled || f.sway.size() == f.robots.size(), "fleet.sway",
+  require(!world.settings.realism.loads.enabled || f.sway.size() == f.robots.size(), "fleet.sway",
           f.sway.size(), "", "there is one for every robot");
   require(f.lag.isNone() || f.command_speed.size() == f.robots.size(), "fleet.command_speed",
           f.command_speed.size(), "", "there is one for every robot");
-  require(!world.realism.radio.delaysReports() || f.heard.size() == f.robots.size(), "fleet.heard",
-          f.heard.size(), "", "there is one for every robot");
-  require(!world.realism.energy.enabled || f.battery.size() == f.robots.size(), "fleet.battery",
-          f.battery.size(), "", "there is one for every robot");
+  require(!world.settings.realism.radio.delaysReports() || f.heard.size() == f.robots.size(),
+          "fleet.heard", f.heard.size(), "", "there is one for every robot");
+  require(!world.settings.realism.energy.enabled || f.battery.size() == f.robots.size(),
+          "fleet.battery", f.battery.size(), "", "there is one for every robot");
   for (const std::size_t size : {f.allowed_speed.size(), f.curtained.size()}) {
     require(size == f.robots.size(), "fleet.allowed_speed", size, "",
             "there is one for every robot");
@@ -338,8 +341,8 @@ void checkFleet(WorldState& world) {
 
 void checkUnits(const WorldState& world) {
   std::set<int> ids;
-  for (std::size_t i = 0; i < world.units.size(); ++i) {
-    const StorageUnit& unit = world.units[i];
+  for (std::size_t i = 0; i < world.storage.units.size(); ++i) {
+    const StorageUnit& unit = world.storage.units[i];
     const Model* model = modelAt(world, unit.model);
     require(model && model->kind == ModelKind::kStorageUnit && model->index == static_cast<int>(i),
             "units", i, "model", "it leads to something else");
@@ -356,47 +359,43 @@ void checkUnits(const WorldState& world) {
     require(unit.pose_on_carrier.Pos().Abs().Max() <= 100, "units", i, "pose_on_carrier",
             "too far away");
   }
-  for (std::size_t i = 0; i < world.items.size(); ++i) {
-    const Item& item = world.items[i];
+  for (std::size_t i = 0; i < world.storage.items.size(); ++i) {
+    const Item& item = world.storage.items[i];
     const Model* model = modelAt(world, item.model);
     require(model && model->kind == ModelKind::kItem && model->index == static_cast<int>(i),
             "items", i, "model", "it leads to something else");
-    require(isInOrNone(item.unit, world.units.size()), "items", i, "unit", "there is no such unit");
+    require(isInOrNone(item.unit, world.storage.units.size()), "items", i, "unit",
+            "there is no such unit");
     require(item.mass >= 0 && item.mass <= kMostMass, "items", i, "mass",
             "nothing has such a mass");
   }
 }
 
 void checkLists(const WorldState& world) {
-  for (std::size_t i = 0; i < world.touching.size(); ++i) {
-    const TouchingPair& pair = world.touching[i];
+  for (std::size_t i = 0; i < world.contact_log.touching.size(); ++i) {
+    const TouchingPair& pair = world.contact_log.touching[i];
     require(modelAt(world, pair.model_a) && modelAt(world, pair.model_b), "touching", i, "model_a",
             "there is no such model");
   }
-  const auto follow =
-      std::count_if(world.commands.begin(), world.commands.end(),
-                    [](const Command& command) { return command.kind == Command::Kind::kFollow; });
-  require(follow == static_cast<std::ptrdiff_t>(world.paths.size()), "paths", world.paths.size(),
-          "", "there is one for every command that follows one");
   const std::size_t robots = world.fleet.robots.size();
-  for (std::size_t i = 0; i < world.scans_due.size(); ++i) {
-    require(isIn(world.scans_due[i], robots), "scans_due", i, "", "there is no such robot");
+  for (std::size_t i = 0; i < world.scans.due.size(); ++i) {
+    require(isIn(world.scans.due[i], robots), "scans_due", i, "", "there is no such robot");
   }
   for (std::size_t i = 0; i < world.failures.defects.size(); ++i) {
     const Defect& defect = world.failures.defects[i];
     const bool is_known = world.fleet.find(defect.kiva_id) >= 0 && bitOf(defect.failure) > 1;
     require(is_known, "failures.defects", i, "", "there is no such robot, or nothing like that");
   }
-  for (std::size_t i = 0; i < world.walkers.size(); ++i) {
-    const Walker& walker = world.walkers[i];
+  for (std::size_t i = 0; i < world.people.walkers.size(); ++i) {
+    const Walker& walker = world.people.walkers[i];
     const Model* model = modelAt(world, walker.model);
     require(model && model->isStatic() && model->kind == ModelKind::kOther, "walkers", i, "model",
             "it is no person");
     require(walker.next <= walker.walk.waypoints.size(), "walkers", i, "next",
             "there is no such waypoint");
   }
-  for (std::size_t i = 0; i < world.off_shelf.size(); ++i) {
-    const OffShelf& one = world.off_shelf[i];
+  for (std::size_t i = 0; i < world.fallen.items.size(); ++i) {
+    const OffShelf& one = world.fallen.items[i];
     const Model* item = modelAt(world, one.item);
     const Model* unit = modelAt(world, one.unit);
     require(item && item->kind == ModelKind::kItem && item->in_physics == one.lies, "off_shelf", i,
@@ -404,8 +403,8 @@ void checkLists(const WorldState& world) {
     require(unit && unit->kind == ModelKind::kStorageUnit, "off_shelf", i, "unit",
             "there is no such storage unit");
   }
-  for (std::size_t i = 0; i < world.sighted.size(); ++i) {
-    require(isIn(world.sighted[i], robots), "sighted", i, "", "there is no such robot");
+  for (std::size_t i = 0; i < world.scans.sighted.size(); ++i) {
+    require(isIn(world.scans.sighted[i], robots), "sighted", i, "", "there is no such robot");
   }
 }
 

@@ -33,6 +33,14 @@ constexpr Phase lastOf(Phase) { return Phase::kAbandoning; }
 constexpr Failure lastOf(Failure) { return Failure::kWheelSlip; }
 constexpr Footprint::Kind lastOf(Footprint::Kind) { return Footprint::Kind::kOther; }
 
+/// Returns what a struct's fields() calls to have each number described with its limits.
+template <class A>
+auto limited(A& a) {
+  return [&a](const char* name, auto& value, double least, double most) {
+    a.named(name, within(value, least, most));
+  };
+}
+
 // --- descriptions
 
 template <class A>
@@ -128,27 +136,22 @@ void describe(A& a, ModelDescription& m) {
 template <class A>
 void describe(A& a, DriveParameters& d) {
   DESCRIBED(DriveParameters, 11);
-  FIELDS(d.drive, within(d.speed, 0, 10), within(d.acceleration, 0, 100),
-         within(d.emergency_deceleration, 0, 100), within(d.wheel_radius, 0.005, 1),
-         within(d.wheel_separation, 0.01, 10), within(d.wheel_inertia, 1e-6, 100),
-         within(d.motor_torque, 0, 1e5), within(d.friction, 0, 10),
-         within(d.drive_wheel_load, 0.01, 1), within(d.quarter_turn_time, 0, 1000));
+  FIELDS(d.drive);
+  d.fields(d, limited(a));
 }
 
 template <class A>
 void describe(A& a, LiftParameters& l) {
   DESCRIBED(LiftParameters, 6);
-  FIELDS(l.fitted, within(l.height, 0.001, 10), within(l.time, 0, 1000), within(l.max_load, 0, 1e6),
-         within(l.max_force, 0, 1e9), within(l.proximity, 0, 10));
+  FIELDS(l.fitted);
+  l.fields(l, limited(a));
 }
 
 template <class A>
 void describe(A& a, LaserParameters& l) {
   DESCRIBED(LaserParameters, 9);
-  FIELDS(l.fitted, within(l.rays, 1, 10000), within(l.min_angle, -M_PI, M_PI),
-         within(l.max_angle, l.min_angle, M_PI), within(l.min_range, 0, 100),
-         within(l.max_range, l.min_range, 100), within(l.rate, 0.01, 1000), within(l.x, -10, 10),
-         within(l.z, 0, 10));
+  FIELDS(l.fitted);
+  l.fields(l, limited(a));
 }
 
 template <class A>
@@ -254,7 +257,7 @@ void describe(A& a, Localisation& l) {
 
 template <class A>
 void describe(A& a, FleetState& f) {
-  DESCRIBED(FleetState, 29);  // what only some realism needs: with the world
+  DESCRIBED(FleetState, 30);  // what only some realism needs: with the world
   // What is broken, charges, and where points are counted next, follow from what else the world
   // holds; what people allow: with those.
   DESCRIBED(Fleet, 27);
@@ -382,7 +385,7 @@ void describe(A& a, Solid& s) {
   FIELDS(s.kind, s.half, s.axes[0], s.axes[1], s.axes[2]);
 }
 
-/// Of a mover: it has no body of its own, and no triangles.
+/// Describes a mover's footprint: it has no body of its own, and no triangles.
 template <class A>
 void describe(A& a, Footprint& f) {
   DESCRIBED(Footprint, 14);
@@ -416,9 +419,9 @@ void describe(A& a, FollowPath& p) {
 }
 
 template <class A>
-void describe(A& a, RadioMessage& m) {
-  DESCRIBED(RadioMessage, 3);
-  FIELDS(m.due, m.command, m.path);
+void describe(A& a, CommandMessage& m) {
+  DESCRIBED(CommandMessage, 2);
+  FIELDS(m.due, m.pending.command, m.pending.path);
 }
 
 template <class A>
@@ -560,7 +563,7 @@ void describe(A& a, Floor& f) {
 template <class A>
 void describe(A& a, FloorPatch& p) {
   DESCRIBED(FloorPatch, 5);
-  FIELDS(p.min_x, p.max_x, p.min_y, p.max_y, within(p.friction, 0, 10));
+  FIELDS(p.min_x, p.max_x, p.min_y, p.max_y, within(p.friction, 0, kMostFriction));
 }
 
 template <class A>
@@ -568,9 +571,7 @@ void describe(A& a, Realism& r) {
   DESCRIBED(Realism, 9);
   forEachSection(r, [&a](const char*, auto& section) {
     a(section.enabled);
-    section.fields(section, [&a](const char* name, double& value, double least, double most) {
-      a.named(name, within(value, least, most));
-    });
+    section.fields(section, limited(a));
   });
 }
 

@@ -19,8 +19,8 @@ std::true_type takes(std::index_sequence<I...>,
 template <typename T>
 std::false_type takes(...);
 
-/// How many initialisers an aggregate takes: one a base and a field, one an element of an array. At
-/// most `Most` are looked for.
+/// Returns how many initialisers an aggregate takes: one a base and a field, one an element of an
+/// array. At most `Most` are looked for.
 template <typename T, std::size_t Most = 48>
 constexpr std::size_t fieldCount() {
   static_assert(std::is_aggregate_v<T>);

@@ -10,20 +10,20 @@
 namespace kiva {
 namespace {
 
-using Plugins = std::vector<std::shared_ptr<Plugin>>;
+using PluginList = std::vector<std::shared_ptr<Plugin>>;
 using Descriptions = std::vector<PluginDescription>;
 
-void save(const std::string& model, const Plugins& plugins, std::vector<PluginState>* out) {
+void save(const std::string& model, const PluginList& plugins, std::vector<PluginState>* out) {
   for (std::size_t i = 0; i < plugins.size(); ++i) {
     out->push_back({model, static_cast<int>(i), plugins[i]->save()});
   }
 }
 
-/// The descriptions of those that are a user's.
+/// Returns the descriptions of those that are a user's.
 Descriptions usersOwn(const WorldState& world, const Descriptions& all) {
   Descriptions own;
   for (const PluginDescription& plugin : all) {
-    if (!findFleetPlugin(world, plugin.filename)) own.push_back(plugin);
+    if (!findFleetPlugin(world.plugins, plugin.filename)) own.push_back(plugin);
   }
   return own;
 }
@@ -47,25 +47,25 @@ bool isSame(const Descriptions& a, const Descriptions& b) {
 }
 
 void adoptModel(WorldState& world, const WorldState& before, Model& model) {
-  const Model* known = before.find(model.name);
+  const Model* known = before.models.find(model.name);
   const bool same = known && known->robot_namespace == model.robot_namespace &&
                     isSame(usersOwn(world, model), usersOwn(before, *known));
   if (same) {
     model.plugins = known->plugins;
   } else {
-    loadPlugins(world, model);
+    loadPlugins(world.view, model);
   }
 }
 
 void adoptWorld(WorldState& world, const WorldState& before) {
-  const Descriptions& own = world.world_plugin_descriptions;
-  if (isSame(own, before.world_plugin_descriptions)) {
-    world.world_plugins = before.world_plugins;
+  const Descriptions& own = world.plugins.world_descriptions;
+  if (isSame(own, before.plugins.world_descriptions)) {
+    world.plugins.world = before.plugins.world;
     return;
   }
   for (const PluginDescription& plugin : own) {
-    auto loaded = loadPlugin(world, "", plugin.filename, plugin.parameters, nullptr);
-    if (loaded) world.world_plugins.push_back(std::move(loaded));
+    auto loaded = loadPlugin(world.view, "", plugin.filename, plugin.parameters, nullptr);
+    if (loaded) world.plugins.world.push_back(std::move(loaded));
   }
 }
 
@@ -73,8 +73,8 @@ void adoptWorld(WorldState& world, const WorldState& before) {
 
 std::vector<PluginState> savePlugins(const WorldState& world) {
   std::vector<PluginState> states;
-  save("", world.world_plugins, &states);
-  for (int slot : world.models_with_plugins) {
+  save("", world.plugins.world, &states);
+  for (int slot : world.models.with_plugins) {
     save(world.models[slot]->name, world.models[slot]->plugins, &states);
   }
   return states;
@@ -82,22 +82,22 @@ std::vector<PluginState> savePlugins(const WorldState& world) {
 
 void adoptPlugins(WorldState& world, const WorldState& before) {
   // What a plugin does when it is loaded was done long ago.
-  const auto commands = world.commands;
-  const auto events = world.events;
-  const auto status_changes = world.status_changes;
+  const auto pending = world.inbox.pending;
+  const auto events = world.log.events;
+  const auto status_changes = world.log.status_changes;
   adoptWorld(world, before);
-  for (int slot : world.models_with_plugins) adoptModel(world, before, *world.models[slot]);
-  world.commands = commands;
-  world.events = events;
-  world.status_changes = status_changes;
+  for (int slot : world.models.with_plugins) adoptModel(world, before, *world.models[slot]);
+  world.inbox.pending = pending;
+  world.log.events = events;
+  world.log.status_changes = status_changes;
 }
 
 void restorePlugins(WorldState& world, const std::vector<PluginState>& states) {
   for (const PluginState& saved : states) {
-    const Model* model = saved.model.empty() ? nullptr : world.find(saved.model);
-    const Plugins& plugins = model ? model->plugins : world.world_plugins;
+    const Model* model = saved.model.empty() ? nullptr : world.models.find(saved.model);
+    const PluginList& plugins = model ? model->plugins : world.plugins.world;
     const auto index = static_cast<std::size_t>(saved.index);
-    if (index < plugins.size()) plugins[index]->restore(*world.owner, saved.state);
+    if (index < plugins.size()) plugins[index]->restore(*world.plugins.owner, saved.state);
   }
 }
 

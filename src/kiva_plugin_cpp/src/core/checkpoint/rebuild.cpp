@@ -103,8 +103,8 @@ void writeContacts(WorldState& world, const std::vector<ContactMemory>& memories
 }
 
 void buildModel(WorldState& world, const ModelInPhysics& state) {
-  Model& model = *world.models.at(state.slot);
-  model.bodies = model.owner->build(world, model);
+  Model& model = *world.models.slots.at(state.slot);
+  model.bodies = model.owner->build(world.view, model);
   if (!model.isStatic() && (state.links.size() != model.bodies.links.size() ||
                             state.motors.size() != model.bodies.joints.size())) {
     throw std::invalid_argument("'" + model.name + "' has other bodies than its model");
@@ -123,15 +123,15 @@ void buildModel(WorldState& world, const ModelInPhysics& state) {
 void addFootprints(WorldState& world, Model& model) {
   const bool is_in = model.in_physics;
   if (model.owner->isActivatedWhenNear() && !model.disturbed) model.in_physics = false;
-  moved(world, model);
+  moved(world.view, model);
   model.in_physics = is_in;
 }
 
 void rebuildObstacles(WorldState& world, const PhysicsState& state) {
-  for (int slot : slotsInOrder(world)) {
+  for (int slot : world.models.inOrder()) {
     Model& model = *world.models[slot];
     const bool is_touched = model.in_physics || model.owner->isActivatedWhenNear();
-    if (model.geometries.empty() && is_touched) addCollisionGeometry(world, model);
+    if (model.geometries.empty() && is_touched) addCollisionGeometry(world.view.floor, model);
     addFootprints(world, model);
   }
   // Worked out where the robot was when its load changed, they would be a rounding apart.
@@ -153,7 +153,7 @@ PhysicsState readPhysics(const WorldState& world) {
 }
 
 void rebuild(WorldState& world, const PhysicsState& state) {
-  world.physics.setGravity(world.gravity);
+  world.physics.setGravity(world.settings.gravity);
   for (const ModelInPhysics& model : state.models) buildModel(world, model);
   writeContacts(world, state.contacts);
   rebuildObstacles(world, state);

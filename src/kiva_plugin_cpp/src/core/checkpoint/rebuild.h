@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bullet's world and the obstacles are not saved but built anew when a world is restored, from what
+// Bullet's world and the obstacles are not saved but rebuilt when a world is restored, from what
 // their next answers follow from; see ordered_bullet.h.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace kiva {
 struct ModelInPhysics {
   int slot = -1;
   std::vector<BodyState> links;
-  std::vector<MotorState> motors;  ///< Of its joints.
+  std::vector<MotorState> motors;  ///< The joints' motors.
 };
 
 /// One body: of the model in that slot, its link of that index.
@@ -34,7 +34,7 @@ struct ContactMemory {
 
 /// What is to be kept of Bullet and the obstacles.
 struct PhysicsState {
-  std::vector<ModelInPhysics> models;  ///< As they came.
+  std::vector<ModelInPhysics> models;  ///< In order of arrival.
   std::vector<ContactMemory> contacts;
   std::vector<std::vector<Footprint>> movers;  ///< By robot: its own and its load's, in its frame.
 };

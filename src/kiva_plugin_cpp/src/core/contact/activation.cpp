@@ -9,8 +9,8 @@
 #include "core/motion/clearance.h"
 #include "core/motion/dynamics.h"
 #include "core/motion/traction.h"
+#include "core/parallel/workers.h"
 #include "core/state/footprints.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
@@ -22,80 +22,84 @@ constexpr double kSlow = 0.2, kSeldom = 0.008;  // [m/s, s]
 constexpr int kLooksTogether = 32;              // on one thread: less is not worth waking another
 
 /// A load enters with the robot that carries it.
-void activateWhole(WorldState& world, int slot) {
+void activateWhole(ContactView& world, int slot) {
   Model& model = *world.models[slot];
   if (!model.owner->isActivatedWhenNear()) return;
   const int robot = model.owner->robot(world, model);
-  activate(world, robot < 0 ? model : world.modelOf(robot));
+  activate(world, robot < 0 ? model : world.models.of(world.fleet.robots[robot]));
 }
 
 /// In an order that does not depend on how the obstacles are indexed.
-void activateAll(WorldState& world, std::vector<int> slots) {
+void activateAll(ContactView& world, std::vector<int> slots) {
   std::sort(slots.begin(), slots.end());
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   for (int slot : slots) activateWhole(world, slot);
 }
 
 /// Lets the robot, which can't be left alone for long, and what it could touch enter Bullet.
-void activateClose(WorldState& world, int robot) {
+void activateClose(ContactView& world, int robot) {
   FleetState& f = world.fleet;
   std::vector<int> close;
   const auto& own = world.obstacles.footprints(robot);
   const double least = findClose(world, own, pointSpeed(f, robot), kReach, &close);
-  if (!close.empty()) activate(world, world.modelOf(robot));
+  if (!close.empty()) activate(world, world.models.of(world.fleet.robots[robot]));
   activateAll(world, std::move(close));
   // It may be another that comes, and both may speed up.
-  const double way = 2 * (world.top_speed + kCornerSpeed) * world.dt;
+  const double way = 2 * (world.fleet.fastest + kCornerSpeed) * world.clock.dt;
   const double free_steps = std::floor((least - kNear) / way - 1);
-  const double seldom = f.activated[robot] ? static_cast<double>(world.stepsIn(kSeldom)) : 0.0;
-  f.clear_until[robot] = static_cast<double>(world.total_steps) + std::max(seldom, free_steps);
+  const double seldom =
+      f.activated[robot] ? static_cast<double>(world.clock.stepsIn(kSeldom)) : 0.0;
+  f.clear_until[robot] =
+      static_cast<double>(world.clock.total_steps) + std::max(seldom, free_steps);
 }
 
-bool isMoving(const WorldState& world, int robot) {
-  return world.fleet.tasks[robot].phase != Phase::kIdle || !atRest(world.fleet, robot);
+bool isMoving(const FleetState& fleet, int robot) {
+  return fleet.tasks[robot].phase != Phase::kIdle || !atRest(fleet, robot);
 }
 
-bool looksAround(const WorldState& world, int robot) {
+bool looksAround(const Scene& world, int robot) {
   const FleetState& f = world.fleet;
   const bool is_hasty = f.activated[robot] && pointSpeed(f, robot) > kSlow;
-  const bool is_known = f.clear_until[robot] > static_cast<double>(world.total_steps);
-  return (is_hasty || !is_known) && isMoving(world, robot);
+  const bool is_known = f.clear_until[robot] > static_cast<double>(world.clock.total_steps);
+  return (is_hasty || !is_known) && isMoving(world.fleet, robot);
 }
 
-/// For how long the way of each robot that looks around is free [s], as all stand now; 0 for
-/// others. By place in the list of those that are stepped singly.
-std::vector<double> clearTimes(const WorldState& world) {
-  const std::vector<int>& robots = world.stepped_singly;
+/// Returns for how long the way of each robot that looks around is free [s], as all stand now; 0
+/// for others. By place in the list of those that are stepped singly.
+std::vector<double> clearTimes(const ContactView& world) {
+  const std::vector<int>& robots = world.schedule.stepped_singly;
   std::vector<double> times(robots.size(), 0);
   std::vector<int> asking;
   for (std::size_t k = 0; k < robots.size(); ++k) {
     const bool asks = looksAround(world, robots[k]) && !world.fleet.activated[robots[k]];
     if (asks) asking.push_back(static_cast<int>(k));
   }
-  world.workers->share(static_cast<int>(asking.size()), kLooksTogether, [&](int begin, int end) {
-    for (int a = begin; a < end; ++a) times[asking[a]] = clearTime(world, robots[asking[a]], true);
-  });
+  world.schedule.workers->share(static_cast<int>(asking.size()), kLooksTogether,
+                                [&](int begin, int end) {
+                                  for (int a = begin; a < end; ++a)
+                                    times[asking[a]] = clearTime(world, robots[asking[a]], true);
+                                });
   return times;
 }
 
-/// One by one, since who enters Bullet changes what the next one finds.
-void lookAround(WorldState& world) {
+/// Looks around one by one, since a model that enters Bullet changes what the next one finds.
+void lookAround(ContactView& world) {
   const FleetState& f = world.fleet;
   const auto asks = [&](int robot) { return looksAround(world, robot); };
-  const std::vector<int>& all = world.stepped_singly;
+  const std::vector<int>& all = world.schedule.stepped_singly;
   if (std::none_of(all.begin(), all.end(), asks)) return;
   const std::vector<double> times = clearTimes(world);
-  const std::size_t before = world.activated.size();
+  const std::size_t before = world.models.activated.size();
   for (std::size_t k = 0; k < times.size(); ++k) {
     const int i = all[k];
     if (!asks(i)) continue;
-    const bool is_known = world.activated.size() == before;
+    const bool is_known = world.models.activated.size() == before;
     const auto time = [&] { return is_known ? times[k] : clearTime(world, i, true); };
     if (f.activated[i] || !noteClearance(world, i, time())) activateClose(world, i);
   }
 }
 
-/// Whether no point of a storage unit that slides is fast.
+/// Returns whether no point of a storage unit that slides is fast.
 bool isSlow(const Model& model) {
   constexpr double kFarthest = 1;  // [m] from its centre of mass
   const btRigidBody& body = *model.bodies.links.front().body;
@@ -103,15 +107,15 @@ bool isSlow(const Model& model) {
 }
 
 /// A body that moves by itself: what it could hit enters Bullet too.
-void lookAroundBody(WorldState& world, Model& model) {
+void activateNearBody(ContactView& world, Model& model) {
   if (!isAwake(model)) return;
-  const bool is_due = (world.total_steps + model.slot) % world.stepsIn(kSeldom) == 0;
+  const bool is_due = (world.clock.total_steps + model.slot) % world.clock.stepsIn(kSeldom) == 0;
   if (model.upright && !is_due && isSlow(model)) return;
   double fastest = 0;
   for (const LinkBody& link : model.bodies.links) {
     fastest = std::max(fastest, link.body->getLinearVelocity().length());
   }
-  const double near = kNear + 4 * fastest * world.dt;
+  const double near = kNear + 4 * fastest * world.clock.dt;
   std::vector<Footprint> all;
   for (const CollisionGeometry& geometry : model.geometries) {
     all.push_back(world.obstacles[geometry.handle]);
@@ -128,10 +132,10 @@ void lookAroundBody(WorldState& world, Model& model) {
   }
 }
 
-void release(WorldState& world) {
-  for (std::size_t k = 0; k < world.activated.size();) {
-    Model& model = *world.models[world.activated[k]];
-    if (model.owner->mayLeaveBullet(world, model, model.active_until < world.total_steps)) {
+void release(ContactView& world) {
+  for (std::size_t k = 0; k < world.models.activated.size();) {
+    Model& model = *world.models[world.models.activated[k]];
+    if (model.owner->mayLeaveBullet(world, model, model.active_until < world.clock.total_steps)) {
       deactivate(world, model);  // removes entry k
     } else {
       ++k;
@@ -140,9 +144,9 @@ void release(WorldState& world) {
 }
 
 /// Most blocks of a large fleet have none, and cost little.
-void findSteppedSingly(WorldState& world) {
+void findSteppedSingly(ContactView& world) {
   const FleetState& f = world.fleet;
-  world.stepped_singly.clear();
+  world.schedule.stepped_singly.clear();
   constexpr int kBlock = 16;
   for (int begin = 0; begin < f.size(); begin += kBlock) {
     const int end = std::min(begin + kBlock, f.size());
@@ -150,65 +154,65 @@ void findSteppedSingly(WorldState& world) {
     for (int i = begin; i < end; ++i) any |= f.awake[i] & ~f.cruising[i];
     if (any == 0) continue;
     for (int i = begin; i < end; ++i) {
-      if (f.awake[i] && f.cruising[i] == 0) world.stepped_singly.push_back(i);
+      if (f.awake[i] && f.cruising[i] == 0) world.schedule.stepped_singly.push_back(i);
     }
   }
 }
 
 }  // namespace
 
-void activate(WorldState& world, Model& model) {
-  model.active_until = world.total_steps + world.stepsIn(kLinger);
+void activate(ContactView& world, Model& model) {
+  model.active_until = world.clock.total_steps + world.clock.stepsIn(kLinger);
   if (model.in_physics) return;
   model.upright = model.owner->mayBeUpright(world, model);
   model.bodies = model.owner->build(world, model);
   world.physics.insert(model.bodies);
   model.in_physics = true;
-  world.activated.push_back(model.slot);
+  world.models.activated.push_back(model.slot);
   model.owner->activated(world, model);
 }
 
-void deactivate(WorldState& world, Model& model) {
+void deactivate(ContactView& world, Model& model) {
   model.owner->deactivated(world, model);
   world.physics.remove(model.bodies);
   model.bodies = ModelBodies();
   model.in_physics = model.upright = model.tips = false;
   model.rocking = Vector3::Zero;
-  auto& slots = world.activated;
+  auto& slots = world.models.activated;
   slots.erase(std::remove(slots.begin(), slots.end(), model.slot), slots.end());
   moved(world, model);
 }
 
-void rebuildBody(WorldState& world, Model& model) {
+void rebuildBody(ContactView& world, Model& model) {
   if (!model.in_physics) return;
   deactivate(world, model);
   activate(world, model);
 }
 
-void letFall(WorldState& world, Model& model) {
+void letFall(ContactView& world, Model& model) {
   activate(world, model);
   if (model.upright) letTip(world, model);
   for (LinkBody& link : model.bodies.links) link.body->forceActivationState(ACTIVE_TAG);
   model.disturbed = true;
 }
 
-void updateActivation(WorldState& world) {
+void updateActivation(ContactView& world) {
   const FleetState& f = world.fleet;
-  if (world.options.always_in_bullet) {
-    for (int i = 0; i < f.size(); ++i) activate(world, world.modelOf(i));
+  if (world.settings.options.always_in_bullet) {
+    for (int i = 0; i < f.size(); ++i) activate(world, world.models.of(world.fleet.robots[i]));
   }
   findSteppedSingly(world);
-  const std::size_t before = world.activated.size();
+  const std::size_t before = world.models.activated.size();
   lookAround(world);
-  for (int slot : world.bodies) lookAroundBody(world, *world.models[slot]);
-  const std::vector<int> activated = world.activated;  // it grows meanwhile
+  for (int slot : world.models.bodies) activateNearBody(world, *world.models[slot]);
+  const std::vector<int> activated = world.models.activated;  // it grows meanwhile
   for (int slot : activated) {
-    if (world.models[slot]->disturbed) lookAroundBody(world, *world.models[slot]);
+    if (world.models[slot]->disturbed) activateNearBody(world, *world.models[slot]);
   }
   updateUprightness(world);
-  const bool has_more = world.activated.size() > before;
+  const bool has_more = world.models.activated.size() > before;
   release(world);
-  if (has_more) findSteppedSingly(world);  // who was activated has woken
+  if (has_more) findSteppedSingly(world);  // activated robots have woken
 }
 
 }  // namespace kiva

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bullet holds what may touch. A robot with nothing near is integrated in arrays, a storage unit
-// that nobody comes near is a pose; both become bodies when something could reach them, and leave
-// Bullet again when nothing can.
+// Moves models into Bullet that may touch others. A robot with nothing near is integrated in
+// arrays, a storage unit with no robot near is a pose; both become bodies when another model could
+// reach them, and leave Bullet again when none can.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
 
 namespace kiva {
 
-/// Finds who is near whom, lets models enter or leave Bullet, and fills WorldState::stepped_singly:
-/// the robots that are awake and do not cruise, in the fleet's order.
-void updateActivation(WorldState& world);
+/// Finds which models are near each other, lets them enter or leave Bullet, and fills
+/// StepSchedule::stepped_singly: the robots that are awake and do not cruise, in the fleet's order.
+void updateActivation(ContactView& world);
 /// Puts a robot or storage unit into Bullet for the next while.
-void activate(WorldState& world, Model& model);
+void activate(ContactView& world, Model& model);
 /// Takes a model out of Bullet at once; its pose stays.
-void deactivate(WorldState& world, Model& model);
-/// It has another mass, shape or place: if it is in Bullet, it gets a new body.
-void rebuildBody(WorldState& world, Model& model);
+void deactivate(ContactView& world, Model& model);
+/// Gives a model in Bullet a new body, since its mass, shape or place has changed.
+void rebuildBody(ContactView& world, Model& model);
 /// Leaves a storage unit to Bullet until it stands on its legs again.
-void letFall(WorldState& world, Model& model);
+void letFall(ContactView& world, Model& model);
 
 }  // namespace kiva

@@ -20,29 +20,27 @@ constexpr double kQuiet = 0.002, kImpact = 0.01;
 // What counts as nearing: a share of the speed at first, and at least so much [m/s].
 constexpr double kShare = 0.01, kNearing = 0.001;
 
-int robotIn(const WorldState& world, const Model& model) {
-  return model.owner->robot(world, model);
-}
+int robotIn(const Scene& world, const Model& model) { return model.owner->robot(world, model); }
 
-/// Whether one is an item that slides, or has fallen, off the other.
-bool isFall(const WorldState& world, const Contact& contact) {
+/// Returns whether one is an item that slides, or has fallen, off the other.
+bool isFall(const FallenItems& fallen, const Contact& contact) {
   const auto is_off = [&](int item, int unit) {
-    const OffShelf* off = world.offShelf(item);
+    const OffShelf* off = fallen.find(item);
     return off && off->unit == unit;
   };
   return is_off(contact.model_a, contact.model_b) || is_off(contact.model_b, contact.model_a);
 }
 
-bool isCollision(const WorldState& world, const Contact& contact) {
+bool isCollision(const Scene& world, const Contact& contact) {
   const Model& a = *world.models[contact.model_a];
   const Model& b = *world.models[contact.model_b];
   if (a.owner->isFloor() || b.owner->isFloor()) return false;
   if (!a.owner->tellsCollisions() && !b.owner->tellsCollisions()) return false;
   const int robot = robotIn(world, a);
-  return (robot < 0 || robot != robotIn(world, b)) && !isFall(world, contact);
+  return (robot < 0 || robot != robotIn(world, b)) && !isFall(world.fallen, contact);
 }
 
-bool areApart(const WorldState& world, const TouchingPair& pair) {
+bool areApart(const Scene& world, const TouchingPair& pair) {
   bool apart = true;
   forFootprints(world, pair.model_a, [&](const Footprint& a) {
     forFootprints(world, pair.model_b, [&](const Footprint& b) {
@@ -53,31 +51,32 @@ bool areApart(const WorldState& world, const TouchingPair& pair) {
 }
 
 /// A robot in it is to stop.
-void noteCrash(WorldState& world, const Model& model, const Model& other) {
+void noteCrash(ContactView& world, const Model& model, const Model& other) {
   const int robot = robotIn(world, model);
-  if (robot >= 0) world.crashes.push_back({world.fleet.robots[robot].id, other.name});
+  if (robot >= 0) world.contact_log.crashes.push_back({world.fleet.robots[robot].id, other.name});
 }
 
 /// What an impact [Ns, in world] made of the storage unit that it hit, or whose robot.
-void noteJolt(WorldState& world, const Model& model, const Vector3& impulse) {
+void noteJolt(ContactView& world, const Model& model, const Vector3& impulse) {
   const int robot = robotIn(world, model);
   if (robot >= 0 && world.fleet.unit[robot] >= 0) {
     const Robot& r = world.fleet.robots[robot];
-    const int unit = world.units[world.fleet.unit[robot]].model;
-    world.jolts.push_back({unit, impulse / (r.mass + r.load_mass)});
+    const int unit = world.storage.units[world.fleet.unit[robot]].model;
+    world.contact_log.jolts.push_back({unit, impulse / (r.mass + r.load_mass)});
   } else if (model.owner->holdsItems()) {
-    world.jolts.push_back({model.slot, impulse / world.units[model.index].mass});
+    world.contact_log.jolts.push_back(
+        {model.slot, impulse / world.storage.units[model.index].mass});
   }
 }
 
-void noteJolts(WorldState& world, const TouchingPair& pair) {
-  if (!world.realism.loads.enabled) return;
+void noteJolts(ContactView& world, const TouchingPair& pair) {
+  if (!world.settings.realism.loads.enabled) return;
   const Vector3 impulse = pair.impact.normal * pair.impact.impulse;
   noteJolt(world, *world.models[pair.model_a], impulse);
   noteJolt(world, *world.models[pair.model_b], -impulse);
 }
 
-void tell(WorldState& world, TouchingPair* pair) {
+void tell(ContactView& world, TouchingPair* pair) {
   const Model* a = world.models[pair->model_a].get();
   const Model* b = world.models[pair->model_b].get();
   Impact impact = pair->impact;
@@ -86,69 +85,73 @@ void tell(WorldState& world, TouchingPair* pair) {
     impact.normal = -impact.normal;
   }
   pair->tell_at = 0;
-  world.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name, impact);
+  world.log.report(Event::Kind::kCollision, a->name, b->name, a->name + " touches " + b->name,
+                   impact);
   noteCrash(world, *a, *b);
   noteCrash(world, *b, *a);
 }
 
-void tellWhatIsOver(WorldState& world) {
-  for (TouchingPair& pair : world.touching) {
-    if (pair.tell_at == 0 || pair.tell_at > world.total_steps) continue;
+void tellWhatIsOver(ContactView& world) {
+  for (TouchingPair& pair : world.contact_log.touching) {
+    if (pair.tell_at == 0 || pair.tell_at > world.clock.total_steps) continue;
     noteJolts(world, pair);
     tell(world, &pair);
   }
 }
 
-TouchingPair& pairOf(WorldState& world, const Contact& contact) {
-  for (TouchingPair& pair : world.touching) {
+TouchingPair& pairOf(ContactView& world, const Contact& contact) {
+  for (TouchingPair& pair : world.contact_log.touching) {
     if (pair.model_a == contact.model_a && pair.model_b == contact.model_b) return pair;
   }
   const Impact impact{contact.point, contact.normal, contact.speed, 0};
-  const std::uint64_t now = world.total_steps;
-  world.touching.push_back({contact.model_a, contact.model_b, now, impact,
-                            now + world.stepsIn(kQuiet), now + world.stepsIn(kImpact)});
-  return world.touching.back();
+  const std::uint64_t now = world.clock.total_steps;
+  world.contact_log.touching.push_back({contact.model_a, contact.model_b, now, impact,
+                                        now + world.clock.stepsIn(kQuiet),
+                                        now + world.clock.stepsIn(kImpact)});
+  return world.contact_log.touching.back();
 }
 
-void touch(WorldState& world, const Contact& contact) {
+void touch(ContactView& world, const Contact& contact) {
   for (int slot : {contact.model_a, contact.model_b}) {
     world.models[slot]->owner->touched(world, *world.models[slot]);
   }
   TouchingPair& pair = pairOf(world, contact);
-  pair.last_step = world.total_steps;
+  pair.last_step = world.clock.total_steps;
   if (pair.tell_at == 0) return;
   pair.impact.impulse += contact.impulse;
   if (contact.nearing <= std::max(kNearing, kShare * pair.impact.speed)) return;
-  pair.tell_at = std::min(pair.tell_latest, world.total_steps + world.stepsIn(kQuiet));
+  pair.tell_at = std::min(pair.tell_latest, world.clock.total_steps + world.clock.stepsIn(kQuiet));
 }
 
 }  // namespace
 
-void observeCollisions(WorldState& world) {
-  if (world.activated.empty() && world.touching.empty()) return;
-  world.physics.contacts(&world.contacts);
-  for (const Contact& contact : world.contacts) {
+void observeCollisions(ContactView& world) {
+  if (world.models.activated.empty() && world.contact_log.touching.empty()) return;
+  world.physics.contacts(&world.contact_log.contacts);
+  for (const Contact& contact : world.contact_log.contacts) {
     if (isCollision(world, contact)) touch(world, contact);
   }
   rock(world);
   tellWhatIsOver(world);
-  const auto keep = world.stepsIn(kForget);
+  const auto keep = world.clock.stepsIn(kForget);
   const auto over = [&](const TouchingPair& pair) {
-    return pair.last_step + keep < world.total_steps && areApart(world, pair);
+    return pair.last_step + keep < world.clock.total_steps && areApart(world, pair);
   };
-  world.touching.erase(std::remove_if(world.touching.begin(), world.touching.end(), over),
-                       world.touching.end());
+  world.contact_log.touching.erase(
+      std::remove_if(world.contact_log.touching.begin(), world.contact_log.touching.end(), over),
+      world.contact_log.touching.end());
 }
 
-void forgetContacts(WorldState& world, int slot) {
+void forgetContacts(ContactView& world, int slot) {
   const auto has = [slot](const TouchingPair& pair) {
     return slot < 0 || pair.model_a == slot || pair.model_b == slot;
   };
-  for (TouchingPair& pair : world.touching) {
+  for (TouchingPair& pair : world.contact_log.touching) {
     if (has(pair) && pair.tell_at > 0) tell(world, &pair);
   }
-  world.touching.erase(std::remove_if(world.touching.begin(), world.touching.end(), has),
-                       world.touching.end());
+  world.contact_log.touching.erase(
+      std::remove_if(world.contact_log.touching.begin(), world.contact_log.touching.end(), has),
+      world.contact_log.touching.end());
 }
 
 }  // namespace kiva

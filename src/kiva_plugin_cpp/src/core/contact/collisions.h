@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
 
 namespace kiva {
 
-/// Tells each contact that should not be once, when its impact is over, and notes the robots in it
-/// as WorldState::crashes.
-void observeCollisions(WorldState& world);
-/// Forgets a model that is going, -1 = all; what has not been told yet is.
-void forgetContacts(WorldState& world, int slot);
+/// Reports each collision once, when its impact is over, and notes the robots in it
+/// as ContactLog::crashes.
+void observeCollisions(ContactView& world);
+/// Forgets the contacts of a model that is removed, -1 = all, and reports pending ones.
+void forgetContacts(ContactView& world, int slot);
 
 }  // namespace kiva

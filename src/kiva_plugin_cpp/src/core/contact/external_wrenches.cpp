@@ -14,22 +14,22 @@ constexpr double kRounding = 1e-9;  // [s] of simulated time
 bool hasBegun(const Period& period, double now) { return now >= period.start - kRounding; }
 bool isOver(const Period& period, double now) { return now >= period.end - kRounding; }
 
-void apply(WorldState& world, const Wrench& wrench) {
-  Model* model = world.find(wrench.model);
+void apply(ContactView& world, const Wrench& wrench) {
+  Model* model = world.models.find(wrench.model);
   const int link = model ? linkIndex(*model->description, wrench.link) : -1;
   if (link >= 0) pushLink(world, *model, link, wrench.force, wrench.torque);
 }
 
-void apply(WorldState& world, const Effort& effort) {
-  Model* model = world.find(effort.model);
+void apply(ContactView& world, const Effort& effort) {
+  Model* model = world.models.find(effort.model);
   const int joint = model && !model->joints.empty() ? findJoint(*model, effort.joint) : -1;
   if (joint >= 0) pushJoint(*model, joint, effort.effort);
 }
 
 template <typename Input>
-void applyDue(WorldState& world, std::vector<Input>* all) {
+void applyDue(ContactView& world, std::vector<Input>* all) {
   if (all->empty()) return;
-  const double now = world.time();
+  const double now = world.clock.time();
   for (const Input& one : *all) {
     if (hasBegun(one.period, now) && !isOver(one.period, now)) apply(world, one);
   }
@@ -45,12 +45,12 @@ void forget(const std::string& model, std::vector<Input>* all) {
 
 }  // namespace
 
-void applyExternalWrenches(WorldState& world) {
+void applyExternalWrenches(ContactView& world) {
   applyDue(world, &world.external_inputs.wrenches);
   applyDue(world, &world.external_inputs.efforts);
 }
 
-bool pushLink(WorldState& world, Model& model, int link, const Vector3& force,
+bool pushLink(ContactView& world, Model& model, int link, const Vector3& force,
               const Vector3& torque) {
   if (model.isStatic()) return false;
   const Link& description = model.description->links[link];
@@ -58,9 +58,9 @@ bool pushLink(WorldState& world, Model& model, int link, const Vector3& force,
   return model.owner->push(world, model, link, at, force, torque);
 }
 
-void forgetExternalInputs(WorldState& world, const std::string& model) {
-  forget(model, &world.external_inputs.wrenches);
-  forget(model, &world.external_inputs.efforts);
+void forgetExternalInputs(ExternalInputs& external_inputs, const std::string& model) {
+  forget(model, &external_inputs.wrenches);
+  forget(model, &external_inputs.efforts);
 }
 
 }  // namespace kiva

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Forces that clients apply to links and joints, for a step or for a while.
+// Applies the forces of clients to links and joints, for a step or for a while.
 #pragma once
 
 #include <string>
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
 
 namespace kiva {
 
-/// Before a step: applies what is due now, and drops what is over.
-void applyExternalWrenches(WorldState& world);
+/// Applies the forces that are due before a step, and drops those that are over.
+void applyExternalWrenches(ContactView& world);
 /// For the next step: a force on the link's centre of mass and a torque, in world. Returns false
 /// if the link does not move.
-bool pushLink(WorldState& world, Model& model, int link, const Vector3& force,
+bool pushLink(ContactView& world, Model& model, int link, const Vector3& force,
               const Vector3& torque);
-/// A model is going.
-void forgetExternalInputs(WorldState& world, const std::string& model);
+/// Forgets the forces on a model that is removed.
+void forgetExternalInputs(ExternalInputs& external_inputs, const std::string& model);
 
 }  // namespace kiva

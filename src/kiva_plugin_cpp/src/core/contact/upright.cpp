@@ -14,7 +14,7 @@ namespace kiva {
 namespace {
 
 constexpr double kFootHeight = 0.005;  // [m] above the floor, up to which a shape is a foot
-constexpr double kVisible = 0.01;      // [rad]: who rocks farther is a whole body
+constexpr double kVisible = 0.01;      // [rad]: a unit that rocks farther is a whole body
 constexpr double kCalm = 0.25;         // share of that energy with which it is planar again
 constexpr double kAbove = 0.002;       // [m] that it may hang above the floor then
 constexpr double kRising = 0.02;       // [m/s] with which it may move up or down then
@@ -24,21 +24,21 @@ constexpr double kBurden = 0.1;        // share of its weight that may press on 
 /// What of a body's weight and shape matters for rocking.
 struct Rocking {
   double weight = 0;   // [N]
-  double height = 0;   // of the centre of mass [m]
+  double height = 0;   // height of the centre of mass [m]
   double support = 0;  // the least distance from there to where it tips over [m]
   double inertia = 0;  // about that edge, of feet that slide [kg m²]
 
   double energy() const { return weight * support * kVisible; }  // [J]
 };
 
-/// The floor's height under the centre of mass, in its frame; feet by description.
-std::vector<Foot> feetOf(const WorldState& world, const Model& model, double weight) {
+/// Returns the feet that the description has, in the frame of the centre of mass.
+std::vector<Foot> feetOf(const FloorState& floor, const Model& model, double weight) {
   std::vector<Foot> feet;
   const Link& link = model.description->links.front();
   const Pose to_mass = (link.pose_in_model * link.inertial_pose_in_link).Inverse();
   const auto add = [&](double x, double y, double friction) {
     const Vector3 at = to_mass.CoordPositionAdd(Vector3(x, y, 0));
-    feet.push_back({toBullet(at), std::min(friction, world.floor_friction)});
+    feet.push_back({toBullet(at), std::min(friction, floor.friction)});
   };
   std::vector<std::pair<Bounds, double>> soles;
   for (const Collision& c : link.collisions) {
@@ -62,7 +62,7 @@ const SlidingFriction& frictionOf(const Model& model) {
   return static_cast<const SlidingFriction&>(*model.bodies.joints.front());
 }
 
-/// How far the feet reach from the centre of mass that way.
+/// Returns how far the feet reach from the centre of mass that way.
 double supportAlong(const std::vector<Foot>& feet, const btVector3& way_in_body) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Foot& foot : feet) most = std::max(most, foot.at.dot(way_in_body));
@@ -85,9 +85,10 @@ double leastSupport(const std::vector<Foot>& feet) {
   return least;
 }
 
-Rocking rockingOf(const WorldState& world, const btRigidBody& body, const std::vector<Foot>& feet) {
+Rocking rockingOf(const Settings& settings, const btRigidBody& body,
+                  const std::vector<Foot>& feet) {
   Rocking r;
-  r.weight = body.getMass() * world.gravityDown();
+  r.weight = body.getMass() * settings.gravityDown();
   if (feet.empty()) return r;
   r.height = -feet.front().at.z();
   r.support = leastSupport(feet);
@@ -96,7 +97,7 @@ Rocking rockingOf(const WorldState& world, const btRigidBody& body, const std::v
   return r;
 }
 
-/// How far from the centre of mass the edge is over which that momentum turns it [m].
+/// Returns how far from the centre of mass the edge is over which that momentum turns it [m].
 double armOf(const Model& model, const Vector3& momentum) {
   const double size = momentum.Length();
   const btVector3 way(momentum.Y() / size, -momentum.X() / size, 0);  // where it would tip to
@@ -104,28 +105,29 @@ double armOf(const Model& model, const Vector3& momentum) {
   return supportAlong(frictionOf(model).feet(), basis.transpose() * way);
 }
 
-void rockOne(const WorldState& world, Model& model, const Push& push) {
+void rockOne(const Scene& world, Model& model, const Push& push) {
   const btRigidBody& body = *model.bodies.links.front().body;
   const SlidingFriction& friction = frictionOf(model);
-  const Rocking r = rockingOf(world, body, friction.feet());
-  const btVector3 grip = friction.impulse(world.dt);
+  const Rocking r = rockingOf(world.settings, body, friction.feet());
+  const btVector3 grip = friction.impulse(world.clock.dt);
   // Grip acts at the feet, below the centre of mass.
   Vector3 momentum = model.rocking + Vector3(push.moment.x() + r.height * grip.y(),
                                              push.moment.y() - r.height * grip.x(), 0);
   const double size = momentum.Length();
-  if (size > 0) momentum *= std::max(0.0, 1 - r.weight * armOf(model, momentum) * world.dt / size);
+  if (size > 0)
+    momentum *= std::max(0.0, 1 - r.weight * armOf(model, momentum) * world.clock.dt / size);
   model.rocking = momentum;
   model.tips = model.tips || momentum.SquaredLength() > 2 * r.inertia * r.energy();
 }
 
-/// Whether it bears a load, or is lifted.
-bool isBurdened(const WorldState& world, const Model& model, const Push& push) {
-  const double weight = model.bodies.links.front().body->getMass() * world.gravityDown();
-  return std::abs(push.load) > kBurden * weight * world.dt;
+/// Returns whether it bears a load, or is lifted.
+bool isBurdened(const Scene& world, const Model& model, const Push& push) {
+  const double weight = model.bodies.links.front().body->getMass() * world.settings.gravityDown();
+  return std::abs(push.load) > kBurden * weight * world.clock.dt;
 }
 
 /// Puts another body in place of the one that it has, with that velocity.
-void exchange(WorldState& world, Model& model, const EntityState& state, bool is_disturbed) {
+void exchange(ContactView& world, Model& model, const EntityState& state, bool is_disturbed) {
   world.physics.remove(model.bodies);
   model.bodies = model.owner->build(world, model);
   world.physics.insert(model.bodies);
@@ -138,32 +140,32 @@ void exchange(WorldState& world, Model& model, const EntityState& state, bool is
   moved(world, model);
 }
 
-/// Of the centre of mass; the pose is the model's.
+/// Returns the velocity of the centre of mass, with the model's pose.
 EntityState stateOf(const Model& model) {
   const btRigidBody& body = *model.bodies.links.front().body;
   return {canonicalState(model).pose,
           {fromBullet(body.getLinearVelocity()), fromBullet(body.getAngularVelocity())}};
 }
 
-/// Whether what is whole stands on its feet, and rocks so little that nobody sees it.
-bool hasCalmed(const WorldState& world, const Model& model) {
+/// Returns whether a whole body stands on its feet again, and rocks invisibly little.
+bool hasCalmed(const Scene& world, const Model& model) {
   const EntityState state = canonicalState(model);
   const double tilt = std::acos(std::min(1.0, state.pose.Rot().ZAxis().Z()));
-  if (tilt > kVisible || std::abs(state.pose.Z() - world.floor.z) > kAbove) return false;
+  if (tilt > kVisible || std::abs(state.pose.Z() - world.floor.extent.z) > kAbove) return false;
   const btRigidBody& body = *model.bodies.links.front().body;
   if (!body.getTotalForce().isZero() || !body.getTotalTorque().isZero()) return false;
   const btVector3 turn = body.getAngularVelocity();
-  const auto feet = feetOf(world, model, body.getMass() * world.gravityDown());
-  const Rocking r = rockingOf(world, body, feet);
+  const auto feet = feetOf(world.floor, model, body.getMass() * world.settings.gravityDown());
+  const Rocking r = rockingOf(world.settings, body, feet);
   const double kinetic = 0.5 * r.inertia * (turn.x() * turn.x() + turn.y() * turn.y());
   return std::abs(body.getLinearVelocity().z()) < kRising &&
          kinetic + r.weight * r.support * tilt < kCalm * r.energy();
 }
 
-void standUp(WorldState& world, Model& model) {
+void standUp(ContactView& world, Model& model) {
   EntityState state = stateOf(model);
   const Pose& pose = state.pose;
-  state.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+  state.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
   state.twist.linear.Z() = state.twist.angular.X() = state.twist.angular.Y() = 0;
   model.pose = state.pose;
   model.upright = true;
@@ -173,14 +175,13 @@ void standUp(WorldState& world, Model& model) {
 
 }  // namespace
 
-bool canSlideUpright(const WorldState& world, const Model& model) {
-  const Vector3& g = world.gravity;
+bool canSlideUpright(const Scene& world, const Model& model) {
+  const Vector3& g = world.settings.gravity;
   return model.description->links.size() == 1 && g.X() == 0 && g.Y() == 0 && g.Z() < 0 &&
          model.description->links.front().gravity && world.physics.hasPlainFloor();
 }
 
-ModelBodies buildUpright(const WorldState& world, const Model& model,
-                         ModelDescription description) {
+ModelBodies buildUpright(const Scene& world, const Model& model, ModelDescription description) {
   Link& link = description.links.front();
   link.gravity = false;
   ModelBodies bodies =
@@ -189,14 +190,14 @@ ModelBodies buildUpright(const WorldState& world, const Model& model,
   body.setLinearFactor({1, 1, 0});
   body.setAngularFactor({0, 0, 1});
   bodies.joints.push_back(std::make_unique<SlidingFriction>(
-      body, feetOf(world, model, link.mass * world.gravityDown())));
+      body, feetOf(world.floor, model, link.mass * world.settings.gravityDown())));
   mark(*bodies.joints.back(), model.slot, 1);
   return bodies;
 }
 
-void rock(WorldState& world) {
+void rock(ContactView& world) {
   std::vector<Push> pushes;
-  for (int slot : world.activated) {
+  for (int slot : world.models.activated) {
     Model& model = *world.models[slot];
     if (!model.disturbed || !isAwake(model)) continue;
     if (pushes.empty()) pushes = world.physics.pushes();
@@ -207,12 +208,12 @@ void rock(WorldState& world) {
   }
 }
 
-void letTip(WorldState& world, Model& model) {
+void letTip(ContactView& world, Model& model) {
   EntityState state = stateOf(model);
   if (!model.rocking.Equal(Vector3::Zero, kNoPush)) {
     // About the edge, which stays on the floor: the centre of mass rises.
     const btRigidBody& body = *model.bodies.links.front().body;
-    const Rocking r = rockingOf(world, body, frictionOf(model).feet());
+    const Rocking r = rockingOf(world.settings, body, frictionOf(model).feet());
     state.twist.angular += model.rocking / r.inertia;
     state.twist.linear.Z() += model.rocking.Length() / r.inertia * armOf(model, model.rocking);
   }
@@ -221,15 +222,15 @@ void letTip(WorldState& world, Model& model) {
   exchange(world, model, state, model.disturbed);
 }
 
-void letAllTip(WorldState& world) {
-  const std::vector<int> activated = world.activated;
+void letAllTip(ContactView& world) {
+  const std::vector<int> activated = world.models.activated;
   for (int slot : activated) {
     if (world.models[slot]->upright) letTip(world, *world.models[slot]);
   }
 }
 
-void updateUprightness(WorldState& world) {
-  const std::vector<int> activated = world.activated;
+void updateUprightness(ContactView& world) {
+  const std::vector<int> activated = world.models.activated;
   for (int slot : activated) {
     Model& model = *world.models[slot];
     if (model.upright) {

@@ -6,21 +6,21 @@
 // it stands on its feet again it is planar again.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
 
 namespace kiva {
 
-/// Whether the floor is such that a unit may be planar where it stands on its feet.
-bool canSlideUpright(const WorldState& world, const Model& model);
-/// The planar body of a unit that is like `description`, at model.pose.
-ModelBodies buildUpright(const WorldState& world, const Model& model, ModelDescription description);
+/// Returns whether the floor is such that a unit may be planar where it stands on its feet.
+bool canSlideUpright(const Scene& world, const Model& model);
+/// Returns the planar body of a unit that is like `description`, at model.pose.
+ModelBodies buildUpright(const Scene& world, const Model& model, ModelDescription description);
 
 /// Adds what pushed the units over in the last step.
-void rock(WorldState& world);
+void rock(ContactView& world);
 /// Makes those whole that their feet hold no longer, and those planar that stand on them again.
-void updateUprightness(WorldState& world);
+void updateUprightness(ContactView& world);
 /// Makes a planar unit whole at once, or all: their weight or the floor is another one.
-void letTip(WorldState& world, Model& model);
-void letAllTip(WorldState& world);
+void letTip(ContactView& world, Model& model);
+void letAllTip(ContactView& world);
 
 }  // namespace kiva

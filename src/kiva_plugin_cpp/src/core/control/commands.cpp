@@ -6,7 +6,6 @@
 
 #include "core/control/interruptions.h"
 #include "core/control/paths.h"
-#include "core/control/radio.h"
 #include "core/control/route.h"
 #include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
@@ -14,7 +13,7 @@
 namespace kiva {
 namespace {
 
-constexpr double kLookAgain = 0.5;  // [s] after which a robot looks for a way back again
+constexpr double kLookAgain = 0.5;  // [s] between two searches for a way back
 
 struct Plan {
   std::deque<MotionSegment> segments;
@@ -22,19 +21,20 @@ struct Plan {
   std::string other;
 };
 
-double checkedDistance(const WorldState& world, double distance) {
+double checkedDistance(const Settings& settings, double distance) {
   if (!std::isfinite(distance)) {
     throw Refusal(format("distance %g: a finite number of metres was expected", distance));
   }
-  const double whole = nearestGrid(world, distance);
+  const double whole = nearestGrid(settings, distance);
   if (std::abs(whole - distance) <= kGoalTolerance) return whole;
   throw Refusal(
-      format("distance %g m is no whole number of %g m cells", distance, world.grid_spacing));
+      format("distance %g m is no whole number of %g m cells", distance, settings.grid_spacing));
 }
 
-Plan planMoveTo(const WorldState& world, int robot, const Command& command) {
-  checkMotion(world, robot);
-  const Point goal{checkedGoal(world, command.x, 'x'), checkedGoal(world, command.y, 'y')};
+Plan planMoveTo(const Scene& world, int robot, const Command& command) {
+  checkMotion(world.fleet, robot);
+  const Point goal{checkedGoal(world.settings, command.x, 'x'),
+                   checkedGoal(world.settings, command.y, 'y')};
   checkGoal(world, goal);
   Route route(world, robot);
   route.driveTo(0, goal.x);
@@ -42,9 +42,9 @@ Plan planMoveTo(const WorldState& world, int robot, const Command& command) {
   return {route.takeSegments(), format("go to (%g, %g)", goal.x, goal.y), ""};
 }
 
-Plan planMoveAlong(const WorldState& world, int robot, int axis, double asked) {
-  checkMotion(world, robot);
-  const double distance = checkedDistance(world, asked);
+Plan planMoveAlong(const Scene& world, int robot, int axis, double asked) {
+  checkMotion(world.fleet, robot);
+  const double distance = checkedDistance(world.settings, asked);
   Route route(world, robot);
   Point goal = route.at();
   goal[axis] += distance;
@@ -53,7 +53,7 @@ Plan planMoveAlong(const WorldState& world, int robot, int axis, double asked) {
   return {route.takeSegments(), format("go %g m along %c", distance, axis == 0 ? 'x' : 'y'), ""};
 }
 
-Plan planRotate(const WorldState& world, int robot, int direction) {
+Plan planRotate(const Scene& world, int robot, int direction) {
   if (direction != 1 && direction != -1) {
     throw Refusal(
         format("direction %d: 1 (counterclockwise) or -1 (clockwise) was expected", direction));
@@ -63,17 +63,17 @@ Plan planRotate(const WorldState& world, int robot, int direction) {
   return {route.takeSegments(), direction > 0 ? "turn counterclockwise" : "turn clockwise", ""};
 }
 
-int findUnit(const WorldState& world, int id) {
-  const auto at = world.unit_of_id.find(id);
-  if (at == world.unit_of_id.end()) throw Refusal(format("there is no storage_unit%d", id));
+int findUnit(const Storage& storage, int id) {
+  const auto at = storage.unit_of_id.find(id);
+  if (at == storage.unit_of_id.end()) throw Refusal(format("there is no storage_unit%d", id));
   return at->second;
 }
 
-void checkCarry(const WorldState& world, int robot, int unit) {
+void checkCarry(const Scene& world, int robot, int unit) {
   const Fleet& f = world.fleet;
-  const StorageUnit& u = world.units[unit];
+  const StorageUnit& u = world.storage.units[unit];
   const LiftParameters& lift = f.robots[robot].lift;
-  if (f.unit[robot] >= 0) throw Refusal("it carries " + world.units[f.unit[robot]].name);
+  if (f.unit[robot] >= 0) throw Refusal("it carries " + world.storage.units[f.unit[robot]].name);
   const int holder = u.carrier >= 0 ? u.carrier : u.claimed_by;
   if (holder >= 0) throw Refusal(u.name + " is carried by " + f.robots[holder].name);
   const double distance = unitDistance(world, robot, unit);
@@ -92,30 +92,30 @@ void checkCarry(const WorldState& world, int robot, int unit) {
   }
 }
 
-/// What a drop that names no unit means.
-int carriedUnit(const WorldState& world, int robot) {
-  const int unit = world.fleet.unit[robot];
+/// Returns the unit that a drop without a number means. Throws Refusal.
+int carriedUnit(const FleetState& fleet, int robot) {
+  const int unit = fleet.unit[robot];
   if (unit < 0) throw Refusal("it carries nothing");
   return unit;
 }
 
-Plan planLift(const WorldState& world, int robot, const Command& command) {
+Plan planLift(const Scene& world, int robot, const Command& command) {
   if (!world.fleet.robots[robot].lift.fitted) throw Refusal("it has no lift plugin");
   if (command.lift != 0 && command.lift != 1) {
     throw Refusal(format("status %d: 1 (carry) or 0 (drop) was expected", command.lift));
   }
   const bool carry = command.lift == 1;
-  const int unit = carry || command.shelf_id != 0 ? findUnit(world, command.shelf_id)
-                                                  : carriedUnit(world, robot);
+  const int unit = carry || command.shelf_id != 0 ? findUnit(world.storage, command.shelf_id)
+                                                  : carriedUnit(world.fleet, robot);
   if (carry) checkCarry(world, robot, unit);
-  const std::string& name = world.units[unit].name;
+  const std::string& name = world.storage.units[unit].name;
   if (!carry && world.fleet.unit[robot] != unit) throw Refusal("it does not carry " + name);
   Route route(world, robot);
   route.lift(carry ? MotionSegment::Kind::kRaise : MotionSegment::Kind::kLower, unit);
   return {route.takeSegments(), (carry ? "carry " : "drop ") + name, name};
 }
 
-Plan plan(const WorldState& world, int robot, const Command& command) {
+Plan plan(const Scene& world, int robot, const Command& command) {
   switch (command.kind) {
     case Command::Kind::kMoveTo:
       return planMoveTo(world, robot, command);
@@ -139,22 +139,22 @@ const char* stateName(State state) {
   return names[static_cast<int>(state)];
 }
 
-void checkIdle(const WorldState& world, int robot) {
-  if (world.fleet.status[robot] == Status::kIdle) return;
-  throw Refusal(std::string("it is not idle but ") + stateName(world.fleet.state[robot]));
+void checkIdle(const FleetState& fleet, int robot) {
+  if (fleet.status[robot] == Status::kIdle) return;
+  throw Refusal(std::string("it is not idle but ") + stateName(fleet.state[robot]));
 }
 
-void start(WorldState& world, int robot, std::uint32_t number, Plan plan) {
+void start(MotionView& world, int robot, std::uint32_t number, Plan plan) {
   Task& task = world.fleet.tasks[robot];
   task.command = number;
   task.goal = plan.text;
-  world.reportCommand(Event::Kind::kAccepted, robot, plan.other, plan.text);
+  reportCommand(world, Event::Kind::kAccepted, robot, plan.other, plan.text);
   beginTask(world, robot, std::move(plan.segments));
 }
 
-using Order = void (*)(WorldState&, int robot);
+using Order = void (*)(MotionView&, int robot);
 
-/// Of the command kinds that are obeyed whatever a robot is at.
+/// Returns the order for a kind of command that a robot obeys at any time; null for other kinds.
 Order orderOf(Command::Kind kind) {
   switch (kind) {
     case Command::Kind::kCancel:
@@ -168,94 +168,84 @@ Order orderOf(Command::Kind kind) {
   }
 }
 
-bool hears(const WorldState& world, int robot) {
-  return (world.fleet.failures[robot] & bitOf(Failure::kRadio)) == 0;
+bool hears(const FleetState& fleet, int robot) {
+  return (fleet.failures[robot] & bitOf(Failure::kRadio)) == 0;
 }
 
-int findListening(const WorldState& world, int id) {
-  const int robot = world.fleet.find(id);
+int findListening(const FleetState& fleet, int id) {
+  const int robot = fleet.find(id);
   if (robot < 0) throw Refusal("there is no robot kiva" + std::to_string(id));
-  if (!hears(world, robot)) throw Refusal("its radio is lost: it hears nothing");
+  if (!hears(fleet, robot)) throw Refusal("its radio is lost: it hears nothing");
   return robot;
 }
 
-void obeyAll(WorldState& world, Order order) {
+void commandAll(MotionView& world, Order order) {
   for (int robot = 0; robot < world.fleet.size(); ++robot) {
-    if (hears(world, robot)) order(world, robot);
+    if (hears(world.fleet, robot)) order(world, robot);
   }
 }
 
-/// Gives the command to its robot; `path` is what it stands for, if it is to follow one. Counts it,
-/// unless it only changes what the robot is at. Throws Refusal.
-void obey(WorldState& world, const Command& command, const FollowPath& path) {
+/// Gives the command to its robot; `path` is what it stands for, if it is kFollow. Numbers the
+/// command, unless it only changes the present one. Throws Refusal.
+void obey(MotionView& world, Inbox& inbox, const Command& command, const FollowPath& path) {
   if (!path.fault.empty()) throw Refusal(path.fault);
   const bool is_stop = command.kind == Command::Kind::kStop || command.kind == Command::Kind::kGoOn;
   const Order order = orderOf(command.kind);
-  if (is_stop && command.kiva_id == 0) return obeyAll(world, order);
-  const int robot = findListening(world, command.kiva_id);
+  if (is_stop && command.kiva_id == 0) return commandAll(world, order);
+  const int robot = findListening(world.fleet, command.kiva_id);
   if (order) return order(world, robot);
   const bool follows = command.kind == Command::Kind::kFollow;
-  if (follows && changesPath(world, robot, path)) return changePath(world, robot, path);
-  checkIdle(world, robot);
-  const std::uint32_t number = world.last_command + 1;
+  if (follows && changesPath(world.fleet, robot, path)) return changePath(world, robot, path);
+  checkIdle(world.fleet, robot);
+  const std::uint32_t number = inbox.last_number + 1;
   if (follows) {
     startPath(world, robot, number, path);
   } else {
     start(world, robot, number, plan(world, robot, command));
   }
-  world.last_command = number;
+  inbox.last_number = number;
 }
 
-/// A client may tell an idle robot something at each step; to find that there is no way back takes
-/// longer than all else that a step does for it.
-void restFromLooking(WorldState& world, int kiva_id) {
+/// Postpones the next search for a way back: a client may command an idle robot at each step, and a
+/// search that fails takes longer than all else that a step does for it.
+void backOff(MotionView& world, int kiva_id) {
   double& until = world.fleet.wedged_until[world.fleet.find(kiva_id)];
-  const auto now = static_cast<double>(world.total_steps);
-  if (until <= now) until = now + static_cast<double>(world.stepsIn(kLookAgain));
+  const auto now = static_cast<double>(world.clock.total_steps);
+  if (until <= now) until = now + static_cast<double>(world.clock.stepsIn(kLookAgain));
 }
 
-void answer(WorldState& world, const Command& command, const FollowPath& path) {
+void answer(MotionView& world, Inbox& inbox, const Command& command, const FollowPath& path) {
   try {
-    obey(world, command, path);
+    obey(world, inbox, command, path);
   } catch (const Refusal& refusal) {
-    if (dynamic_cast<const Wedged*>(&refusal)) restFromLooking(world, command.kiva_id);
+    if (dynamic_cast<const Wedged*>(&refusal)) backOff(world, command.kiva_id);
     const bool is_fleets = command.kiva_id == 0 && !path.fault.empty();
-    world.events.push_back({world.time(),
-                            Event::Kind::kRefused,
-                            is_fleets ? "" : "kiva" + std::to_string(command.kiva_id),
-                            "",
-                            refusal.what(),
-                            ++world.last_command,
-                            {}});
+    world.log.events.push_back({world.clock.time(),
+                                Event::Kind::kRefused,
+                                is_fleets ? "" : "kiva" + std::to_string(command.kiva_id),
+                                "",
+                                refusal.what(),
+                                ++inbox.last_number,
+                                {}});
   }
-}
-
-/// The first of the queued paths, which the command stands for; empty if it stands for none.
-FollowPath takePath(WorldState& world, const Command& command) {
-  FollowPath path;
-  if (command.kind != Command::Kind::kFollow) return path;
-  path = std::move(world.paths.front());
-  world.paths.pop_front();
-  return path;
 }
 
 }  // namespace
 
-void acceptCommands(WorldState& world) {
-  receive(world);
-  while (!world.commands.empty()) {
-    const Command& command = world.commands.front();
-    answer(world, command, takePath(world, command));
-    world.commands.pop_front();
+void acceptCommands(MotionView& world, Inbox& inbox) {
+  while (!inbox.pending.empty()) {
+    const PendingCommand& next = inbox.pending.front();
+    answer(world, inbox, next.command, next.path);
+    inbox.pending.pop_front();
   }
 }
 
-void haltCrashed(WorldState& world) {
-  for (const Crash& crash : world.crashes) {
+void haltCollidedRobots(MotionView& world, ContactLog& contacts) {
+  for (const Crash& crash : contacts.crashes) {
     const int robot = world.fleet.find(crash.kiva_id);
     if (robot >= 0) haltRobot(world, robot, crash.with, "collision with " + crash.with);
   }
-  world.crashes.clear();
+  contacts.crashes.clear();
 }
 
 }  // namespace kiva

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/contact_log.h"
+#include "core/state/inbox.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
 /// Answers all queued commands, and gives the accepted ones to their robots.
-void acceptCommands(WorldState& world);
-/// Robots that were in a collision stop.
-void haltCrashed(WorldState& world);
+void acceptCommands(MotionView& world, Inbox& inbox);
+/// Stops the robots that were in a collision.
+void haltCollidedRobots(MotionView& world, ContactLog& contacts);
 
 }  // namespace kiva

@@ -3,18 +3,18 @@
 // The grid that robots drive along, and the floor beneath it.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
-/// In world [m].
+/// A point in world [m].
 struct Point {
   double x = 0, y = 0;
   double& operator[](int axis) { return axis == 0 ? x : y; }
 };
 
-double nearestGrid(const WorldState& world, double coordinate);
-/// Whether the cell around the grid point lies on the floor as a whole.
-bool isOnFloor(const WorldState& world, const Point& p);
+double nearestGrid(const Settings& settings, double coordinate);
+/// Returns whether the whole cell around the grid point lies on the floor.
+bool isOnFloor(const Scene& world, const Point& p);
 
 }  // namespace kiva

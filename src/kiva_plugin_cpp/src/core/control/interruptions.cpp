@@ -11,7 +11,7 @@
 namespace kiva {
 namespace {
 
-/// How many of its segments bring a robot that was off the grid back to it; at least the present
+/// Returns how many segments bring a robot that was off the grid back to it; at least the present
 /// one.
 std::size_t segmentsToGrid(const Task& task) {
   for (std::size_t k = task.segments.size(); k > 1; --k) {
@@ -24,12 +24,12 @@ bool lifts(const MotionSegment& segment) {
   return segment.kind == MotionSegment::Kind::kRaise || segment.kind == MotionSegment::Kind::kLower;
 }
 
-/// Lets a drive end on the next grid point where the robot can stop.
-void shortenDrive(WorldState& world, int robot) {
+/// Ends a drive on the next grid point where the robot can stop.
+void shortenDrive(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
-  const double cell = world.grid_spacing;
+  const double cell = world.settings.grid_spacing;
   double stop = std::ceil((f.reference[robot] - kGoalTolerance) / cell) * cell;
-  while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.dt)) stop += cell;
+  while (!f.command(robot).canStopAt(stop, f.deceleration[robot], world.clock.dt)) stop += cell;
   if (stop >= f.goal[robot]) return;
   world.fleet.tasks[robot].segments.front().goal = stop;
   setGoal(world, robot, stop);
@@ -37,7 +37,7 @@ void shortenDrive(WorldState& world, int robot) {
 
 }  // namespace
 
-void cancel(WorldState& world, int robot) {
+void cancel(MotionView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kIdle) throw Refusal("it is idle: there is nothing to cancel");
   if (task.phase == Phase::kHalting || task.phase == Phase::kAbandoning) {
@@ -56,27 +56,27 @@ void cancel(WorldState& world, int robot) {
   if (task.phase == Phase::kBraking) task.segments.front().goal = world.fleet.goal[robot];
 }
 
-void stop(WorldState& world, int robot) {
+void stop(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   if (f.stopped[robot]) return;
   f.stopped[robot] = 1;
   if (f.awake[robot]) moved(f, robot);
 }
 
-void goOn(WorldState& world, int robot) {
+void goOn(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   if (!f.stopped[robot]) return;
   f.stopped[robot] = 0;
-  if (!isHeld(f, robot)) planAnew(world, robot);
+  if (!isHeld(f, robot)) replan(world, robot);
 }
 
-void planAnew(WorldState& world, int robot) {
+void replan(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   moved(f, robot);
   const bool resumes = task.phase == Phase::kDriving || task.phase == Phase::kTurning ||
                        task.phase == Phase::kLifting;
-  if (resumes) task.phase = Phase::kStarting;  // planned anew, from where it stands
+  if (resumes) task.phase = Phase::kStarting;  // planned again, from its present pose
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
 }

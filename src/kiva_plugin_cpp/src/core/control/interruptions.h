@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What comes between a robot and the end of its command, by a client's wish.
+// Cancels, stops and resumes commands under way.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
-/// The robot's command ends in DONE at the next grid point where it can stop, or, a lift, when it
-/// is over. Throws Refusal if there is nothing to cancel.
-void cancel(WorldState& world, int robot);
-/// Wheels and tower stop as hard as they can, and stand until it may go on.
-void stop(WorldState& world, int robot);
-/// It goes on with what it did, from where it is now.
-void goOn(WorldState& world, int robot);
-/// It stood, or can do less than was planned with: what it is at begins again, from where it is.
-void planAnew(WorldState& world, int robot);
+/// Ends the robot's command in DONE at the next grid point where it can stop; a lift when it is
+/// over. Throws Refusal if there is nothing to cancel.
+void cancel(MotionView& world, int robot);
+/// Stops wheels and tower as hard as they can, until the robot may go on.
+void stop(MotionView& world, int robot);
+/// Lets the robot go on with its command, from its present pose.
+void goOn(MotionView& world, int robot);
+/// Plans the present segment again from the robot's pose, after a stop or with other limits.
+void replan(MotionView& world, int robot);
 
 }  // namespace kiva

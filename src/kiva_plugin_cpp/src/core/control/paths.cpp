@@ -16,8 +16,8 @@
 namespace kiva {
 namespace {
 
-constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch what it passes
-constexpr double kCentred = 0.001;  // [m]: a robot within stands on its point
+constexpr double kKeepOff = 0.001;  // [m] of a robot's sides that may touch an obstacle
+constexpr double kCentred = 0.001;  // [m] within which a robot is on its point
 constexpr std::uint64_t kMostPoints = 100000;
 
 /// `known`: points of the path so far, of which `forgotten` have been left.
@@ -38,8 +38,8 @@ void checkNumbers(const FollowPath& m, std::uint64_t known, std::uint64_t forgot
   if (m.released == 0) throw Refusal("released 0: it stands on point 0, so at least 1 is");
 }
 
-PathPoint checkedPoint(const WorldState& world, const FollowPath& m, std::size_t k) {
-  const Point p{checkedGoal(world, m.x[k], 'x'), checkedGoal(world, m.y[k], 'y')};
+PathPoint checkedPoint(const Scene& world, const FollowPath& m, std::size_t k) {
+  const Point p{checkedGoal(world.settings, m.x[k], 'x'), checkedGoal(world.settings, m.y[k], 'y')};
   checkGoal(world, p);
   return {p.x, p.y};
 }
@@ -48,18 +48,18 @@ bool isSame(const PathPoint& a, const PathPoint& b) {
   return std::abs(a.x - b.x) < kGoalTolerance && std::abs(a.y - b.y) < kGoalTolerance;
 }
 
-/// Whether a model is a part of the building, or one of its belts: it will not go. What is not
-/// as long as a cell and stands for itself, as a person does, may.
-bool isBuilding(const WorldState& world, const Model& model) {
+/// Returns whether a model is a part of the building, or one of its belts, and will not move. A
+/// model shorter than a cell that stands alone, such as a person, may.
+bool isBuilding(const Scene& world, const Model& model) {
   const std::uint8_t as = model.owner->occupies(world, model);
   if (as == Occupancy::kBelt) return true;
   if (as != Occupancy::kTaken || !model.isStatic()) return false;
   const Vector3 size = bounds(*model.description).max - bounds(*model.description).min;
-  return std::max(size.X(), size.Y()) > world.grid_spacing - kGoalTolerance;
+  return std::max(size.X(), size.Y()) > world.settings.grid_spacing - kGoalTolerance;
 }
 
 /// Throws Refusal if a robot would drive into the building between two neighbours.
-void checkClear(const WorldState& world, int robot, const PathPoint& from, const PathPoint& to) {
+void checkClear(const Scene& world, int robot, const PathPoint& from, const PathPoint& to) {
   const Robot& r = world.fleet.robots[robot];
   Footprint swept;
   swept.x = (from.x + to.x) / 2;
@@ -70,8 +70,8 @@ void checkClear(const WorldState& world, int robot, const PathPoint& from, const
   swept.hy = along_x ? halfWidth(r) : way / 2 + halfLength(r);
   swept.hx -= kKeepOff;
   swept.hy -= kKeepOff;
-  swept.z_min = world.floor.z;
-  swept.z_max = world.floor.z + (world.fleet.unit[robot] < 0 ? r.height : 1e9);
+  swept.z_min = world.floor.extent.z;
+  swept.z_max = world.floor.extent.z + (world.fleet.unit[robot] < 0 ? r.height : 1e9);
   const Model* hit = nullptr;
   world.obstacles.near(swept.x, swept.y, std::max(swept.hx, swept.hy), [&](const Footprint& other) {
     if (hit || !shareHeight(other, swept) || gap(swept, other) >= 0) return;
@@ -84,7 +84,7 @@ void checkClear(const WorldState& world, int robot, const PathPoint& from, const
 }
 
 /// Throws Refusal if a robot can't go straight from one to the other.
-void checkLink(const WorldState& world, int robot, const PathPoint& from, const PathPoint& to,
+void checkLink(const Scene& world, int robot, const PathPoint& from, const PathPoint& to,
                std::uint64_t number) {
   const bool moves_x = std::abs(to.x - from.x) > kGoalTolerance;
   const bool moves_y = std::abs(to.y - from.y) > kGoalTolerance;
@@ -103,8 +103,8 @@ void checkReleased(const FollowPath& m, std::uint64_t size) {
       format("released %u: the path has %u points", m.released, static_cast<unsigned>(size)));
 }
 
-bool hasTurns(const WorldState& world, int robot, const std::vector<PathPoint>& points) {
-  double angle = world.fleet.yaw[robot];
+bool hasTurns(const FleetState& fleet, int robot, const std::vector<PathPoint>& points) {
+  double angle = fleet.yaw[robot];
   for (std::size_t k = 1; k < points.size(); ++k) {
     const double next = std::atan2(points[k].y - points[k - 1].y, points[k].x - points[k - 1].x);
     if (std::abs(std::remainder(next - angle, 2 * M_PI)) > M_PI / 4) return true;
@@ -113,16 +113,16 @@ bool hasTurns(const WorldState& world, int robot, const std::vector<PathPoint>& 
   return false;
 }
 
-void checkTurns(const WorldState& world, int robot, const std::vector<PathPoint>& points) {
-  if (world.fleet.robots[robot].has_rotation || !hasTurns(world, robot, points)) return;
+void checkTurns(const FleetState& fleet, int robot, const std::vector<PathPoint>& points) {
+  if (fleet.robots[robot].has_rotation || !hasTurns(fleet, robot, points)) return;
   throw Refusal("it has no rotation plugin");
 }
 
 // --- a change of the path under way
 
-/// The message's points that are new. Throws Refusal if a released one is to become another, or a
-/// new one can't be driven to.
-std::vector<PathPoint> checkedChange(const WorldState& world, int robot, const FollowPath& m) {
+/// Returns the message's points that are new. Throws Refusal if it changes a released point, or the
+/// robot can't drive to a new one.
+std::vector<PathPoint> checkedChange(const Scene& world, int robot, const FollowPath& m) {
   const ReleasedPath& path = world.fleet.tasks[robot].path;
   const std::uint32_t committed = std::min(path.released, m.released);
   std::vector<PathPoint> points(m.x.size());
@@ -144,15 +144,15 @@ std::vector<PathPoint> checkedChange(const WorldState& world, int robot, const F
   return points;
 }
 
-/// Where the present run would end, and how far along it.
+/// End of the present run, and the distance along it.
 struct RunEnd {
   std::uint32_t point;
   double along;
 };
 
-/// How far the run reaches if that much of the path is released; the robot can stop there, or it
-/// throws Refusal.
-RunEnd checkedRunEnd(const WorldState& world, int robot, std::uint32_t released) {
+/// Returns the end of the run if that much of the path is released. Throws Refusal if the robot
+/// can't stop there.
+RunEnd checkedRunEnd(const Scene& world, int robot, std::uint32_t released) {
   const FleetState& f = world.fleet;
   const Task& task = f.tasks[robot];
   const auto tooLate = [&] {
@@ -161,18 +161,18 @@ RunEnd checkedRunEnd(const WorldState& world, int robot, std::uint32_t released)
   };
   if (released <= task.path.origin) throw tooLate();
   const std::uint32_t end = std::min(task.path.end, released - 1);
-  if (!task.isOnRun()) return {end, 0};  // it stands, turns, or is on its way to the path
+  if (!task.isOnRun()) return {end, 0};  // the robot stands, turns, or drives to the path
   const double along = alongRun(task, end);
   if (end == task.path.end) return {end, along};
   if (task.drives()) {
-    if (!f.command(robot).canStopAt(along, f.deceleration[robot], world.dt)) throw tooLate();
+    if (!f.command(robot).canStopAt(along, f.deceleration[robot], world.clock.dt)) throw tooLate();
   } else if (alongSegment(f, robot) > along + kCentred) {
     throw tooLate();
   }
   return {end, along};
 }
 
-void setRunEnd(WorldState& world, int robot, double goal) {
+void setRunEnd(MotionView& world, int robot, double goal) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   if (task.segments.front().goal == goal) return;
@@ -183,13 +183,13 @@ void setRunEnd(WorldState& world, int robot, double goal) {
 
 }  // namespace
 
-bool changesPath(const WorldState& world, int robot, const FollowPath& m) {
-  return world.fleet.tasks[robot].follows() && world.fleet.path_id[robot] == m.path_id;
+bool changesPath(const FleetState& fleet, int robot, const FollowPath& m) {
+  return fleet.tasks[robot].follows() && fleet.path_id[robot] == m.path_id;
 }
 
-void startPath(WorldState& world, int robot, std::uint32_t number, const FollowPath& m) {
+void startPath(MotionView& world, int robot, std::uint32_t number, const FollowPath& m) {
   const FleetState& f = world.fleet;
-  checkMotion(world, robot);
+  checkMotion(world.fleet, robot);
   if (m.path_id != 0 && m.path_id == f.path_id[robot]) {
     throw Refusal(format("path %u is over", m.path_id));
   }
@@ -201,7 +201,7 @@ void startPath(WorldState& world, int robot, std::uint32_t number, const FollowP
     if (k > 0) checkLink(world, robot, path.points[k - 1], path.points[k], k);
   }
   path.released = m.released;
-  checkTurns(world, robot, path.points);
+  checkTurns(world.fleet, robot, path.points);
   const Point begin{path.points[0].x, path.points[0].y};
   Route route(world, robot, &begin);
   const PathPoint here{route.at().x, route.at().y};
@@ -212,11 +212,11 @@ void startPath(WorldState& world, int robot, std::uint32_t number, const FollowP
   Task& task = world.fleet.tasks[robot];
   task.command = number;
   task.goal = format("follow path %u", m.path_id);
-  world.reportCommand(Event::Kind::kAccepted, robot, "", task.goal);
+  reportCommand(world, Event::Kind::kAccepted, robot, "", task.goal);
   beginPath(world, robot, m.path_id, std::move(path), route.takeSegments());
 }
 
-void changePath(WorldState& world, int robot, const FollowPath& m) {
+void changePath(MotionView& world, int robot, const FollowPath& m) {
   Task& task = world.fleet.tasks[robot];
   if (task.cancelled) throw Refusal(format("path %u is being cancelled", m.path_id));
   if (task.phase == Phase::kHalting) throw Refusal(format("path %u ends here", m.path_id));
@@ -226,7 +226,7 @@ void changePath(WorldState& world, int robot, const FollowPath& m) {
   checkReleased(m, size);
   const RunEnd end = checkedRunEnd(world, robot, m.released);
   const std::vector<PathPoint> points = checkedChange(world, robot, m);
-  checkTurns(world, robot, points);
+  checkTurns(world.fleet, robot, points);
 
   const std::uint32_t kept = std::max(path.first, m.first);
   if (!points.empty()) {

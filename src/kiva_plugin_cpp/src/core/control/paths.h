@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Released paths at the door: what is granted, and what is refused.
+// Grants or refuses released paths, and changes of them.
 #pragma once
 
 #include <cstdint>
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
-/// Whether that is a change of the path that the robot is on.
-bool changesPath(const WorldState& world, int robot, const FollowPath& path);
+/// Returns whether that is a change of the path that the robot follows.
+bool changesPath(const FleetState& fleet, int robot, const FollowPath& path);
 /// Gives an idle robot a path, as its command `number`. Throws Refusal, with nothing changed.
-void startPath(WorldState& world, int robot, std::uint32_t number, const FollowPath& path);
-/// Changes the path that the robot is on. Throws Refusal, with nothing changed.
-void changePath(WorldState& world, int robot, const FollowPath& path);
+void startPath(MotionView& world, int robot, std::uint32_t number, const FollowPath& path);
+/// Changes the path that the robot follows. Throws Refusal, with nothing changed.
+void changePath(MotionView& world, int robot, const FollowPath& path);
 
 }  // namespace kiva

@@ -11,23 +11,23 @@
 namespace kiva {
 namespace {
 
-constexpr int kCells = 2;             // around a robot that looks for a free grid point
-constexpr double kRoomStep = 0.1;     // [m]: in which it looks for room to turn
+constexpr int kCells = 2;             // around a robot within which it may return to the grid
+constexpr double kRoomStep = 0.1;     // [m] between places where it looks for room to turn
 constexpr double kRoomReach = 1.5;    // [m]
-constexpr double kShift = 0.025;      // [m]: who is wedged drives a little first, and looks again
+constexpr double kShift = 0.025;      // [m] that a wedged robot drives before it looks again
 constexpr double kSamePlace = 0.001;  // [m]
 
-// What is to be free beside it [m]; who is wedged may push a leg aside a little.
+// Room beside a robot that is to be free [m]; a wedged one may push a leg aside a little.
 constexpr double kSideClearance = 0.002, kScrape = -0.01;
 
 double distance(const Point& a, const Point& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-std::vector<Point> gridAround(const WorldState& world, const Point& here) {
+std::vector<Point> gridAround(const Settings& settings, const Point& here) {
   std::vector<Point> points;
   for (int i = -kCells; i <= kCells; ++i) {
     for (int j = -kCells; j <= kCells; ++j) {
-      points.push_back({nearestGrid(world, here.x) + i * world.grid_spacing,
-                        nearestGrid(world, here.y) + j * world.grid_spacing});
+      points.push_back({nearestGrid(settings, here.x) + i * settings.grid_spacing,
+                        nearestGrid(settings, here.y) + j * settings.grid_spacing});
     }
   }
   std::stable_sort(points.begin(), points.end(), [&](const Point& a, const Point& b) {
@@ -36,15 +36,15 @@ std::vector<Point> gridAround(const WorldState& world, const Point& here) {
   return points;
 }
 
-/// On the floor, the nearest first.
-std::vector<Point> goalsAround(const WorldState& world, const Point& here) {
-  std::vector<Point> points = gridAround(world, here);
+/// Returns the grid points near a point that lie on the floor, the nearest first.
+std::vector<Point> goalsAround(const Scene& world, const Point& here) {
+  std::vector<Point> points = gridAround(world.settings, here);
   const auto is_outside = [&](const Point& p) { return !isOnFloor(world, p); };
   points.erase(std::remove_if(points.begin(), points.end(), is_outside), points.end());
   return points;
 }
 
-/// That one alone, if it is among the goals.
+/// Returns that goal alone, if it is among the goals.
 std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
   for (const Point& known : goals) {
     if (distance(known, goal) < kSamePlace) return {known};
@@ -52,18 +52,18 @@ std::vector<Point> only(const Point& goal, const std::vector<Point>& goals) {
   return {};
 }
 
-/// So far along its heading [m].
+/// Returns the pose that far along the heading [m].
 PlanarPose shifted(const PlanarPose& from, double way) {
   return {from.x + std::cos(from.yaw) * way, from.y + std::sin(from.yaw) * way, from.yaw};
 }
 
-/// How far straight on to look for room to turn [m]: in steps, and where grid points lie beside.
-std::vector<double> waysToRoom(const WorldState& world, const PlanarPose& at) {
+/// Returns how far straight on to look for room to turn [m]: in steps, and beside grid points.
+std::vector<double> waysToRoom(const Settings& settings, const PlanarPose& at) {
   std::vector<double> ways;
   for (int step = 1; step * kRoomStep <= kRoomReach; ++step) {
     for (double way : {step * kRoomStep, -step * kRoomStep}) ways.push_back(way);
   }
-  for (const Point& p : gridAround(world, {at.x, at.y})) {
+  for (const Point& p : gridAround(settings, {at.x, at.y})) {
     ways.push_back(std::cos(at.yaw) * (p.x - at.x) + std::sin(at.yaw) * (p.y - at.y));
   }
   std::stable_sort(ways.begin(), ways.end(),
@@ -71,13 +71,14 @@ std::vector<double> waysToRoom(const WorldState& world, const PlanarPose& at) {
   return ways;
 }
 
-/// One robot's search. Ways are the points to which it drives straight; empty: there is none.
+/// Searches a way for one robot. A way is the points to which it drives straight; empty: there is
+/// none.
 class ReturnSearch {
  public:
-  ReturnSearch(const WorldState& world, int robot, std::vector<Point> goals, double margin)
+  ReturnSearch(const Scene& world, int robot, std::vector<Point> goals, double margin)
       : world_(world), robot_(robot), goals_(std::move(goals)), margin_(margin) {}
 
-  /// From that pose, or from a little ahead of it or behind.
+  /// Finds a way from that pose, or from a little ahead of it or behind.
   std::vector<Point> wayFromNear(const PlanarPose& at) const {
     std::vector<Point> way = wayFrom(at);
     if (!way.empty()) return way;
@@ -91,8 +92,8 @@ class ReturnSearch {
   }
 
  private:
-  /// To a goal, turning as far as the robot can there; or straight on, or square, to where there is
-  /// room: who was hit while it turned stands askew.
+  /// Finds a way to a goal, turning as far as the robot can there; or straight on, or square, to a
+  /// place with room: a robot that was hit while it turned stands askew.
   std::vector<Point> wayFrom(const PlanarPose& at) const {
     const TurnRoom room = roomToTurn(world_, robot_, at, Among::kAll);
     if (const Point* goal = findGoal(at, room)) return {*goal};
@@ -105,10 +106,10 @@ class ReturnSearch {
     return {};
   }
 
-  /// Straight on to where there is room to turn all around, then to a goal.
+  /// Finds a way straight on to a place with room to turn around, then to a goal.
   std::vector<Point> wayByRoom(const PlanarPose& at) const {
     std::vector<Point> way;
-    visitStraight(at, waysToRoom(world_, at), [&](const PlanarPose& there) {
+    visitStraight(at, waysToRoom(world_.settings, at), [&](const PlanarPose& there) {
       const bool has_room = hasRoomToTurn(world_, robot_, there.x, there.y);
       const Point* goal = has_room ? findGoal(there, TurnRoom()) : nullptr;
       if (goal) way = {{there.x, there.y}, *goal};
@@ -117,8 +118,8 @@ class ReturnSearch {
     return way;
   }
 
-  /// The first of the goals to which the robot can drive from there, and turn square at; null:
-  /// none.
+  /// Returns the first goal to which the robot can drive from there, and turn square at; null:
+  /// there is none.
   const Point* findGoal(const PlanarPose& from, const TurnRoom& room) const {
     for (const Point& goal : goals_) {
       const StraightWay way = straightWay(from, goal);
@@ -144,7 +145,7 @@ class ReturnSearch {
     }
   }
 
-  const WorldState& world_;
+  const Scene& world_;
   const int robot_;
   const std::vector<Point> goals_;
   const double margin_;
@@ -161,7 +162,7 @@ StraightWay straightWay(const PlanarPose& from, const Point& to) {
   return {reverse ? back : ahead, reverse ? -length : length};
 }
 
-std::vector<Point> wayBack(const WorldState& world, int robot, const Point* back) {
+std::vector<Point> findWayBack(const Scene& world, int robot, const Point* back) {
   const PlanarPose at = world.fleet.believed(robot);
   const std::vector<Point> goals = goalsAround(world, {at.x, at.y});
   const std::vector<Point> told = back ? only(*back, goals) : std::vector<Point>();

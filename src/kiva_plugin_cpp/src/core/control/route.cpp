@@ -10,39 +10,40 @@
 namespace kiva {
 namespace {
 
-constexpr double kOnGrid = 0.001;              // [m]: a robot within stands on its grid point
-constexpr double kSquare = 0.01 * M_PI / 180;  // [rad]: a heading within is along the grid
-constexpr double kNearGrid = 0.02;             // [m], [rad]: of one that has to find out
-constexpr double kAside = 0.05;                // [m]: who can't get back may go on from there
+constexpr double kOnGrid = 0.001;              // [m] within which a robot is on its grid point
+constexpr double kSquare = 0.01 * M_PI / 180;  // [rad] within which a heading is along the grid
+constexpr double kNearGrid = 0.02;  // [m], [rad]: both, of a robot that estimates its pose
+constexpr double kAside = 0.05;  // [m] off its line from which a robot without a way back may go on
 
 }  // namespace
 
-void checkGoal(const WorldState& world, const Point& goal) {
+void checkGoal(const Scene& world, const Point& goal) {
   if (isOnFloor(world, goal)) return;
-  const Floor& f = world.floor;
+  const Floor& f = world.floor.extent;
   if (f.max_x <= f.min_x) throw Refusal("there is no floor to drive on");
   throw Refusal(format("goal (%g, %g) is outside the floor, which spans x %g…%g m, y %g…%g m",
                        goal.x, goal.y, f.min_x, f.max_x, f.min_y, f.max_y));
 }
 
-double checkedGoal(const WorldState& world, double coordinate, char axis) {
+double checkedGoal(const Settings& settings, double coordinate, char axis) {
   if (!std::isfinite(coordinate)) {
     throw Refusal(format("%c = %g: a finite number of metres was expected", axis, coordinate));
   }
-  const double grid = nearestGrid(world, coordinate);
+  const double grid = nearestGrid(settings, coordinate);
   if (std::abs(grid - coordinate) <= kGoalTolerance) return grid;
-  throw Refusal(format("%c = %g m is off the grid of %g m", axis, coordinate, world.grid_spacing));
+  throw Refusal(
+      format("%c = %g m is off the grid of %g m", axis, coordinate, settings.grid_spacing));
 }
 
-void checkMotion(const WorldState& world, int robot) {
-  if (!world.fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
+void checkMotion(const FleetState& fleet, int robot) {
+  if (!fleet.robots[robot].has_motion) throw Refusal("it has no motion plugin");
 }
 
-Route::Route(const WorldState& world, int robot, const Point* back)
+Route::Route(const Scene& world, int robot, const Point* back)
     : world_(world),
       robot_(robot),
       here_(world.fleet.believed(robot)),
-      at_{nearestGrid(world, here_.x), nearestGrid(world, here_.y)},
+      at_{nearestGrid(world.settings, here_.x), nearestGrid(world.settings, here_.y)},
       yaw_(squareTo(here_.yaw)) {
   const bool localises = world.fleet.localises;
   const double off = std::hypot(here_.x - at_.x, here_.y - at_.y);
@@ -91,14 +92,14 @@ MotionSegment Route::makeDrive(State state) const {
   return segment;
 }
 
-/// Who finds no way back and stands but a little aside goes on from there: its next drive leads it
-/// back to its line.
+/// Plans the way back to the grid. A robot without one that stands but a little aside goes on from
+/// there: its next drive leads it back to its line.
 void Route::recover(const Point* back) {
   Point from{here_.x, here_.y};
   const bool is_wedged =
-      world_.fleet.wedged_until[robot_] > static_cast<double>(world_.total_steps);
+      world_.fleet.wedged_until[robot_] > static_cast<double>(world_.clock.total_steps);
   if (is_wedged) throw Wedged();
-  const std::vector<Point> way = wayBack(world_, robot_, back);
+  const std::vector<Point> way = findWayBack(world_, robot_, back);
   if (way.empty() && std::hypot(from.x - at_.x, from.y - at_.y) > kAside) throw Wedged();
   yaw_ = here_.yaw;
   for (const Point& to : way) {
@@ -110,7 +111,7 @@ void Route::recover(const Point* back) {
   yaw_ = square;
 }
 
-/// Straight from one place to another, off the grid.
+/// Drives straight from one place to another, off the grid.
 void Route::driveOff(const Point& from, const Point& to) {
   const StraightWay way = straightWay({from.x, from.y, yaw_}, to);
   if (std::abs(way.length) < kOnGrid) return;

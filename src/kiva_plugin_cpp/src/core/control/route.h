@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The way that one command takes over the grid.
+// Plans the way of one command over the grid.
 #pragma once
 
 #include <cstdio>
@@ -13,17 +13,17 @@
 
 namespace kiva {
 
-/// Why a command is refused, for a person.
+/// The reason why a command is refused, as a client reads it.
 struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// It is off the grid and finds no way back.
+/// The refusal of a robot that is off the grid and finds no way back.
 struct Wedged : Refusal {
   Wedged() : Refusal("it is off the grid and no free grid point is near that it gets to") {}
 };
 
-/// How near is there, for numbers that clients computed [m].
+/// The tolerance for goals that clients computed [m].
 constexpr double kGoalTolerance = 0.001;
 
 template <typename... Args>
@@ -33,18 +33,19 @@ std::string format(const char* pattern, Args... args) {
   return text;
 }
 
-/// These throw Refusal: the grid's coordinate, where `axis` is x or y [m]; that a goal is on the
-/// floor; that the robot can drive.
-double checkedGoal(const WorldState& world, double coordinate, char axis);
-void checkGoal(const WorldState& world, const Point& goal);
-void checkMotion(const WorldState& world, int robot);
+/// Returns the grid's coordinate along `axis`, x or y [m]. Throws Refusal off the grid.
+double checkedGoal(const Settings& settings, double coordinate, char axis);
+/// Throws Refusal if the goal is off the floor.
+void checkGoal(const Scene& world, const Point& goal);
+/// Throws Refusal if the robot can't drive.
+void checkMotion(const FleetState& fleet, int robot);
 
-/// Plans the way of one robot, segment by segment; knows where each segment will leave it.
+/// Plans the way of one robot, segment by segment, and keeps track of the pose after each.
 class Route {
  public:
-  /// From where the robot stands; from off the grid it first returns to it: to `back`, if that is a
-  /// free grid point near it, else to the nearest one. Throws Refusal if there is no way back.
-  Route(const WorldState& world, int robot, const Point* back = nullptr);
+  /// Starts from the robot's pose. A robot off the grid first returns to it: to `back`, if that is
+  /// a free grid point near it, else to the nearest one. Throws Refusal if there is no way back.
+  Route(const Scene& world, int robot, const Point* back = nullptr);
 
   Point at() const { return at_; }
   void rotate(int direction);
@@ -59,7 +60,7 @@ class Route {
   void recover(const Point* back);
   void driveOff(const Point& from, const Point& to);
 
-  const WorldState& world_;
+  const Scene& world_;
   int robot_;
   PlanarPose here_;  ///< Where the robot believes to be.
   Point at_;

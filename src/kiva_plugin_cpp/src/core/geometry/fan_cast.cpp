@@ -29,7 +29,7 @@ struct Target : FlatPose {
   int parts = 0;
 };
 
-/// Of a direction [rad], within kAngleError.
+/// Returns the angle of a direction [rad], within kAngleError.
 double angleOf(double x, double y) {
   const double ax = std::abs(x), ay = std::abs(y);
   const double a = std::min(ax, ay) / std::max({ax, ay, 1e-300}), s = a * a;
@@ -39,8 +39,8 @@ double angleOf(double x, double y) {
   return y < 0 ? -angle : angle;
 }
 
-/// The directions from the laser in which a target lies, counterclockwise; they may go on beyond
-/// ±π. Returns false if it is all around.
+/// Returns the directions from the laser in which a target lies, counterclockwise; they may go on
+/// beyond ±π. Returns false if it is all around.
 bool anglesTo(const Target& t, double* from, double* to) {
   const Footprint& f = *t.shape;
   if (f.kind != Footprint::Kind::kBox) {
@@ -149,7 +149,7 @@ struct Sector {
     ahead = reach.range;
     aside = std::min(reach.range, reach.aside);
   }
-  /// Whether a circle around (x, y) may be met.
+  /// Returns whether a circle around (x, y) may be met.
   bool mayHold(double x, double y, double radius) const {
     return x + radius >= -back && x - radius <= ahead && std::abs(y) - radius <= aside;
   }
@@ -209,7 +209,7 @@ void Obstacles::cast(const RayFan& fan, const Sensor& from, const FanReach& reac
                       s * f.c + c * f.s));
     }
   };
-  // Of that floor, along the world's axes.
+  // Along the world's axes, of that floor.
   const double middle = (sector.ahead - sector.back) / 2, half = (sector.ahead + sector.back) / 2;
   const double x = from.x + from.c * middle, y = from.y + from.s * middle;
   const double wide = std::abs(from.c) * half + std::abs(from.s) * sector.aside;

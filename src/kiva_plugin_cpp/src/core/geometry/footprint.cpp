@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kUpright = 1 - 1e-9;  // cosine of a tilt that is none
 
-/// Half extents along the world's axes.
+/// Returns half extents along the world's axes.
 Vector3 halfExtents(const Shape& shape, const Quaternion& rotation) {
   const Vector3 ax = rotation.XAxis(), ay = rotation.YAxis(), az = rotation.ZAxis();
   Vector3 half;
@@ -49,7 +49,8 @@ Vector3 halfExtents(const Shape& shape, const Quaternion& rotation) {
   return half;
 }
 
-/// A box stands upright on any of its faces: the outline is that of the other two axes.
+/// Makes the outline of a box that stands upright on one of its faces: that of the other two axes.
+/// Returns false if it does not.
 bool makeBoxOutline(const Shape& shape, const Quaternion& rotation, Footprint* out) {
   const Vector3 axes[3] = {rotation.XAxis(), rotation.YAxis(), rotation.ZAxis()};
   for (int up = 0; up < 3; ++up) {

@@ -60,7 +60,7 @@ inline Footprint circleAt(double x, double y, double radius) {
   return circle;
 }
 
-/// Of the circle around (x, y) that holds it [m].
+/// Returns the radius of the circle around (x, y) that holds it [m].
 inline double radiusOf(const Footprint& f) {
   const bool round = f.kind != Footprint::Kind::kBox && f.kind != Footprint::Kind::kTriangle;
   return round ? f.hx : std::sqrt(f.hx * f.hx + f.hy * f.hy);
@@ -77,13 +77,13 @@ struct Bounds {
   bool empty() const { return min.X() > max.X(); }
 };
 
-/// Of a shape at that pose; that of a mesh bounds the box around it; a plane has its own extent and
-/// no height.
+/// Returns the bounds of a shape at that pose; that of a mesh bounds the box around it; a plane has
+/// its own extent and no height.
 Bounds bounds(const Shape& shape, const Pose& pose);
-/// Of all the collisions of a model at that pose, joints at zero.
+/// Returns the bounds of all collisions of a model at that pose, joints at zero.
 Bounds bounds(const ModelDescription& description, const Pose& pose = Pose());
 
-/// What a shape at that pose in world covers on the floor. Not for planes.
+/// Returns what a shape at that pose in world covers on the floor. Not for planes.
 Footprint makeFootprint(const Shape& shape, const Pose& pose);
 
 }  // namespace kiva

@@ -11,7 +11,8 @@
 namespace kiva {
 namespace {
 
-/// Distance along the ray (x, y) + t (dx, dy) to a circle, from outside or inside, or +inf.
+/// Returns the distance along the ray (x, y) + t (dx, dy) to a circle, from outside or inside, or
+/// +inf.
 double castCircle(const FlatPose& at, double radius, double x, double y, double dx, double dy) {
   const double ox = x - at.x, oy = y - at.y;
   const double b = ox * dx + oy * dy;
@@ -21,7 +22,7 @@ double castCircle(const FlatPose& at, double radius, double x, double y, double 
   return c > 0 ? -b - std::sqrt(discriminant) : -b + std::sqrt(discriminant);
 }
 
-/// The slab test (Kay and Kajiya 1986) in the box's own axes.
+/// Casts by the slab test (Kay and Kajiya 1986) in the box's own axes.
 double castBox(const Footprint& f, const FlatPose& at, double x, double y, double dx, double dy) {
   const double ox = x - at.x, oy = y - at.y;
   const double px = ox * at.c + oy * at.s, py = -ox * at.s + oy * at.c;
@@ -80,7 +81,7 @@ double castFootprint(const Footprint& f, const FlatPose& at, double x, double y,
       return castTriangle(*f.triangle, x, y, z, dx, dy);
     case Footprint::Kind::kOther:
       if (f.solid) return castSolid(f, at, x, y, z, dx, dy);
-      // What has no body now, as a unit that nobody is near, is seen as its circle.
+      // A model without a body now, such as a unit with no robot near, is seen as its circle.
       if (!f.body) return castCircle(at, f.hx, x, y, dx, dy);
       return castHull(*f.body, {x, y, z}, {dx, dy, 0}, range);
   }

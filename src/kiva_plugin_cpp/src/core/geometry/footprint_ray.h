@@ -10,13 +10,13 @@ struct FlatPose {
   double x = 0, y = 0, c = 1, s = 0;
 };
 
-/// Whether its pose is its own, in world, and no other.
+/// Returns whether its pose is its own, in world, and no other.
 bool isFixed(const Footprint& footprint);
 
-/// Distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) to the surface
-/// of what has that footprint, is at that pose, and at the ray's height, from outside or inside
-/// [m]; +inf = none. What is fixed is where it is. Bodies of any form are asked within `range` [m]
-/// only.
+/// Returns the distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) to
+/// the surface of what has that footprint, is at that pose, and at the ray's height, from outside
+/// or inside [m]; +inf = none. What is fixed is where it is. Bodies of any form are asked within
+/// `range` [m] only.
 double castFootprint(const Footprint& footprint, const FlatPose& at, double x, double y, double z,
                      double dx, double dy, double range);
 

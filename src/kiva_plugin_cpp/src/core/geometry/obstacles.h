@@ -16,10 +16,10 @@
 
 namespace kiva {
 
-/// A lower bound of the distance between two outlines [m]; negative where they overlap.
+/// Returns a lower bound of the distance between two outlines [m]; negative where they overlap.
 double gap(const Footprint& a, const Footprint& b);
 
-/// Whether the gap may be less than `distance`: cheap, and true for some whose gap is not.
+/// Returns whether the gap may be less than `distance`: cheap, and true for some whose gap is not.
 inline bool mayBeWithin(double distance, const Footprint& a, const Footprint& b) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   const double reach = radiusOf(a) + radiusOf(b) + distance;
@@ -39,10 +39,10 @@ struct RayHit {
 
 /// A robot and what it carries are a mover: footprints that move as one with it. They are indexed
 /// by a circle around the robot with some slack, so that the index changes seldom, and are worked
-/// out in world when somebody asks.
+/// out in world on demand.
 class Obstacles {
  public:
-  static constexpr double kSlack = 0.25;  ///< [m] that a mover may go before it is indexed anew.
+  static constexpr double kSlack = 0.25;  ///< [m] that a mover may go before it is reindexed.
 
   /// Movers are at the poses of that fleet's robots.
   explicit Obstacles(const Fleet& fleet) : fleet_(fleet) {}
@@ -58,11 +58,11 @@ class Obstacles {
   void setMover(int robot, std::vector<Footprint> local);
   /// What belongs to `model` of those is higher by so much [m].
   void raise(int robot, int model, double by);
-  /// The same, as they were set.
+  /// Returns the same, as they were set.
   const std::vector<Footprint>& ofMover(int robot) const { return movers_[robot].local; }
   /// The last mover takes its index, as in the fleet.
   void removeMover(int robot);
-  /// Indexes it anew if it is not, or within the next `way` [m] might not be, where it was.
+  /// Reindexes it if it is not, or within the next `way` [m] might not be, where it was.
   void follow(int robot, double way = 0);
   /// In world, now.
   const std::vector<Footprint>& footprints(int robot) const;
@@ -83,9 +83,9 @@ class Obstacles {
     });
   }
 
-  /// Whether meets(footprint), of what is no mover, or approaches(robot, radius) is true for any
-  /// within `reach` of (x, y). `radius` is that of the circle around the robot that holds its
-  /// mover.
+  /// Returns whether meets(footprint), of what is no mover, or approaches(robot, radius) is true
+  /// for any within `reach` of (x, y). `radius` is that of the circle around the robot that holds
+  /// its mover.
   template <typename Meets, typename Approaches>
   bool any(double x, double y, double reach, Meets meets, Approaches approaches) const {
     const Range cells = range({x - reach, x + reach, y - reach, y + reach});
@@ -95,8 +95,8 @@ class Obstacles {
     });
   }
 
-  /// The same of what has a point within the circle `reach` around (x, y), and of movers whose
-  /// circle has one within `mover_reach`.
+  /// Returns the same of what has a point within the circle `reach` around (x, y), and of movers
+  /// whose circle has one within `mover_reach`.
   template <typename Meets, typename Approaches>
   bool anyAround(double x, double y, double reach, double mover_reach, Meets meets,
                  Approaches approaches) const {
@@ -122,8 +122,8 @@ class Obstacles {
     return anyHandle(near, near, [&](int handle) { return handle >= 0 && stands(handle); });
   }
 
-  /// The first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy), but for
-  /// those of `group`: of what it begins in, the inside.
+  /// Returns the first surface on the horizontal ray from (x, y, z) along the unit vector (dx, dy),
+  /// but for those of `group`: of what it begins in, the inside.
   RayHit cast(double x, double y, double z, double dx, double dy, double range, int group) const;
   /// The same for the rays of a fan.
   void cast(const RayFan& fan, const Sensor& from, const FanReach& reach, int group,
@@ -173,8 +173,8 @@ class Obstacles {
     mutable double world_x = 0, world_y = 0, world_yaw = 0;  // for which `world` was worked out
   };
 
-  /// Whether ask(handle) is true for any mover that is indexed in a cell of `far`, or any other in
-  /// one of `near`, asked once each.
+  /// Returns whether ask(handle) is true for any mover that is indexed in a cell of `far`, or any
+  /// other in one of `near`, asked once each.
   template <typename Ask>
   bool anyHandle(const Range& near, const Range& far, Ask ask) const {
     for (int cy = far.y0; cy <= far.y1; ++cy) {
@@ -214,7 +214,7 @@ class Obstacles {
   std::vector<Corner> mover_corner_;
   std::vector<double> radius_;  // of each mover [m]; most rays need no more of it
   std::vector<int> free_;
-  // Handles; ~robot for a mover, which come first: who asks for movers far away passes the rest.
+  // Handles; ~robot for a mover, which come first: a query for movers far away passes the rest.
   // Few a cell: beside each other in memory, which is most of a ray.
   std::vector<boost::container::small_vector<int, 4>> cells_;
   std::vector<int> everywhere_;  // too large for cells

@@ -79,7 +79,7 @@ Point inWorld(const Rectangle& own, double x, double y) {
   return {own.x + own.c * x - own.s * y, own.y + own.s * x + own.c * y};
 }
 
-/// Of the face's rectangle `own`; the normal leads out of the face.
+/// Contacts of the face's rectangle `own`; the normal leads out of the face.
 OutlineContacts atFace(const Rectangle& own, const Face& face, std::array<FromFace, 2> side,
                        double reach, bool own_is_first) {
   OutlineContacts out;

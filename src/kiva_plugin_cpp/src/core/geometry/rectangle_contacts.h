@@ -24,11 +24,11 @@ struct OutlineContacts {
   std::array<OutlineContact, 2> at;
 };
 
-/// Where two rectangles are no farther apart than `reach` [m]: both ends of the stretch along which
-/// a side of the one faces a side of the other, or the two corners that are nearest.
+/// Returns where two rectangles are no farther apart than `reach` [m]: both ends of the stretch
+/// along which a side of the one faces a side of the other, or the two corners that are nearest.
 OutlineContacts findContacts(const Rectangle& a, const Rectangle& b, double reach);
 
-/// Whether they are seen to be farther apart than that [m], at a glance.
+/// Returns whether they are seen to be farther apart than that [m], at a glance.
 bool areFarther(double distance, const Rectangle& a, const Rectangle& b);
 
 }  // namespace kiva

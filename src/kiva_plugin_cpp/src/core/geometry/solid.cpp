@@ -19,14 +19,14 @@ Span common(const Span& a, const Span& b) {
   return {std::max(a.enter, b.enter), std::min(a.leave, b.leave)};
 }
 
-/// The span around both, of one convex body's parts.
+/// Returns the span around both, of one convex body's parts.
 Span around(const Span& a, const Span& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
   return {std::min(a.enter, b.enter), std::max(a.leave, b.leave)};
 }
 
-/// Where a t² + 2 b t + c <= 0.
+/// Returns where a t² + 2 b t + c <= 0.
 Span within(double a, double b, double c) {
   if (a < 1e-300) return c <= 0 ? Span{-kInfinity, kInfinity} : Span{};
   const double discriminant = b * b - a * c;

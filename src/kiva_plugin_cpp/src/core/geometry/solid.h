@@ -13,13 +13,13 @@ struct Solid {
 
   static bool canBe(Shape::Kind kind);
 
-  /// Distance [m] along the unit vector `direction` from `from`, relative to the solid's centre, to
-  /// the surface, from outside or inside; +inf = none.
+  /// Returns the distance [m] along the unit vector `direction` from `from`, relative to the
+  /// solid's centre, to the surface, from outside or inside; +inf = none.
   double cast(const Vector3& from, const Vector3& direction) const;
 
   Shape::Kind kind = Shape::Kind::kBox;
   Vector3 half;  ///< Box: half the edges; ellipsoid: radii; else radius, radius, half length [m].
-  Vector3 axes[3];  ///< Of the shape, in that frame.
+  Vector3 axes[3];  ///< The shape's axes in that frame.
 };
 
 }  // namespace kiva

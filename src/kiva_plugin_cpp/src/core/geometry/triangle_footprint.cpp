@@ -46,7 +46,7 @@ struct CutEnd {
   double x = 0, y = 0;
 };
 
-/// Where the triangle is cut at height z; false if it is not.
+/// Finds where the triangle is cut at height z. Returns false if it is not.
 bool slice(const Triangle& triangle, double z, CutEnd* from, CutEnd* to) {
   CutEnd* const ends[] = {from, to};
   int found = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The geometry of a static mesh is that of its triangles, one by one: a building is hollow, and
-// what hangs from its roof is in nobody's way.
+// what hangs from its roof is in no robot's way.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ using Triangle = std::array<Vector3, 3>;
 /// One of a mesh that stands at that pose in world.
 Triangle cornersOf(const Mesh& mesh, int triangle, const Pose& pose);
 
-/// What it covers on the floor. The triangle must outlive the footprint.
+/// Returns what it covers on the floor. The triangle must outlive the footprint.
 Footprint makeFootprint(const Triangle& triangle);
 
-/// Distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) at which it
-/// meets the triangle from either side [m]; +inf = not at all.
+/// Returns the distance along the horizontal ray from (x, y, z) along the unit vector (dx, dy) at
+/// which it meets the triangle from either side [m]; +inf = not at all.
 double castTriangle(const Triangle& triangle, double x, double y, double z, double dx, double dy);
 
-/// A lower bound of the distance between the triangle, seen from above, and another geometry [m];
-/// negative where they overlap.
+/// Returns a lower bound of the distance between the triangle, seen from above, and another
+/// geometry [m]; negative where they overlap.
 double gapToTriangle(const Triangle& triangle, const Footprint& other);
 
 }  // namespace kiva

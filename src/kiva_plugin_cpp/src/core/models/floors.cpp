@@ -28,27 +28,28 @@ void widen(Floor* floor, const LevelSurface& surface) {
 
 /// Calls visit(model, surface) for the level surfaces of all that stands.
 template <typename Visit>
-void forSurfaces(const WorldState& world, Visit visit) {
+void forSurfaces(const Scene& world, Visit visit) {
   for (const auto& model : world.models) {
     if (!model) continue;
     for (const LevelSurface& surface : model->level_surfaces) visit(surface);
   }
 }
 
-/// Whether wheels get from the floor onto it.
-bool isAtFloor(const WorldState& world, const LevelSurface& surface) {
-  return std::abs(surface.z - world.floor.z) <= kStep + 1e-9;
+/// Returns whether wheels get from the floor onto it.
+bool isAtFloor(const FloorState& floor, const LevelSurface& surface) {
+  return std::abs(surface.z - floor.extent.z) <= kStep + 1e-9;
 }
 
-/// By which the floor's own surface is chosen among those near its height; 0 for all others.
+/// Returns by which the floor's own surface is chosen among those near its height; 0 for all
+/// others.
 double extentAt(double height, const LevelSurface& surface) {
   if (std::abs(surface.z - height) > kSameHeight) return 0;
   return surface.is_plane ? std::numeric_limits<double>::infinity() : surface.area;
 }
 
-/// The height of the largest surface. Of two about as large, the undersides of slabs for one, the
-/// upper one.
-std::optional<double> floorHeight(const WorldState& world) {
+/// Returns the height of the largest surface. Of two about as large, the undersides of slabs for
+/// one, the upper one.
+std::optional<double> floorHeight(const Scene& world) {
   std::optional<double> plane;
   std::map<long long, std::pair<double, double>> bounded;  // by height: area, height
   forSurfaces(world, [&](const LevelSurface& surface) {
@@ -71,16 +72,16 @@ std::optional<double> floorHeight(const WorldState& world) {
   return height;
 }
 
-void tellIce(WorldState& world, double friction) {
+void warnOfSlipperyFloor(EventLog& log, double friction) {
   std::ostringstream text;
   text << "the floor: its friction for wheels is " << friction << "; below " << kLeastGrip
        << " robots take minutes for a cell or can't move at all. The <mu> of the floor's <surface> "
           "and the <friction> of the robots' motion plugin tell it";
-  world.warn("floor friction", text.str());
+  log.warn("floor friction", text.str());
 }
 
 /// Static models have other low parts, robots and storage units stand higher or lower.
-void fitToFloor(WorldState& world) {
+void fitToFloor(ModelView& world) {
   for (const auto& model : world.models) {
     if (!model || !model->isStatic() || !model->in_physics) continue;
     world.physics.remove(model->bodies);
@@ -88,54 +89,54 @@ void fitToFloor(WorldState& world) {
     world.physics.insert(model->bodies);
     refitGeometry(world, *model);
   }
-  for (StorageUnit& unit : world.units) {
+  for (StorageUnit& unit : world.storage.units) {
     Model& model = *world.models[unit.model];
     if (unit.carrier < 0 && !model.disturbed) raiseToFloor(world, &unit, &model);
     moved(world, model);
   }
   for (int robot = 0; robot < world.fleet.size(); ++robot) {
-    rebuildBody(world, world.modelOf(robot));
-    moved(world, world.modelOf(robot));
+    rebuildBody(world, world.models.of(world.fleet.robots[robot]));
+    moved(world, world.models.of(world.fleet.robots[robot]));
   }
 }
 
 }  // namespace
 
-void measureFloor(WorldState& world) {
-  const double before = world.floor.z;
+void measureFloor(ModelView& world) {
+  const double before = world.floor.extent.z;
   const auto height = floorHeight(world);
-  world.floor = Floor();
-  world.floor_friction = 1;
-  world.floor_parts_due = true;
+  world.floor.extent = Floor();
+  world.floor.friction = 1;
+  world.floor.cover_due = true;
   if (height) {
-    world.floor = {1e300, -1e300, 1e300, -1e300, *height};
+    world.floor.extent = {1e300, -1e300, 1e300, -1e300, *height};
     double most = -1;
     forSurfaces(world, [&](const LevelSurface& surface) {
-      if (!isAtFloor(world, surface)) return;
-      widen(&world.floor, surface);
+      if (!isAtFloor(world.floor, surface)) return;
+      widen(&world.floor.extent, surface);
       const double area = extentAt(*height, surface);
       if (area <= most) return;
       most = area;
-      world.floor_friction = surface.friction;
+      world.floor.friction = surface.friction;
     });
   }
   letAllTip(world);
-  if (world.floor.z != before) fitToFloor(world);
+  if (world.floor.extent.z != before) fitToFloor(world);
 }
 
-void findFloorParts(WorldState& world) {
-  if (!world.floor_parts_due) return;
-  world.floor_parts_due = false;
+void findFloorParts(ModelView& world) {
+  if (!world.floor.cover_due) return;
+  world.floor.cover_due = false;
   double holds = 0;  // what the best wheels grip with where the floor lets them
   for (const Robot& robot : world.fleet.robots) holds = std::max(holds, robot.drive.friction);
-  const double usual = std::min(holds, world.floor_friction);
-  if (holds > 0 && usual < kLeastGrip) tellIce(world, usual);
+  const double usual = std::min(holds, world.floor.friction);
+  if (holds > 0 && usual < kLeastGrip) warnOfSlipperyFloor(world.log, usual);
   bool is_alike = true;
   forSurfaces(world, [&](const LevelSurface& surface) {
     const bool differs = std::min(holds, surface.friction) != usual;
-    if (differs && isAtFloor(world, surface)) is_alike = false;
+    if (differs && isAtFloor(world.floor, surface)) is_alike = false;
   });
-  world.floor_parts = is_alike ? nullptr : std::make_shared<const FloorCover>(world);
+  world.floor.cover = is_alike ? nullptr : std::make_shared<const FloorCover>(world);
 }
 
 }  // namespace kiva

@@ -13,33 +13,33 @@
 namespace kiva {
 namespace {
 
-bool liesOnUnit(const WorldState& world, const Model& model) {
-  return world.items[model.index].unit >= 0;
+bool liesOnUnit(const Storage& storage, const Model& model) {
+  return storage.items[model.index].unit >= 0;
 }
 
-Model& unitBelow(const WorldState& world, const Model& model) {
-  return *world.models[world.units[world.items[model.index].unit].model];
+Model& unitBelow(const Scene& world, const Model& model) {
+  return *world.models[world.storage.units[world.storage.items[model.index].unit].model];
 }
 
-/// The unit that an item lies on. One that was raised onto the floor takes along what would lie on
-/// it had the floor been where it was thought to be.
-int findUnit(const WorldState& world, Model& item) {
-  const Vector3 lift(0, 0, std::max(0.0, world.floor.z));
+/// Returns the unit that an item lies on. One that was raised onto the floor takes along what would
+/// lie on it had the floor been where it was thought to be.
+int findUnit(const Scene& world, Model& item) {
+  const Vector3 lift(0, 0, std::max(0.0, world.floor.extent.z));
   const int raised = unitAt(world, item.pose.Pos() + lift);
-  if (raised < 0 || world.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
-  item.pose.Pos().Z() += world.units[raised].raised;
+  if (raised < 0 || world.storage.units[raised].raised == 0) return unitAt(world, item.pose.Pos());
+  item.pose.Pos().Z() += world.storage.units[raised].raised;
   return raised;
 }
 
 }  // namespace
 
-std::uint8_t Items::occupies(const WorldState& world, const Model& model) const {
-  if (liesOnUnit(world, model)) return Occupancy::kFree;
-  const OffShelf* off = world.offShelf(model.slot);
+std::uint8_t Items::occupies(const Scene& world, const Model& model) const {
+  if (liesOnUnit(world.storage, model)) return Occupancy::kFree;
+  const OffShelf* off = world.fallen.find(model.slot);
   return off && off->lies ? Occupancy::kTaken : Occupancy::kFree;
 }
 
-void Items::add(WorldState& world, Model& model) const {
+void Items::add(ModelView& world, Model& model) const {
   Item item;
   item.name = model.name;
   item.id = numberIn(model.name, "item");
@@ -48,8 +48,8 @@ void Items::add(WorldState& world, Model& model) const {
   item.unit = findUnit(world, model);
   if (item.unit >= 0) item.pose_in_unit = unitPose(world, item.unit).Inverse() * model.pose;
   item.spawn_pose_in_unit = item.pose_in_unit;
-  model.index = static_cast<int>(world.items.size());
-  world.items.push_back(item);
+  model.index = static_cast<int>(world.storage.items.size());
+  world.storage.items.push_back(item);
   if (item.unit >= 0) {
     addMass(world, item.unit, item.mass);
   } else {
@@ -57,98 +57,98 @@ void Items::add(WorldState& world, Model& model) const {
   }
 }
 
-void Items::remove(WorldState& world, Model& model) const {
+void Items::remove(ModelView& world, Model& model) const {
   OrdinaryModels::remove(world, model);
   if (model.index < 0) return;  // it never joined
-  const Item gone = world.items[model.index];
-  const int last = static_cast<int>(world.items.size()) - 1;
+  const Item gone = world.storage.items[model.index];
+  const int last = static_cast<int>(world.storage.items.size()) - 1;
   if (model.index != last) {
-    world.items[model.index] = std::move(world.items[last]);
-    world.models[world.items[model.index].model]->index = model.index;
+    world.storage.items[model.index] = std::move(world.storage.items[last]);
+    world.models[world.storage.items[model.index].model]->index = model.index;
   }
-  world.items.pop_back();
+  world.storage.items.pop_back();
   if (gone.unit >= 0) addMass(world, gone.unit, -gone.mass);
-  world.unitsMoved();
+  world.storage.noteMove();
 }
 
-void Items::place(WorldState& world, Model& model, const EntityState& state) const {
-  if (!liesOnUnit(world, model)) return OrdinaryModels::place(world, model, state);
-  Item& item = world.items[model.index];
+void Items::place(ModelView& world, Model& model, const EntityState& state) const {
+  if (!liesOnUnit(world.storage, model)) return OrdinaryModels::place(world, model, state);
+  Item& item = world.storage.items[model.index];
   item.pose_in_unit = unitPose(world, item.unit).Inverse() * state.pose;
 }
 
 /// One that lies on a unit goes where that goes.
-void Items::reset(WorldState& world, Model& model) const {
-  if (!liesOnUnit(world, model)) return OrdinaryModels::reset(world, model);
-  Item& item = world.items[model.index];
+void Items::reset(ModelView& world, Model& model) const {
+  if (!liesOnUnit(world.storage, model)) return OrdinaryModels::reset(world, model);
+  Item& item = world.storage.items[model.index];
   item.pose_in_unit = item.spawn_pose_in_unit;
 }
 
-EntityState Items::state(const WorldState& world, const Model& model) const {
-  if (!liesOnUnit(world, model)) return OrdinaryModels::state(world, model);
+EntityState Items::state(const Scene& world, const Model& model) const {
+  if (!liesOnUnit(world.storage, model)) return OrdinaryModels::state(world, model);
   return carriedState(modelState(world, unitBelow(world, model)), itemPose(world, model.index));
 }
 
-Pose Items::linkPose(const WorldState& world, const Model& model, int link) const {
-  if (!liesOnUnit(world, model)) return OrdinaryModels::linkPose(world, model, link);
+Pose Items::linkPose(const Scene& world, const Model& model, int link) const {
+  if (!liesOnUnit(world.storage, model)) return OrdinaryModels::linkPose(world, model, link);
   return itemPose(world, model.index) * model.description->links[link].pose_in_model;
 }
 
-void Items::reweigh(WorldState& world, Model& model, double added) const {
-  Item& item = world.items[model.index];
+void Items::reweigh(ModelView& world, Model& model, double added) const {
+  Item& item = world.storage.items[model.index];
   item.mass += added;
   if (item.unit >= 0) return addMass(world, item.unit, added);
   OrdinaryModels::reweigh(world, model, added);
 }
 
-bool Items::push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
-                 const Vector3& torque) const {
-  if (!liesOnUnit(world, model)) {
+bool Items::push(ContactView& world, Model& model, int link, const Vector3& at,
+                 const Vector3& force, const Vector3& torque) const {
+  if (!liesOnUnit(world.storage, model)) {
     return OrdinaryModels::push(world, model, link, at, force, torque);
   }
   Model& unit = unitBelow(world, model);
   return unit.owner->push(world, unit, 0, at, force, torque);
 }
 
-void fallOff(WorldState& world, Model& model, const EntityState& state) {
-  Item& item = world.items[model.index];
+void fallOff(ModelView& world, Model& model, const EntityState& state) {
+  Item& item = world.storage.items[model.index];
   const int unit = item.unit;
   item.unit = -1;
   addMass(world, unit, -item.mass);
   OrdinaryModels().add(world, model);
   OrdinaryModels().place(world, model, state);
   moved(world, model);
-  alarm(world);
-  ++world.models_revision;
+  invalidateClearance(world.fleet);
+  ++world.models.revision;
 }
 
-void putBack(WorldState& world, Model& model, const Model& unit) {
+void putBack(ModelView& world, Model& model, const Model& unit) {
   OrdinaryModels().remove(world, model);
   world.physics.remove(model.bodies);
   model.bodies = ModelBodies();
   model.in_physics = false;
-  hideFootprints(world, model);
+  hideFootprints(world.obstacles, model);
   model.geometries.clear();
-  Item& item = world.items[model.index];
+  Item& item = world.storage.items[model.index];
   item.unit = unit.index;
   addMass(world, item.unit, item.mass);
-  world.unitsMoved();
-  alarm(world);
-  wakeBodies(world);  // what lies on it falls
-  ++world.models_revision;
+  world.storage.noteMove();
+  invalidateClearance(world.fleet);
+  wakeBodies(world.models);  // what lies on it falls
+  ++world.models.revision;
 }
 
-void forgetFallen(WorldState& world, int slot) {
-  auto& all = world.off_shelf;
+void forgetFallen(FallenItems& fallen, int slot) {
+  auto& all = fallen.items;
   const auto is_of = [slot](const OffShelf& o) { return o.item == slot || o.unit == slot; };
   all.erase(std::remove_if(all.begin(), all.end(), is_of), all.end());
 }
 
-void putAllBack(WorldState& world) {
-  for (const OffShelf& one : world.off_shelf) {
+void putAllBack(ModelView& world) {
+  for (const OffShelf& one : world.fallen.items) {
     if (one.lies) putBack(world, *world.models[one.item], *world.models[one.unit]);
   }
-  world.off_shelf.clear();
+  world.fallen.items.clear();
 }
 
 }  // namespace kiva

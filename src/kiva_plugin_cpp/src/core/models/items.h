@@ -9,28 +9,29 @@ namespace kiva {
 
 class Items : public OrdinaryModels {
  public:
-  void add(WorldState& world, Model& model) const override;
-  void remove(WorldState& world, Model& model) const override;
-  void place(WorldState& world, Model& model, const EntityState& state) const override;
-  void reset(WorldState& world, Model& model) const override;
-  EntityState state(const WorldState& world, const Model& model) const override;
-  Pose linkPose(const WorldState& world, const Model& model, int link) const override;
-  void reweigh(WorldState& world, Model& model, double added) const override;
-  bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
+  void add(ModelView& world, Model& model) const override;
+  void remove(ModelView& world, Model& model) const override;
+  void place(ModelView& world, Model& model, const EntityState& state) const override;
+  void reset(ModelView& world, Model& model) const override;
+  EntityState state(const Scene& world, const Model& model) const override;
+  Pose linkPose(const Scene& world, const Model& model, int link) const override;
+  void reweigh(ModelView& world, Model& model, double added) const override;
+  bool push(ContactView& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
-  /// One that fell is to be picked up; where others lie loose, somebody wants them there.
-  std::uint8_t occupies(const WorldState& world, const Model& model) const override;
+  /// Returns kTaken for a fallen item, which is to be picked up; other loose items are meant to lie
+  /// there.
+  std::uint8_t occupies(const Scene& world, const Model& model) const override;
   int group(const Model& /*model*/) const override { return -1; }
   bool isTracked() const override { return true; }
 };
 
-/// The item slides over the edge of its unit, and is a body of its own from then on.
-void fallOff(WorldState& world, Model& item, const EntityState& state);
-/// It is in its place on that unit again.
-void putBack(WorldState& world, Model& item, const Model& unit);
-/// What is known of those that fell, without a model that is going.
-void forgetFallen(WorldState& world, int slot);
-/// All that fell are back on their units, and nobody is told.
-void putAllBack(WorldState& world);
+/// Lets the item slide over the edge of its unit: it becomes a body of its own.
+void fallOff(ModelView& world, Model& item, const EntityState& state);
+/// Puts the item back in its place on that unit.
+void putBack(ModelView& world, Model& item, const Model& unit);
+/// Forgets a removed model among the fallen items.
+void forgetFallen(FallenItems& fallen, int slot);
+/// Puts all fallen items back on their units, without events.
+void putAllBack(ModelView& world);
 
 }  // namespace kiva

@@ -8,6 +8,7 @@
 #include "core/motion/jointed_body.h"
 #include "core/state/footprints.h"
 #include "core/state/poses.h"
+#include "core/state/tasks.h"
 #include "core/state/unit_geometry.h"
 
 namespace kiva {
@@ -16,13 +17,13 @@ namespace {
 constexpr char kTowerLink[] = "tower";
 constexpr double kGuided = 0.02;  // [m] off its middle, [rad] off square: the tower's guide centres
 
-/// How far the plate on which loads stand reaches from the middle, at least [m]; the chassis where
-/// there is none.
-double plateReach(const WorldState& world, int robot) {
+/// Returns how far the plate on which loads stand reaches from the middle, at least [m]; the
+/// chassis where there is none.
+double plateReach(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
   Bounds box;
   bool has_plate = false;
-  for (const Link& link : world.modelOf(robot).description->links) {
+  for (const Link& link : world.models.of(world.fleet.robots[robot]).description->links) {
     if (link.name != kTowerLink) continue;
     for (const Collision& c : link.collisions) box.add(bounds(c.shape, c.pose_in_link));
     has_plate = has_plate || !link.collisions.empty();
@@ -32,7 +33,7 @@ double plateReach(const WorldState& world, int robot) {
 }
 
 /// How the load, given in the robot's frame as is its underside, stands on the plate.
-void setFoothold(WorldState& world, int robot, const SpatialInertia& load, double underside) {
+void setFoothold(ContactView& world, int robot, const SpatialInertia& load, double underside) {
   Robot& r = world.fleet.robots[robot];
   const Vector3 centre = load.centre();
   const double off = std::hypot(centre.X(), centre.Y());
@@ -43,19 +44,19 @@ void setFoothold(WorldState& world, int robot, const SpatialInertia& load, doubl
   r.load_tipping_inertia = r.load_mass * arm2 + std::max(own(0, 0), own(1, 1));
 }
 
-void loadRobot(WorldState& world, int robot, int unit) {
+void loadRobot(ContactView& world, int robot, int unit) {
   Robot& r = world.fleet.robots[robot];
   const Pose in_robot = basePose(world, robot).Inverse() * unitPose(world, unit);
   SpatialInertia load;
   load.add(sumUnit(world, unit), in_robot);
   const Vector3 centre = load.centre();
-  r.load_mass = world.units[unit].mass;
+  r.load_mass = world.storage.units[unit].mass;
   r.load_centre[0] = centre.X();
   r.load_centre[1] = centre.Y();
   r.load_inertia = load.aboutZ();
   setFoothold(world, robot, load, in_robot.Pos().Z() + underside(world, unit));
   Bounds box;
-  const Model& model = *world.models[world.units[unit].model];
+  const Model& model = *world.models[world.storage.units[unit].model];
   for (const Link& link : model.description->links) {
     for (const Collision& c : link.collisions) {
       box.add(bounds(c.shape, in_robot * link.pose_in_model * c.pose_in_link));
@@ -76,8 +77,8 @@ void centre(Pose* on_tower) {
 
 }  // namespace
 
-void takeUp(WorldState& world, int robot, int unit) {
-  StorageUnit& u = world.units[unit];
+void takeUp(ContactView& world, int robot, int unit) {
+  StorageUnit& u = world.storage.units[unit];
   Model& model = *world.models[u.model];
   if (model.in_physics) deactivate(world, model);
   u.pose_on_carrier = towerPose(world, robot).Inverse() * unitPose(world, unit);
@@ -89,22 +90,22 @@ void takeUp(WorldState& world, int robot, int unit) {
   loadRobot(world, robot, unit);
   moved(world.fleet, robot);
   moved(world, model);
-  rebuildBody(world, world.modelOf(robot));
-  world.setStatus(robot, world.fleet.status[robot], world.fleet.state[robot]);
+  rebuildBody(world, world.models.of(world.fleet.robots[robot]));
+  setStatus(world, robot, world.fleet.status[robot], world.fleet.state[robot]);
 }
 
-void putDown(WorldState& world, int robot) {
+void putDown(ContactView& world, int robot) {
   const int unit = world.fleet.unit[robot];
-  StorageUnit& u = world.units[unit];
+  StorageUnit& u = world.storage.units[unit];
   Model& model = *world.models[u.model];
   const Pose pose = unitPose(world, unit);
-  model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+  model.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
   u.carrier = -1;
   unload(world, robot);
   moved(world, model);
 }
 
-void unload(WorldState& world, int robot) {
+void unload(ContactView& world, int robot) {
   FleetState& f = world.fleet;
   Robot& r = f.robots[robot];
   f.unit[robot] = -1;
@@ -113,18 +114,18 @@ void unload(WorldState& world, int robot) {
   r.load_height = r.load_foothold = r.load_tipping_inertia = 0;
   f.sway[robot] = {};
   moved(world.fleet, robot);  // its tower may have to come down
-  moved(world, world.modelOf(robot));
-  rebuildBody(world, world.modelOf(robot));
-  world.setStatus(robot, f.status[robot], f.state[robot]);
+  moved(world, world.models.of(world.fleet.robots[robot]));
+  rebuildBody(world, world.models.of(world.fleet.robots[robot]));
+  setStatus(world, robot, f.status[robot], f.state[robot]);
 }
 
-void addMass(WorldState& world, int unit, double mass) {
-  world.units[unit].mass += mass;
-  const int carrier = world.units[unit].carrier;
+void addMass(ContactView& world, int unit, double mass) {
+  world.storage.units[unit].mass += mass;
+  const int carrier = world.storage.units[unit].carrier;
   if (carrier < 0) return;
   loadRobot(world, carrier, unit);
   moved(world.fleet, carrier);
-  rebuildBody(world, world.modelOf(carrier));
+  rebuildBody(world, world.models.of(world.fleet.robots[carrier]));
 }
 
 double massOf(const ModelDescription& description) {

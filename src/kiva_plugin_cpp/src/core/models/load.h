@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A storage unit on a robot: how it gets there and off again, and what that makes of the robot.
+// Loads robots with storage units, and unloads them.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
 
 namespace kiva {
 
-/// The unit now rests on the robot and loads it.
-void takeUp(WorldState& world, int robot, int unit);
-/// The unit stands on the floor again, upright beneath where it was.
-void putDown(WorldState& world, int robot);
-/// The robot is without its unit from now on, whatever becomes of that.
-void unload(WorldState& world, int robot);
+/// Puts the unit on the robot as its load.
+void takeUp(ContactView& world, int robot, int unit);
+/// Puts the robot's unit on the floor, upright beneath its present pose.
+void putDown(ContactView& world, int robot);
+/// Takes the load off the robot; the unit itself stays as it is.
+void unload(ContactView& world, int robot);
 
-/// An item of that mass [kg] came onto the unit; negative: left it.
-void addMass(WorldState& world, int unit, double mass);
-/// Of all its links [kg].
+/// Adds the mass of an item [kg] to the unit; negative: removes it.
+void addMass(ContactView& world, int unit, double mass);
+/// Returns the mass of all its links [kg].
 double massOf(const ModelDescription& description);
 
 }  // namespace kiva

@@ -18,6 +18,7 @@
 #include "core/state/footprints.h"
 #include "core/state/people.h"
 #include "core/state/poses.h"
+#include "core/state/tasks.h"
 
 namespace kiva {
 namespace {
@@ -42,12 +43,12 @@ void checkTwist(const std::string& name, const Twist& twist) {
                          "': its velocity must be finite and at most 10 km/s and 10,000 rad/s");
 }
 
-void checkInstance(const WorldState& world, const ModelInstance& instance) {
+void checkInstance(const ModelTable& models, const ModelInstance& instance) {
   const std::string& name = instance.name;
   if (name.empty()) throw DescriptionError("a model needs a name");
   if (name.size() > 200) refuse(instance, "a name may have 200 characters at the most");
   if (name.find("::") != std::string::npos) refuse(instance, "'::' can't be part of a name");
-  if (world.find(name)) refuse(instance, "entity already exists");
+  if (models.find(name)) refuse(instance, "entity already exists");
   checkPose(name, instance.pose);
 }
 
@@ -62,38 +63,21 @@ ModelKind classify(const ModelInstance& instance) {
   return ModelKind::kOther;
 }
 
-Model& takeSlot(WorldState& world, const ModelInstance& instance) {
-  int slot = static_cast<int>(world.models.size());
-  if (world.free_slots.empty()) {
-    world.models.emplace_back();
-  } else {
-    slot = world.free_slots.back();
-    world.free_slots.pop_back();
-  }
+Model& addModel(ModelTable& models, const ModelInstance& instance) {
   auto model = std::make_unique<Model>();
   model->name = instance.name;
   model->description = instance.description;
   model->kind = classify(instance);
   model->owner = &ownerOf(model->kind);
-  model->slot = slot;
-  model->serial = world.next_serial++;
   model->spawn_pose = model->pose = instance.pose;
   model->robot_namespace = instance.robot_namespace;
-  world.models[slot] = std::move(model);
-  world.slot_of_name[instance.name] = slot;
-  return *world.models[slot];
+  return models.add(std::move(model));
 }
 
-void freeSlot(WorldState& world, int slot) {
-  world.slot_of_name.erase(world.models[slot]->name);
-  world.models[slot].reset();
-  world.free_slots.push_back(slot);
-}
-
-/// Whether a plugin of that file comes with the world and is dealt with elsewhere.
-bool isOurs(const WorldState& world, const Model& model, const PluginDescription& plugin) {
+/// Returns whether a plugin of that file comes with the world and is dealt with elsewhere.
+bool isOurs(const Plugins& plugins, const Model& model, const PluginDescription& plugin) {
   const std::string& where = plugin.parameters.where();
-  if (const FleetPlugin* ours = findFleetPlugin(world, plugin.filename)) {
+  if (const FleetPlugin* ours = findFleetPlugin(plugins, plugin.filename)) {
     if (isRobot(*model.description)) return true;
     throw DescriptionError(where + ": " + ours->filename() +
                            " works on a model that has libkiva_motion.so too");
@@ -106,9 +90,9 @@ bool isOurs(const WorldState& world, const Model& model, const PluginDescription
   return false;
 }
 
-void loadPlugin(WorldState& world, Model& model, const PluginDescription& description,
+void loadPlugin(ModelView& world, Model& model, const PluginDescription& description,
                 const SensorDescription* sensor) {
-  if (isOurs(world, model, description)) return;
+  if (isOurs(world.plugins, model, description)) return;
   Parameters parameters = description.parameters;
   if (!model.robot_namespace.empty() && !parameters.has("robotNamespace")) {
     parameters.set("robotNamespace", model.robot_namespace);
@@ -118,39 +102,39 @@ void loadPlugin(WorldState& world, Model& model, const PluginDescription& descri
   }
 }
 
-void dismantle(WorldState& world, Model& model) {
+void dismantle(ModelView& world, Model& model) {
   forgetContacts(world, model.slot);
   model.plugins.clear();
-  forgetExternalInputs(world, model.name);
-  forgetWalker(world, model.slot);
-  forgetFallen(world, model.slot);
+  forgetExternalInputs(world.external_inputs, model.name);
+  world.people.forget(model.slot);
+  forgetFallen(world.fallen, model.slot);
   if (model.in_physics) world.physics.remove(model.bodies);
   model.in_physics = false;
-  for (auto* slots : {&world.activated, &world.models_with_plugins}) {
+  for (auto* slots : {&world.models.activated, &world.models.with_plugins}) {
     slots->erase(std::remove(slots->begin(), slots->end(), model.slot), slots->end());
   }
   model.owner->remove(world, model);
-  hideFootprints(world, model);
-  freeSlot(world, model.slot);
-  wakeBodies(world);  // what sleeps on something falls once that is gone
+  hideFootprints(world.obstacles, model);
+  world.models.remove(model.slot);
+  wakeBodies(world.models);  // what sleeps on something falls once that is gone
 }
 
-void loadAllPlugins(WorldState& world, Model& model) {
+void loadAllPlugins(ModelView& world, Model& model) {
   loadPlugins(world, model);
-  if (!model.plugins.empty()) world.models_with_plugins.push_back(model.slot);
+  if (!model.plugins.empty()) world.models.with_plugins.push_back(model.slot);
 }
 
 /// Others notice that a model was put somewhere.
-void placed(WorldState& world, Model& model) {
+void placed(ModelView& world, Model& model) {
   moved(world, model);
-  alarm(world);
-  wakeBodies(world);
+  invalidateClearance(world.fleet);
+  wakeBodies(world.models);
 }
 
 /// `model::link::collision` of a part. A body of several links' parts knows their names only.
-std::string collisionName(const WorldState& world, const btCollisionObject* body,
+std::string collisionName(const ModelTable& models, const btCollisionObject* body,
                           const BodyPart* part) {
-  const Model& model = *world.models[part ? part->model : body->getUserIndex()];
+  const Model& model = *models[part ? part->model : body->getUserIndex()];
   const auto& links = model.description->links;
   const std::string name = part ? part->collision : "";
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -190,7 +174,7 @@ const ModelOwner& ownerOf(ModelKind kind) {
   return others;
 }
 
-void loadPlugins(WorldState& world, Model& model) {
+void loadPlugins(ModelView& world, Model& model) {
   const auto description = model.description;  // a plugin may give the model another
   for (const PluginDescription& plugin : description->plugins) {
     loadPlugin(world, model, plugin, nullptr);
@@ -202,9 +186,9 @@ void loadPlugins(WorldState& world, Model& model) {
   }
 }
 
-void spawnModel(WorldState& world, const ModelInstance& instance) {
-  checkInstance(world, instance);
-  Model& model = takeSlot(world, instance);
+void spawnModel(ModelView& world, const ModelInstance& instance) {
+  checkInstance(world.models, instance);
+  Model& model = addModel(world.models, instance);
   try {
     model.owner->add(world, model);
     moved(world, model);
@@ -217,29 +201,29 @@ void spawnModel(WorldState& world, const ModelInstance& instance) {
     refuse(instance, error.what());
   }
   const int robot = model.owner->robot(world, model);
-  if (robot >= 0) world.setStatus(robot, Status::kIdle, State::kIdle);
-  alarm(world);
-  ++world.models_revision;
-  world.report(Event::Kind::kSpawned, instance.name, "", instance.name + " has come");
+  if (robot >= 0) setStatus(world, robot, Status::kIdle, State::kIdle);
+  invalidateClearance(world.fleet);
+  ++world.models.revision;
+  world.log.report(Event::Kind::kSpawned, instance.name, "", instance.name + " has come");
 }
 
-void removeModel(WorldState& world, int slot) {
+void removeModel(ModelView& world, int slot) {
   Model& model = *world.models[slot];
   const std::string name = model.name;
   for (int passenger : model.owner->passengers(world, model)) removeModel(world, passenger);
   dismantle(world, model);
-  ++world.models_revision;
-  world.report(Event::Kind::kDeleted, name, "", name + " is gone");
+  ++world.models.revision;
+  world.log.report(Event::Kind::kDeleted, name, "", name + " is gone");
 }
 
-void placeModel(WorldState& world, Model& model, const EntityState& state) {
+void placeModel(ModelView& world, Model& model, const EntityState& state) {
   checkPose(model.name, state.pose);
   checkTwist(model.name, state.twist);
   model.owner->place(world, model, state);
   placed(world, model);
 }
 
-void placeLink(WorldState& world, Model& model, int link, const EntityState& state) {
+void placeLink(ModelView& world, Model& model, int link, const EntityState& state) {
   const Pose way = state.pose * linkPose(world, model, link).Inverse();
   if (!model.owner->followsBodies(model) || model.upright) {
     return placeModel(world, model, {way * modelState(world, model).pose, state.twist});
@@ -255,7 +239,7 @@ void placeLink(WorldState& world, Model& model, int link, const EntityState& sta
   placed(world, model);
 }
 
-void reweighLink(WorldState& world, Model& model, int link, const Link& like) {
+void reweighLink(ModelView& world, Model& model, int link, const Link& like) {
   auto changed = std::make_shared<ModelDescription>(*model.description);
   Link& to = changed->links[link];
   const double added = like.mass - to.mass;
@@ -268,17 +252,17 @@ void reweighLink(WorldState& world, Model& model, int link, const Link& like) {
   moved(world, model);
 }
 
-void resetModel(WorldState& world, Model& model) {
+void resetModel(ModelView& world, Model& model) {
   model.owner->reset(world, model);
   placed(world, model);
 }
 
-std::vector<ContactPoint> contactsOf(const WorldState& world, int slot) {
+std::vector<ContactPoint> contactsOf(const Scene& world, int slot) {
   std::vector<ContactPoint> out;
   for (const TouchPoint& touch : world.physics.touchPoints(slot)) {
-    out.push_back({collisionName(world, touch.body_a, touch.part_a),
-                   collisionName(world, touch.body_b, touch.part_b), touch.point, touch.normal,
-                   touch.depth, touch.impulse / world.dt});
+    out.push_back({collisionName(world.models, touch.body_a, touch.part_a),
+                   collisionName(world.models, touch.body_b, touch.part_b), touch.point,
+                   touch.normal, touch.depth, touch.impulse / world.clock.dt});
   }
   return out;
 }

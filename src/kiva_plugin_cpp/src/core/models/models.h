@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models come and go, and are moved by hand.
+// Adds, removes and places models.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/model_view.h"
 
 namespace kiva {
 
-/// Who answers for the models of that kind.
+/// Returns the owner of the models of that kind.
 const ModelOwner& ownerOf(ModelKind kind);
 
 /// Adds one model with all it needs, or throws DescriptionError and leaves nothing of it.
-void spawnModel(WorldState& world, const ModelInstance& instance);
-/// And what goes with it.
-void removeModel(WorldState& world, int slot);
+void spawnModel(ModelView& world, const ModelInstance& instance);
+/// Removes a model, and its passengers.
+void removeModel(ModelView& world, int slot);
 /// Puts a model there with that velocity, as a hand would. Throws DescriptionError if the state is
 /// not finite or too far away.
-void placeModel(WorldState& world, Model& model, const EntityState& state);
-/// The same for one link, and what joints hold to it.
-void placeLink(WorldState& world, Model& model, int link, const EntityState& state);
-/// Another mass, centre of mass, inertia and gravity flag for the link of that index.
-void reweighLink(WorldState& world, Model& model, int link, const Link& like);
-/// Back to where it was spawned, at rest.
-void resetModel(WorldState& world, Model& model);
+void placeModel(ModelView& world, Model& model, const EntityState& state);
+/// Puts one link there, with what joints hold to it.
+void placeLink(ModelView& world, Model& model, int link, const EntityState& state);
+/// Gives the link of that index another mass, centre of mass, inertia and gravity flag.
+void reweighLink(ModelView& world, Model& model, int link, const Link& like);
+/// Returns a model to its spawn pose, at rest.
+void resetModel(ModelView& world, Model& model);
 
 /// Loads the plugins of a model and of its sensors, but for those that come with the world.
 /// Throws DescriptionError.
-void loadPlugins(WorldState& world, Model& model);
-/// Where a model touches others; see World::contacts.
-std::vector<ContactPoint> contactsOf(const WorldState& world, int slot);
+void loadPlugins(ModelView& world, Model& model);
+/// Returns where a model touches others; see World::contacts.
+std::vector<ContactPoint> contactsOf(const Scene& world, int slot);
 
 }  // namespace kiva

@@ -13,7 +13,7 @@
 namespace kiva {
 namespace {
 
-void insertBodies(WorldState& world, Model& model) {
+void insertBodies(ModelView& world, Model& model) {
   model.bodies = model.owner->build(world, model);
   world.physics.insert(model.bodies);
   model.in_physics = true;
@@ -54,25 +54,25 @@ void setModelTwist(Model& model, const Twist& twist) {
   }
 }
 
-void OrdinaryModels::add(WorldState& world, Model& model) const {
+void OrdinaryModels::add(ModelView& world, Model& model) const {
   insertBodies(world, model);
   if (!model.isStatic()) {
-    world.bodies.push_back(model.slot);
+    world.models.bodies.push_back(model.slot);
     initJoints(model);
   }
-  addCollisionGeometry(world, model);
+  addCollisionGeometry(world.floor, model);
   if (model.isStatic()) measureFloor(world);
 }
 
-void OrdinaryModels::remove(WorldState& world, Model& model) const {
-  auto& slots = world.bodies;
+void OrdinaryModels::remove(ModelView& world, Model& model) const {
+  auto& slots = world.models.bodies;
   slots.erase(std::remove(slots.begin(), slots.end(), model.slot), slots.end());
   const bool may_be_floor = !model.level_surfaces.empty();
   model.level_surfaces.clear();
   if (may_be_floor) measureFloor(world);
 }
 
-void OrdinaryModels::place(WorldState& world, Model& model, const EntityState& state) const {
+void OrdinaryModels::place(ModelView& world, Model& model, const EntityState& state) const {
   if (!model.isStatic()) {
     if (!model.bodies.links.empty()) moveBodies(model, state);
     return;
@@ -84,25 +84,25 @@ void OrdinaryModels::place(WorldState& world, Model& model, const EntityState& s
   measureFloor(world);
 }
 
-void OrdinaryModels::reset(WorldState& world, Model& model) const {
+void OrdinaryModels::reset(ModelView& world, Model& model) const {
   if (!followsBodies(model)) return place(world, model, {model.spawn_pose, {}});
-  world.physics.remove(model.bodies);  // joints too: a model is put together anew
+  world.physics.remove(model.bodies);  // joints too: the model is rebuilt
   model.pose = model.spawn_pose;
   insertBodies(world, model);
   initJoints(model);
 }
 
-EntityState OrdinaryModels::state(const WorldState& world, const Model& model) const {
+EntityState OrdinaryModels::state(const Scene& world, const Model& model) const {
   if (followsBodies(model)) return canonicalState(model);
-  return {model.pose, walkingTwist(world, model.slot)};
+  return {model.pose, world.people.twist(model.slot)};
 }
 
-Pose OrdinaryModels::linkPose(const WorldState& /*world*/, const Model& model, int link) const {
+Pose OrdinaryModels::linkPose(const Scene& /*world*/, const Model& model, int link) const {
   if (followsBodies(model)) return fromBullet(model.bodies.links[link].linkPose());
   return model.pose * model.description->links[link].pose_in_model;
 }
 
-void OrdinaryModels::reweigh(WorldState& world, Model& model, double /*added*/) const {
+void OrdinaryModels::reweigh(ModelView& world, Model& model, double /*added*/) const {
   if (!followsBodies(model)) return;
   std::vector<EntityState> states;
   for (const LinkBody& link : model.bodies.links) states.push_back(bodyState(link));
@@ -113,7 +113,7 @@ void OrdinaryModels::reweigh(WorldState& world, Model& model, double /*added*/) 
   restoreLimits(model);
 }
 
-bool OrdinaryModels::push(WorldState& /*world*/, Model& model, int link, const Vector3& /*at*/,
+bool OrdinaryModels::push(ContactView& /*world*/, Model& model, int link, const Vector3& /*at*/,
                           const Vector3& force, const Vector3& torque) const {
   if (link >= static_cast<int>(model.bodies.links.size())) return false;
   btRigidBody& body = *model.bodies.links[link].body;
@@ -123,7 +123,7 @@ bool OrdinaryModels::push(WorldState& /*world*/, Model& model, int link, const V
   return true;
 }
 
-ModelBodies OrdinaryModels::build(const WorldState& world, const Model& model) const {
+ModelBodies OrdinaryModels::build(const Scene& world, const Model& model) const {
   if (model.isStatic()) return buildStatic(world, model);
   return world.physics.build(*model.description, model.spawn_pose, model.slot, kDynamicGroup, ~0);
 }

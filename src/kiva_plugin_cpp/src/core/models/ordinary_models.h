@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Models that are in Bullet for as long as they stand: obstacles, belts, floors, and whatever moves
-// by its own joints.
+// Models that are in Bullet for as long as they exist: obstacles, belts, floors, and machines with
+// joints of their own.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/model_view.h"
 
 namespace kiva {
 
 class OrdinaryModels : public ModelOwner {
  public:
-  void add(WorldState& world, Model& model) const override;
-  void remove(WorldState& world, Model& model) const override;
-  void place(WorldState& world, Model& model, const EntityState& state) const override;
-  void reset(WorldState& world, Model& model) const override;
-  EntityState state(const WorldState& world, const Model& model) const override;
-  Pose linkPose(const WorldState& world, const Model& model, int link) const override;
-  void reweigh(WorldState& world, Model& model, double added) const override;
-  bool push(WorldState& world, Model& model, int link, const Vector3& at, const Vector3& force,
+  void add(ModelView& world, Model& model) const override;
+  void remove(ModelView& world, Model& model) const override;
+  void place(ModelView& world, Model& model, const EntityState& state) const override;
+  void reset(ModelView& world, Model& model) const override;
+  EntityState state(const Scene& world, const Model& model) const override;
+  Pose linkPose(const Scene& world, const Model& model, int link) const override;
+  void reweigh(ModelView& world, Model& model, double added) const override;
+  bool push(ContactView& world, Model& model, int link, const Vector3& at, const Vector3& force,
             const Vector3& torque) const override;
-  ModelBodies build(const WorldState& world, const Model& model) const override;
-  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+  ModelBodies build(const Scene& world, const Model& model) const override;
+  std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const override {
     return Occupancy::kTaken;
   }
   int group(const Model& model) const override { return kMaxKivaId + 1 + model.slot; }
 };
 
-/// They are in the way like any other, but somebody put them there for robots to come to.
+/// Obstacles that robots are meant to drive up to.
 class ConveyorBelts : public OrdinaryModels {
  public:
-  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+  std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const override {
     return Occupancy::kBelt;
   }
   int group(const Model& /*model*/) const override { return -1; }
@@ -39,7 +39,7 @@ class ConveyorBelts : public OrdinaryModels {
 class Floors : public OrdinaryModels {
  public:
   bool isFloor() const override { return true; }
-  std::uint8_t occupies(const WorldState& /*world*/, const Model& /*model*/) const override {
+  std::uint8_t occupies(const Scene& /*world*/, const Model& /*model*/) const override {
     return Occupancy::kFree;
   }
 };

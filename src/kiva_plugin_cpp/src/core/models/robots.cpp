@@ -62,7 +62,7 @@ Shape measure(const ModelDescription& description, Robot* robot, Pose* centre) {
   return shape;
 }
 
-/// What its motion plugin says of the real world, if it says anything.
+/// Returns what its motion plugin says of the real world, if it says anything.
 std::optional<Realism> realismOf(const Parameters& parameters) {
   const auto below = parameters.values().lower_bound("realism");
   if (below == parameters.values().end() || below->first.rfind("realism", 0) != 0) {
@@ -73,44 +73,44 @@ std::optional<Realism> realismOf(const Parameters& parameters) {
 }
 
 /// Throws DescriptionError if robots of this world are told otherwise already.
-void checkRealism(const WorldState& world, const Parameters& parameters) {
+void checkRealism(const Scene& world, const Parameters& parameters) {
   const std::optional<Realism> asked = realismOf(parameters);
-  if (!asked || world.options.realism || !world.realism_of_models) return;
-  if (*asked == world.realism) return;
+  if (!asked || world.settings.options.realism || !world.settings.realism_of_models) return;
+  if (*asked == world.settings.realism) return;
   throw DescriptionError(parameters.where() +
                          ": <realism> is not that of the robots before; all robots of a world have "
                          "the same");
 }
 
 /// The world's is that of the first robot whose file says anything of it, unless it was given.
-void adoptRealism(WorldState& world, const ModelDescription& description) {
-  if (world.options.realism || world.realism_of_models) return;
+void adoptRealism(ModelView& world, const ModelDescription& description) {
+  if (world.settings.options.realism || world.settings.realism_of_models) return;
   for (const PluginDescription& plugin : description.plugins) {
     if (plugin.filename != kMotionPlugin) continue;
     const std::optional<Realism> asked = realismOf(plugin.parameters);
     if (!asked) continue;
-    world.realism = *asked;
-    world.realism_of_models = true;
-    world.applyRealism();
+    world.settings.realism = *asked;
+    world.settings.realism_of_models = true;
+    world.fleet.applyRealism(world.settings.realism, world.clock.dt);
   }
 }
 
-void configure(const WorldState& world, const ModelDescription& description, Robot* robot) {
+void configure(const ModelView& world, const ModelDescription& description, Robot* robot) {
   for (const PluginDescription& plugin : description.plugins) {
-    const FleetPlugin* ours = findFleetPlugin(world, plugin.filename);
+    const FleetPlugin* ours = findFleetPlugin(world.plugins, plugin.filename);
     if (!ours) continue;
     ours->configure(*robot, plugin.parameters);
     if (plugin.filename == kMotionPlugin) checkRealism(world, plugin.parameters);
     plugin.parameters.rejectUnread();
   }
-  if (world.options.drive) robot->drive.drive = *world.options.drive;
+  if (world.settings.options.drive) robot->drive.drive = *world.settings.options.drive;
 }
 
 /// What is stored by index follows a robot that got another one.
-void reindexRobot(WorldState& world, int from, int to) {
-  Model& model = world.modelOf(to);
+void reindexRobot(ModelView& world, int from, int to) {
+  Model& model = world.models.of(world.fleet.robots[to]);
   model.index = to;
-  for (StorageUnit& unit : world.units) {
+  for (StorageUnit& unit : world.storage.units) {
     if (unit.carrier == from) unit.carrier = to;
     if (unit.claimed_by == from) unit.claimed_by = to;
   }
@@ -126,7 +126,7 @@ void weigh(const ModelDescription& description, Robot* robot) {
   robot->centre[1] = whole.centre().Y();
 }
 
-/// Of the tyres, where the model has wheels.
+/// Reads the tyres' friction, where the model has wheels.
 void setTyres(const ModelDescription& description, Robot* robot) {
   const char* const wheels[] = {"left_wheel", "right_wheel"};
   for (int side = 0; side < 2; ++side) {
@@ -145,11 +145,11 @@ void stand(FleetState& f, int robot, const EntityState& at) {
 }
 
 /// Its motors and tyres are a little stronger or weaker than what its file says, and plans by.
-void setSpread(const WorldState& world, Robot* robot) {
+void setSpread(const Settings& settings, Robot* robot) {
   constexpr double kMost = 3;  // deviations that are delivered
-  const ActuationRealism& real = world.realism.actuation;
+  const ActuationRealism& real = settings.realism.actuation;
   if (!real.enabled) return;
-  RandomStream random(world.options.seed, Matter::kActuation, robot->id, 0);
+  RandomStream random(settings.options.seed, Matter::kActuation, robot->id, 0);
   const auto deviate = [&](double share) {
     return 1 + share * std::clamp(random.normal(), -kMost, kMost);
   };
@@ -164,7 +164,7 @@ bool isRobot(const ModelDescription& description) {
                      [](const PluginDescription& p) { return p.filename == kMotionPlugin; });
 }
 
-void Robots::add(WorldState& world, Model& model) const {
+void Robots::add(ModelView& world, Model& model) const {
   Robot robot;
   robot.name = model.name;
   robot.id = idIn(model.name);
@@ -178,22 +178,22 @@ void Robots::add(WorldState& world, Model& model) const {
   model.geometries.push_back({-1, centre, box, -1});
   const double yaw = model.pose.Rot().Yaw();
   const bool jointed = robot.drive.drive == Drive::kJointed;
-  setRays(world, &robot);
-  world.top_speed = std::max(world.top_speed, robot.drive.speed);
-  world.floor_parts_due = true;
+  setRays(world.scans, &robot);
+  world.fleet.fastest = std::max(world.fleet.fastest, robot.drive.speed);
+  world.floor.cover_due = true;
   adoptRealism(world, *model.description);
-  setSpread(world, &robot);
+  setSpread(world.settings, &robot);
   model.index = world.fleet.add(std::move(robot), model.pose.X(), model.pose.Y(), yaw);
   if (world.fleet.localises) calibrate(world, model.index);
   moved(world, model);
   if (jointed) jointedBody(world, model.index);  // throws if it lacks a wheel
 }
 
-void Robots::remove(WorldState& world, Model& model) const {
+void Robots::remove(ModelView& world, Model& model) const {
   const int robot = model.index, last = world.fleet.size() - 1;
   if (robot < 0) return;  // it never joined
   if (world.fleet.unit[robot] >= 0) putDown(world, robot);
-  for (StorageUnit& unit : world.units) {
+  for (StorageUnit& unit : world.storage.units) {
     if (unit.claimed_by == robot) unit.claimed_by = -1;
   }
   auto& defects = world.failures.defects;
@@ -203,12 +203,12 @@ void Robots::remove(WorldState& world, Model& model) const {
                 defects.end());
   world.fleet.remove(robot);
   world.obstacles.removeMover(robot);
-  world.scans_due.clear();  // indices have changed
-  world.sighted.clear();
+  world.scans.due.clear();  // indices have changed
+  world.scans.sighted.clear();
   if (robot != last) reindexRobot(world, last, robot);
 }
 
-void Robots::place(WorldState& world, Model& model, const EntityState& state) const {
+void Robots::place(ModelView& world, Model& model, const EntityState& state) const {
   const int robot = model.index;
   if (world.fleet.tasks[robot].phase != Phase::kIdle) {
     endBlocked(world, robot, "", "was moved by hand");
@@ -219,7 +219,7 @@ void Robots::place(WorldState& world, Model& model, const EntityState& state) co
   rebuildBody(world, model);
 }
 
-void Robots::reset(WorldState& world, Model& model) const {
+void Robots::reset(ModelView& world, Model& model) const {
   FleetState& fleet = world.fleet;
   const int robot = model.index;
   if (fleet.unit[robot] >= 0) putDown(world, robot);
@@ -238,12 +238,12 @@ void Robots::reset(WorldState& world, Model& model) const {
   if (fleet.localises) relocate(world, robot);  // its wheels stand at 0 now
 }
 
-EntityState Robots::state(const WorldState& world, const Model& model) const {
+EntityState Robots::state(const Scene& world, const Model& model) const {
   return robotState(world, model.index);
 }
 
 /// Wheels turned and tower raised.
-Pose Robots::linkPose(const WorldState& world, const Model& model, int link) const {
+Pose Robots::linkPose(const Scene& world, const Model& model, int link) const {
   const Fleet& fleet = world.fleet;
   const int robot = model.index;
   const Link& description = model.description->links[link];
@@ -261,29 +261,29 @@ Pose Robots::linkPose(const WorldState& world, const Model& model, int link) con
   return pose;
 }
 
-void Robots::reweigh(WorldState& world, Model& model, double /*added*/) const {
+void Robots::reweigh(ModelView& world, Model& model, double /*added*/) const {
   moved(world.fleet, model.index);
   weigh(*model.description, &world.fleet.robots[model.index]);
   rebuildBody(world, model);
 }
 
-/// The wheels' grip answers in the same step.
-bool Robots::push(WorldState& world, Model& model, int /*link*/, const Vector3& at,
+/// Pushes the robot; the grip of its wheels answers in the same step.
+bool Robots::push(ContactView& world, Model& model, int /*link*/, const Vector3& at,
                   const Vector3& force, const Vector3& torque) const {
   FleetState& f = world.fleet;
   const int i = model.index;
   const Vehicle vehicle = vehicleOf(f.robots[i], groundOf(world));
   const Vector3 centre = centreFromOrigin(f, i);
   const Vector3 arm = at - basePose(world, i).Pos() - centre;
-  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.dt;
+  const double turn = (torque + arm.Cross(force)).Z() / vehicle.inertia * world.clock.dt;
   moved(f, i);
-  f.vx[i] += force.X() / vehicle.mass * world.dt + turn * centre.Y();
-  f.vy[i] += force.Y() / vehicle.mass * world.dt - turn * centre.X();
+  f.vx[i] += force.X() / vehicle.mass * world.clock.dt + turn * centre.Y();
+  f.vy[i] += force.Y() / vehicle.mass * world.clock.dt - turn * centre.X();
   f.yaw_rate[i] += turn;
   return true;
 }
 
-ModelBodies Robots::build(const WorldState& world, const Model& model) const {
+ModelBodies Robots::build(const Scene& world, const Model& model) const {
   const int robot = model.index;
   const Robot& r = world.fleet.robots[robot];
   Link link;
@@ -308,19 +308,19 @@ ModelBodies Robots::build(const WorldState& world, const Model& model) const {
   };
   add(model);
   const int unit = world.fleet.unit[robot];
-  if (unit >= 0) add(*world.models[world.units[unit].model]);
+  if (unit >= 0) add(*world.models[world.storage.units[unit].model]);
   body.body->setLinearFactor({1, 1, 0});
   body.body->setAngularFactor({0, 0, 1});
   body.body->setActivationState(DISABLE_DEACTIVATION);
   return bodies;
 }
 
-void Robots::activated(WorldState& world, Model& model) const {
+void Robots::activated(ContactView& world, Model& model) const {
   world.fleet.activated[model.index] = 1;
   moved(world.fleet, model.index);
 }
 
-void Robots::deactivated(WorldState& world, Model& model) const {
+void Robots::deactivated(ContactView& world, Model& model) const {
   world.fleet.activated[model.index] = 0;
 }
 

@@ -22,17 +22,17 @@ constexpr double kTilt = 1 - 5e-5;  // cosine
 constexpr double kAbove = 0.002;    // [m]
 constexpr double kResting = 0.05;   // [s] for which Bullet has found it at rest
 
-bool standsStill(const WorldState& world, const Model& model) {
+bool standsStill(const Scene& world, const Model& model) {
   const btRigidBody& body = *model.bodies.links.front().body;
   const double up = body.getWorldTransform().getBasis().getColumn(2).z();
   return up > kTilt && body.getLinearVelocity().length() < kStill &&
          body.getAngularVelocity().length() < kStill &&
-         unitPose(world, model.index).Z() - world.floor.z < kAbove;
+         unitPose(world, model.index).Z() - world.floor.extent.z < kAbove;
 }
 
-/// Who knows unit `from` by its index knows it as `to` from now on; -1 = it is gone.
-void reindexUnit(WorldState& world, int from, int to) {
-  for (Item& item : world.items) {
+/// Replaces the index `from` of a unit by `to` wherever it is stored; -1 = the unit is gone.
+void reindexUnit(ModelView& world, int from, int to) {
+  for (Item& item : world.storage.items) {
     if (item.unit == from) item.unit = to;
   }
   for (Task& task : world.fleet.tasks) {
@@ -41,84 +41,84 @@ void reindexUnit(WorldState& world, int from, int to) {
     }
   }
   if (to < 0) return;
-  const StorageUnit& unit = world.units[to];
-  world.unit_of_id[unit.id] = to;
+  const StorageUnit& unit = world.storage.units[to];
+  world.storage.unit_of_id[unit.id] = to;
   world.models[unit.model]->index = to;
   if (unit.carrier >= 0) world.fleet.unit[unit.carrier] = to;
 }
 
-/// Off its robot, and out of Bullet.
-void takeAway(WorldState& world, Model& model) {
-  const int carrier = world.units[model.index].carrier;
+/// Takes the unit off its robot, and out of Bullet.
+void takeAway(ModelView& world, Model& model) {
+  const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) putDown(world, carrier);
   if (model.in_physics) deactivate(world, model);
 }
 
 }  // namespace
 
-void StorageUnits::add(WorldState& world, Model& model) const {
+void StorageUnits::add(ModelView& world, Model& model) const {
   StorageUnit unit;
   unit.name = model.name;
   unit.id = numberIn(model.name, "storage_unit");
   unit.model = model.slot;
   unit.mass = massOf(*model.description);
   raiseToFloor(world, &unit, &model);
-  model.index = static_cast<int>(world.units.size());
-  world.units.push_back(unit);
-  world.unit_of_id[unit.id] = model.index;
-  addCollisionGeometry(world, model);
+  model.index = static_cast<int>(world.storage.units.size());
+  world.storage.units.push_back(unit);
+  world.storage.unit_of_id[unit.id] = model.index;
+  addCollisionGeometry(world.floor, model);
   if (!standsUpright(world, model.index)) letFall(world, model);
 }
 
-void StorageUnits::remove(WorldState& world, Model& model) const {
+void StorageUnits::remove(ModelView& world, Model& model) const {
   if (model.index < 0) return;  // it never joined
-  const int index = model.index, last = static_cast<int>(world.units.size()) - 1;
-  const StorageUnit& unit = world.units[index];
+  const int index = model.index, last = static_cast<int>(world.storage.units.size()) - 1;
+  const StorageUnit& unit = world.storage.units[index];
   if (unit.carrier >= 0) unload(world, unit.carrier);
-  world.unit_of_id.erase(unit.id);
+  world.storage.unit_of_id.erase(unit.id);
   reindexUnit(world, index, -1);
   if (index != last) {
-    world.units[index] = std::move(world.units[last]);
+    world.storage.units[index] = std::move(world.storage.units[last]);
     reindexUnit(world, last, index);
   }
-  world.units.pop_back();
-  world.unitsMoved();
+  world.storage.units.pop_back();
+  world.storage.noteMove();
 }
 
-std::vector<int> StorageUnits::passengers(const WorldState& world, const Model& model) const {
+std::vector<int> StorageUnits::passengers(const Scene& world, const Model& model) const {
   std::vector<int> slots;
-  for (const Item& item : world.items) {
+  for (const Item& item : world.storage.items) {
     if (item.unit == model.index) slots.push_back(item.model);
   }
   return slots;
 }
 
-void StorageUnits::place(WorldState& world, Model& model, const EntityState& state) const {
+void StorageUnits::place(ModelView& world, Model& model, const EntityState& state) const {
   takeAway(world, model);
   model.pose = state.pose;
   letFall(world, model);  // one that is moved by hand may float: let Bullet tell
   moveBodies(model, state);
 }
 
-void StorageUnits::reset(WorldState& world, Model& model) const {
+void StorageUnits::reset(ModelView& world, Model& model) const {
   takeAway(world, model);
   model.pose = model.spawn_pose;
   if (!standsUpright(world, model.index)) letFall(world, model);
 }
 
-EntityState StorageUnits::state(const WorldState& world, const Model& model) const {
+EntityState StorageUnits::state(const Scene& world, const Model& model) const {
   if (followsBodies(model)) return canonicalState(model);
-  const int carrier = world.units[model.index].carrier;
+  const int carrier = world.storage.units[model.index].carrier;
   const Pose pose = unitPose(world, model.index);
   return carrier < 0 ? EntityState{pose, {}} : carriedState(robotState(world, carrier), pose);
 }
 
-Pose StorageUnits::linkPose(const WorldState& world, const Model& model, int link) const {
+Pose StorageUnits::linkPose(const Scene& world, const Model& model, int link) const {
   if (followsBodies(model)) return fromBullet(model.bodies.links[link].linkPose());
   return unitPose(world, model.index) * model.description->links[link].pose_in_model;
 }
 
-void StorageUnits::reweigh(WorldState& world, Model& model, double added) const {
+void StorageUnits::reweigh(ModelView& world, Model& model, double added) const {
   addMass(world, model.index, added);
   if (!model.in_physics) return;
   const EntityState state = bodyState(model.bodies.links.front());
@@ -127,11 +127,11 @@ void StorageUnits::reweigh(WorldState& world, Model& model, double added) const 
   setBodyState(model.bodies.links.front(), state);
 }
 
-bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3& at,
+bool StorageUnits::push(ContactView& world, Model& model, int link, const Vector3& at,
                         const Vector3& force, const Vector3& torque) const {
-  const int carrier = world.units[model.index].carrier;
+  const int carrier = world.storage.units[model.index].carrier;
   if (carrier >= 0) {
-    Model& below = world.modelOf(carrier);
+    Model& below = world.models.of(world.fleet.robots[carrier]);
     return below.owner->push(world, below, 0, at, force, torque);
   }
   letFall(world, model);
@@ -139,8 +139,8 @@ bool StorageUnits::push(WorldState& world, Model& model, int link, const Vector3
 }
 
 /// With the mass of its items.
-ModelBodies StorageUnits::build(const WorldState& world, const Model& model) const {
-  const StorageUnit& unit = world.units[model.index];
+ModelBodies StorageUnits::build(const Scene& world, const Model& model) const {
+  const StorageUnit& unit = world.storage.units[model.index];
   ModelDescription loaded = *model.description;
   const double own = massOf(loaded);
   for (Link& link : loaded.links) {
@@ -154,42 +154,41 @@ ModelBodies StorageUnits::build(const WorldState& world, const Model& model) con
   return bodies;
 }
 
-bool StorageUnits::mayBeUpright(const WorldState& world, const Model& model) const {
+bool StorageUnits::mayBeUpright(const Scene& world, const Model& model) const {
   return canSlideUpright(world, model) && standsUpright(world, model.index);
 }
 
 /// Takes over where Bullet left the unit, upright on its legs.
-void StorageUnits::deactivated(WorldState& world, Model& model) const {
+void StorageUnits::deactivated(ContactView& world, Model& model) const {
   if (model.disturbed) {
     const Pose pose = unitPose(world, model.index);
-    model.pose = Pose(pose.X(), pose.Y(), world.floor.z, 0, 0, pose.Rot().Yaw());
+    model.pose = Pose(pose.X(), pose.Y(), world.floor.extent.z, 0, 0, pose.Rot().Yaw());
   }
   model.disturbed = false;
 }
 
 /// One that was pushed leaves as soon as it has come to rest: else it and a robot beside it would
 /// keep each other in Bullet.
-bool StorageUnits::mayLeaveBullet(const WorldState& world, const Model& model,
-                                  bool is_alone) const {
+bool StorageUnits::mayLeaveBullet(const Scene& world, const Model& model, bool is_alone) const {
   if (!model.disturbed) return is_alone;
   const bool rests = model.bodies.links.front().body->getDeactivationTime() > kResting;
   return (is_alone || rests) && standsStill(world, model);
 }
 
 /// From now on it is where its body is.
-void StorageUnits::touched(WorldState& world, Model& model) const {
-  if (model.disturbed || world.units[model.index].carrier >= 0) return;
+void StorageUnits::touched(ContactView& world, Model& model) const {
+  if (model.disturbed || world.storage.units[model.index].carrier >= 0) return;
   model.disturbed = true;
   moved(world, model);
 }
 
-int StorageUnits::robot(const WorldState& world, const Model& model) const {
-  return world.units[model.index].carrier;
+int StorageUnits::robot(const Scene& world, const Model& model) const {
+  return world.storage.units[model.index].carrier;
 }
 
-/// A robot without a load passes beneath one that stands.
-bool StorageUnits::stops(const WorldState& world, const Model& model, int robot) const {
-  return world.fleet.unit[robot] >= 0 || world.units[model.index].carrier >= 0;
+/// Returns whether the unit stops that robot: one without a load passes beneath a standing unit.
+bool StorageUnits::stops(const Scene& world, const Model& model, int robot) const {
+  return world.fleet.unit[robot] >= 0 || world.storage.units[model.index].carrier >= 0;
 }
 
 }  // namespace kiva

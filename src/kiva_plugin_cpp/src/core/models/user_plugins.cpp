@@ -16,7 +16,8 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-/// The folders that KIVA_PLUGIN_PATH lists, then those of the libraries of sourced workspaces.
+/// Returns the folders that KIVA_PLUGIN_PATH lists, then those of the libraries of sourced
+/// workspaces.
 std::vector<std::filesystem::path> libraryFolders() {
   std::vector<std::filesystem::path> out;
   const auto add = [&out](const char* list, const char* below) {
@@ -30,8 +31,8 @@ std::vector<std::filesystem::path> libraryFolders() {
   return out;
 }
 
-/// The library's path; empty, with the reason, if there is none. A document from anywhere names it,
-/// so it does not get to choose the folder.
+/// Returns the library's path; empty, with the reason, if there is none. A document from anywhere
+/// names it, so it does not get to choose the folder.
 std::string locate(const std::string& filename, std::string* why) {
   if (filename.find('/') != std::string::npos) {
     *why = "'" + filename + "' is a path; a library's name was expected";
@@ -58,7 +59,7 @@ warehouse::PluginLibrary opened(const std::string& path, const std::string& file
   }
 }
 
-/// Null, with the reason, if there is no such library.
+/// Returns null, with the reason, if there is no such library.
 std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::string& where,
                                     std::string* why) {
   const std::string path = locate(filename, why);
@@ -71,7 +72,8 @@ std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::stri
                          (others.empty() ? "" : "; it has " + others));
 }
 
-/// What is left out, and why: `where` names the model as its file does, and here as it is called.
+/// Returns what is left out, and why: `where` names the model as its file does, and here as it is
+/// called.
 std::string leftOut(const std::string& where, const std::string& model, std::string why) {
   if (why.rfind(where + ": ", 0) == 0) why.erase(0, where.size() + 2);
   const bool is_named = model.empty() || where.find("'" + model + "'") != std::string::npos;
@@ -79,36 +81,36 @@ std::string leftOut(const std::string& where, const std::string& model, std::str
 }
 
 /// What is misspelt is an error, but for plugins that take the parameters of others.
-void checkUnread(WorldState& world, const Plugin& plugin, const std::string& filename,
+void checkUnread(EventLog& log, const Plugin& plugin, const std::string& filename,
                  const Parameters& parameters) {
   if (plugin.isStrict()) return parameters.rejectUnread();
   std::string list;
   for (const std::string& key : parameters.unread()) list += (list.empty() ? "" : ", ") + key;
   if (list.empty()) return;
-  world.warn(filename + list, parameters.where() + ": " + filename + " makes no use of " + list);
+  log.warn(filename + list, parameters.where() + ": " + filename + " makes no use of " + list);
 }
 
 }  // namespace
 
-std::shared_ptr<Plugin> loadPlugin(WorldState& world, const std::string& model,
+std::shared_ptr<Plugin> loadPlugin(ModelView& world, const std::string& model,
                                    const std::string& filename, const Parameters& parameters,
                                    const SensorDescription* sensor) {
   const std::string& where = parameters.where();
   std::string why;
   std::shared_ptr<Plugin> plugin;
-  if (world.options.plugins) plugin = world.options.plugins(filename, sensor);
+  if (world.settings.options.plugins) plugin = world.settings.options.plugins(filename, sensor);
   if (!plugin) plugin = fromLibrary(filename, where, &why);
   if (!plugin) {
-    world.warn(filename, leftOut(where, model, why));
+    world.log.warn(filename, leftOut(where, model, why));
     return nullptr;
   }
   try {
-    plugin->load(*world.owner, model, parameters);
-    checkUnread(world, *plugin, filename, parameters);
+    plugin->load(*world.plugins.owner, model, parameters);
+    checkUnread(world.log, *plugin, filename, parameters);
     return plugin;
   } catch (const std::exception& error) {
     if (plugin->isStrict()) throw;
-    world.warn(model + filename + error.what(), leftOut(where, model, error.what()));
+    world.log.warn(model + filename + error.what(), leftOut(where, model, error.what()));
     return nullptr;
   }
 }

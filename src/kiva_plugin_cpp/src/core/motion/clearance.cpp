@@ -36,14 +36,14 @@ bool turnsInPlace(const FleetState& f, int i) {
          std::abs(f.vx[i]) < most && std::abs(f.vy[i]) < most;
 }
 
-/// How fast its circle may come nearer [m/s].
+/// Returns how fast its circle may come nearer [m/s].
 double approachSpeed(const FleetState& f, int i) {
   if (turnsInPlace(f, i)) return f.localises ? kWanders : 0;
   const double speed = f.robots[i].drive.speed;
   return f.activated[i] ? std::max(speed, std::hypot(f.vx[i], f.vy[i]) + kPushed) : speed;
 }
 
-/// The robot with its load as one upright box, in world.
+/// Returns the robot with its load as one upright box, in world.
 Footprint boxOf(const Fleet& f, int i) {
   const Robot& r = f.robots[i];
   Footprint own;
@@ -57,14 +57,14 @@ Footprint boxOf(const Fleet& f, int i) {
   return own;
 }
 
-/// The circle that holds it however it turns.
+/// Returns the circle that holds it however it turns.
 Footprint turned(Footprint box) {
   box.kind = Footprint::Kind::kCircle;
   box.hx = std::hypot(box.hx, box.hy);
   return box;
 }
 
-/// What it covers while it goes by (dx, dy) [m] along its heading.
+/// Returns what it covers while it goes by (dx, dy) [m] along its heading.
 Footprint shifted(Footprint box, double dx, double dy) {
   box.x += dx / 2;
   box.y += dy / 2;
@@ -72,23 +72,23 @@ Footprint shifted(Footprint box, double dx, double dy) {
   return box;
 }
 
-/// How far the reference of a robot that cruises goes at most in that time.
+/// Returns how far the reference of a robot that cruises goes at most in that time.
 double wayWithin(const FleetState& f, int i, double time) {
   const double most = f.top_speed[i] * time;
   return std::clamp(f.goal[i] - f.reference[i], -most, most);
 }
 
-/// Whether a robot that cruises does it in place.
+/// Returns whether a robot that cruises does it in place.
 bool cruisesInPlace(const FleetState& f, int i) { return f.per_x[i] == 0 && f.per_y[i] == 0; }
 
-/// The floor that a robot covers which follows its reference exactly.
+/// Returns the floor that a robot covers which follows its reference exactly.
 Footprint cruiseSweep(const FleetState& f, int i, double time) {
   if (cruisesInPlace(f, i)) return turned(boxOf(f, i));
   const double way = wayWithin(f, i, time);
   return shifted(boxOf(f, i), f.per_x[i] * way, f.per_y[i] * way);
 }
 
-/// The floor that any other may cover, by what it is at: a driving one goes either way.
+/// Returns the floor that any other may cover, by what it is at: a driving one goes either way.
 Footprint sweep(const FleetState& f, int i, double time) {
   const Task& task = f.tasks[i];
   Footprint own = boxOf(f, i);
@@ -100,10 +100,10 @@ Footprint sweep(const FleetState& f, int i, double time) {
   return own;
 }
 
-/// Whether meets(footprint) is true for any of a robot and its load. Keeps nothing, so that several
-/// threads may ask.
+/// Returns whether meets(footprint) is true for any of a robot and its load. Keeps nothing, so that
+/// several threads may ask.
 template <typename Meets>
-bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
+bool anyOfRobot(const Scene& world, int robot, Meets meets) {
   const FleetState& f = world.fleet;
   const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
   const auto& own = world.obstacles.ofMover(robot);
@@ -114,14 +114,14 @@ bool anyOfRobot(const WorldState& world, int robot, Meets meets) {
   });
 }
 
-/// Whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
-bool isClear(const WorldState& world, int robot, const Footprint& swept, double time) {
+/// Returns whether nothing comes near the ground `swept`, which the robot covers within `time` [s].
+bool isClear(const Scene& world, int robot, const Footprint& swept, double time) {
   const FleetState& f = world.fleet;
   Footprint lifted = swept;  // it counts from the floor
-  lifted.z_min += world.floor.z;
-  lifted.z_max += world.floor.z;
+  lifted.z_min += world.floor.extent.z;
+  lifted.z_max += world.floor.extent.z;
   const auto meets = [&](const Footprint& other) {
-    const double reach = kNear + walkingSpeed(world, other.model) * time;
+    const double reach = kNear + world.people.walkingSpeed(other.model) * time;
     return shareHeight(other, lifted) && mayBeWithin(reach, swept, other) &&
            gap(swept, other) < reach;
   };
@@ -133,27 +133,27 @@ bool isClear(const WorldState& world, int robot, const Footprint& swept, double 
     if (!mayBeWithin(reach, swept, circle) || gap(swept, circle) >= reach) return false;
     return !still || anyOfRobot(world, i, meets);
   };
-  const double walk = world.walkers.empty() ? 0 : kMostWalkingSpeed * time;
-  const double drive = std::max((world.top_speed + kPushed) * time, walk);
+  const double walk = world.people.walkers.empty() ? 0 : kMostWalkingSpeed * time;
+  const double drive = std::max((world.fleet.fastest + kPushed) * time, walk);
   const double reach = radiusOf(swept) + kNear;
   return !world.obstacles.anyAround(swept.x, swept.y, reach + walk, reach + drive, meets,
                                     approaches);
 }
 
-/// A robot that cruises is not indexed anew at each step: not before it leaves the slack of its
-/// place among the obstacles.
+/// Returns the part of the horizon for which a cruising robot stays within the slack of its place
+/// among the obstacles.
 double horizonOf(const FleetState& f, int i, double horizon) {
   if (f.cruising[i] == 0 || cruisesInPlace(f, i)) return horizon;
   return std::min(horizon, Obstacles::kSlack / std::max(1e-9, f.top_speed[i]));
 }
 
-/// Whether nothing can come near the robot within `time` [s].
-bool isClearFor(const WorldState& world, int i, double time) {
+/// Returns whether nothing can come near the robot within `time` [s].
+bool isClearFor(const Scene& world, int i, double time) {
   const FleetState& f = world.fleet;
   return isClear(world, i, f.cruising[i] != 0 ? cruiseSweep(f, i, time) : sweep(f, i, time), time);
 }
 
-/// The circle that holds all of them.
+/// Returns the circle that holds all of them.
 Footprint holding(const std::vector<Footprint>& all) {
   Footprint circle = circleAt(all.front().x, all.front().y, 0);
   for (const Footprint& one : all) {
@@ -165,16 +165,16 @@ Footprint holding(const std::vector<Footprint>& all) {
 
 }  // namespace
 
-double clearTime(const WorldState& world, int i, bool is_crowded) {
+double clearTime(const Scene& world, int i, bool is_crowded) {
   const FleetState& f = world.fleet;
   // In long steps the shorter horizons are one step, and nothing is indexed for longer.
-  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.dt) {
+  if (f.cruising[i] == 0 && kHorizons[1] < 2 * world.clock.dt) {
     for (const double horizon : {kHorizons[0], kShortest}) {
       if (isClearFor(world, i, horizon)) return horizon;
     }
     return 0;
   }
-  // Who is hemmed in asks at each step, and what is clear for longer is clear for less.
+  // A hemmed-in robot asks at each step, and a way that is clear for longer is clear for less.
   if (is_crowded && !isClearFor(world, i, horizonOf(f, i, kShortest))) return 0;
   for (const double horizon : kHorizons) {
     const double time = horizonOf(f, i, horizon);
@@ -183,24 +183,24 @@ double clearTime(const WorldState& world, int i, bool is_crowded) {
   return 0;
 }
 
-bool noteClearance(WorldState& world, int i, double time) {
+bool noteClearance(MotionView& world, int i, double time) {
   FleetState& f = world.fleet;
   if (time == 0) return false;
   if (f.cruising[i] != 0) {
     world.obstacles.follow(i, cruisesInPlace(f, i) ? 0 : std::abs(wayWithin(f, i, time)));
   }
-  f.clear_until[i] =
-      static_cast<double>(world.total_steps) + std::max(1.0, std::floor(time / world.dt));
+  f.clear_until[i] = static_cast<double>(world.clock.total_steps) +
+                     std::max(1.0, std::floor(time / world.clock.dt));
   return true;
 }
 
-bool findClearance(WorldState& world, int i, bool is_crowded) {
+bool findClearance(MotionView& world, int i, bool is_crowded) {
   return noteClearance(world, i, clearTime(world, i, is_crowded));
 }
 
-bool hasClearance(const WorldState& world, int i) {
-  const double left = world.fleet.clear_until[i] - static_cast<double>(world.total_steps);
-  return left * world.dt >= kWorthwhile;
+bool hasClearance(const Scene& world, int i) {
+  const double left = world.fleet.clear_until[i] - static_cast<double>(world.clock.total_steps);
+  return left * world.clock.dt >= kWorthwhile;
 }
 
 double pointSpeed(const FleetState& f, int i) {
@@ -210,10 +210,10 @@ double pointSpeed(const FleetState& f, int i) {
   return at_once ? std::max(speed, r.drive.speed + kCornerSpeed) : speed;
 }
 
-double findClose(const WorldState& world, const std::vector<Footprint>& all, double speed,
-                 double reach, std::vector<int>* close) {
+double findClose(const Scene& world, const std::vector<Footprint>& all, double speed, double reach,
+                 std::vector<int>* close) {
   if (all.empty()) return reach;
-  const double farthest = kNear + (speed + world.top_speed + kCornerSpeed) * world.dt;
+  const double farthest = kNear + (speed + world.fleet.fastest + kCornerSpeed) * world.clock.dt;
   const Footprint whole = holding(all);
   double least = reach;
   const auto compare = [&](const Footprint& own, const Footprint& other) {
@@ -223,8 +223,8 @@ double findClose(const WorldState& world, const std::vector<Footprint>& all, dou
     least = std::min(least, distance);
     const bool is_robot = other.group >= 0 && other.group < world.fleet.size();
     const double theirs =
-        is_robot ? pointSpeed(world.fleet, other.group) : walkingSpeed(world, other.model);
-    if (distance < kNear + (speed + theirs) * world.dt) close->push_back(other.model);
+        is_robot ? pointSpeed(world.fleet, other.group) : world.people.walkingSpeed(other.model);
+    if (distance < kNear + (speed + theirs) * world.clock.dt) close->push_back(other.model);
   };
   world.obstacles.near(whole.x, whole.y, whole.hx + reach, [&](const Footprint& other) {
     if (!mayBeWithin(std::max(least, farthest), whole, other)) return;

@@ -5,7 +5,7 @@
 // one that stands need not be reckoned with as if it moved.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -14,27 +14,27 @@ constexpr double kNear = 0.004;
 /// [m/s] of a chassis' corner in the fastest turn.
 constexpr double kCornerSpeed = 3.2;
 
-/// For how long nothing can come near the robot [s]; 0 if that is no time worth speaking of.
-/// `is_crowded` changes not what is found but how soon: where little is to be expected, little is
-/// asked for first. Any thread, while nothing is changed.
-double clearTime(const WorldState& world, int robot, bool is_crowded);
+/// Returns for how long nothing can come near the robot [s]; 0 if that is no time worth speaking
+/// of. `is_crowded` changes not what is found but how soon: where little is to be expected, little
+/// is asked for first. Any thread, while nothing is changed.
+double clearTime(const Scene& world, int robot, bool is_crowded);
 
 /// Notes in clear_until what clearTime found. Returns false, with nothing noted, if that is 0.
-bool noteClearance(WorldState& world, int robot, double time);
+bool noteClearance(MotionView& world, int robot, double time);
 
 /// Looks for how long nothing can come near the robot, and notes it.
-bool findClearance(WorldState& world, int robot, bool is_crowded);
+bool findClearance(MotionView& world, int robot, bool is_crowded);
 
-/// Whether the way is free for long enough to cruise on it.
-bool hasClearance(const WorldState& world, int robot);
+/// Returns whether the way is free for long enough to cruise on it.
+bool hasClearance(const Scene& world, int robot);
 
-/// What of others is near the footprints `own` of one model or robot, no point of which goes faster
-/// than `speed` [m/s]: slots of models that it could touch in the next step go to `close`. Returns
-/// the least gap to anything foreign, at most `reach`; both in [m].
-double findClose(const WorldState& world, const std::vector<Footprint>& own, double speed,
-                 double reach, std::vector<int>* close);
+/// Finds what of others is near the footprints `own` of one model or robot, no point of which
+/// goes faster than `speed` [m/s]: slots of models that it could touch in the next step go to
+/// `close`. Returns the least gap to anything foreign, at most `reach`; both in [m].
+double findClose(const Scene& world, const std::vector<Footprint>& own, double speed, double reach,
+                 std::vector<int>* close);
 
-/// How fast any point of the robot may go within the next step [m/s].
+/// Returns how fast any point of the robot may go within the next step [m/s].
 double pointSpeed(const FleetState& fleet, int robot);
 
 }  // namespace kiva

@@ -10,20 +10,20 @@
 #include "core/motion/drives.h"
 #include "core/motion/ground.h"
 #include "core/motion/stretches.h"
+#include "core/parallel/workers.h"
 #include "core/state/path_progress.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
 
-/// Whether the chassis is just as fast as its reference says.
+/// Returns whether the chassis is just as fast as its reference says.
 bool keepsUp(const FleetState& f, int i, const ReferenceMotion& per) {
   const double v = f.reference_speed[i];
   return isExact(f.vx[i] - per.x * v) && isExact(f.vy[i] - per.y * v) &&
          isExact(f.yaw_rate[i] - per.yaw * v);
 }
 
-/// Of the reference, from now to its goal, at most.
+/// Returns the highest speed of the reference from now to its goal.
 double peakSpeed(const FleetState& f, int i, const ReferenceMotion& per) {
   const double way = std::abs(f.goal[i] - f.reference[i]), v = f.reference_speed[i];
   const double peak = std::sqrt(v * v / 2 + per.acceleration * way);
@@ -42,8 +42,8 @@ bool hasForce(const FleetState& f, int i, const ReferenceMotion& per, const Grou
          1;
 }
 
-/// What a reference with an acceleration leaves of its way to the robot's motors [m, rad]: its last
-/// steps, which are uneven.
+/// Returns what a reference with an acceleration leaves of its way to the robot's motors [m, rad]:
+/// its last steps, which are uneven.
 inline double endOf(double acceleration, double deceleration, double speed, double dt) {
   const double end = std::abs(speed) * dt + deceleration * dt * dt;
   return acceleration > 0 ? end : 0.0;
@@ -58,7 +58,7 @@ constexpr int kBlock = 16;           // robots that are stepped together
 constexpr int kBlocksTogether = 96;  // on one thread: less is not worth waking another
 constexpr int kLooksTogether = 32;   // the same
 
-/// As advance() says, of robots whose motors lag or don't.
+/// Implements advance() for robots whose motors lag, or don't.
 template <bool kLags>
 __attribute__((always_inline)) inline bool advanceAll(FleetState& f, int begin, int end, double dt,
                                                       double now) {
@@ -135,8 +135,8 @@ __attribute__((target_clones("avx2", "default"))) bool advance(FleetState& f, in
                         : advanceAll<true>(f, begin, end, dt, now);
 }
 
-/// How many steps the robot's reference needs at least to come to `place`: speeding up all the way,
-/// or at top speed all the way.
+/// Returns how many steps the robot's reference needs at least to come to `place`: speeding up all
+/// the way, or at top speed all the way.
 double stepsTo(const FleetState& f, int i, double place, double dt) {
   const double way = place - f.reference[i];
   const double faster = f.acceleration[i] * dt * dt;  // a step goes that much farther than the last
@@ -148,27 +148,27 @@ double stepsTo(const FleetState& f, int i, double place, double dt) {
   return std::max(1.0, std::ceil(steps - 1e-6));
 }
 
-/// Of a robot that is to cruise on after step number `after`.
-void planAttention(WorldState& world, int i, double after) {
+/// Plans when a robot that cruises on after step number `after` needs its next look.
+void planAttention(MotionView& world, int i, double after) {
   FleetState& f = world.fleet;
   f.attend_at[i] = f.clear_until[i];
   if (f.localises && !f.localisation[i].stretch.turns) {
-    const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.dt);
+    const double end = after + stepsTo(f, i, f.localisation[i].stretch.until, world.clock.dt);
     f.attend_at[i] = std::min(f.attend_at[i], end);
   }
   if (std::isinf(f.count_at[i])) return;
-  const double next = after + stepsTo(f, i, f.count_at[i], world.dt);
+  const double next = after + stepsTo(f, i, f.count_at[i], world.clock.dt);
   f.attend_at[i] = std::min(f.attend_at[i], next);
 }
 
 /// The same where its way has changed.
-void replanAttention(WorldState& world, int i) {
+void replanAttention(MotionView& world, int i) {
   world.fleet.count_at[i] = nextCount(world, i);
-  planAttention(world, i, static_cast<double>(world.total_steps));
+  planAttention(world, i, static_cast<double>(world.clock.total_steps));
 }
 
-/// Of a robot that has come to where there is something to count.
-void count(WorldState& world, int i) {
+/// Counts the points that the robot has come to or left.
+void count(MotionView& world, int i) {
   countPoints(world, i, world.fleet.reference[i]);
   world.fleet.count_at[i] = nextCount(world, i);
 }
@@ -180,14 +180,14 @@ struct Attention {
   double clear_time = 0;  ///< [s] for which its way is free from here, if it has to be known.
 };
 
-void attend(WorldState& world, const Attention& due, double now) {
+void attend(MotionView& world, const Attention& due, double now) {
   FleetState& f = world.fleet;
   const int i = due.robot;
   bool ended = due.ended;
   if (f.reference[i] >= f.count_at[i]) count(world, i);
-  if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.dt);
+  if (f.localises && !ended) ended = !continueStretch(world, i) || hasEnded(f, i, world.clock.dt);
   if (ended) return moved(f, i);
-  // Who has just read a code may go elsewhere.
+  // A robot that has just read a code may take another way.
   const auto time = [&] { return f.localises ? clearTime(world, i, false) : due.clear_time; };
   if (f.clear_until[i] <= now && !noteClearance(world, i, time())) return moved(f, i);
   planAttention(world, i, now);
@@ -209,32 +209,33 @@ char advanceBlock(FleetState& f, int b, double dt, double now) {
 }
 
 /// Adds those of block `b` that need a look.
-void findAttention(const WorldState& world, int b, double now, std::vector<Attention>* out) {
+void findAttention(const Scene& world, int b, double now, std::vector<Attention>* out) {
   const FleetState& f = world.fleet;
   const int begin = b * kBlock, end = std::min(begin + kBlock, f.size());
   for (int i = begin; i < end; ++i) {
     if (f.cruising[i] == 0) continue;
-    const bool ended = hasEnded(f, i, world.dt);
+    const bool ended = hasEnded(f, i, world.clock.dt);
     if (ended || f.attend_at[i] <= now) out->push_back({i, ended, 0});
   }
 }
 
 /// What each finds on its way is worked out on all threads, where all have gone: what is noted then
 /// changes nothing of it.
-void attendAll(WorldState& world, std::vector<Attention> all, double now) {
+void attendAll(MotionView& world, std::vector<Attention> all, double now) {
   const FleetState& f = world.fleet;
-  world.workers->share(static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const int i = all[k].robot;
-      const bool asks = !all[k].ended && !f.localises && f.clear_until[i] <= now;
-      if (asks) all[k].clear_time = clearTime(world, i, false);
-    }
-  });
+  world.schedule.workers->share(
+      static_cast<int>(all.size()), kLooksTogether, [&](int begin, int end) {
+        for (int k = begin; k < end; ++k) {
+          const int i = all[k].robot;
+          const bool asks = !all[k].ended && !f.localises && f.clear_until[i] <= now;
+          if (asks) all[k].clear_time = clearTime(world, i, false);
+        }
+      });
   for (const Attention& due : all) attend(world, due, now);
 }
 
 /// What a unit of reference moves, exactly or by the robot's own estimate.
-void setMotion(WorldState& world, int i, const ReferenceMotion& per) {
+void setMotion(MotionView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   if (f.localises) return beginStretch(world, i, per.yaw != 0);
   const DriveParameters& drive = f.robots[i].drive;
@@ -249,14 +250,16 @@ void setMotion(WorldState& world, int i, const ReferenceMotion& per) {
 
 }  // namespace
 
-bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
+bool tryCruise(MotionView& world, int i, const ReferenceMotion& per) {
   FleetState& f = world.fleet;
   const Robot& r = f.robots[i];
   const double way = std::abs(f.goal[i] - f.reference[i]);
-  const double end = endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.dt);
-  if (r.drive.drive == Drive::kJointed || f.activated[i] || world.options.always_in_bullet ||
-      f.sway[i].tilt > 0 || way <= end || (f.tower[i] > 0 && f.unit[i] < 0) ||
-      std::abs(f.reference_speed[i]) > per.top_speed || !hasClearance(world, i) ||
+  const double end =
+      endOf(per.acceleration, f.deceleration[i], f.reference_speed[i], world.clock.dt);
+  if (r.drive.drive == Drive::kJointed || f.activated[i] ||
+      world.settings.options.always_in_bullet || f.sway[i].tilt > 0 || way <= end ||
+      (f.tower[i] > 0 && f.unit[i] < 0) || std::abs(f.reference_speed[i]) > per.top_speed ||
+      !hasClearance(world, i) ||
       !(f.localises ? keepsUpByEstimate(f, i, per.yaw != 0) : keepsUp(f, i, per)) ||
       !hasForce(f, i, per, groundAhead(world, i))) {
     return false;
@@ -265,7 +268,7 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   f.top_speed[i] = per.top_speed;
   f.acceleration[i] = per.acceleration;
   f.cruising[i] = -1;
-  if (!hasEnded(f, i, world.dt) && findClearance(world, i, true)) {
+  if (!hasEnded(f, i, world.clock.dt) && findClearance(world, i, true)) {
     replanAttention(world, i);
     return true;
   }
@@ -274,10 +277,10 @@ bool tryCruise(WorldState& world, int i, const ReferenceMotion& per) {
   return false;
 }
 
-void setGoal(WorldState& world, int i, double goal) {
+void setGoal(MotionView& world, int i, double goal) {
   FleetState& f = world.fleet;
-  const double left = f.clear_until[i] - static_cast<double>(world.total_steps) + 1;
-  const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.dt;
+  const double left = f.clear_until[i] - static_cast<double>(world.clock.total_steps) + 1;
+  const bool saw_the_end = f.goal[i] - f.reference[i] < left * f.top_speed[i] * world.clock.dt;
   const bool goes_farther = goal > f.goal[i];
   f.goal[i] = goal;
   if (f.cruising[i] == 0) return;
@@ -287,22 +290,23 @@ void setGoal(WorldState& world, int i, double goal) {
   replanAttention(world, i);
 }
 
-void cruise(WorldState& world) {
+void cruise(MotionView& world) {
   FleetState& f = world.fleet;
-  const auto next = static_cast<double>(world.total_steps + 1);
-  world.cruised.resize((f.size() + kBlock - 1) / kBlock);
-  const auto blocks = static_cast<int>(world.cruised.size());
-  world.workers->share(blocks, kBlocksTogether, [&](int begin, int end) {
-    for (int b = begin; b < end; ++b) world.cruised[b] = advanceBlock(f, b, world.dt, next);
+  const auto next = static_cast<double>(world.clock.total_steps + 1);
+  world.schedule.cruised.resize((f.size() + kBlock - 1) / kBlock);
+  const auto blocks = static_cast<int>(world.schedule.cruised.size());
+  world.schedule.workers->share(blocks, kBlocksTogether, [&](int begin, int end) {
+    for (int b = begin; b < end; ++b)
+      world.schedule.cruised[b] = advanceBlock(f, b, world.clock.dt, next);
   });
   char any = 0;
   std::vector<Attention> due;
   for (int b = 0; b < blocks; ++b) {
-    any |= world.cruised[b];
-    if (world.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
+    any |= world.schedule.cruised[b];
+    if (world.schedule.cruised[b] & kNeedsALook) findAttention(world, b, next, &due);
   }
   attendAll(world, std::move(due), next);
-  if (any & kCarries) world.unitsMoved();
+  if (any & kCarries) world.storage.noteMove();
 }
 
 }  // namespace kiva

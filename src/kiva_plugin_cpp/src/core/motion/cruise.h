@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -20,17 +20,18 @@ struct ReferenceMotion {
   double acceleration = 0;       ///< [m/s² or rad/s²]; 0 = at once.
 };
 
-/// Whether an error [m, rad, m/s, rad/s] may be rounding's.
+/// Returns whether an error [m, rad, m/s, rad/s] may be rounding's.
 inline bool isExact(double error) { return std::abs(error) < 2e-11; }
 
 /// Lets the robot cruise along its segment from this step on, if it is fit for it and its way is
 /// free. It does until something else moves it, see moved().
-bool tryCruise(WorldState& world, int robot, const ReferenceMotion& per);
+bool tryCruise(MotionView& world, int robot, const ReferenceMotion& per);
 
-/// Where the robot's reference is to end from now on; it goes on as it does, without a dip.
-void setGoal(WorldState& world, int robot, double goal);
+/// Sets where the robot's reference ends; its speed changes without a dip.
+void setGoal(MotionView& world, int robot, double goal);
 
-/// One step of all who cruise. Those whose reference ends, or who may have somebody near, stop.
-void cruise(WorldState& world);
+/// Moves all cruising robots by one step. Those whose reference ends, or that may meet others, stop
+/// cruising.
+void cruise(MotionView& world);
 
 }  // namespace kiva

@@ -15,7 +15,7 @@ constexpr double kGripReserve = 0.9;    // share of the grip that plans count on
 constexpr double kLeastPlanned = 0.05;  // [m/s²]: plans need some
 constexpr double kGripsAll = 1e16;      // Coulomb coefficient: the wheels' decides
 
-double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&), double wanted) {
+double plannedLimit(MotionView& world, int robot, double (*limit)(const Vehicle&), double wanted) {
   if (world.fleet.robots[robot].drive.acceleration == 0) return 0;
   const double held = std::min(wanted, limit(plannedVehicle(world, robot)));
   return std::min(held, loadLimit(world, robot));
@@ -23,10 +23,10 @@ double plannedLimit(WorldState& world, int robot, double (*limit)(const Vehicle&
 
 }  // namespace
 
-double loadLimit(const WorldState& world, int robot) {
-  if (!world.realism.loads.enabled) return std::numeric_limits<double>::infinity();
-  const double tips = tippingAcceleration(world.fleet.robots[robot], world.gravityDown());
-  return std::max(kLeastPlanned, world.realism.loads.tipping_share * tips);
+double loadLimit(const Scene& world, int robot) {
+  if (!world.settings.realism.loads.enabled) return std::numeric_limits<double>::infinity();
+  const double tips = tippingAcceleration(world.fleet.robots[robot], world.settings.gravityDown());
+  return std::max(kLeastPlanned, world.settings.realism.loads.tipping_share * tips);
 }
 
 Vector3 centreFromOrigin(const Fleet& f, int robot) {
@@ -36,8 +36,8 @@ Vector3 centreFromOrigin(const Fleet& f, int robot) {
           s * vehicle.centre[0] + c * vehicle.centre[1], 0};
 }
 
-Vehicle plannedVehicle(WorldState& world, int robot) {
-  const Ground ground{world.gravityDown(), {kGripsAll, kGripsAll}};
+Vehicle plannedVehicle(MotionView& world, int robot) {
+  const Ground ground{world.settings.gravityDown(), {kGripsAll, kGripsAll}};
   const Robot& r = world.fleet.robots[robot];
   const bool is_jointed = r.drive.drive == Drive::kJointed;
   Vehicle vehicle = is_jointed ? jointedVehicle(world, robot, ground) : vehicleOf(r, ground);
@@ -50,13 +50,13 @@ Vehicle plannedVehicle(WorldState& world, int robot) {
   return vehicle;
 }
 
-double plannedAcceleration(WorldState& world, int robot) {
+double plannedAcceleration(MotionView& world, int robot) {
   const double wanted = world.fleet.robots[robot].drive.acceleration;
   return std::min(plannedLimit(world, robot, drivingLimit, wanted),
                   plannedLimit(world, robot, brakingLimit, wanted));
 }
 
-double plannedBraking(WorldState& world, int robot) {
+double plannedBraking(MotionView& world, int robot) {
   const DriveParameters& drive = world.fleet.robots[robot].drive;
   if (drive.acceleration == 0) return drive.emergency_deceleration;
   return plannedLimit(world, robot, brakingLimit, drive.emergency_deceleration);

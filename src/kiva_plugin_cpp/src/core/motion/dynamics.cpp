@@ -12,9 +12,9 @@
 #include "core/motion/joints.h"
 #include "core/motion/self_location.h"
 #include "core/motion/traction.h"
+#include "core/parallel/workers.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
@@ -23,11 +23,11 @@ constexpr int kDrivesTogether = 128;  // on one thread: less is not worth waking
 
 bool isJointed(const Robot& robot) { return robot.drive.drive == Drive::kJointed; }
 
-btRigidBody& bodyOf(const WorldState& world, int robot) {
-  return *world.modelOf(robot).bodies.links.front().body;
+btRigidBody& bodyOf(const Scene& world, int robot) {
+  return *world.models.of(world.fleet.robots[robot]).bodies.links.front().body;
 }
 
-void pushBody(const WorldState& world, int robot) {
+void pushBody(const Scene& world, int robot) {
   const Fleet& f = world.fleet;
   btRigidBody& body = bodyOf(world, robot);
   const btVector3 turning(0, 0, f.yaw_rate[robot]);
@@ -36,13 +36,14 @@ void pushBody(const WorldState& world, int robot) {
   body.setAngularVelocity(turning);
 }
 
-void readBody(WorldState& world, int robot) {
+void readBody(MotionView& world, int robot) {
   Fleet& f = world.fleet;
   const btRigidBody& body = bodyOf(world, robot);
-  // Of the robot's origin before it moved, as what integrates robots in arrays leaves it.
+  // The robot's origin before it moved, as the integration in arrays leaves it.
   const btVector3 arm = toBullet(centreFromOrigin(f, robot));
   const btVector3 velocity = body.getLinearVelocity() - body.getAngularVelocity().cross(arm);
-  const btTransform pose = world.modelOf(robot).bodies.links.front().linkPose();
+  const btTransform pose =
+      world.models.of(world.fleet.robots[robot]).bodies.links.front().linkPose();
   const btVector3 at = pose.getOrigin(), ahead = pose.getBasis().getColumn(0);
   f.x[robot] = at.x();
   f.y[robot] = at.y();
@@ -51,11 +52,11 @@ void readBody(WorldState& world, int robot) {
   f.vy[robot] = velocity.y();
   f.yaw_rate[robot] = body.getAngularVelocity().z();
   for (int wheel = 0; wheel < 2; ++wheel) {
-    f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.dt;
+    f.wheel_angle[wheel][robot] += f.wheel_speed[wheel][robot] * world.clock.dt;
   }
 }
 
-/// Nothing is to move on it before somebody else does something.
+/// Puts a robot at rest to sleep, until a command or another model moves it.
 bool hasNothingToDo(const FleetState& f, int robot) {
   const Phase phase = f.tasks[robot].phase;
   if (phase == Phase::kIdle || phase == Phase::kWaiting) return true;
@@ -76,26 +77,27 @@ void letRest(FleetState& f, int robot) {
 }
 
 /// Each by itself, on all threads.
-void driveByTraction(WorldState& world) {
+void driveByTraction(MotionView& world) {
   FleetState& f = world.fleet;
-  const std::vector<int>& robots = world.stepped_singly;
-  world.workers->share(static_cast<int>(robots.size()), kDrivesTogether, [&](int begin, int end) {
-    for (int k = begin; k < end; ++k) {
-      const int i = robots[k];
-      if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
-      applyTraction(f, i, groundUnder(world, i), world.dt);
-    }
-  });
+  const std::vector<int>& robots = world.schedule.stepped_singly;
+  world.schedule.workers->share(static_cast<int>(robots.size()), kDrivesTogether,
+                                [&](int begin, int end) {
+                                  for (int k = begin; k < end; ++k) {
+                                    const int i = robots[k];
+                                    if (f.cruising[i] != 0 || isJointed(f.robots[i])) continue;
+                                    applyTraction(f, i, groundUnder(world, i), world.clock.dt);
+                                  }
+                                });
 }
 
-void integrateRobots(WorldState& world) {
+void integrateRobots(MotionView& world) {
   FleetState& f = world.fleet;
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     if (f.cruising[i] != 0) continue;  // since this step
     if (f.activated[i]) {
       readBody(world, i);
     } else {
-      integrate(f, i, world.dt);
+      integrate(f, i, world.clock.dt);
     }
     if (isJointed(f.robots[i])) settleJointed(world, i);
     followRobot(world, i);
@@ -106,11 +108,11 @@ void integrateRobots(WorldState& world) {
   cruise(world);
 }
 
-void followBodies(WorldState& world) {
-  for (int slot : world.bodies) {
+void followBodies(MotionView& world) {
+  for (int slot : world.models.bodies) {
     if (isAwake(*world.models[slot])) moved(world, *world.models[slot]);
   }
-  for (int slot : world.activated) {
+  for (int slot : world.models.activated) {
     Model& model = *world.models[slot];
     if (model.disturbed && isAwake(model)) moved(world, model);
   }
@@ -118,9 +120,9 @@ void followBodies(WorldState& world) {
 
 }  // namespace
 
-void actuate(WorldState& world) {
+void actuate(MotionView& world) {
   driveByTraction(world);
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     const FleetState& f = world.fleet;
     if (f.cruising[i] != 0) continue;
     if (isJointed(f.robots[i])) driveJointed(world, i);
@@ -129,15 +131,15 @@ void actuate(WorldState& world) {
   driveJoints(world);
 }
 
-void integrate(WorldState& world) {
+void integrate(MotionView& world) {
   integrateRobots(world);
   followBodies(world);
-  readJoints(world);
+  readJoints(world.models);
 }
 
-void wakeBodies(WorldState& world) {
-  for (int slot : world.bodies) {
-    for (LinkBody& link : world.models[slot]->bodies.links) link.body->activate();
+void wakeBodies(const ModelTable& models) {
+  for (int slot : models.bodies) {
+    for (LinkBody& link : models[slot]->bodies.links) link.body->activate();
   }
 }
 

@@ -3,16 +3,16 @@
 // What moves in a step: robots by arrays or by Bullet, storage units and other bodies by Bullet.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
-/// Motors, floor and joints act: velocities change, positions stay.
-void actuate(WorldState& world);
-/// After Bullet's step: everybody's new poses, by arrays or from bodies.
-void integrate(WorldState& world);
+/// Applies motors, floor and joints: velocities change, positions stay.
+void actuate(MotionView& world);
+/// Updates all poses after Bullet's step, by arrays or from bodies.
+void integrate(MotionView& world);
 
-/// Bodies that sleep look again whether they should.
-void wakeBodies(WorldState& world);
+/// Wakes sleeping bodies.
+void wakeBodies(const ModelTable& models);
 
 }  // namespace kiva

@@ -12,68 +12,67 @@ namespace kiva {
 namespace {
 
 constexpr double kFarthest = 1e6;  // [m] from the origin
-constexpr double kMostFriction = 10;
-constexpr double kOffLine = 0.1;  // [m] off its line that a robot may drive
+constexpr double kOffLine = 0.1;   // [m] off its line that a robot may drive
 
 /// A cell of the grid, by its point.
 struct Cell {
   std::int64_t column, row;
 };
 
-Cell cellAt(const WorldState& world, double x, double y) {
-  return {std::llround(x / world.grid_spacing), std::llround(y / world.grid_spacing)};
+Cell cellAt(const Settings& settings, double x, double y) {
+  return {std::llround(x / settings.grid_spacing), std::llround(y / settings.grid_spacing)};
 }
 
-bool isSlippery(const WorldState& world, const Cell& cell) {
-  RandomStream random(world.options.seed, Matter::kFloor, static_cast<std::uint64_t>(cell.column),
+bool isSlippery(const Settings& settings, const Cell& cell) {
+  RandomStream random(settings.options.seed, Matter::kFloor,
+                      static_cast<std::uint64_t>(cell.column),
                       static_cast<std::uint64_t>(cell.row));
-  return random.chance(world.realism.floor.slippery_cells);
+  return random.chance(settings.realism.floor.slippery_cells);
 }
 
-/// What the surface at (x, y) grips with as it was built.
-double builtFriction(const WorldState& world, double x, double y) {
-  const double usual = world.floor_friction;
-  return world.floor_parts ? world.floor_parts->frictionAt(x, y, usual) : usual;
+/// Returns what the surface at (x, y) grips with as it was built.
+double builtFriction(const Scene& world, double x, double y) {
+  const double usual = world.floor.friction;
+  return world.floor.cover ? world.floor.cover->frictionAt(x, y, usual) : usual;
 }
 
-/// The least of it in a rectangle [m].
-double leastBuiltFriction(const WorldState& world, const FloorPatch& area) {
-  const double usual = world.floor_friction;
-  return world.floor_parts ? world.floor_parts->leastFriction(area, usual) : usual;
+/// Returns the least of it in a rectangle [m].
+double leastBuiltFriction(const FloorState& floor, const FloorPatch& area) {
+  const double usual = floor.friction;
+  return floor.cover ? floor.cover->leastFriction(area, usual) : usual;
 }
 
-/// The last of the patches there counts; a slippery cell where there is none.
-double frictionAt(const WorldState& world, double x, double y) {
-  for (auto patch = world.floor_patches.rbegin(); patch != world.floor_patches.rend(); ++patch) {
+/// Returns the friction of the uppermost patch at (x, y), or, without one, of the cell.
+double frictionAt(const Scene& world, double x, double y) {
+  for (auto patch = world.floor.patches.rbegin(); patch != world.floor.patches.rend(); ++patch) {
     if (patch->has(x, y)) return patch->friction;
   }
-  const FloorRealism& real = world.realism.floor;
+  const FloorRealism& real = world.settings.realism.floor;
   const double built = builtFriction(world, x, y);
-  if (!real.enabled || !isSlippery(world, cellAt(world, x, y))) return built;
+  if (!real.enabled || !isSlippery(world.settings, cellAt(world.settings, x, y))) return built;
   return std::min(real.friction, built);
 }
 
-/// The least friction in a rectangle [m].
-double leastFriction(const WorldState& world, const FloorPatch& area) {
-  double least = leastBuiltFriction(world, area);
-  for (const FloorPatch& patch : world.floor_patches) {
+/// Returns the least friction in a rectangle [m].
+double leastFriction(const Scene& world, const FloorPatch& area) {
+  double least = leastBuiltFriction(world.floor, area);
+  for (const FloorPatch& patch : world.floor.patches) {
     if (patch.meets(area)) least = std::min(least, patch.friction);
   }
-  const FloorRealism& real = world.realism.floor;
+  const FloorRealism& real = world.settings.realism.floor;
   if (!real.enabled || real.friction >= least) return least;
-  const Cell first = cellAt(world, area.min_x, area.min_y);
-  const Cell last = cellAt(world, area.max_x, area.max_y);
+  const Cell first = cellAt(world.settings, area.min_x, area.min_y);
+  const Cell last = cellAt(world.settings, area.max_x, area.max_y);
   for (std::int64_t row = first.row; row <= last.row; ++row) {
     for (std::int64_t column = first.column; column <= last.column; ++column) {
-      if (isSlippery(world, {column, row})) return real.friction;
+      if (isSlippery(world.settings, {column, row})) return real.friction;
     }
   }
   return least;
 }
 
-/// What a robot's wheels will have stood on when its reference has come to its goal.
-FloorPatch areaAhead(const WorldState& world, int robot) {
-  const FleetState& f = world.fleet;
+/// Returns what a robot's wheels will have stood on when its reference has come to its goal.
+FloorPatch areaAhead(const FleetState& f, int robot) {
   const bool drives = f.tasks[robot].isAt(MotionSegment::Kind::kDrive);
   const double way = drives ? f.goal[robot] - f.reference[robot] : 0;
   const double to_x = f.x[robot] + way * std::cos(f.yaw[robot]);
@@ -101,15 +100,15 @@ FloorPatch readFloorPatch(const Parameters& p) {
           centre[1] + size[1] / 2, friction};
 }
 
-Ground groundOf(const WorldState& world) {
-  return {world.gravityDown(), {world.floor_friction, world.floor_friction}};
+Ground groundOf(const Scene& world) {
+  return {world.settings.gravityDown(), {world.floor.friction, world.floor.friction}};
 }
 
-bool isPatchy(const WorldState& world) {
-  return !world.floor_patches.empty() || world.realism.floor.enabled || world.floor_parts;
+bool isPatchy(const Scene& world) {
+  return !world.floor.patches.empty() || world.settings.realism.floor.enabled || world.floor.cover;
 }
 
-Ground groundUnder(const WorldState& world, int robot) {
+Ground groundUnder(const Scene& world, int robot) {
   Ground ground = groundOf(world);
   if (!isPatchy(world)) return ground;
   const Fleet& f = world.fleet;
@@ -123,15 +122,15 @@ Ground groundUnder(const WorldState& world, int robot) {
   return ground;
 }
 
-double knownFriction(const WorldState& world, int robot) {
-  return world.floor_parts ? leastBuiltFriction(world, areaAhead(world, robot))
-                           : world.floor_friction;
+double knownFriction(const Scene& world, int robot) {
+  return world.floor.cover ? leastBuiltFriction(world.floor, areaAhead(world.fleet, robot))
+                           : world.floor.friction;
 }
 
-Ground groundAhead(const WorldState& world, int robot) {
+Ground groundAhead(const Scene& world, int robot) {
   Ground ground = groundOf(world);
   if (!isPatchy(world)) return ground;
-  ground.friction[0] = ground.friction[1] = leastFriction(world, areaAhead(world, robot));
+  ground.friction[0] = ground.friction[1] = leastFriction(world, areaAhead(world.fleet, robot));
   return ground;
 }
 

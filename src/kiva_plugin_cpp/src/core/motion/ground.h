@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/motion/vehicle.h"
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
@@ -14,16 +14,17 @@ constexpr char kFloorPatchPlugin[] = "libkiva_floor_patch.so";
 /// Throws DescriptionError.
 FloorPatch readFloorPatch(const Parameters& parameters);
 
-/// The floor as it is where nothing is said of it.
-Ground groundOf(const WorldState& world);
-/// Whether it is not the same everywhere.
-bool isPatchy(const WorldState& world);
-/// What the robot's wheels stand on.
-Ground groundUnder(const WorldState& world, int robot);
-/// What a robot may count on until its reference has come to its goal: the floor as it was built,
-/// which it knows; not what is slippery for a time.
-double knownFriction(const WorldState& world, int robot);
-/// The most slippery of what they will have stood on when its reference has come to its goal.
-Ground groundAhead(const WorldState& world, int robot);
+/// Returns the floor as it is where nothing is said of it.
+Ground groundOf(const Scene& world);
+/// Returns whether it is not the same everywhere.
+bool isPatchy(const Scene& world);
+/// Returns what the robot's wheels stand on.
+Ground groundUnder(const Scene& world, int robot);
+/// Returns what a robot may count on until its reference has come to its goal: the floor as it was
+/// built, which it knows; not what is slippery for a time.
+double knownFriction(const Scene& world, int robot);
+/// Returns the most slippery of what they will have stood on when its reference has come to its
+/// goal.
+Ground groundAhead(const Scene& world, int robot);
 
 }  // namespace kiva

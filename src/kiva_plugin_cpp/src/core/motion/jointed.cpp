@@ -36,7 +36,7 @@ struct Tilt {
     return {s.roll_rate, s.pitch_rate,
             (heading_rate * cos_pitch - s.pitch_rate * sin_roll) / cos_roll};
   }
-  /// The rate of the heading, and so of yaw, of a chassis that turns like that.
+  /// Returns the rate of the heading, and so of yaw, of a chassis that turns like that.
   double headingRate(const btVector3& turning) const {
     return (turning.y() * sin_roll + turning.z() * cos_roll) / cos_pitch;
   }
@@ -46,9 +46,9 @@ struct Tilt {
 
 /// All in the chassis frame.
 struct Velocities {
-  btVector3 linear;   // of the centre of mass [m/s]
+  btVector3 linear;   // velocity of the centre of mass [m/s]
   btVector3 turning;  // [rad/s]
-  double spin[2];     // of the wheels against the chassis [rad/s]
+  double spin[2];     // rates of the wheels against the chassis [rad/s]
 };
 
 /// One direction at a contact, as the velocities see it.
@@ -75,7 +75,7 @@ struct Touch {
 
 class Step {
  public:
-  Step(WorldState& world, int robot)
+  Step(MotionView& world, int robot)
       : f_(world.fleet),
         robot_(robot),
         drive_(f_.robots[robot].drive),
@@ -84,9 +84,9 @@ class Step {
         tilt_(stance_),
         to_heading_(tilt_.toHeading()),
         up_(to_heading_.getRow(2)),
-        dt_(world.dt),
-        gravity_(world.gravityDown()),
-        floor_friction_(world.floor_friction),
+        dt_(world.clock.dt),
+        gravity_(world.settings.gravityDown()),
+        floor_friction_(world.floor.friction),
         ground_(groundUnder(world, robot)) {}
 
   void run() {
@@ -279,7 +279,7 @@ class Step {
     for (int wheel = 0; wheel < 2; ++wheel) after_.spin[wheel] += r.turning[3 + wheel] * impulse;
   }
 
-  /// What the motor of a held wheel had to give in this step [Nm s].
+  /// Returns what the motor of a held wheel had to give in this step [Nm s].
   double motorImpulse(int wheel) const {
     const btVector3 turned = after_.turning - before_.turning;
     double needed =
@@ -302,7 +302,7 @@ class Step {
   const double dt_, gravity_, floor_friction_;
   const Ground ground_;  // under its wheels
   double cos_yaw_ = 1, sin_yaw_ = 0;
-  double target_[2];  // of the spins
+  double target_[2];  // targets of the spins
   Velocities before_, after_;
   btVector3 springs_push_{0, 0, 0};   // what they change of the velocity [m/s]
   btVector3 springs_twist_{0, 0, 0};  // their angular impulse [Nm s]
@@ -311,9 +311,9 @@ class Step {
 
 }  // namespace
 
-void driveJointed(WorldState& world, int robot) { Step(world, robot).run(); }
+void driveJointed(MotionView& world, int robot) { Step(world, robot).run(); }
 
-Vehicle jointedVehicle(WorldState& world, int robot, const Ground& ground) {
+Vehicle jointedVehicle(MotionView& world, int robot, const Ground& ground) {
   const Robot& r = world.fleet.robots[robot];
   const JointedBody& body = jointedBody(world, robot);
   Vehicle v = vehicleOf(r, ground);
@@ -331,15 +331,15 @@ Vehicle jointedVehicle(WorldState& world, int robot, const Ground& ground) {
   return v;
 }
 
-void settleJointed(WorldState& world, int robot) {
+void settleJointed(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   Stance& stance = f.stance[robot];
   const Tilt tilt(stance);
   const btVector3 turning = tilt.turning(stance, f.yaw_rate[robot]);
   const double heading_rate = f.yaw_rate[robot];
-  stance.height += stance.climb_rate * world.dt;
-  stance.pitch += (turning.y() * tilt.cos_roll - turning.z() * tilt.sin_roll) * world.dt;
-  stance.roll += (turning.x() + heading_rate * tilt.sin_pitch) * world.dt;
+  stance.height += stance.climb_rate * world.clock.dt;
+  stance.pitch += (turning.y() * tilt.cos_roll - turning.z() * tilt.sin_roll) * world.clock.dt;
+  stance.roll += (turning.x() + heading_rate * tilt.sin_pitch) * world.clock.dt;
 }
 
 bool restJointed(FleetState& f, int robot) {

@@ -28,7 +28,7 @@ const Link& findWheel(const Model& model, int side) {
                          std::string(kWheelNames[side]) + "'");
 }
 
-/// The wheel's first round shape; null if it has none.
+/// Returns the wheel's first round shape; null if it has none.
 const Collision* tyreOf(const Link& wheel) {
   for (const Collision& collision : wheel.collisions) {
     const Shape::Kind kind = collision.shape.kind;
@@ -121,15 +121,15 @@ void measureCasters(const Robot& robot, JointedBody* body) {
   body->spring_share = casters > 0 ? (1 - robot.drive.drive_wheel_load) / casters : 0;
 }
 
-/// Where the unit is on its robot; upright on the floor plane, as far as this goes.
-Pose unitInModel(const WorldState& world, int robot, int unit) {
+/// Returns where the unit is on its robot; upright on the floor plane, as far as this goes.
+Pose unitInModel(const Scene& world, int robot, int unit) {
   const double height = world.fleet.robots[robot].height + world.fleet.tower[robot];
-  return Pose(0, 0, height, 0, 0, 0) * world.units[unit].pose_on_carrier;
+  return Pose(0, 0, height, 0, 0, 0) * world.storage.units[unit].pose_on_carrier;
 }
 
-SpatialInertia addUp(const WorldState& world, int robot, JointedBody* body) {
+SpatialInertia addUp(const Scene& world, int robot, JointedBody* body) {
   SpatialInertia sum;
-  for (const Link& link : world.modelOf(robot).description->links) {
+  for (const Link& link : world.models.of(world.fleet.robots[robot]).description->links) {
     Pose at = link.pose_in_model;
     if (link.name == "tower") at.Pos().Z() += world.fleet.tower[robot];
     sum.add(link, at);
@@ -138,13 +138,13 @@ SpatialInertia addUp(const WorldState& world, int robot, JointedBody* body) {
   if (body->unit < 0) return sum;
   const Pose at = unitInModel(world, robot, body->unit);
   sum.add(body->load, at);
-  for (const Link& link : world.models[world.units[body->unit].model]->description->links) {
+  for (const Link& link : world.models[world.storage.units[body->unit].model]->description->links) {
     addFeet(link, at * link.pose_in_model, &body->feet);
   }
   return sum;
 }
 
-/// Moment of the wheels' links about their axle.
+/// Returns the moment of the wheels' links about their axle.
 double axialMoment(const Model& model, const Vector3& axle) {
   double moment = 0;
   for (int side = 0; side < 2; ++side) {
@@ -207,9 +207,9 @@ void raiseOrigin(JointedBody* body) {
   body->centre -= up;
 }
 
-std::shared_ptr<JointedBody> make(const WorldState& world, int robot, const SpatialInertia& load) {
+std::shared_ptr<JointedBody> make(const Scene& world, int robot, const SpatialInertia& load) {
   const Robot& r = world.fleet.robots[robot];
-  const Model& model = world.modelOf(robot);
+  const Model& model = world.models.of(world.fleet.robots[robot]);
   auto body = std::make_shared<JointedBody>();
   body->tower = world.fleet.tower[robot];
   body->unit = world.fleet.unit[robot];
@@ -233,29 +233,30 @@ std::shared_ptr<JointedBody> make(const WorldState& world, int robot, const Spat
   return body;
 }
 
-bool hasLoadOf(const JointedBody& body, const WorldState& world, int robot) {
-  const Robot& r = world.fleet.robots[robot];
-  return body.unit == world.fleet.unit[robot] && body.load_mass == r.load_mass &&
+bool hasLoadOf(const JointedBody& body, const FleetState& fleet, int robot) {
+  const Robot& r = fleet.robots[robot];
+  return body.unit == fleet.unit[robot] && body.load_mass == r.load_mass &&
          body.load_inertia == r.load_inertia;
 }
 
-bool isFor(const JointedBody& body, const WorldState& world, int robot) {
-  return body.tower == world.fleet.tower[robot] && hasLoadOf(body, world, robot);
+bool isFor(const JointedBody& body, const FleetState& fleet, int robot) {
+  return body.tower == fleet.tower[robot] && hasLoadOf(body, fleet, robot);
 }
 
-/// What it carries, summed up anew only if it is something else than before.
-SpatialInertia loadOf(const WorldState& world, int robot) {
+/// Returns the inertia of the load, summed up again only if the load has changed.
+SpatialInertia loadOf(const Scene& world, int robot) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return SpatialInertia();
-  const JointedBody* old = world.modelOf(robot).jointed.get();
-  return old && hasLoadOf(*old, world, robot) ? old->load : sumUnit(world, unit);
+  const JointedBody* old = world.models.of(world.fleet.robots[robot]).jointed.get();
+  return old && hasLoadOf(*old, world.fleet, robot) ? old->load : sumUnit(world, unit);
 }
 
 /// Robots of one description are the same while they carry nothing and the tower is down; a step
 /// of a whole fleet spends much of its time on fetching what it knows about each robot.
-std::shared_ptr<const JointedBody> shareBare(WorldState& world, int robot) {
-  auto& known = world.bare_jointed;
-  const ModelDescription* description = world.modelOf(robot).description.get();
+std::shared_ptr<const JointedBody> shareBare(MotionView& world, int robot) {
+  auto& known = world.jointed_bodies.bare;
+  const ModelDescription* description =
+      world.models.of(world.fleet.robots[robot]).description.get();
   const auto at = known.find(description);
   if (at != known.end() && !at->second.expired()) return at->second.lock();
   for (auto old = known.begin(); old != known.end();) {
@@ -268,12 +269,12 @@ std::shared_ptr<const JointedBody> shareBare(WorldState& world, int robot) {
 
 }  // namespace
 
-SpatialInertia sumUnit(const WorldState& world, int unit) {
+SpatialInertia sumUnit(const Scene& world, int unit) {
   SpatialInertia sum;
-  for (const Link& link : world.models[world.units[unit].model]->description->links) {
+  for (const Link& link : world.models[world.storage.units[unit].model]->description->links) {
     sum.add(link, link.pose_in_model);
   }
-  for (const Item& item : world.items) {
+  for (const Item& item : world.storage.items) {
     if (item.unit == unit) sum.addPoint(item.mass, item.pose_in_unit.Pos());
   }
   return sum;
@@ -284,9 +285,9 @@ double tyreFriction(const Link& wheel) {
   return tyre ? tyre->friction : std::numeric_limits<double>::max();
 }
 
-const JointedBody& jointedBody(WorldState& world, int robot) {
-  Model& model = world.modelOf(robot);
-  if (!model.jointed || !isFor(*model.jointed, world, robot)) {
+const JointedBody& jointedBody(MotionView& world, int robot) {
+  Model& model = world.models.of(world.fleet.robots[robot]);
+  if (!model.jointed || !isFor(*model.jointed, world.fleet, robot)) {
     const bool bare = world.fleet.unit[robot] < 0 && world.fleet.tower[robot] == 0;
     model.jointed = bare ? shareBare(world, robot) : make(world, robot, loadOf(world, robot));
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/physics/spatial_inertia.h"
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
@@ -28,37 +28,37 @@ struct JointedBody {
   /// the centre and to impulses of spin [Nm s].
   using Response = double[5][5];
 
-  double axle_height;  ///< Of the chassis frame over the model's [m].
+  double axle_height;  ///< The chassis frame's height over the model's [m].
   btVector3 axle;      ///< Unit vector; wheels spin about it.
   Wheel wheels[2];     ///< Left, right.
   std::vector<Foot> feet;
   double low_feet_reach;  ///< What is not a low foot stays off the floor up to that sine of a tilt,
   int low_feet = 0;       ///< the first ones of `feet`.
-  double spring_share;    ///< Of the weight that each caster's spring bears.
-  double front_reach;     ///< Of the foremost low foot, ahead of the axle [m].
-  double rear_reach;      ///< Of the last one, behind it [m].
+  double spring_share;    ///< Share of the weight that each caster's spring bears.
+  double front_reach;     ///< The foremost low foot's, ahead of the axle [m].
+  double rear_reach;      ///< The last one's, behind the axle [m].
 
   double inverse_mass;   ///< With load and wheels [1/kg].
-  btVector3 centre;      ///< Of mass.
+  btVector3 centre;      ///< The centre of mass.
   btMatrix3x3 inertia;   ///< About the centre, without the wheels' about their axle [kg m²].
-  double spin_inertia;   ///< Of one wheel with its motor about the axle [kg m²].
+  double spin_inertia;   ///< Moment of one wheel with its motor about the axle [kg m²].
   Response response[4];  ///< Bit i of the index: wheel i spins freely, and is not held.
 
-  // For what it was made.
+  // What the mechanism was made for.
   double tower = -1;
   int unit = -1;
   double load_mass = 0, load_inertia = 0;
   SpatialInertia load;  ///< In the unit's frame.
 };
 
-/// A storage unit with its items, in its frame.
-SpatialInertia sumUnit(const WorldState& world, int unit);
+/// Returns a storage unit with its items, in its frame.
+SpatialInertia sumUnit(const Scene& world, int unit);
 
-/// Coulomb coefficient of the tyre of a wheel's link: its first round shape.
+/// Returns the Coulomb coefficient of the tyre of a wheel's link: its first round shape.
 double tyreFriction(const Link& wheel);
 
-/// The robot's mechanism with its present load and tower. Throws DescriptionError if it lacks a
-/// link `left_wheel` or `right_wheel`.
-const JointedBody& jointedBody(WorldState& world, int robot);
+/// Returns the robot's mechanism with its present load and tower. Throws DescriptionError if it
+/// lacks a link `left_wheel` or `right_wheel`.
+const JointedBody& jointedBody(MotionView& world, int robot);
 
 }  // namespace kiva

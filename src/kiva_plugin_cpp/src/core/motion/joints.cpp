@@ -12,7 +12,7 @@ namespace kiva {
 namespace {
 
 constexpr double kNoLimit = 1e15;      // what is beyond is none
-constexpr double kFastestMotor = 1e6;  // of a motor [rad/s, m/s]
+constexpr double kFastestMotor = 1e6;  // speed of a motor [rad/s, m/s]
 constexpr double kMostPush = 1e9;      // [Nm, N]
 
 bool isSlider(const Joint& joint) { return joint.kind == Joint::Kind::kPrismatic; }
@@ -55,7 +55,7 @@ double rateOf(const Mount& mount, bool slides) {
   return (velocity(mount.child) - velocity(mount.parent)).dot(mount.axis);
 }
 
-/// What resists a change of the joint's rate [kg m²] or [kg].
+/// Returns what resists a change of the joint's rate [kg m²] or [kg].
 double inertiaOf(const Mount& mount, bool slides) {
   const auto yields = [&](const btRigidBody& body) {
     if (body.isStaticObject()) return 0.0;
@@ -200,7 +200,7 @@ void place(Model& model, const Target& target) {
   model.joints[target.joint].rate = 0;
 }
 
-void placeWheels(WorldState& world, const Model& model,
+void placeWheels(FleetState& fleet, const Model& model,
                  const std::map<std::string, double>& positions) {
   for (const auto& [name, position] : positions) {
     const int index = findJoint(model, name);
@@ -210,7 +210,7 @@ void placeWheels(WorldState& world, const Model& model,
   }
   for (const auto& [name, position] : positions) {
     const int wheel = wheelOf(model.description->joints[findJoint(model, name)]);
-    world.fleet.wheel_angle[wheel][model.index] = position;
+    fleet.wheel_angle[wheel][model.index] = position;
   }
 }
 
@@ -234,21 +234,21 @@ void restoreLimits(Model& model) {
   });
 }
 
-void driveJoints(WorldState& world) {
-  for (int slot : world.bodies) {
+void driveJoints(MotionView& world) {
+  for (int slot : world.models.bodies) {
     Model& model = *world.models[slot];
     if (model.joints.empty()) continue;
     if (!isAwake(model)) {
       if (!wantsToMove(model)) continue;
       wake(model);
     }
-    forAxes(model, [&](int i) { driveJoint(model, i, world.dt); });
+    forAxes(model, [&](int i) { driveJoint(model, i, world.clock.dt); });
   }
 }
 
-void readJoints(WorldState& world) {
-  for (int slot : world.bodies) {
-    Model& model = *world.models[slot];
+void readJoints(const ModelTable& models) {
+  for (int slot : models.bodies) {
+    Model& model = *models[slot];
     if (model.joints.empty() || !isAwake(model)) continue;
     forAxes(model, [&](int i) { readJoint(model, i); });
   }
@@ -262,17 +262,17 @@ int findJoint(const Model& model, const std::string& joint) {
   return -1;
 }
 
-JointState jointState(const WorldState& world, const Model& model, int joint) {
+JointState jointState(const FleetState& fleet, const Model& model, int joint) {
   const Joint& from = model.description->joints[joint];
   JointState out;
   out.settings = {from.damping, from.friction, from.lower, from.upper, 0, 0};
   if (model.owner->drivesJoints()) {
     const int wheel = wheelOf(from);
     if (wheel >= 0) {
-      out.position = world.fleet.wheel_angle[wheel][model.index];
-      out.rate = world.fleet.wheel_speed[wheel][model.index];
+      out.position = fleet.wheel_angle[wheel][model.index];
+      out.rate = fleet.wheel_speed[wheel][model.index];
     } else if (from.child == "tower") {
-      out.position = world.fleet.tower[model.index];
+      out.position = fleet.tower[model.index];
     }
     return out;
   }
@@ -313,8 +313,8 @@ void setJoint(Model& model, int joint, const JointSettings& s) {
   wake(model);
 }
 
-void placeJoints(WorldState& world, Model& model, const std::map<std::string, double>& positions) {
-  if (model.owner->drivesJoints()) return placeWheels(world, model, positions);
+void placeJoints(MotionView& world, Model& model, const std::map<std::string, double>& positions) {
+  if (model.owner->drivesJoints()) return placeWheels(world.fleet, model, positions);
   std::vector<Target> targets;
   for (const auto& [name, position] : positions) {
     targets.push_back(makeTarget(model, name, position));
@@ -323,7 +323,7 @@ void placeJoints(WorldState& world, Model& model, const std::map<std::string, do
   for (const Target& target : targets) place(model, target);
   wake(model);
   moved(world, model);
-  alarm(world);
+  invalidateClearance(world.fleet);
 }
 
 void pushJoint(Model& model, int joint, double effort) {

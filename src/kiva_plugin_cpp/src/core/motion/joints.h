@@ -8,32 +8,32 @@
 #include <optional>
 #include <string>
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
-/// A model was put together anew: its joints are at zero, as its description has them.
+/// Puts the joints of a rebuilt model at zero, as its description has them.
 void initJoints(Model& model);
-/// Gives joints built anew the limits that were set since.
+/// Gives rebuilt joints the limits that were set since.
 void restoreLimits(Model& model);
 
-/// Before Bullet's step: what motors, damping and friction do.
-void driveJoints(WorldState& world);
-/// After it: where the joints are.
-void readJoints(WorldState& world);
+/// Applies motors, damping and friction before Bullet's step.
+void driveJoints(MotionView& world);
+/// Reads the joints' positions after Bullet's step.
+void readJoints(const ModelTable& models);
 
-/// -1 = none.
+/// Returns the index of the joint of that name; -1 = none.
 int findJoint(const Model& model, const std::string& joint);
-JointState jointState(const WorldState& world, const Model& model, int joint);
-/// Nothing of a model without free bodies.
+JointState jointState(const FleetState& fleet, const Model& model, int joint);
+/// Returns nothing for a model without free bodies.
 std::optional<JointWrench> jointWrench(const Model& model, int joint);
 void setJoint(Model& model, int joint, const JointSettings& settings);
-/// All or none; throws std::invalid_argument.
-void placeJoints(WorldState& world, Model& model, const std::map<std::string, double>& positions);
-/// For the next step [Nm] or [N].
+/// Places all joints or none; throws std::invalid_argument.
+void placeJoints(MotionView& world, Model& model, const std::map<std::string, double>& positions);
+/// Applies an effort for the next step [Nm] or [N].
 void pushJoint(Model& model, int joint, double effort);
-/// Indices of the links that joints hold to `link`, itself among them; `without` is a joint that
-/// does not count, -1 = none.
+/// Returns the indices of the links that joints hold to `link`, itself among them; `without` is a
+/// joint that does not count, -1 = none.
 std::vector<int> linksHeldTo(const ModelDescription& description, int link, int without = -1);
 
 }  // namespace kiva

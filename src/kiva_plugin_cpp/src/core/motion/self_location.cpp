@@ -15,9 +15,9 @@ constexpr double kView = 0.05;         // [m] around the camera in which a code'
 constexpr double kSlipLength = 0.25;   // [m] on which a wheel slips alike
 constexpr double kMostDeviations = 3;  // what deviates more is not delivered
 
-RandomStream streamOf(WorldState& world, int robot, Matter matter) {
+RandomStream streamOf(MotionView& world, int robot, Matter matter) {
   Localisation& l = world.fleet.localisation[robot];
-  return RandomStream(world.options.seed, matter, world.fleet.robots[robot].id, l.draws++);
+  return RandomStream(world.settings.options.seed, matter, world.fleet.robots[robot].id, l.draws++);
 }
 
 double deviation(RandomStream& random, double share) {
@@ -33,8 +33,8 @@ struct Code {
   double x, y;  // in world [m]
 };
 
-Code nearestCode(const WorldState& world, int robot) {
-  const double cell = world.grid_spacing;
+Code nearestCode(const Scene& world, int robot) {
+  const double cell = world.settings.grid_spacing;
   const double column = std::round(world.fleet.x[robot] / cell);
   const double row = std::round(world.fleet.y[robot] / cell);
   return {static_cast<std::int32_t>(column), static_cast<std::int32_t>(row), column * cell,
@@ -43,8 +43,8 @@ Code nearestCode(const WorldState& world, int robot) {
 
 }  // namespace
 
-void calibrate(WorldState& world, int robot) {
-  const LocalisationRealism& real = world.realism.localisation;
+void calibrate(MotionView& world, int robot) {
+  const LocalisationRealism& real = world.settings.realism.localisation;
   const DriveParameters& drive = world.fleet.robots[robot].drive;
   Localisation& l = world.fleet.localisation[robot];
   l = Localisation();
@@ -62,8 +62,8 @@ void calibrate(WorldState& world, int robot) {
   relocate(world, robot);
 }
 
-void relocate(WorldState& world, int robot) {
-  const LocalisationRealism& real = world.realism.localisation;
+void relocate(MotionView& world, int robot) {
+  const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   l.stretch = Stretch();
@@ -86,8 +86,8 @@ void relocate(WorldState& world, int robot) {
   l.code_row = code.row;
 }
 
-void drawSlip(WorldState& world, int robot, double length) {
-  const double slip = world.realism.localisation.slip;
+void drawSlip(MotionView& world, int robot, double length) {
+  const double slip = world.settings.realism.localisation.slip;
   Localisation& l = world.fleet.localisation[robot];
   l.slip_for = length;
   if (slip == 0) return;
@@ -95,7 +95,7 @@ void drawSlip(WorldState& world, int robot, double length) {
   for (double& share : l.slip) share = deviation(random, slip / std::sqrt(length));
 }
 
-void track(WorldState& world, int robot) {
+void track(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   if (f.wheel_angle[0][robot] != l.wheel_angle[0] || f.wheel_angle[1][robot] != l.wheel_angle[1]) {
@@ -106,8 +106,8 @@ void track(WorldState& world, int robot) {
   checkLost(world, robot);
 }
 
-void readCode(WorldState& world, int robot, bool stands) {
-  const LocalisationRealism& real = world.realism.localisation;
+void readCode(MotionView& world, int robot, bool stands) {
+  const LocalisationRealism& real = world.settings.realism.localisation;
   const FleetState& f = world.fleet;
   Localisation& l = world.fleet.localisation[robot];
   const Code code = nearestCode(world, robot);
@@ -129,14 +129,14 @@ void readCode(WorldState& world, int robot, bool stands) {
   l.lost = false;
 }
 
-bool checkLost(WorldState& world, int robot) {
+bool checkLost(MotionView& world, int robot) {
   Localisation& l = world.fleet.localisation[robot];
   if (l.since_code < l.lost_at) return false;
   l.lost = true;
-  l.lost_at = l.since_code + world.realism.localisation.lost_after;
+  l.lost_at = l.since_code + world.settings.realism.localisation.lost_after;
   char text[80];
   std::snprintf(text, sizeof text, "is lost: it has read no code for %.1f m", l.since_code);
-  world.reportCommand(Event::Kind::kLost, robot, "", text);
+  reportCommand(world, Event::Kind::kLost, robot, "", text);
   haltRobot(world, robot, "", text);
   return true;
 }

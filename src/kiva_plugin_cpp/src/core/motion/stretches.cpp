@@ -35,15 +35,14 @@ OnLine onLine(const PlanarPose& at, const MotionSegment& segment) {
   return {c * dx + s * dy, c * dy - s * dx, at.yaw - segment.yaw};
 }
 
-/// Where along the segment the next code comes into view.
-double nextCode(const WorldState& world, double along) {
-  const double cell = world.grid_spacing;
+/// Returns where along the segment the next code comes into view.
+double nextCode(const Settings& settings, double along) {
+  const double cell = settings.grid_spacing;
   return std::ceil((along + kReadBefore + kJustRead) / cell) * cell - kReadBefore;
 }
 
 /// What a unit of reference moves the chassis and turns the wheels, as the robot really is.
-void setMotion(WorldState& world, int i) {
-  FleetState& f = world.fleet;
+void setMotion(FleetState& f, int i) {
   const Localisation& l = f.localisation[i];
   const DriveParameters& drive = f.robots[i].drive;
   const Stretch& stretch = l.stretch;
@@ -86,22 +85,22 @@ void steerBack(Stretch* stretch, const OnLine& at, double room) {
   stretch->next_curvature *= share;
 }
 
-/// The way to the next code, the goal, or where it would be lost.
-double roomAhead(const WorldState& world, int i, double along) {
+/// Returns the way to the next code, the goal, or where it would be lost.
+double roomAhead(const Scene& world, int i, double along) {
   const FleetState& f = world.fleet;
   const Localisation& l = f.localisation[i];
-  const double to_code = nextCode(world, along) - along;
+  const double to_code = nextCode(world.settings, along) - along;
   const double to_goal = std::max(kTiny, f.goal[i] - along);
   return std::min({to_code, to_goal, std::max(kTiny, l.lost_at - l.since_code)});
 }
 
 /// The end of its drive is where it was, but it is elsewhere: it brakes as hard as that takes.
-void brakeFor(WorldState& world, int i) {
+void brakeFor(MotionView& world, int i) {
   FleetState& f = world.fleet;
   if (f.acceleration[i] == 0) return;
   const Profile command = f.command(i);
   const double way = f.goal[i] - command.position, v = command.speed;
-  const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.dt, kTiny)) : 0;
+  const double needed = way > 0 ? v * v / (2 * std::max(way - v * world.clock.dt, kTiny)) : 0;
   const double usual = f.tasks[i].phase == Phase::kDriving ? f.acceleration[i] : f.deceleration[i];
   if (needed > usual) {
     f.deceleration[i] = std::min(needed, std::max(usual, plannedBraking(world, i)));
@@ -110,8 +109,8 @@ void brakeFor(WorldState& world, int i) {
   }
 }
 
-/// The next arc of its way back; straight on after those.
-bool nextArc(WorldState& world, int i, double along) {
+/// Begins the next arc of the way back. Returns false if there is none: straight on then.
+bool nextArc(MotionView& world, int i, double along) {
   Stretch& stretch = world.fleet.localisation[i].stretch;
   if (stretch.next_length == 0) return false;
   stretch.curvature = stretch.next_curvature;
@@ -136,7 +135,7 @@ bool keepsUpByEstimate(const FleetState& f, int i, bool turns) {
          std::abs(f.yaw_rate[i] - (turns ? v : 0)) < kMostYawRate;
 }
 
-void beginStretch(WorldState& world, int i, bool turns) {
+void beginStretch(MotionView& world, int i, bool turns) {
   FleetState& f = world.fleet;
   Localisation& l = f.localisation[i];
   Stretch& stretch = l.stretch;
@@ -156,10 +155,10 @@ void beginStretch(WorldState& world, int i, bool turns) {
   }
   stretch.from = f.reference[i];
   stretch.under_way = true;
-  setMotion(world, i);
+  setMotion(world.fleet, i);
 }
 
-bool continueStretch(WorldState& world, int i) {
+bool continueStretch(MotionView& world, int i) {
   FleetState& f = world.fleet;
   Localisation& l = f.localisation[i];
   Stretch& stretch = l.stretch;
@@ -180,7 +179,7 @@ bool continueStretch(WorldState& world, int i) {
   drawSlip(world, i, std::max(0.01, stretch.until - stretch.from));
   brakeFor(world, i);
   stretch.under_way = true;
-  setMotion(world, i);
+  setMotion(world.fleet, i);
   return f.goal[i] > f.reference[i];
 }
 

@@ -5,18 +5,19 @@
 // stretch it looks at what codes tell, and steers back onto its line.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
 
 namespace kiva {
 
-/// Whether errors [m, rad], of the reference and off the line, are small enough to begin with.
+/// Returns whether errors [m, rad], of the reference and off the line, are small enough to begin
+/// with.
 bool isOnCourse(double lag, double heading, double across);
-/// Whether the chassis moves as its reference says, but for what motors mend in a step.
+/// Returns whether the chassis moves as its reference says, but for what motors mend in a step.
 bool keepsUpByEstimate(const FleetState& fleet, int robot, bool turns);
 /// Plans the robot's next stretch from where it believes to be. The reference follows the estimate.
-void beginStretch(WorldState& world, int robot, bool turns);
+void beginStretch(MotionView& world, int robot, bool turns);
 /// At the end of a stretch: reads a code that is due, plans the next one. Returns false where the
 /// robot can't cruise on, being lost or at its goal.
-bool continueStretch(WorldState& world, int robot);
+bool continueStretch(MotionView& world, int robot);
 
 }  // namespace kiva

@@ -16,7 +16,7 @@ constexpr int kMaxSweeps = 100;
 
 enum { kAhead, kAside, kTurn };  // components of a planar velocity
 
-/// Of the centre of mass, along and across the heading, and about z.
+/// The velocity of the centre of mass, along and across the heading, and about z.
 using Velocity = std::array<double, 3>;
 
 /// One wheel within a step. A motor holds its wheel at the target as long as its torque suffices;
@@ -69,12 +69,12 @@ class FloorFriction {
   }
 
  private:
-  /// How much the floor's impulse on a saturated wheel changes its own rim's speed [1/kg].
+  /// Returns how much the floor's impulse on a saturated wheel changes its own rim's speed [1/kg].
   double yielding(const Wheel& wheel) const {
     return wheel.saturated ? v_.radius * v_.radius / v_.wheel_inertia : 0;
   }
 
-  /// Of the rim over the floor without friction in this step, at that velocity [m/s].
+  /// Returns the slip of the rim over the floor without friction in this step [m/s].
   double slipAhead(const Wheel& wheel, int side, const Velocity& velocity) const {
     const double spin =
         wheel.saturated ? wheel.speed + wheel.motor / v_.wheel_inertia : wheel.target;
@@ -140,9 +140,9 @@ class FloorFriction {
 
   const Vehicle& v_;
   const Velocity before_;
-  double arm_[2];    // of the wheels, left of the centre of mass [m]
-  double limit_[2];  // of their friction [N s]
-  double share_[2];  // of what holds sideways
+  double arm_[2];    // arms of the wheels, left of the centre of mass [m]
+  double limit_[2];  // limits of their friction [N s]
+  double share_[2];  // shares of the sideways hold
 };
 
 /// Impulse that the motor needs to have the wheel at its target after the step [Nm s].

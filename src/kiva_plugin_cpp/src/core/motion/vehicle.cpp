@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kLeast = 1e-3;  // [m/s², rad/s²]: plans need some
 
-/// Largest acceleration [m/s²] along the heading without yaw: each wheel gives its share.
+/// Returns the largest acceleration [m/s²] along the heading without yaw: each wheel gives its
+/// share.
 double alongLimit(const Vehicle& v, double lift) {
   double limit = kUnlimited;
   for (int wheel = 0; wheel < 2; ++wheel) {

@@ -23,10 +23,10 @@ struct Ground {
 struct Vehicle {
   double mass;             ///< [kg]
   double inertia;          ///< About z through the centre of mass [kg m²].
-  double centre[2];        ///< Of mass [m].
-  double radius;           ///< Of a wheel [m].
-  double half_separation;  ///< Of the wheels [m].
-  double wheel_inertia;    ///< Of one wheel with its motor about the axle [kg m²].
+  double centre[2];        ///< The centre of mass [m].
+  double radius;           ///< A wheel's [m].
+  double half_separation;  ///< Between the wheels [m].
+  double wheel_inertia;    ///< Moment of one wheel with its motor about the axle [kg m²].
   double torque;           ///< Limit of one motor [Nm].
   double grip[2];          ///< Largest friction force of each wheel at rest [N].
   double friction[2];      ///< Coulomb coefficient of each wheel on this ground.
@@ -34,38 +34,40 @@ struct Vehicle {
   /// when it drives off or brakes, off the inner one for sideways.
   double lift_ahead = 0, lift_braking = 0, lift_sideways = 0;
 
-  /// Share of a force along the heading that each wheel gives where it is not to yaw, and of the
-  /// weight where all of it is on the wheels.
+  /// Returns the share of a force along the heading that each wheel gives where it is not to yaw,
+  /// and of the weight where all of it is on the wheels.
   double share(int wheel) const {
     const double aside = centre[1] / (2 * half_separation);
     return wheel == 0 ? 0.5 + aside : 0.5 - aside;
   }
-  /// Share of the weight on a wheel where casters bear all but `on_wheels` of it, in the middle.
+  /// Returns the share of the weight on a wheel where casters bear all but `on_wheels` of it, in
+  /// the middle.
   double weight(int wheel, double on_wheels) const {
     return std::max(0.0, share(wheel) - (1 - on_wheels) / 2);
   }
 };
 
-/// Coulomb coefficient between a wheel and the ground: the smallest of the drive's, the tyre's and
-/// the ground's.
+/// Returns the Coulomb coefficient between a wheel and the ground: the smallest of the drive's, the
+/// tyre's and the ground's.
 double wheelFriction(const Robot& robot, int wheel, const Ground& ground);
 
-/// As the traction drive has it: weight stays where it is.
+/// Returns the vehicle of the traction drive, whose weight stays where it is.
 Vehicle vehicleOf(const Robot& robot, const Ground& ground);
 
-/// Acceleration, whichever way, from which on a robot's load tips off it [m/s²]; +inf without one.
+/// Returns the acceleration, in any direction, from which on a robot's load tips off it [m/s²];
+/// +inf without one.
 double tippingAcceleration(const Robot& robot, double gravity);
 
-/// Acceleration along the heading [m/s²].
+/// Returns the largest acceleration along the heading [m/s²].
 double drivingLimit(const Vehicle& vehicle);
-/// Deceleration along the heading [m/s²]. Who plans to brake harder slides.
+/// Returns the largest deceleration along the heading [m/s²]; a robot that brakes harder slides.
 double brakingLimit(const Vehicle& vehicle);
 
-/// Acceleration [rad/s²] of a turn in place about the middle of the axle, from rest to rest over
-/// `angle` [rad] with half of it at that and half at minus that.
+/// Returns the acceleration [rad/s²] of a turn in place about the middle of the axle, from rest to
+/// rest over `angle` [rad] with half of it at that and half at minus that.
 double turningLimit(const Vehicle& vehicle, double angle);
-/// Share of what motors and wheels can give that such a turn takes at an acceleration [rad/s²] and
-/// a speed [rad/s]: a load off the centre has to be held on its circle, too.
+/// Returns the share of what motors and wheels can give that such a turn takes at an acceleration
+/// [rad/s²] and a speed [rad/s]: a load off the centre has to be held on its circle, too.
 double turningEffort(const Vehicle& vehicle, double acceleration, double speed);
 
 }  // namespace kiva

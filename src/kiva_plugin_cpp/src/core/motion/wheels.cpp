@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/state/tasks.h"
+#include "core/state/world_state.h"
 
 namespace kiva {
 

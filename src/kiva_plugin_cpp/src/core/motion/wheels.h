@@ -5,9 +5,10 @@
 
 namespace kiva {
 
-/// What the wheel motors of a robot that is at no command are asked for [rad/s], from the next step
-/// on and until its next command: no more than its top speed, and with all the torque that they
-/// have; its laser does not stop it. Returns false, and nothing changes, if it is at a command.
+/// Sets the speeds that the wheel motors of an idle robot are commanded [rad/s], from the
+/// next step on and until its next command: no more than its top speed, and with all the torque
+/// that they have; its laser does not stop it. Returns false, and nothing changes, if it is at a
+/// command.
 bool setWheelSpeeds(World& world, int robot, double left, double right);
 
 }  // namespace kiva

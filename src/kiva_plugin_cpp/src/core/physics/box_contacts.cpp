@@ -70,7 +70,8 @@ void forgetForeseen(btPersistentManifold& manifold) {
   }
 }
 
-/// Whether the boxes are farther apart than that along one of their axes: most that are near are.
+/// Returns whether the boxes are farther apart than that along one of their axes: most that are
+/// near are.
 bool areFarther(btScalar distance, const btBoxShape* a, const btBoxShape* b, const Input& input) {
   const btMatrix3x3 turn =
       input.m_transformA.getBasis().transposeTimes(input.m_transformB.getBasis());

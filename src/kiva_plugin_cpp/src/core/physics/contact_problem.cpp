@@ -9,8 +9,8 @@
 namespace kiva {
 namespace {
 
-// Of a row's own response: where contacts share a load that could rest on fewer, they share it
-// evenly, as if the ground were that soft.
+// Added to a row's own response: where contacts share a load that could rest on fewer, they share
+// it evenly, as if the ground were that soft.
 constexpr double kSoftness = 1e-9;
 constexpr double kHolds = 1e-12;    // [m/s]
 constexpr double kSettled = 1e-10;  // [m/s] of change in a sweep

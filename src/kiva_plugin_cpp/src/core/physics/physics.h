@@ -1,76 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bullet, wrapped: descriptions become bodies and joints, and the bodies' contacts become pairs.
+// Bullet, wrapped: bodies move, and their contacts become pairs of models.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
 
-#include <memory>
-#include <string>
 #include <vector>
 
+#include "core/physics/bodies.h"
 #include "core/physics/box_contacts.h"
 #include "core/physics/ordered_bullet.h"
 #include "core/physics/round_contacts.h"
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
-
-btTransform toBullet(const Pose& pose);
-btVector3 toBullet(const Vector3& v);
-Pose fromBullet(const btTransform& transform);
-Vector3 fromBullet(const btVector3& v);
-
-/// Who touches whom: collision filter groups.
-enum CollisionGroup : int { kFloorGroup = 1, kStaticGroup = 2, kDynamicGroup = 4, kRobotGroup = 8 };
-
-/// Third user index of a body that was put somewhere, with a velocity, since the last step.
-constexpr int kPlaced = 1;
-
-/// Bullet's tree of the triangles of a mesh: all that stand in the world with that mesh share it.
-struct TriangleTree;
-
-/// One primitive of a body, whose it is, and what it is like to touch: Bullet itself knows one
-/// friction a body.
-struct BodyPart {
-  std::shared_ptr<const TriangleTree> triangles;  ///< Of a static mesh: what its shape looks up.
-  std::unique_ptr<btCollisionShape> shape;
-  int model = -1;
-  double friction = 1;
-  double restitution = 0;
-  std::string collision;  ///< Its name.
-};
-
-/// A Bullet shape with the parts it is made of.
-struct BodyShape {
-  std::unique_ptr<btCompoundShape> compound = std::make_unique<btCompoundShape>();
-  std::vector<std::unique_ptr<BodyPart>> parts;
-
-  /// Adds a collision's shape at `pose` in the compound, for `model`.
-  void add(const Collision& collision, const btTransform& pose, int model);
-};
-
-/// A rigid body for one link. Bullet's body frame is the centre of mass along the principal axes.
-struct LinkBody {
-  BodyShape shape;
-  std::unique_ptr<BodyPart> surface;  ///< Instead of `shape`: an unbounded plane, a static mesh.
-  std::unique_ptr<btRigidBody> body;
-  btTransform mass_frame;  ///< Centre of mass in the link.
-  int link = 0;
-  int group = kDynamicGroup, mask = ~0;
-
-  btTransform linkPose() const { return body->getWorldTransform() * mass_frame.inverse(); }
-  void place(const btTransform& link_pose);
-  /// Velocity of the link's origin, in world.
-  btVector3 velocityAtOrigin() const;
-};
-
-struct ModelBodies {
-  std::vector<LinkBody> links;     ///< One a link, in the description's order.
-  std::vector<LinkBody> surfaces;  ///< The links' unbounded planes and static meshes.
-  std::vector<std::unique_ptr<btTypedConstraint>> joints;
-  std::vector<btJointFeedback> feedback;  ///< What each joint did in the last step.
-};
 
 /// Two models that touch; the point, the normal and the speed are those of the hardest contact.
 struct Contact {

@@ -28,7 +28,7 @@ struct BodyState {
 struct MotorState {
   bool powered = false;
   double speed = 0;   ///< [rad/s], [m/s]
-  double effort = 0;  ///< As Bullet takes it: of a hinge per step [Nms], of a slider [N].
+  double effort = 0;  ///< In Bullet's units: a hinge's per step [Nms], a slider's [N].
 };
 
 BodyState readBody(const btRigidBody& body);

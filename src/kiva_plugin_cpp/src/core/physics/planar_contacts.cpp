@@ -78,7 +78,7 @@ bool shareHeight(const Column& a, const Column& b) {
   return a.z_min < b.z_max && b.z_min < a.z_max;
 }
 
-/// Whether all of what `inner` covers on the floor is covered by `outer`.
+/// Returns whether all of what `inner` covers on the floor is covered by `outer`.
 bool covers(const Rectangle& outer, const Rectangle& inner) {
   const double dx = inner.x - outer.x, dy = inner.y - outer.y;
   const double c = std::abs(outer.c * inner.c + outer.s * inner.s);
@@ -87,7 +87,7 @@ bool covers(const Rectangle& outer, const Rectangle& inner) {
          std::abs(outer.c * dy - outer.s * dx) + s * inner.hx + c * inner.hy <= outer.hy;
 }
 
-/// Whether `other` always meets a box of that body before the part.
+/// Returns whether `other` always meets a box of that body before the part.
 bool isBehindBox(const std::vector<Column>& body, std::size_t part, const Column& other) {
   for (std::size_t i = 0; i < body.size(); ++i) {
     const bool hides = i != part && body[i].is_box && shareHeight(body[i], other) &&
@@ -136,7 +136,7 @@ bool staysUpright(const btCollisionObject& object) {
          (body->isStaticObject() || isPlanar(*body));
 }
 
-/// The height of their centres of mass in world [m]; that of what is higher, and can move.
+/// Returns the height of their centres of mass in world [m]; that of what is higher, and can move.
 btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b) {
   btScalar height = 0;
   for (const auto* body : {a, b}) {
@@ -146,7 +146,7 @@ btScalar centreOf(const btCollisionObjectWrapper* a, const btCollisionObjectWrap
   return height;
 }
 
-/// How fast a point of the body may go [m/s].
+/// Returns how fast a point of the body may go [m/s].
 btScalar speedOf(const btCollisionObject& object) {
   btVector3 centre;
   btScalar radius;
@@ -156,7 +156,7 @@ btScalar speedOf(const btCollisionObject& object) {
          std::abs(body.getAngularVelocity().z()) * (centre.length() + radius);
 }
 
-/// What pressed there in the last step, if something did.
+/// Returns what pressed there in the last step, if something did.
 btScalar impulseNear(const btPersistentManifold& manifold, const btVector3& local_a) {
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     const btManifoldPoint& point = manifold.getContactPoint(i);
@@ -167,7 +167,7 @@ btScalar impulseNear(const btPersistentManifold& manifold, const btVector3& loca
   return 0;
 }
 
-/// What Bullet calls a part among its body's.
+/// Returns what Bullet calls a part among its body's.
 btCollisionObjectWrapper partOf(const btCollisionObjectWrapper* body, int child) {
   return {body,
           shapeOf(body).getChildShape(child),
@@ -226,7 +226,7 @@ Rectangle partOutline(const btCollisionObjectWrapper* body, int child) {
                                  shape.getChildTransform(child)));
 }
 
-/// Whether two outlines may be within that distance [m].
+/// Returns whether two outlines may be within that distance [m].
 bool mayBeWithin(btScalar distance, const Rectangle& a, const Rectangle& b) {
   const btScalar dx = b.x - a.x, dy = b.y - a.y;
   const btScalar near =

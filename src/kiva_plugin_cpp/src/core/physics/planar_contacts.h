@@ -11,7 +11,7 @@
 
 namespace kiva {
 
-/// Whether the body can do nothing but slide on the floor and turn on it.
+/// Returns whether the body can do nothing but slide on the floor and turn on it.
 bool isPlanar(const btRigidBody& body);
 
 /// Contacts of two bodies of upright boxes that stay upright, one of which is planar: two points
@@ -23,7 +23,7 @@ class PlanarContacts : public ContactAlgorithm {
     int a = 0, b = 0;                          ///< Children of the compounds.
     double z_min = 0, z_max = 0;               ///< That they share, in world [m].
     btPersistentManifold* manifold = nullptr;  ///< Once they have come near.
-    OutlineContacts contacts;                  ///< Of the last look.
+    OutlineContacts contacts;                  ///< The last look's.
   };
 
   PlanarContacts(const btCollisionAlgorithmConstructionInfo& info,
@@ -45,13 +45,13 @@ class PlanarContacts : public ContactAlgorithm {
 
  private:
   void forget();
-  /// Whether the pair may touch soon; it has a manifold then.
+  /// Returns whether the pair may touch soon; it has a manifold then.
   bool look(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, double reach,
             Pair* pair);
   double heightOfPush(double centre) const;
 
   std::vector<Pair> pairs_;
-  Rectangle hull_a_, hull_b_;  ///< Of all their parts, in the bodies' frames.
+  Rectangle hull_a_, hull_b_;  ///< The hulls of all their parts, in the bodies' frames.
 };
 
 }  // namespace kiva

@@ -121,7 +121,7 @@ class Solver {
     return row;
   }
 
-  /// Of a seen from b [m/s].
+  /// Returns the velocity of a seen from b [m/s].
   btScalar speedAlong(const Row& row) const {
     const Body &a = bodies_[row.a.body], &b = bodies_[row.b.body];
     return (a.vx - b.vx) * row.x + (a.vy - b.vy) * row.y + a.turn * row.a.arm - b.turn * row.b.arm;

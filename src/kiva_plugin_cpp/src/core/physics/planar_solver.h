@@ -15,7 +15,7 @@ struct ContactIsland {
   int joint_count = 0;
 };
 
-/// Whether its bodies slide on the floor, push each other sideways and do no more.
+/// Returns whether its bodies slide on the floor, push each other sideways and do no more.
 bool isPlanar(const ContactIsland& island);
 
 /// What Bullet's solver does of such an island, by the same laws in the same order, in the three

@@ -54,7 +54,7 @@ struct Flat {
   btScalar half[2] = {kInfinity, kInfinity};
 
   btScalar above(const btVector3& at) const { return normal.dot(at - point); }
-  /// Whether that point lies straight over the surface or under it, and not beside.
+  /// Returns whether that point lies straight over the surface or under it, and not beside.
   bool isLevelWith(const btVector3& at) const {
     for (int i = 0; i < 2; ++i) {
       if (half[i] < kInfinity && std::abs(side[i].dot(at - point)) > half[i] + kRounding) {
@@ -74,7 +74,7 @@ Flat planeOf(const btCollisionObjectWrapper& wrapper) {
   return flat;
 }
 
-/// The face that lies towards `at`.
+/// Returns the face that lies towards `at`.
 Flat faceOf(const btCollisionObjectWrapper& wrapper, const btVector3& at) {
   const btTransform& pose = wrapper.getWorldTransform();
   const btVector3 half =
@@ -126,8 +126,8 @@ bool clip(const Flat& flat, btVector3* a, btVector3* b) {
   return true;
 }
 
-/// The lower cap against the surface: corners of a face beneath it, and what of its rim is above
-/// the face.
+/// Finds contacts of the lower cap: corners of a face beneath it, and the part of its rim above the
+/// face.
 Candidates findOnCap(const Round& round, const Flat& flat, const btVector3& cap,
                      const btVector3& reach) {
   Candidates out;

@@ -7,7 +7,8 @@
 
 namespace kiva {
 
-/// Contacts of a cylinder or a capsule with a plane or the face of a box, found anew in every step.
+/// Contacts of a cylinder or a capsule with a plane or the face of a box, found again in every
+/// step.
 ///
 /// Bullet finds one point a step, at whichever end of the line of contact is lower by a rounding
 /// error, and keeps that of the other end while it rolls up and away with the body: a rolling

@@ -27,9 +27,11 @@ class SlidingFriction : public btTypedConstraint {
   btScalar getParam(int, int) const override { return 0; }
 
   const std::vector<Foot>& feet() const { return feet_; }
-  /// Where a foot goes, as far as `arm` [m] from the centre of mass: a unit vector, in world.
+  /// Returns where a foot goes, as far as `arm` [m] from the centre of mass: a unit vector, in
+  /// world.
   btVector3 wayOf(const btVector3& arm) const;
-  /// Of the floor on the body in the last step of `dt` [s] in which it was awake, in world [Ns].
+  /// Returns the impulse of the floor on the body in the last step of `dt` [s] in which it was
+  /// awake, in world [Ns].
   btVector3 impulse(double dt) const { return feedback_.m_appliedForceBodyA * dt; }
 
  private:

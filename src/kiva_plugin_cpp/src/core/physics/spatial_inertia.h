@@ -18,7 +18,7 @@ class SpatialInertia {
 
   double mass() const { return mass_; }  ///< [kg]
   Vector3 centre() const { return mass_ > 0 ? moment_ / mass_ : Vector3::Zero; }
-  /// Moment of inertia about the frame's z axis [kg m²].
+  /// Returns the moment of inertia about the frame's z axis [kg m²].
   double aboutZ() const { return about_origin_(2, 2); }
   /// Inertia tensor about the centre, along the frame's axes [kg m²].
   Matrix inertia() const { return about_origin_ - ofPoint(mass_, centre()); }

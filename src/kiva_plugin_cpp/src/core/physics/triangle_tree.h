@@ -14,7 +14,7 @@ namespace kiva {
 struct TriangleTree {
   explicit TriangleTree(std::shared_ptr<const Mesh> of);
 
-  /// A shape on it, which must not outlive it.
+  /// Returns a shape on it, which must not outlive it.
   std::unique_ptr<btBvhTriangleMeshShape> makeShape() const;
 
  private:
@@ -23,7 +23,7 @@ struct TriangleTree {
   std::unique_ptr<btBvhTriangleMeshShape> first_;  ///< Owns the tree.
 };
 
-/// The tree of that mesh. Thread-safe.
+/// Returns the tree of that mesh. Thread-safe.
 std::shared_ptr<const TriangleTree> treeOf(const std::shared_ptr<const Mesh>& mesh);
 
 }  // namespace kiva

@@ -6,11 +6,11 @@
 #include <limits>
 #include <vector>
 
+#include "core/parallel/workers.h"
 #include "core/sensing/room.h"
 #include "core/sensing/scans.h"
 #include "core/state/footprints.h"
 #include "core/state/path_progress.h"
-#include "core/state/workers.h"
 
 namespace kiva {
 namespace {
@@ -24,23 +24,23 @@ constexpr double kEndMargin = 0.02;  // [m]
 constexpr int kLooksTogether = 16;   // on one thread
 constexpr double kFlat = 0.02;       // [m] by which two rays beside each other differ on a face
 
-/// What noise alone may seem to bring nearer is not yet an obstacle.
-double endMargin(const WorldState& world) {
-  const LaserRealism& real = world.realism.lasers;
+/// Returns the margin at a path's end, less what noise alone may seem to bring nearer.
+double endMargin(const Settings& settings) {
+  const LaserRealism& real = settings.realism.lasers;
   return real.enabled ? std::max(0.0, kEndMargin - 3 * real.range_noise) : kEndMargin;
 }
 
-/// A unit that stands askew is none that the robot can pass beneath.
-bool stops(const WorldState& world, int model, int robot) {
+/// Returns whether the model stops the robot: a unit that stands askew can't be passed beneath.
+bool stops(const Scene& world, int model, int robot) {
   const Model& other = *world.models[model];
   if (other.owner->stops(world, other, robot)) return true;
   return other.kind == ModelKind::kStorageUnit && standsInLane(world, other, robot);
 }
 
-/// The nearest obstacle in the corridor that the robot would sweep.
-Sighting look(const WorldState& world, int robot) {
+/// Returns the nearest obstacle in the corridor that the robot would sweep.
+Sighting look(const Scene& world, const Scans& scans, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const RayFan& fan = world.ray_fans[r.ray_fan];
+  const RayFan& fan = scans.fans[r.ray_fan];
   const double half = halfWidth(r) + kSideMargin;
   static thread_local FanHits hits;
   Sighting seen;
@@ -49,7 +49,7 @@ Sighting look(const WorldState& world, int robot) {
   const double reach = reachOfInterest(world, robot) - seen.along - r.laser.x;
   const double farthest = std::min(r.laser.max_range, std::hypot(std::max(0.0, reach), half));
   // A ray is of interest until it leaves the corridor.
-  castRays(world, robot, {farthest, half}, &hits);
+  castRays(world, scans, robot, {farthest, half}, &hits);
   seen.distance = std::numeric_limits<double>::infinity();
   int before = -1;  // what the ray before this one met
   double before_distance = 0;
@@ -84,29 +84,29 @@ bool isOnGuard(const FleetState& f, int robot) {
 }
 
 /// Lets those of `robots` look that are on guard.
-void lookAhead(WorldState& world, const std::vector<int>& robots) {
+void lookAhead(MotionView& world, Scans& scans, const std::vector<int>& robots) {
   FleetState& f = world.fleet;
   std::vector<char> looked(robots.size(), 0);
   const auto count = static_cast<int>(robots.size());
-  world.workers->share(count, kLooksTogether, [&](int begin, int end) {
+  world.schedule.workers->share(count, kLooksTogether, [&](int begin, int end) {
     for (int k = begin; k < end; ++k) {
       if (!isOnGuard(f, robots[k])) continue;
       looked[k] = 1;
       Task& task = f.tasks[robots[k]];
       task.last_sighting = task.sighting;
-      task.sighting = look(world, robots[k]);
+      task.sighting = look(world, scans, robots[k]);
     }
   });
   for (int k = 0; k < count; ++k) {
-    if (looked[k]) world.sighted.push_back(robots[k]);
+    if (looked[k]) scans.sighted.push_back(robots[k]);
   }
 }
 
 /// Those that have begun to drive look at once.
-std::vector<int> beginners(const WorldState& world) {
+std::vector<int> beginners(const MotionView& world) {
   const FleetState& f = world.fleet;
   std::vector<int> out;
-  for (int i : world.stepped_singly) {
+  for (int i : world.schedule.stepped_singly) {
     if (isOnGuard(f, i) && !f.tasks[i].sighting.taken) out.push_back(i);
   }
   return out;
@@ -114,17 +114,17 @@ std::vector<int> beginners(const WorldState& world) {
 
 }  // namespace
 
-void lookAhead(WorldState& world) {
-  world.sighted.clear();
-  lookAhead(world, world.scans_due);
-  lookAhead(world, beginners(world));
+void lookAhead(MotionView& world, Scans& scans) {
+  scans.sighted.clear();
+  lookAhead(world, scans, scans.due);
+  lookAhead(world, scans, beginners(world));
 }
 
-double reachOfInterest(const WorldState& world, int robot) {
+double reachOfInterest(const Scene& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const MotionSegment& segment = task.segments.front();
   if (!task.follows() || !segment.on_grid) return std::numeric_limits<double>::infinity();
-  return segment.goal + halfLength(world.fleet.robots[robot]) + endMargin(world);
+  return segment.goal + halfLength(world.fleet.robots[robot]) + endMargin(world.settings);
 }
 
 }  // namespace kiva

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lies in a robot's way, as its laser sees it.
+// Finds what lies in a robot's way, as its laser sees it.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/motion_view.h"
+#include "core/state/scans.h"
 
 namespace kiva {
 
-/// After a step: robots that drive and whose scan is due look ahead, as do those that begin to
-/// drive. Task::sighting says what they saw, WorldState::sighted who they are.
-void lookAhead(WorldState& world);
+/// Lets robots look ahead after a step: those that drive and whose scan is due, and those that
+/// begin to drive. Fills Task::sighting, and Scans::sighted with their indices.
+void lookAhead(MotionView& world, Scans& scans);
 
-/// How far along its segment something is in the robot's way: on a path up to what it takes to
-/// stand at the end of the run as it is released [m]; +inf = wherever it is.
-double reachOfInterest(const WorldState& world, int robot);
+/// Returns how far along its segment something is in the robot's way: on a path up to what it takes
+/// to stand at the end of the run as it is released [m]; +inf = wherever it is.
+double reachOfInterest(const Scene& world, int robot);
 
 }  // namespace kiva

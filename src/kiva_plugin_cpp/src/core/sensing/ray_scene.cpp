@@ -12,10 +12,10 @@ namespace kiva {
 namespace {
 
 constexpr int kLeaf = 4;        // targets
-constexpr int kDeepest = 64;    // of a tree that is halved at each node
+constexpr int kDeepest = 64;    // levels of a tree that is halved at each node
 constexpr double kGrow = 1e-6;  // [m] that rounding may cost a box
 
-/// Where a ray enters a box, +inf = it does not within `range` (Kay and Kajiya 1986).
+/// Returns where a ray enters a box, +inf = it does not within `range` (Kay and Kajiya 1986).
 double enter(const Bounds& box, const Vector3& from, const Vector3& inverse, double range) {
   double first = 0, last = range;
   for (int i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ Shape boxAround(const Mesh& mesh) {
   return out;
 }
 
-/// Of no component that is 0, so that slabs can be divided by it.
+/// Returns the inverse of each component, finite even where it is 0.
 Vector3 inverseOf(const Vector3& direction) {
   constexpr double kLeast = 1e-300;
   Vector3 out;
@@ -62,7 +62,7 @@ Vector3 inverseOf(const Vector3& direction) {
 
 }  // namespace
 
-RayScene::RayScene(const WorldState& world, const Vector3& from, double range, const Model* but)
+RayScene::RayScene(const Scene& world, const Vector3& from, double range, const Model* but)
     : from_(from), range_(range) {
   const int robot = but ? but->owner->robot(world, *but) : -1;
   for (const auto& model : world.models) {
@@ -77,7 +77,7 @@ RayScene::RayScene(const WorldState& world, const Vector3& from, double range, c
   if (!targets_.empty()) build(0, static_cast<int>(targets_.size()));
 }
 
-void RayScene::addStatic(const WorldState& world, const Model& model) {
+void RayScene::addStatic(const Scene& world, const Model& model) {
   const auto& links = model.description->links;
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Pose link = linkPose(world, model, static_cast<int>(i));
@@ -90,7 +90,7 @@ void RayScene::addStatic(const WorldState& world, const Model& model) {
   addSurfaces(model);
 }
 
-void RayScene::addMoving(const WorldState& world, const Model& model) {
+void RayScene::addMoving(const Scene& world, const Model& model) {
   for (const CollisionGeometry& geometry : model.geometries) {
     const int link = geometry.link;  // -1 is a robot's base
     const Pose pose = link < 0 ? basePose(world, model.index) : linkPose(world, model, link);
@@ -145,7 +145,7 @@ void RayScene::add(Target target) {
   targets_.push_back(std::move(target));
 }
 
-/// A tree of boxes, halved along the axis in which their middles are spread the most.
+/// Builds a tree of boxes, halved along the axis in which their middles are spread the most.
 int RayScene::build(int first, int count) {
   const int index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();

@@ -8,7 +8,7 @@
 
 #include "core/geometry/footprint.h"
 #include "core/geometry/solid.h"
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
@@ -17,21 +17,22 @@ namespace kiva {
 class RayScene {
  public:
   /// `but`: a model that rays pass, with its load; null = none.
-  RayScene(const WorldState& world, const Vector3& from, double range, const Model* but);
+  RayScene(const Scene& world, const Vector3& from, double range, const Model* but);
 
-  /// Distance [m] along that unit vector to the first surface; +inf = none within range.
+  /// Returns the distance [m] along that unit vector to the first surface; +inf = none within
+  /// range.
   double cast(const Vector3& direction) const;
 
  private:
   struct Target {
     Bounds box;
-    Vector3 centre;  ///< Of `solid`.
+    Vector3 centre;  ///< The centre of `solid`.
     Solid solid;
     const btCollisionObject* body = nullptr;  ///< In place of it, where a shape is no solid.
   };
   struct Plane {
     Vector3 normal;
-    double height = 0;  ///< Of the rays' origin above it [m].
+    double height = 0;  ///< Height of the rays' origin above the plane [m].
   };
   struct Node {
     Bounds box;
@@ -39,8 +40,8 @@ class RayScene {
     int right = -1;            ///< The second child, -1 in a leaf; the first one follows.
   };
 
-  void addStatic(const WorldState& world, const Model& model);
-  void addMoving(const WorldState& world, const Model& model);
+  void addStatic(const Scene& world, const Model& model);
+  void addMoving(const Scene& world, const Model& model);
   void addSurfaces(const Model& model);
   void add(const Shape& shape, const Pose& pose, const btCollisionObject* hull);
   void add(Target target);

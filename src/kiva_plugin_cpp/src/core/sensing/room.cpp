@@ -18,14 +18,14 @@ constexpr double kTouch = 0.001;
 constexpr double kFine = 1e-3;    // [rad] to which its end is known
 constexpr double kNearer = 1e-6;  // [m]
 
-/// Whether it is part of a storage unit that no robot carries.
-bool isOfUnit(const WorldState& world, const Footprint& other) {
+/// Returns whether it is part of a storage unit that no robot carries.
+bool isOfUnit(const Scene& world, const Footprint& other) {
   const Model& model = *world.models[other.model];
-  return model.kind == ModelKind::kStorageUnit && world.units[model.index].carrier < 0;
+  return model.kind == ModelKind::kStorageUnit && world.storage.units[model.index].carrier < 0;
 }
 
-Footprint turningCircle(const WorldState& world, int robot, double x, double y) {
-  return circleAt(x, y, cornerRadius(world.fleet.robots[robot]));
+Footprint turningCircle(const FleetState& fleet, int robot, double x, double y) {
+  return circleAt(x, y, cornerRadius(fleet.robots[robot]));
 }
 
 double gapTo(const std::vector<Footprint>& all, const Footprint& other) {
@@ -46,12 +46,12 @@ int touchedBy(const std::vector<Footprint>& then, const std::vector<Footprint>& 
   return -1;
 }
 
-/// What is within reach of its corners, or of its load's.
-std::vector<Footprint> thingsAround(const WorldState& world, int robot, double x, double y,
+/// Returns what is within reach of its corners, or of its load's.
+std::vector<Footprint> thingsAround(const Scene& world, int robot, double x, double y,
                                     Among among) {
   std::vector<Footprint> things;
-  const Footprint circle = turningCircle(world, robot, x, y);
-  const double top = world.floor.z + heightOf(world.fleet, robot);
+  const Footprint circle = turningCircle(world.fleet, robot, x, y);
+  const double top = world.floor.extent.z + heightOf(world.fleet, robot);
   world.obstacles.near(x, y, circle.hx, [&](const Footprint& other) {
     if (other.group == robot || other.z_min >= top || gap(circle, other) > 0) return;
     const Model& model = *world.models[other.model];
@@ -63,8 +63,7 @@ std::vector<Footprint> thingsAround(const WorldState& world, int robot, double x
 }
 
 /// All that the robot covers which drives so far from there, from its middle on.
-Footprint lane(const WorldState& world, int robot, const PlanarPose& from, double way,
-               double margin) {
+Footprint lane(const Scene& world, int robot, const PlanarPose& from, double way, double margin) {
   const Robot& r = world.fleet.robots[robot];
   Footprint out;
   out.c = std::cos(from.yaw);
@@ -74,12 +73,12 @@ Footprint lane(const WorldState& world, int robot, const PlanarPose& from, doubl
   const double middle = std::copysign(out.hx, way);
   out.x = from.x + out.c * middle;
   out.y = from.y + out.s * middle;
-  out.z_min = world.floor.z;
-  out.z_max = world.floor.z + heightOf(world.fleet, robot);
+  out.z_min = world.floor.extent.z;
+  out.z_max = world.floor.extent.z + heightOf(world.fleet, robot);
   return out;
 }
 
-/// Where the robot would be, were it on the line of its segment.
+/// Returns where the robot would be, were it on the line of its segment.
 PlanarPose onLine(const FleetState& f, int robot) {
   const MotionSegment& segment = f.tasks[robot].segments.front();
   const PlanarPose at = f.believed(robot);
@@ -91,8 +90,8 @@ PlanarPose onLine(const FleetState& f, int robot) {
 
 }  // namespace
 
-bool isFree(const WorldState& world, int robot, double x, double y) {
-  const Footprint disc = turningCircle(world, robot, x, y);
+bool isFree(const Scene& world, int robot, double x, double y) {
+  const Footprint disc = turningCircle(world.fleet, robot, x, y);
   bool is_free = true;
   world.obstacles.near(x, y, disc.hx, [&](const Footprint& other) {
     if (!is_free || other.group == robot || gap(disc, other) > 0) return;
@@ -102,7 +101,7 @@ bool isFree(const WorldState& world, int robot, double x, double y) {
   return is_free;
 }
 
-bool standsInLane(const WorldState& world, const Model& unit, int robot) {
+bool standsInLane(const Scene& world, const Model& unit, int robot) {
   const FleetState& f = world.fleet;
   const double reach = f.robots[robot].laser.max_range;
   const Footprint swept = lane(world, robot, onLine(f, robot), reach, kLaneMargin);
@@ -114,7 +113,7 @@ bool standsInLane(const WorldState& world, const Model& unit, int robot) {
                      });
 }
 
-TurnRoom roomToTurn(const WorldState& world, int robot, const PlanarPose& at, Among among) {
+TurnRoom roomToTurn(const Scene& world, int robot, const PlanarPose& at, Among among) {
   TurnRoom room;
   const std::vector<Footprint> things = thingsAround(world, robot, at.x, at.y, among);
   if (things.empty()) return room;
@@ -140,12 +139,11 @@ TurnRoom roomToTurn(const WorldState& world, int robot, const PlanarPose& at, Am
   return room;
 }
 
-bool hasRoomToTurn(const WorldState& world, int robot, double x, double y) {
+bool hasRoomToTurn(const Scene& world, int robot, double x, double y) {
   return thingsAround(world, robot, x, y, Among::kAll).empty();
 }
 
-bool isWayFree(const WorldState& world, int robot, const PlanarPose& from, double way,
-               double margin) {
+bool isWayFree(const Scene& world, int robot, const PlanarPose& from, double way, double margin) {
   const Footprint swept = lane(world, robot, from, way, margin);
   bool is_free = true;
   world.obstacles.near(swept.x, swept.y, radiusOf(swept), [&](const Footprint& other) {

@@ -4,17 +4,17 @@
 // pushed aside leaves less of it than one in its place.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
-/// Whether the robot, standing or turning at (x, y), would touch anything but the legs of a storage
-/// unit beneath which it could stand.
-bool isFree(const WorldState& world, int robot, double x, double y);
+/// Returns whether the robot, standing or turning at (x, y), would touch anything but the legs of a
+/// storage unit beneath which it could stand.
+bool isFree(const Scene& world, int robot, double x, double y);
 
-/// Whether a leg of that unit stands in the lane in which the robot, without a load, drives its
-/// segment.
-bool standsInLane(const WorldState& world, const Model& unit, int robot);
+/// Returns whether a leg of that unit stands in the lane in which the robot, without a load, drives
+/// its segment.
+bool standsInLane(const Scene& world, const Model& unit, int robot);
 
 /// What a robot is to have room among: storage units that stand, or all that would stop it, too.
 enum class Among { kUnits, kAll };
@@ -28,14 +28,13 @@ struct TurnRoom {
 };
 /// Up to one turn around from that pose. What the robot touches there is let be unless it comes
 /// nearer.
-TurnRoom roomToTurn(const WorldState& world, int robot, const PlanarPose& at, Among among);
+TurnRoom roomToTurn(const Scene& world, int robot, const PlanarPose& at, Among among);
 
-/// Whether the robot could turn to any heading there without touching anything.
-bool hasRoomToTurn(const WorldState& world, int robot, double x, double y);
+/// Returns whether the robot could turn to any heading there without touching anything.
+bool hasRoomToTurn(const Scene& world, int robot, double x, double y);
 
-/// Whether no leg of a storage unit stands in a robot's way that drives so far along its heading
-/// [m], in reverse if that is < 0, with `margin` more than its width on both sides [m].
-bool isWayFree(const WorldState& world, int robot, const PlanarPose& from, double way,
-               double margin);
+/// Returns whether no leg of a storage unit stands in a robot's way that drives so far along its
+/// heading [m], in reverse if that is < 0, with `margin` more than its width on both sides [m].
+bool isWayFree(const Scene& world, int robot, const PlanarPose& from, double way, double margin);
 
 }  // namespace kiva

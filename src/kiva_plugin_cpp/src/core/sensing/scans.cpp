@@ -16,9 +16,9 @@ double rayAngle(const LaserParameters& laser, int ray) {
   return laser.min_angle + (laser.rays > 1 ? span * ray / (laser.rays - 1) : 0);
 }
 
-/// How many robots with successive ids scan in the same step, where more than one has to: they
-/// mostly stand side by side and see the same, which then is in the processor's cache. A power of
-/// two, so that it seldom changes as robots come and go, and with it when a robot scans.
+/// Returns how many robots with successive ids scan in the same step, where more than one has to:
+/// they mostly stand side by side and see the same, which then is in the processor's cache. A power
+/// of two, so that it seldom changes as robots come and go, and with it when a robot scans.
 int scanTogether(int robots, std::uint64_t period) {
   int together = 1;
   while (together < kMostTogether && 2 * together * period <= static_cast<std::uint64_t>(robots)) {
@@ -28,17 +28,17 @@ int scanTogether(int robots, std::uint64_t period) {
 }
 
 /// Rebuilds the rounds after robots have come or gone.
-void arrangeScans(WorldState& world) {
-  world.scan_rounds.clear();
-  world.scan_rounds_revision = world.models_revision;
+void arrangeScans(const Scene& world, Scans& scans) {
+  scans.rounds.clear();
+  scans.rounds_revision = world.models.revision;
   for (int i = 0; i < world.fleet.size(); ++i) {
     const Robot& robot = world.fleet.robots[i];
     if (!robot.laser.fitted) continue;
-    const std::uint64_t period = scanPeriod(world, robot);
-    auto round = std::find_if(world.scan_rounds.begin(), world.scan_rounds.end(),
+    const std::uint64_t period = scanPeriod(world.clock, robot);
+    auto round = std::find_if(scans.rounds.begin(), scans.rounds.end(),
                               [&](const ScanRound& r) { return r.period == period; });
-    if (round == world.scan_rounds.end()) {
-      round = world.scan_rounds.insert(round, {period, {}});
+    if (round == scans.rounds.end()) {
+      round = scans.rounds.insert(round, {period, {}});
       round->robots_at.resize(period);
     }
     // Weyl's sequence by the golden ratio spreads any set of ids evenly.
@@ -49,14 +49,14 @@ void arrangeScans(WorldState& world) {
   }
 }
 
-/// As the laser tells it: each ray's error depends on robot, step and ray alone, whoever looks.
-void disturb(const WorldState& world, const Robot& robot, FanHits* hits) {
+/// Adds the laser's errors. A ray's error depends on robot, step and ray alone, not on the reader.
+void disturb(const Scene& world, const Robot& robot, FanHits* hits) {
   constexpr std::uint64_t kMostRays = 1 << 14;
-  const LaserRealism& real = world.realism.lasers;
+  const LaserRealism& real = world.settings.realism.lasers;
   for (int ray = hits->first; ray <= hits->last; ++ray) {
     if (hits->model[ray] < 0) continue;
-    RandomStream random(world.options.seed, Matter::kLaser, robot.id,
-                        world.total_steps * kMostRays + ray);
+    RandomStream random(world.settings.options.seed, Matter::kLaser, robot.id,
+                        world.clock.total_steps * kMostRays + ray);
     const bool is_dropped = random.chance(real.dropped_rays);
     double& range = hits->range[ray];
     range = std::max(0.0, range + real.range_noise * random.normal());
@@ -66,58 +66,58 @@ void disturb(const WorldState& world, const Robot& robot, FanHits* hits) {
 
 }  // namespace
 
-std::uint64_t scanPeriod(const WorldState& world, const Robot& robot) {
-  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * world.dt)));
+std::uint64_t scanPeriod(const Clock& clock, const Robot& robot) {
+  return std::max<std::uint64_t>(1, std::llround(1 / (robot.laser.rate * clock.dt)));
 }
 
-bool isBlind(const WorldState& world, int robot) {
-  return (world.fleet.failures[robot] & bitOf(Failure::kLaser)) != 0;
+bool isBlind(const FleetState& fleet, int robot) {
+  return (fleet.failures[robot] & bitOf(Failure::kLaser)) != 0;
 }
 
-void findDueScans(WorldState& world) {
-  if (world.scan_rounds_revision != world.models_revision) arrangeScans(world);
-  world.scans_due.clear();
-  for (const ScanRound& round : world.scan_rounds) {
-    const std::vector<int>& due = round.robots_at[world.total_steps % round.period];
-    world.scans_due.insert(world.scans_due.end(), due.begin(), due.end());
+void findDueScans(const Scene& world, const FailureState& failures, Scans& scans) {
+  if (scans.rounds_revision != world.models.revision) arrangeScans(world, scans);
+  scans.due.clear();
+  for (const ScanRound& round : scans.rounds) {
+    const std::vector<int>& due = round.robots_at[world.clock.total_steps % round.period];
+    scans.due.insert(scans.due.end(), due.begin(), due.end());
   }
-  if (!world.failures.defects.empty()) {
-    const auto is_blind = [&](int i) { return isBlind(world, i); };
-    world.scans_due.erase(std::remove_if(world.scans_due.begin(), world.scans_due.end(), is_blind),
-                          world.scans_due.end());
+  if (!failures.defects.empty()) {
+    const auto is_blind = [&](int i) { return isBlind(world.fleet, i); };
+    scans.due.erase(std::remove_if(scans.due.begin(), scans.due.end(), is_blind), scans.due.end());
   }
-  if (world.scan_rounds.size() > 1) std::sort(world.scans_due.begin(), world.scans_due.end());
+  if (scans.rounds.size() > 1) std::sort(scans.due.begin(), scans.due.end());
 }
 
-void setRays(WorldState& world, Robot* robot) {
+void setRays(Scans& scans, Robot* robot) {
   const LaserParameters& laser = robot->laser;
   const auto same = [&](const RayFan& fan) {
     return fan.rays == laser.rays && fan.min_angle == laser.min_angle &&
            fan.max_angle == laser.max_angle;
   };
-  const auto at = std::find_if(world.ray_fans.begin(), world.ray_fans.end(), same);
-  robot->ray_fan = static_cast<int>(at - world.ray_fans.begin());
-  if (at != world.ray_fans.end()) return;
+  const auto at = std::find_if(scans.fans.begin(), scans.fans.end(), same);
+  robot->ray_fan = static_cast<int>(at - scans.fans.begin());
+  if (at != scans.fans.end()) return;
   RayFan fan{laser.rays, laser.min_angle, laser.max_angle, {}, {}, {}};
   for (int ray = 0; ray < laser.rays; ++ray) {
     fan.c.push_back(std::cos(rayAngle(laser, ray)));
     fan.s.push_back(std::sin(rayAngle(laser, ray)));
     fan.per_aside.push_back(1 / std::max(1e-9, std::abs(fan.s.back())));
   }
-  world.ray_fans.push_back(std::move(fan));
+  scans.fans.push_back(std::move(fan));
 }
 
-Sensor sensorOf(const WorldState& world, int robot) {
+Sensor sensorOf(const Scene& world, int robot) {
   const FleetState& f = world.fleet;
   const LaserParameters& laser = f.robots[robot].laser;
   const double c = std::cos(f.yaw[robot]), s = std::sin(f.yaw[robot]);
-  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.z + laser.z, c, s};
+  return {f.x[robot] + c * laser.x, f.y[robot] + s * laser.x, world.floor.extent.z + laser.z, c, s};
 }
 
-void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits) {
-  const RayFan& fan = world.ray_fans[world.fleet.robots[robot].ray_fan];
+void castRays(const Scene& world, const Scans& scans, int robot, const FanReach& reach,
+              FanHits* hits) {
+  const RayFan& fan = scans.fans[world.fleet.robots[robot].ray_fan];
   world.obstacles.cast(fan, sensorOf(world, robot), reach, robot, hits);
-  if (world.realism.lasers.enabled) disturb(world, world.fleet.robots[robot], hits);
+  if (world.settings.realism.lasers.enabled) disturb(world, world.fleet.robots[robot], hits);
 }
 
 }  // namespace kiva

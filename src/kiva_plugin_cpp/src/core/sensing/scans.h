@@ -3,26 +3,28 @@
 // The robots' lasers: when they scan, and what they see.
 #pragma once
 
-#include "core/geometry/ray_fan.h"
-#include "core/state/world_state.h"
+#include "core/state/failure_state.h"
+#include "core/state/scans.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
-/// Steps between two scans of a robot.
-std::uint64_t scanPeriod(const WorldState& world, const Robot& robot);
-/// Fills WorldState::scans_due: whose lasers turn in a scan at this step, in the fleet's order. The
+/// Returns the number of steps between two scans of a robot.
+std::uint64_t scanPeriod(const Clock& clock, const Robot& robot);
+/// Fills Scans::due with the robots whose scans are due at this step, in the fleet's order. The
 /// fleet's scans are spread over the period.
-void findDueScans(WorldState& world);
+void findDueScans(const Scene& world, const FailureState& failures, Scans& scans);
 
-/// Whether its laser is broken.
-bool isBlind(const WorldState& world, int robot);
+/// Returns whether its laser is broken.
+bool isBlind(const FleetState& fleet, int robot);
 
 /// Gives the robot the directions of its laser's rays, shared with others of the same kind.
-void setRays(WorldState& world, Robot* robot);
+void setRays(Scans& scans, Robot* robot);
 
-Sensor sensorOf(const WorldState& world, int robot);
+Sensor sensorOf(const Scene& world, int robot);
 
 /// Casts the robot's rays; as far as lasers are real, with their noise.
-void castRays(const WorldState& world, int robot, const FanReach& reach, FanHits* hits);
+void castRays(const Scene& world, const Scans& scans, int robot, const FanReach& reach,
+              FanHits* hits);
 
 }  // namespace kiva

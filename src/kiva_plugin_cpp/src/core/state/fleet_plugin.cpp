@@ -3,8 +3,8 @@
 
 namespace kiva {
 
-const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename) {
-  for (const auto& plugin : world.fleet_plugins) {
+const FleetPlugin* findFleetPlugin(const Plugins& plugins, const std::string& filename) {
+  for (const auto& plugin : plugins.fleet) {
     if (filename == plugin->filename()) return plugin.get();
   }
   return nullptr;

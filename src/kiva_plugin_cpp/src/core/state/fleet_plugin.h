@@ -8,25 +8,27 @@
 #include <string>
 #include <vector>
 
-#include "core/state/world_state.h"
+#include "core/state/contact_view.h"
+#include "core/state/plugins.h"
 
 namespace kiva {
 
 class FleetPlugin {
  public:
   virtual ~FleetPlugin() = default;
-  /// The file name by which an SDF asks for it.
+  /// Returns the file name by which an SDF asks for it.
   virtual const char* filename() const = 0;
   /// Reads one robot's parameters, before the robot joins the fleet. Throws DescriptionError.
   virtual void configure(Robot& robot, const Parameters& parameters) const = 0;
-  /// Decides upon what was seen in the last step, before robots take new commands.
-  virtual void react(WorldState& /*world*/) const {}
+  /// Decides upon what was seen in the last step, before robots take new commands. `sighted`: the
+  /// robots whose lasers looked ahead in it.
+  virtual void react(MotionView& /*world*/, const std::vector<int>& /*sighted*/) const {}
   /// Says what motors and towers are to do in this step.
-  virtual void control(WorldState& /*world*/) const {}
+  virtual void control(ContactView& /*world*/) const {}
 };
 
-/// The plugin with that file name, or null.
-const FleetPlugin* findFleetPlugin(const WorldState& world, const std::string& filename);
+/// Returns the plugin with that file name, or null.
+const FleetPlugin* findFleetPlugin(const Plugins& plugins, const std::string& filename);
 
 /// The file name by which a world asks for its grid.
 constexpr char kGridPlugin[] = "libkiva_grid.so";

@@ -51,6 +51,15 @@ void FleetState::remove(int i) {
   Fleet::remove(i);
 }
 
+void FleetState::applyRealism(const Realism& realism, double dt) {
+  localises = realism.localisation.enabled;
+  const double time = realism.actuation.enabled ? realism.actuation.motor_lag : 0;
+  lag = {};
+  if (time == 0) return;
+  lag.share = 1 - std::exp(-dt / time);
+  lag.behind = (1 / lag.share - 1) * dt;
+}
+
 void FleetState::follow(int i, const Profile& command) {
   if (lag.isNone()) return setProfile(i, command);
   const double speed = reference_speed[i] + lag.share * (command.speed - reference_speed[i]);

@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "core/state/localisation.h"
+#include "core/estimation/localisation.h"
 #include "core/state/profile.h"
 #include "core/state/released_path.h"
 #include "kiva_plugin_cpp/fleet.h"
+#include "kiva_plugin_cpp/realism.h"
 
 namespace kiva {
 
@@ -56,7 +57,7 @@ struct Task {
   Phase phase = Phase::kIdle;
   std::uint32_t command = 0;           ///< The number of the last command; 0 = none yet.
   std::string goal;                    ///< What it asked for, for a person.
-  std::deque<MotionSegment> segments;  ///< Of the command, the first under way.
+  std::deque<MotionSegment> segments;  ///< The command's, the first under way.
   ReleasedPath path;                   ///< What its segments are made of, one by one, if it is one.
   bool cancelled = false;              ///< It ends with the present segments.
   double overdue = 0;                  ///< Since its reference ended without it being there [s].
@@ -108,13 +109,13 @@ struct MotorLag {
 struct Sway {
   double tilt = 0, rate = 0;  ///< [rad, rad/s]
   double to_x = 0, to_y = 0;  ///< Where to: a unit vector in world.
-  double vx = 0, vy = 0;      ///< Of the robot, [m/s], after step number
+  double vx = 0, vy = 0;      ///< The robot's velocity [m/s] after step number
   std::uint64_t step = 0;
 };
 
 /// The newest of what a robot has reported that came through.
 struct Heard {
-  std::uint64_t number = 0;  ///< Of that report, counted from 1; 0 = none yet.
+  std::uint64_t number = 0;  ///< The report's number, from 1; 0 = none yet.
   RobotReport report;
 };
 
@@ -129,7 +130,7 @@ struct FleetState : Fleet {
 
   // The reference of the current segment: [m] along the heading, [rad], or [m] of tower.
   Column<double> reference, reference_speed;
-  Column<double> command_speed;  ///< Of wheels that lag: what the reference comes of.
+  Column<double> command_speed;  ///< Where wheels lag: the command that the reference follows.
   MotorLag lag;
   Column<double> goal;          ///< Where it is to end.
   Column<double> deceleration;  ///< With which it is to end.
@@ -146,17 +147,23 @@ struct FleetState : Fleet {
   /// it cruises.
   Column<double> count_at;
 
-  // Of robots that follow their references exactly, see core/motion/cruise.h.
+  // Robots that follow their references exactly, see core/motion/cruise.h.
   Column<std::int64_t> cruising;           ///< -1 = is one, 0 = is none: a mask.
   Column<double> per_x, per_y, per_yaw;    ///< What a unit of reference moves the chassis,
   Column<double> per_wheel[2];             ///< and its wheels.
-  Column<double> top_speed, acceleration;  ///< Of the reference.
+  Column<double> top_speed, acceleration;  ///< The reference's.
 
   /// Whether robots drive by where they believe to be; if not, they know, and the next is empty.
   bool localises = false;
   std::vector<Localisation> localisation;
 
-  /// Where robot `i` believes to be.
+  /// The top speed of the fastest robot that the fleet ever had [m/s].
+  double fastest = 0;
+
+  /// Takes in what of realism robots drive by, at that step size [s].
+  void applyRealism(const Realism& realism, double dt);
+
+  /// Returns where robot `i` believes to be.
   PlanarPose believed(int i) const {
     if (!localises) return {x[i], y[i], yaw[i]};
     return localisation[i].at(reference[i]);
@@ -167,7 +174,7 @@ struct FleetState : Fleet {
     reference[i] = profile.position;
     reference_speed[i] = command_speed[i] = profile.speed;
   }
-  /// What the wheel motors are commanded, which the reference follows.
+  /// Returns what the wheel motors are commanded, which the reference follows.
   Profile command(int i) const {
     if (lag.isNone()) return profile(i);
     return {reference[i] + lag.behind * reference_speed[i], command_speed[i]};
@@ -181,12 +188,13 @@ struct FleetState : Fleet {
   void remove(int i);
 };
 
-/// Whether wheels, or the tower if that is what it moves, are to stand: it is stopped, or broken.
+/// Returns whether wheels, or the tower if that is what it moves, are to stand: it is stopped, or
+/// broken.
 bool isHeld(const FleetState& fleet, int i);
 
-/// Robot `i` moves otherwise than was foreseen from now on, by a command, a push or another load:
-/// it is awake, no longer cruises, and looks around before it goes on. Whoever changes how a robot
-/// moves calls this, and nothing else follows.
+/// Wakes robot `i` and ends its cruise, since a command, a push or another load changes its motion;
+/// it looks around before it goes on. Every change of a robot's motion calls this, and needs
+/// nothing else.
 void moved(FleetState& fleet, int i);
 
 }  // namespace kiva

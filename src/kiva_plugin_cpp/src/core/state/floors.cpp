@@ -134,7 +134,7 @@ class Halves {
   std::map<Key, Entry> known_;
 };
 
-/// The part of a collision that is low, or the other one; nothing if there is none.
+/// Returns the part of a collision that is low, or the other one; nothing if there is none.
 std::optional<Collision> partOf(const Collision& whole, const Pose& link, const Floor& floor,
                                 bool low) {
   const Pose pose = link * whole.pose_in_link;
@@ -206,12 +206,12 @@ bool isFloor(const ModelInstance& instance) {
                                              [](const auto& s) { return s.area >= kRoom; });
 }
 
-ModelBodies buildStatic(const WorldState& world, const Model& model) {
+ModelBodies buildStatic(const Scene& world, const Model& model) {
   // What stands still touches nothing that does.
   const int mask = ~(kFloorGroup | kStaticGroup);
   const auto build = [&](bool low, int group) {
-    return world.physics.build(partOf(model, world.floor, low), model.pose, model.slot, group,
-                               mask);
+    return world.physics.build(partOf(model, world.floor.extent, low), model.pose, model.slot,
+                               group, mask);
   };
   ModelBodies bodies = build(false, kStaticGroup), floor = build(true, kFloorGroup);
   for (auto* list : {&floor.links, &floor.surfaces}) {
@@ -223,19 +223,20 @@ ModelBodies buildStatic(const WorldState& world, const Model& model) {
   return bodies;
 }
 
-void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model) {
-  const double depth = world.floor.z - model->pose.Z();
+void raiseToFloor(const Scene& world, StorageUnit* unit, Model* model) {
+  const double depth = world.floor.extent.z - model->pose.Z();
   if (depth <= 0 || depth > kNearGround) return;
-  model->pose.Pos().Z() = model->spawn_pose.Pos().Z() = world.floor.z;
+  model->pose.Pos().Z() = model->spawn_pose.Pos().Z() = world.floor.extent.z;
   unit->raised += depth;
 }
 
-FloorCover::FloorCover(const WorldState& world) {
+FloorCover::FloorCover(const Scene& world) {
   for (const auto& model : world.models) {
     if (!model || model->level_surfaces.empty()) continue;
     for (const Link& link : model->description->links) {
       for (const Collision& collision : link.collisions) {
-        add(collision, model->pose * link.pose_in_model * collision.pose_in_link, world.floor);
+        add(collision, model->pose * link.pose_in_model * collision.pose_in_link,
+            world.floor.extent);
       }
     }
   }
@@ -314,8 +315,8 @@ bool FloorCover::meets(const Piece& piece, const FloorPatch& area) {
   return true;
 }
 
-/// Whether what a rectangle has of a piece lies beneath one other piece, which is convex: it does
-/// if its corners do.
+/// Returns whether what a rectangle has of a piece lies beneath one other piece, which is convex:
+/// it does if its corners do.
 bool FloorCover::isCovered(const Piece& piece, const FloorPatch& area) const {
   const double min_x = std::max(piece.min_x, area.min_x), max_x = std::min(piece.max_x, area.max_x);
   const double min_y = std::max(piece.min_y, area.min_y), max_y = std::min(piece.max_y, area.max_y);

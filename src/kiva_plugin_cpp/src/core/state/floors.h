@@ -4,7 +4,7 @@
 // as a part of the mesh of a whole building, and not always with its top at zero.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
@@ -17,31 +17,32 @@ constexpr double kSameHeight = 0.005;
 /// How much higher than the floor something may rise for wheels to get over it [m].
 constexpr double kStep = 0.03;
 
-/// Whether a static model is floor and nothing else: a plane, or what is flat and near the ground.
+/// Returns whether a static model is floor and nothing else: a plane, or what is flat and near the
+/// ground.
 bool isFloor(const ModelInstance& instance);
 
-/// The level surfaces of a static model that may be floor.
+/// Returns the level surfaces of a static model that may be floor.
 std::vector<LevelSurface> levelSurfaces(const ModelDescription& description, const Pose& pose);
 
-/// A static model's bodies: what lies at the floor is in a group that robots don't touch.
-ModelBodies buildStatic(const WorldState& world, const Model& model);
+/// Returns a static model's bodies: what lies at the floor is in a group that robots don't touch.
+ModelBodies buildStatic(const Scene& world, const Model& model);
 
-/// Whether what rises to `top` in world [m] is low enough to drive over.
+/// Returns whether what rises to `top` in world [m] is low enough to drive over.
 inline bool isLow(const Floor& floor, double top) { return top <= floor.z + kStep + 1e-9; }
 
 /// Puts a storage unit that would stand in the floor on it.
-void raiseToFloor(const WorldState& world, StorageUnit* unit, Model* model);
+void raiseToFloor(const Scene& world, StorageUnit* unit, Model* model);
 
 /// Where the surfaces of the floor lie, and how they grip.
 class FloorCover {
  public:
-  explicit FloorCover(const WorldState& world);
-  /// Whether the square around (x, y) with edges of twice `half` [m] lies on them.
+  explicit FloorCover(const Scene& world);
+  /// Returns whether the square around (x, y) with edges of twice `half` [m] lies on them.
   bool covers(double x, double y, double half) const;
-  /// Coulomb coefficient of the uppermost surface at (x, y); of surfaces of one height the smallest
-  /// counts, as a slab that is set into a floor. `otherwise` where there is none.
+  /// Returns the Coulomb coefficient of the uppermost surface at (x, y); of surfaces of one height
+  /// the smallest counts, as a slab that is set into a floor. `otherwise` where there is none.
   double frictionAt(double x, double y, double otherwise) const;
-  /// The least one of the surfaces that a rectangle meets, or `otherwise` if that is less.
+  /// Returns the least one of the surfaces that a rectangle meets, or `otherwise` if that is less.
   double leastFriction(const FloorPatch& area, double otherwise) const;
 
  private:

@@ -10,7 +10,7 @@
 namespace kiva {
 namespace {
 
-/// What belongs to the floor, in the mesh of a building say, is in nobody's way.
+/// Adds the triangles of a building's mesh that stand in the way; those of its floor do not.
 void addTriangles(const Floor& floor, Model& model, CollisionGeometry geometry) {
   const Mesh& mesh = *geometry.shape.mesh;
   const Pose pose =
@@ -32,11 +32,11 @@ double topOf(const Model& model, const CollisionGeometry& geometry) {
 }
 
 /// The footprints of one model, of `group`, in the frame whose inverse is given.
-void appendFootprints(const WorldState& world, const Model& model, const Pose& to_frame, int group,
+void appendFootprints(const Scene& world, const Model& model, const Pose& to_frame, int group,
                       std::vector<Footprint>* out) {
   constexpr int kNone = -2;  // -1 is a robot's base
   int link = kNone;
-  Pose link_in_frame;  // of several geometries, mostly
+  Pose link_in_frame;  // shared by several geometries, mostly
   out->reserve(out->size() + model.geometries.size());
   for (const CollisionGeometry& geometry : model.geometries) {
     if (geometry.link != link) {
@@ -62,18 +62,20 @@ void appendFootprints(const WorldState& world, const Model& model, const Pose& t
 }
 
 /// A robot and its load move as one.
-void updateMover(WorldState& world, int robot) {
-  const Pose to_robot = Pose(0, 0, world.floor.z, 0, 0, 0) * basePose(world, robot).Inverse();
+void updateMover(MotionView& world, int robot) {
+  const Pose to_robot =
+      Pose(0, 0, world.floor.extent.z, 0, 0, 0) * basePose(world, robot).Inverse();
   std::vector<Footprint> local;
-  appendFootprints(world, world.modelOf(robot), to_robot, robot, &local);
+  appendFootprints(world, world.models.of(world.fleet.robots[robot]), to_robot, robot, &local);
   const int unit = world.fleet.unit[robot];
   if (unit >= 0) {
-    appendFootprints(world, *world.models[world.units[unit].model], to_robot, robot, &local);
+    appendFootprints(world, *world.models[world.storage.units[unit].model], to_robot, robot,
+                     &local);
   }
   world.obstacles.setMover(robot, std::move(local));
 }
 
-void updateStanding(WorldState& world, Model& model) {
+void updateStanding(MotionView& world, Model& model) {
   std::vector<Footprint> footprints;
   appendFootprints(world, model, Pose::Zero, model.owner->group(model), &footprints);
   for (std::size_t k = 0; k < footprints.size(); ++k) {
@@ -88,14 +90,14 @@ void updateStanding(WorldState& world, Model& model) {
 
 }  // namespace
 
-void refitGeometry(WorldState& world, Model& model) {
-  hideFootprints(world, model);
+void refitGeometry(MotionView& world, Model& model) {
+  hideFootprints(world.obstacles, model);
   model.geometries.clear();
-  addCollisionGeometry(world, model);
+  addCollisionGeometry(world.floor, model);
   moved(world, model);
 }
 
-void addCollisionGeometry(const WorldState& world, Model& model) {
+void addCollisionGeometry(const FloorState& floor, Model& model) {
   const auto& links = model.description->links;
   if (model.isStatic()) model.level_surfaces = levelSurfaces(*model.description, model.pose);
   std::size_t collisions = 0;
@@ -107,46 +109,46 @@ void addCollisionGeometry(const WorldState& world, Model& model) {
       const CollisionGeometry geometry{static_cast<int>(i), collision.pose_in_link,
                                        collision.shape};
       if (collision.shape.kind == Shape::Kind::kMesh && model.isStatic()) {
-        addTriangles(world.floor, model, geometry);
-      } else if (!model.isStatic() || !isLow(world.floor, topOf(model, geometry))) {
+        addTriangles(floor.extent, model, geometry);
+      } else if (!model.isStatic() || !isLow(floor.extent, topOf(model, geometry))) {
         model.geometries.push_back(geometry);
       }
     }
   }
 }
 
-void moved(WorldState& world, Model& model) {
+void moved(MotionView& world, Model& model) {
   const int mover = model.owner->robot(world, model);
-  if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0)) world.unitsMoved();
+  if (model.owner->isTracked() || (mover >= 0 && world.fleet.unit[mover] >= 0))
+    world.storage.noteMove();
   if (mover < 0) return updateStanding(world, model);
-  hideFootprints(world, model);  // of a unit that was taken up
+  hideFootprints(world.obstacles, model);  // those of a unit that was taken up
   updateMover(world, mover);
 }
 
-void followRobot(WorldState& world, int robot) {
+void followRobot(MotionView& world, int robot) {
   const FleetState& f = world.fleet;
   const bool still = f.vx[robot] == 0 && f.vy[robot] == 0 && f.yaw_rate[robot] == 0;
   if (still) return;
   world.obstacles.follow(robot);
-  if (f.unit[robot] >= 0) world.unitsMoved();
+  if (f.unit[robot] >= 0) world.storage.noteMove();
 }
 
-void raiseLoad(WorldState& world, int robot, double by) {
+void raiseLoad(MotionView& world, int robot, double by) {
   const int unit = world.fleet.unit[robot];
   if (unit < 0) return;
-  world.obstacles.raise(robot, world.units[unit].model, by);
-  world.unitsMoved();
+  world.obstacles.raise(robot, world.storage.units[unit].model, by);
+  world.storage.noteMove();
 }
 
-void hideFootprints(WorldState& world, Model& model) {
+void hideFootprints(Obstacles& obstacles, Model& model) {
   for (CollisionGeometry& geometry : model.geometries) {
-    if (geometry.handle >= 0) world.obstacles.remove(geometry.handle);
+    if (geometry.handle >= 0) obstacles.remove(geometry.handle);
     geometry.handle = -1;
   }
 }
 
-void alarm(WorldState& world) {
-  FleetState& f = world.fleet;
+void invalidateClearance(FleetState& f) {
   for (auto* column : {&f.clear_until, &f.attend_at, &f.wedged_until}) {
     std::fill(column->begin(), column->end(), 0);
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/state/floors.h"
+#include "core/state/world_state.h"
 
 namespace kiva {
 namespace {
@@ -30,13 +31,13 @@ bool isInTheWay(const Floor& floor, const Footprint& other) {
 }
 
 /// Without a floor: all that stands there, on which nothing can drive.
-Floor withoutFloor(const WorldState& world) {
+Floor withoutFloor(const Scene& world) {
   Floor all{1e300, -1e300, 1e300, -1e300, 0};
   for (const auto& model : world.models) {
     if (!model || model->owner->occupies(world, *model) != Occupancy::kTaken) continue;
     for (const CollisionGeometry& geometry : model->geometries) {
       const Footprint& f = world.obstacles[geometry.handle];
-      const double reach = radiusOf(f) + world.grid_spacing;
+      const double reach = radiusOf(f) + world.settings.grid_spacing;
       all.min_x = std::min(all.min_x, f.x - reach);
       all.max_x = std::max(all.max_x, f.x + reach);
       all.min_y = std::min(all.min_y, f.y - reach);
@@ -46,7 +47,8 @@ Floor withoutFloor(const WorldState& world) {
   return all.min_x < all.max_x ? all : Floor();
 }
 
-/// A building leaves room for a loaded robot to turn; belts and storage units were placed so.
+/// Returns whether a footprint reaches into the cell. Near a building a loaded robot needs room to
+/// turn; belts and storage units were placed so that it has it.
 bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, double spacing) {
   Footprint cell;
   cell.x = x;
@@ -58,7 +60,8 @@ bool reachesInto(const Footprint& other, std::uint8_t as, double x, double y, do
   return gap(cell, other) < 0 || (as == Occupancy::kTaken && gap(turn, other) < 0);
 }
 
-/// Where a footprint may reach within a strip along x: of a triangle, much less than its box.
+/// Returns where a footprint may reach within a strip along x: of a triangle, much less than its
+/// box.
 std::pair<double, double> extentWithin(const Footprint& f, double min_y, double max_y) {
   if (f.kind != Footprint::Kind::kTriangle) return {f.x - radiusOf(f), f.x + radiusOf(f)};
   std::pair<double, double> extent{1e300, -1e300};
@@ -103,11 +106,11 @@ void mark(const Footprint& other, std::uint8_t as, Occupancy* map) {
 }  // namespace
 
 Occupancy World::occupancy() const {
-  const WorldState& world = *state_;
+  const Scene& world = state_->view;
   Occupancy map;
-  map.spacing = world.grid_spacing;
-  const bool has_floor = world.floor.max_x > world.floor.min_x;
-  const Floor floor = has_floor ? world.floor : withoutFloor(world);
+  map.spacing = world.settings.grid_spacing;
+  const bool has_floor = world.floor.extent.max_x > world.floor.extent.min_x;
+  const Floor floor = has_floor ? world.floor.extent : withoutFloor(world);
   const Line x = pointsWithin(floor.min_x, floor.max_x, map.spacing);
   const Line y = pointsWithin(floor.min_y, floor.max_y, map.spacing);
   map.x = x.first * map.spacing;
@@ -129,7 +132,7 @@ Occupancy World::occupancy() const {
     for (const CollisionGeometry& geometry : model->geometries) {
       if (geometry.handle < 0) continue;  // it is carried
       const Footprint& footprint = world.obstacles[geometry.handle];
-      if (isInTheWay(world.floor, footprint)) mark(footprint, as, &map);
+      if (isInTheWay(world.floor.extent, footprint)) mark(footprint, as, &map);
     }
   }
   return map;

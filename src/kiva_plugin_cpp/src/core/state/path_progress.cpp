@@ -44,10 +44,11 @@ class Run {
   double cosine_, sine_;
 };
 
-/// How far the middle of a robot must be from that of a cell to be out of it, ahead and aside [m].
-OnRun outOfCell(const WorldState& world, int robot) {
+/// Returns how far the middle of a robot must be from that of a cell to be out of it, ahead and
+/// aside [m].
+OnRun outOfCell(const Scene& world, int robot) {
   const Robot& r = world.fleet.robots[robot];
-  const double half = world.grid_spacing / 2 - kCellRounding;
+  const double half = world.settings.grid_spacing / 2 - kCellRounding;
   return {half + halfLength(r), half + halfWidth(r)};
 }
 
@@ -61,8 +62,8 @@ MotionSegment turnTo(double heading) {
   return turn;
 }
 
-/// The run from its origin along a heading.
-MotionSegment driveAlong(const WorldState& world, const ReleasedPath& path, double heading) {
+/// Returns the run from its origin along a heading.
+MotionSegment driveAlong(const Settings& settings, const ReleasedPath& path, double heading) {
   const PathPoint &from = path[path.origin], &to = path[path.end];
   MotionSegment run;
   run.kind = MotionSegment::Kind::kDrive;
@@ -70,13 +71,14 @@ MotionSegment driveAlong(const WorldState& world, const ReleasedPath& path, doub
   run.y = from.y;
   run.yaw = heading;
   run.goal = std::abs(to.x - from.x) + std::abs(to.y - from.y);
-  run.state = std::abs(to.x - from.x) > world.grid_spacing / 2 ? State::kMovingX : State::kMovingY;
+  run.state =
+      std::abs(to.x - from.x) > settings.grid_spacing / 2 ? State::kMovingX : State::kMovingY;
   return run;
 }
 
 }  // namespace
 
-MotionSegment nextSegment(const WorldState& world, int robot) {
+MotionSegment nextSegment(const Scene& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const ReleasedPath& path = task.path;
   const double yaw = world.fleet.believed(robot).yaw;
@@ -84,7 +86,7 @@ MotionSegment nextSegment(const WorldState& world, int robot) {
   const double ahead = headingOf(path[path.origin], path[path.origin + 1]);
   const double heading = headingNear(square, ahead);
   const bool faces_it = std::abs(heading - yaw) < (world.fleet.localises ? kNearlyFacing : kFacing);
-  return faces_it ? driveAlong(world, path, heading) : turnTo(heading);
+  return faces_it ? driveAlong(world.settings, path, heading) : turnTo(heading);
 }
 
 double alongSegment(const FleetState& f, int i) {
@@ -95,7 +97,7 @@ double alongSegment(const FleetState& f, int i) {
 
 double alongRun(const Task& task, std::uint32_t point) { return Run(task)(point).along; }
 
-void countPoints(WorldState& world, int robot, double along) {
+void countPoints(MotionView& world, int robot, double along) {
   FleetState& f = world.fleet;
   const Task& task = f.tasks[robot];
   if (!task.isOnRun()) return;
@@ -111,7 +113,7 @@ void countPoints(WorldState& world, int robot, double along) {
   while (left < reached && isLeft(left)) ++left;
 }
 
-double nextCount(const WorldState& world, int robot) {
+double nextCount(const Scene& world, int robot) {
   const FleetState& f = world.fleet;
   const Task& task = f.tasks[robot];
   double next = std::numeric_limits<double>::infinity();
@@ -123,10 +125,10 @@ double nextCount(const WorldState& world, int robot) {
   return next;
 }
 
-std::vector<PathPoint> pointsAhead(const WorldState& world, int robot) {
-  const ReleasedPath& path = world.fleet.tasks[robot].path;
+std::vector<PathPoint> pointsAhead(const FleetState& fleet, int robot) {
+  const ReleasedPath& path = fleet.tasks[robot].path;
   std::vector<PathPoint> points;
-  for (std::uint32_t k = world.fleet.reached[robot]; k < path.size(); ++k) {
+  for (std::uint32_t k = fleet.reached[robot]; k < path.size(); ++k) {
     const bool ends = k + 1 == path.size() || k + 1 == path.released;
     if (ends || !path.isStraight(k - 1, k, k + 1)) points.push_back(path[k]);
   }

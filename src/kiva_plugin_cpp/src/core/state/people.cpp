@@ -5,24 +5,23 @@
 
 namespace kiva {
 
-const Walker* findWalker(const WorldState& world, int model) {
+const Walker* People::find(int model) const {
   const auto is_it = [model](const Walker& walker) { return walker.model == model; };
-  const auto at = std::find_if(world.walkers.begin(), world.walkers.end(), is_it);
-  return at == world.walkers.end() ? nullptr : &*at;
+  const auto at = std::find_if(walkers.begin(), walkers.end(), is_it);
+  return at == walkers.end() ? nullptr : &*at;
 }
 
-Walker* findWalker(WorldState& world, int model) {
-  return const_cast<Walker*>(findWalker(static_cast<const WorldState&>(world), model));
+Walker* People::find(int model) {
+  return const_cast<Walker*>(static_cast<const People*>(this)->find(model));
 }
 
-Twist walkingTwist(const WorldState& world, int model) {
-  const Walker* walker = findWalker(world, model);
+Twist People::twist(int model) const {
+  const Walker* walker = find(model);
   return walker ? Twist{{walker->vx, walker->vy, 0}, {}} : Twist();
 }
 
-void forgetWalker(WorldState& world, int model) {
+void People::forget(int model) {
   const auto is_it = [model](const Walker& walker) { return walker.model == model; };
-  auto& walkers = world.walkers;
   walkers.erase(std::remove_if(walkers.begin(), walkers.end(), is_it), walkers.end());
 }
 

@@ -5,44 +5,44 @@
 
 namespace kiva {
 
-Pose basePose(const WorldState& world, int robot) {
+Pose basePose(const Scene& world, int robot) {
   const Fleet& f = world.fleet;
-  return Pose(f.x[robot], f.y[robot], world.floor.z, 0, 0, f.yaw[robot]);
+  return Pose(f.x[robot], f.y[robot], world.floor.extent.z, 0, 0, f.yaw[robot]);
 }
 
-Pose towerPose(const WorldState& world, int robot) {
+Pose towerPose(const Scene& world, int robot) {
   const Fleet& f = world.fleet;
   return basePose(world, robot) * Pose(0, 0, f.robots[robot].height + f.tower[robot], 0, 0, 0);
 }
 
-Pose unitPose(const WorldState& world, int unit) {
-  const StorageUnit& u = world.units[unit];
+Pose unitPose(const Scene& world, int unit) {
+  const StorageUnit& u = world.storage.units[unit];
   if (u.carrier >= 0) return towerPose(world, u.carrier) * u.pose_on_carrier;
   const Model& model = *world.models[u.model];
   return model.in_physics && model.disturbed ? canonicalState(model).pose : model.pose;
 }
 
-Pose itemPose(const WorldState& world, int item) {
-  const Item& i = world.items[item];
+Pose itemPose(const Scene& world, int item) {
+  const Item& i = world.storage.items[item];
   if (i.unit >= 0) return unitPose(world, i.unit) * i.pose_in_unit;
   return modelState(world, *world.models[i.model]).pose;
 }
 
-EntityState robotState(const WorldState& world, int robot) {
+EntityState robotState(const Scene& world, int robot) {
   const Fleet& f = world.fleet;
   return {basePose(world, robot),
           {Vector3(f.vx[robot], f.vy[robot], 0), Vector3(0, 0, f.yaw_rate[robot])}};
 }
 
-EntityState modelState(const WorldState& world, const Model& model) {
+EntityState modelState(const Scene& world, const Model& model) {
   return model.owner->state(world, model);
 }
 
-Pose linkPose(const WorldState& world, const Model& model, int link) {
+Pose linkPose(const Scene& world, const Model& model, int link) {
   return model.owner->linkPose(world, model, link);
 }
 
-EntityState linkState(const WorldState& world, const Model& model, int link) {
+EntityState linkState(const Scene& world, const Model& model, int link) {
   if (model.owner->followsBodies(model)) return bodyState(model.bodies.links[link]);
   return carriedState(modelState(world, model), linkPose(world, model, link));
 }
@@ -61,16 +61,6 @@ EntityState canonicalState(const Model& model) {
 EntityState carriedState(const EntityState& carrier, const Pose& pose) {
   const Vector3 arm = pose.Pos() - carrier.pose.Pos();
   return {pose, {carrier.twist.linear + carrier.twist.angular.Cross(arm), carrier.twist.angular}};
-}
-
-std::vector<int> slotsInOrder(const WorldState& world) {
-  std::vector<int> slots;
-  for (std::size_t i = 0; i < world.models.size(); ++i) {
-    if (world.models[i]) slots.push_back(static_cast<int>(i));
-  }
-  std::sort(slots.begin(), slots.end(),
-            [&](int a, int b) { return world.models[a]->serial < world.models[b]->serial; });
-  return slots;
 }
 
 }  // namespace kiva

@@ -5,30 +5,27 @@
 
 #include <optional>
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
-/// Of a robot's chassis on the floor.
-Pose basePose(const WorldState& world, int robot);
-/// Of the tower's plate on which a unit rests.
-Pose towerPose(const WorldState& world, int robot);
-Pose unitPose(const WorldState& world, int unit);
-Pose itemPose(const WorldState& world, int item);
+/// Returns the pose of a robot's chassis on the floor.
+Pose basePose(const Scene& world, int robot);
+/// Returns the pose of the tower's plate on which a unit rests.
+Pose towerPose(const Scene& world, int robot);
+Pose unitPose(const Scene& world, int unit);
+Pose itemPose(const Scene& world, int item);
 
-EntityState robotState(const WorldState& world, int robot);
-EntityState modelState(const WorldState& world, const Model& model);
-Pose linkPose(const WorldState& world, const Model& model, int link);
-EntityState linkState(const WorldState& world, const Model& model, int link);
+EntityState robotState(const Scene& world, int robot);
+EntityState modelState(const Scene& world, const Model& model);
+Pose linkPose(const Scene& world, const Model& model, int link);
+EntityState linkState(const Scene& world, const Model& model, int link);
 
-/// What Bullet says of a link.
+/// Returns what Bullet says of a link.
 EntityState bodyState(const LinkBody& link);
-/// State of the model's frame, from that of its canonical link in Bullet.
+/// Returns the state of the model's frame, from that of its canonical link in Bullet.
 EntityState canonicalState(const Model& model);
-/// Of a point that moves with something, without turning against it.
+/// Returns the state of a frame at `pose` that is fixed to a moving carrier.
 EntityState carriedState(const EntityState& carrier, const Pose& pose);
-
-/// Slots of the models in order of arrival.
-std::vector<int> slotsInOrder(const WorldState& world);
 
 }  // namespace kiva

@@ -43,8 +43,8 @@ struct Profile {
 
   bool reached(double target) const { return position == target; }
 
-  /// Whether it can still stop at `target`, ahead of it along the axis, at that deceleration; 0: at
-  /// once.
+  /// Returns whether it can still stop at `target`, ahead of it along the axis, at that
+  /// deceleration; 0: at once.
   bool canStopAt(double target, double deceleration, double dt) const {
     const double distance = target - position;
     if (distance < -kThere) return false;
@@ -52,7 +52,7 @@ struct Profile {
     return speed - deceleration * dt <= stoppingSpeed(std::max(0.0, distance), deceleration, dt);
   }
 
-  /// The highest speed now from which steps of constant deceleration end on `distance`:
+  /// Returns the highest speed now from which steps of constant deceleration end on `distance`:
   /// v²/(2a) + v·dt/2 = distance, the sum of the steps' lengths.
   static double stoppingSpeed(double distance, double deceleration, double dt) {
     const double half = 0.5 * deceleration * dt;

@@ -28,7 +28,7 @@ enum class Matter : std::uint64_t {
 /// SplitMix64 (Steele, Lea, Flood 2014), begun from a hash of what it is for.
 class RandomStream {
  public:
-  /// `who`: a robot's id, say; `when`: a step or a counter.
+  /// `who`: the subject, such as a robot's id; `when`: a step or a counter.
   RandomStream(std::uint64_t seed, Matter matter, std::uint64_t who, std::uint64_t when)
       : state_(seed) {
     for (const std::uint64_t word : {static_cast<std::uint64_t>(matter), who, when}) {
@@ -47,7 +47,7 @@ class RandomStream {
   /// In [0, 1).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
   bool chance(double probability) { return uniform() < probability; }
-  /// Of the standard normal distribution (Box and Muller 1958).
+  /// Returns a number of the standard normal distribution (Box and Muller 1958).
   double normal() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * M_PI * uniform());

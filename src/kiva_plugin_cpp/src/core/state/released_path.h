@@ -22,8 +22,8 @@ struct ReleasedPath {
   std::uint32_t size() const { return first + static_cast<std::uint32_t>(points.size()); }
   const PathPoint& operator[](std::uint32_t number) const { return points[number - first]; }
 
-  /// Whether point `number` goes on in the direction in which those two lie, which differ along
-  /// one axis.
+  /// Returns whether point `number` goes on in the direction in which those two lie, which differ
+  /// along one axis.
   bool isStraight(std::uint32_t from, std::uint32_t to, std::uint32_t number) const;
   /// Lets the present run go as far as it is straight and released; one that has no length yet
   /// goes in any direction.

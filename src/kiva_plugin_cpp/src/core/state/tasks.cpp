@@ -11,14 +11,14 @@ namespace kiva {
 namespace {
 
 constexpr double kAstray = 0.05;             // [m] from its point: it can't begin its next run
-constexpr std::uint32_t kPointsToKeep = 64;  // of a path that were left, before they are forgotten
+constexpr std::uint32_t kPointsToKeep = 64;  // left points of a path before they are forgotten
 
-void becomeIdle(WorldState& world, int robot) {
+void becomeIdle(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   for (const MotionSegment& segment : task.segments) {
-    if (segment.unit >= 0 && world.units[segment.unit].claimed_by == robot) {
-      world.units[segment.unit].claimed_by = -1;
+    if (segment.unit >= 0 && world.storage.units[segment.unit].claimed_by == robot) {
+      world.storage.units[segment.unit].claimed_by = -1;
     }
   }
   task.segments.clear();
@@ -29,29 +29,51 @@ void becomeIdle(WorldState& world, int robot) {
   f.wheel_target[0][robot] = f.wheel_target[1][robot] = 0;
 }
 
-void end(WorldState& world, int robot, Event::Kind kind, const std::string& other,
+void end(MotionView& world, int robot, Event::Kind kind, const std::string& other,
          const std::string& text) {
   becomeIdle(world, robot);
   world.fleet.last_end[robot] = static_cast<std::uint8_t>(kind);
-  world.reportCommand(kind, robot, other, text);
+  reportCommand(world, kind, robot, other, text);
 }
 
 }  // namespace
 
-void enterPhase(WorldState& world, int robot, Phase phase, Status status, State state) {
-  world.fleet.tasks[robot].phase = phase;
-  moved(world.fleet, robot);
-  world.setStatus(robot, status, state);
+void setStatus(MotionView& world, int robot, Status status, State state) {
+  FleetState& f = world.fleet;
+  Task& task = f.tasks[robot];
+  const int unit = f.unit[robot];
+  const int shelf = unit < 0 ? 0 : world.storage.units[unit].id;
+  if (f.status[robot] == status && f.state[robot] == state && task.reported_shelf == shelf) return;
+  f.status[robot] = status;
+  f.state[robot] = state;
+  task.reported_shelf = shelf;
+  if (f.failures[robot] & bitOf(Failure::kRadio)) return;
+  const int id = f.robots[robot].id;
+  if (world.settings.realism.radio.delaysReports()) return world.report_link.changed.push_back(id);
+  world.log.status_changes.push_back(
+      {world.clock.time(), id, status, state, shelf, f.x[robot], f.y[robot], f.yaw[robot]});
 }
 
-void startSegment(WorldState& world, int robot) {
+void reportCommand(MotionView& world, Event::Kind kind, int robot, const std::string& other,
+                   const std::string& text) {
+  const FleetState& f = world.fleet;
+  world.log.report(kind, f.robots[robot].name, other, text, {}, f.tasks[robot].command);
+}
+
+void enterPhase(MotionView& world, int robot, Phase phase, Status status, State state) {
+  world.fleet.tasks[robot].phase = phase;
+  moved(world.fleet, robot);
+  setStatus(world, robot, status, state);
+}
+
+void startSegment(MotionView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   task.sighting = task.last_sighting = Sighting();
   task.overdue = 0;
   enterPhase(world, robot, Phase::kStarting, Status::kBusy, task.segments.front().state);
 }
 
-void beginTask(WorldState& world, int robot, std::deque<MotionSegment> segments) {
+void beginTask(MotionView& world, int robot, std::deque<MotionSegment> segments) {
   Task& task = world.fleet.tasks[robot];
   task.segments = std::move(segments);
   FleetState& f = world.fleet;
@@ -59,12 +81,13 @@ void beginTask(WorldState& world, int robot, std::deque<MotionSegment> segments)
   f.path_id[robot] = f.reached[robot] = f.left[robot] = 0;
   if (task.segments.empty()) return end(world, robot, Event::Kind::kDone, "", "is there already");
   for (const MotionSegment& segment : task.segments) {
-    if (segment.kind == MotionSegment::Kind::kRaise) world.units[segment.unit].claimed_by = robot;
+    if (segment.kind == MotionSegment::Kind::kRaise)
+      world.storage.units[segment.unit].claimed_by = robot;
   }
   startSegment(world, robot);
 }
 
-void beginPath(WorldState& world, int robot, std::uint32_t id, ReleasedPath path,
+void beginPath(MotionView& world, int robot, std::uint32_t id, ReleasedPath path,
                std::deque<MotionSegment> segments) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
@@ -78,7 +101,7 @@ void beginPath(WorldState& world, int robot, std::uint32_t id, ReleasedPath path
   startSegment(world, robot);
 }
 
-void continuePath(WorldState& world, int robot) {
+void continuePath(MotionView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   ReleasedPath& path = task.path;
   path.origin = path.end;
@@ -98,7 +121,7 @@ void continuePath(WorldState& world, int robot) {
   startSegment(world, robot);
 }
 
-void resumePath(WorldState& world, int robot) {
+void resumePath(MotionView& world, int robot) {
   FleetState& f = world.fleet;
   Task& task = f.tasks[robot];
   task.blocked_by = task.blocked_reason = "";
@@ -109,7 +132,7 @@ void resumePath(WorldState& world, int robot) {
   enterPhase(world, robot, Phase::kDriving, Status::kBusy, run.state);
 }
 
-void finishSegment(WorldState& world, int robot) {
+void finishSegment(MotionView& world, int robot) {
   Task& task = world.fleet.tasks[robot];
   const bool is_held_up = task.phase == Phase::kBraking && task.follows();
   if (is_held_up && !task.cancelled) {
@@ -122,12 +145,12 @@ void finishSegment(WorldState& world, int robot) {
   endDone(world, robot);
 }
 
-void endDone(WorldState& world, int robot) {
+void endDone(MotionView& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   end(world, robot, Event::Kind::kDone, "", task.cancelled ? "cancelled" : "done: " + task.goal);
 }
 
-void stopTask(WorldState& world, int robot, Phase phase, const std::string& by,
+void stopTask(MotionView& world, int robot, Phase phase, const std::string& by,
               const std::string& reason) {
   Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kIdle) return;
@@ -138,19 +161,19 @@ void stopTask(WorldState& world, int robot, Phase phase, const std::string& by,
   enterPhase(world, robot, phase, Status::kBlocked, State::kBlocked);
 }
 
-void endStop(WorldState& world, int robot) {
+void endStop(MotionView& world, int robot) {
   const Task& task = world.fleet.tasks[robot];
   const std::string by = task.blocked_by, reason = task.blocked_reason;
   end(world, robot, Event::Kind::kBlocked, by, reason);
 }
 
-void endBlocked(WorldState& world, int robot, const std::string& by, const std::string& reason) {
+void endBlocked(MotionView& world, int robot, const std::string& by, const std::string& reason) {
   Task& task = world.fleet.tasks[robot];
-  if (!task.isStopping()) world.setStatus(robot, Status::kBlocked, State::kBlocked);
+  if (!task.isStopping()) setStatus(world, robot, Status::kBlocked, State::kBlocked);
   end(world, robot, Event::Kind::kBlocked, by, reason);
 }
 
-void haltRobot(WorldState& world, int robot, const std::string& by, const std::string& reason) {
+void haltRobot(MotionView& world, int robot, const std::string& by, const std::string& reason) {
   const Task& task = world.fleet.tasks[robot];
   if (task.phase == Phase::kWaiting) return endBlocked(world, robot, by, reason);
   if (task.movesOnFloor()) stopTask(world, robot, Phase::kHalting, by, reason);

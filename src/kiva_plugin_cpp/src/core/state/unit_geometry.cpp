@@ -16,8 +16,8 @@ constexpr double kUpright = 0.9999;   // cosine of a tilt of 0.8°
 
 }  // namespace
 
-double underside(const WorldState& world, int unit) {
-  const Model& model = *world.models[world.units[unit].model];
+double underside(const Scene& world, int unit) {
+  const Model& model = *world.models[world.storage.units[unit].model];
   double lowest = 1e9;
   for (const Link& link : model.description->links) {
     for (const Collision& c : link.collisions) {
@@ -30,12 +30,12 @@ double underside(const WorldState& world, int unit) {
   return lowest;
 }
 
-bool standsUpright(const WorldState& world, int unit) {
+bool standsUpright(const Scene& world, int unit) {
   const Pose pose = unitPose(world, unit);
-  return std::abs(pose.Z() - world.floor.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
+  return std::abs(pose.Z() - world.floor.extent.z) < kOnFloor && pose.Rot().ZAxis().Z() > kUpright;
 }
 
-int unitAt(const WorldState& world, const Vector3& point) {
+int unitAt(const Scene& world, const Vector3& point) {
   int found = -1;
   const Footprint here = circleAt(point.X(), point.Y(), 0);
   world.obstacles.near(point.X(), point.Y(), 0.0, [&](const Footprint& f) {
@@ -46,11 +46,11 @@ int unitAt(const WorldState& world, const Vector3& point) {
   return found;
 }
 
-double towerGap(const WorldState& world, int robot, int unit) {
+double towerGap(const Scene& world, int robot, int unit) {
   return underside(world, unit) - world.fleet.robots[robot].height;
 }
 
-double unitDistance(const WorldState& world, int robot, int unit) {
+double unitDistance(const Scene& world, int robot, int unit) {
   const Pose pose = unitPose(world, unit);
   return std::hypot(pose.X() - world.fleet.x[robot], pose.Y() - world.fleet.y[robot]);
 }

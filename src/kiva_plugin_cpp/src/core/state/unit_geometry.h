@@ -3,19 +3,19 @@
 // What a robot that is to lift a storage unit asks of it.
 #pragma once
 
-#include "core/state/world_state.h"
+#include "core/state/scene.h"
 
 namespace kiva {
 
-/// Height of the unit's underside above the floor where the tower meets it [m].
-double underside(const WorldState& world, int unit);
-/// Height that the robot's tower has to rise until it meets that unit [m].
-double towerGap(const WorldState& world, int robot, int unit);
-/// Distance of the centres of robot and unit on the floor [m].
-double unitDistance(const WorldState& world, int robot, int unit);
-/// Whether the unit stands on its legs, as a robot needs it to.
-bool standsUpright(const WorldState& world, int unit);
-/// The storage unit whose shelves hold that point, -1 = none.
-int unitAt(const WorldState& world, const Vector3& point);
+/// Returns the height of the unit's underside above the floor where the tower meets it [m].
+double underside(const Scene& world, int unit);
+/// Returns the height that the robot's tower has to rise until it meets that unit [m].
+double towerGap(const Scene& world, int robot, int unit);
+/// Returns the distance of the centres of robot and unit on the floor [m].
+double unitDistance(const Scene& world, int robot, int unit);
+/// Returns whether the unit stands on its legs, as a robot needs it to.
+bool standsUpright(const Scene& world, int unit);
+/// Returns the storage unit whose shelves hold that point, -1 = none.
+int unitAt(const Scene& world, const Vector3& point);
 
 }  // namespace kiva

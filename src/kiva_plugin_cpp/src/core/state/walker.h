@@ -13,9 +13,9 @@ namespace kiva {
 /// A person, and how far they have come.
 struct Walker {
   int model = -1;              ///< Index in the world's models: it stands where they do.
-  double radius = 0.25;        ///< Of the cylinder that holds them [m],
+  double radius = 0.25;        ///< Radius of the cylinder that holds them [m],
   double bottom = 0, top = 0;  ///< and its ends above their origin [m].
-  std::optional<Walk> script;  ///< Of an actor: what a reset begins anew.
+  std::optional<Walk> script;  ///< An actor's walk, which a reset restarts.
   Walk walk;                   ///< What they are at.
   std::size_t next = 0;        ///< The waypoint that they go to; as many as there are: they stay.
   double pause = 0;            ///< Left where they are [s].
@@ -27,7 +27,7 @@ struct Walker {
   double patience = 0;            ///< and how long that may be before they look for a way around.
 
   bool walks() const { return next < walk.waypoints.size(); }
-  /// Where they go straight to, if they walk.
+  /// Returns where they go straight to, if they walk.
   PathPoint target() const {
     if (!detour.empty()) return detour.back();
     return {walk.waypoints[next].x, walk.waypoints[next].y};

@@ -11,9 +11,9 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_block_laser.so in a <sensor type="ray"> of several layers: a point a ray, as a
-/// sensor_msgs/PointCloud in the sensor's frame. As in Gazebo, a ray without return ends at its
-/// full range.
+/// Stands in for libgazebo_ros_block_laser.so in a <sensor type="ray"> of several layers: publishes
+/// a point a ray, as a sensor_msgs/PointCloud in the sensor's frame. As in Gazebo, a ray without
+/// return ends at its full range.
 class BlockLaser : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

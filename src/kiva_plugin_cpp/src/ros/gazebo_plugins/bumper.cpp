@@ -10,7 +10,7 @@
 namespace kiva_ros {
 namespace {
 
-/// Where each pair of collisions touches, one state a pair.
+/// Returns the contacts of each pair of collisions, one state a pair.
 class States {
  public:
   States(double time, gazebo_msgs::ContactsState* out) : time_(time), out_(out) {}

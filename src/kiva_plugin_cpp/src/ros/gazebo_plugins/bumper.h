@@ -10,7 +10,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_bumper.so in a <sensor type="contact">: what its collisions touch, in world.
+/// Stands in for libgazebo_ros_bumper.so in a <sensor type="contact">: publishes the contacts of
+/// its collisions, in world.
 class Bumper : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

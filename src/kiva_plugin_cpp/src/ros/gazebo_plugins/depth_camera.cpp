@@ -126,7 +126,8 @@ void DepthCamera::afterStep(const kiva::World& world, double) {
   if (wanted(cloud_)) publishCloud(stamp, seen);
 }
 
-/// Along the optical axis [m]; NaN where nothing is between the nearest and the farthest.
+/// Returns depths along the optical axis [m]; NaN where none is between the nearest and the
+/// farthest.
 std::vector<float> DepthCamera::depths(const kiva::World& world, const kiva::Pose& pose) const {
   const double corner = 1 / directions_.front().X();  // the longest ray to a plane ahead
   const std::vector<double> ranges =

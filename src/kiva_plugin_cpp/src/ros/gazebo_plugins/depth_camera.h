@@ -10,9 +10,10 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so in a <sensor type="depth">: a
-/// cloud of points and a depth image in the optical frame (x right, y down, z ahead), by a ray a
-/// pixel against collisions, while there are subscribers. Colours are not rendered.
+/// Stands in for libgazebo_ros_openni_kinect.so and libgazebo_ros_depth_camera.so in a <sensor
+/// type="depth">: publishes a cloud of points and a depth image in the optical frame (x right, y
+/// down, z ahead), by a ray a pixel against collisions, while there are subscribers. Colours are
+/// not rendered.
 class DepthCamera : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
@@ -42,7 +43,7 @@ class DepthCamera : public GazeboPlugin {
   ros::Publisher cloud_, image_, image_info_, colour_info_;
 };
 
-/// libgazebo_ros_openni_kinect.so, which sees less far.
+/// Stands in for libgazebo_ros_openni_kinect.so, whose range is shorter.
 class OpenniKinect : public DepthCamera {
  public:
   using DepthCamera::DepthCamera;

@@ -96,7 +96,7 @@ void DiffDrive::restore(kiva::World& world, const std::string& state) {
   setCommand({values[0], 0, values[1]});
   wheels_[kLeft].target = values[2];
   wheels_[kRight].target = values[3];
-  // The motors are as they were: to set them once more would be another future.
+  // The motors are restored already; setting them again would change the future of the world.
   wheels_[kLeft].motor.applied = values[7];
   wheels_[kRight].motor.applied = values[8];
   encoder_.pose = kiva::Pose(values[4], values[5], 0, 0, 0, values[6]);

@@ -8,7 +8,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_diff_drive.so: two wheels driven by cmd_vel, odometry and its transforms.
+/// Stands in for libgazebo_ros_diff_drive.so: drives two wheels by cmd_vel, publishes odometry and
+/// its transforms.
 class DiffDrive : public Drive {
  public:
   using Drive::Drive;
@@ -24,7 +25,7 @@ class DiffDrive : public Drive {
   enum Side { kLeft, kRight };
   struct Wheel {
     WheelMotor motor;
-    double target = 0;  ///< Speed of its rim now asked of the motor [m/s].
+    double target = 0;  ///< Commanded speed of its rim [m/s].
   };
 
   void readWheels(const kiva::World& world, const kiva::Parameters& parameters);
@@ -41,7 +42,7 @@ class DiffDrive : public Drive {
   bool publish_odometry_ = true, publish_odometry_tf_ = true;
   bool publish_wheel_tf_ = false, publish_wheel_joints_ = false;
   Schedule schedule_;
-  kiva::EntityState encoder_;  ///< Odometry from the wheels' turns; the twist as the base sees it.
+  kiva::EntityState encoder_;  ///< Odometry from the wheels' turns; the twist in the base's frame.
   ros::Publisher joints_;
 };
 

@@ -37,7 +37,8 @@ kiva::EntityState Drive::trueOdometry(const kiva::World& world) const {
 }
 
 void Drive::publishOdometry(const kiva::World& world, const kiva::EntityState& state) {
-  constexpr double kUnknown = 1e12;  // as Gazebo's plugins say of what they don't measure
+  constexpr double kUnknown =
+      1e12;  // covariance that Gazebo's plugins give for unmeasured quantities
   nav_msgs::Odometry out;
   out.header = header(world.time(), odometry_frame_);
   out.child_frame_id = base_frame_;

@@ -9,7 +9,7 @@
 
 namespace kiva_ros {
 
-/// What plugins share that drive a model by cmd_vel and tell its odometry.
+/// Base of the plugins that drive a model by cmd_vel and publish its odometry.
 class Drive : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
@@ -29,11 +29,11 @@ class Drive : public GazeboPlugin {
   /// Reads commandTopic, odometryTopic, odometryFrame and robotBaseFrame.
   void openTopics(const kiva::Parameters& parameters);
   void setCovariance(const Covariance& covariance) { covariance_ = covariance; }
-  /// Takes the newest message on the command topic. Whether there was one.
+  /// Takes the newest message on the command topic. Returns whether there was one.
   bool takeCommand();
   void setCommand(const Command& command) { command_ = command; }
   const Command& command() const { return command_; }
-  /// The model's pose in world; its velocity in the plane as it sees it itself.
+  /// Returns the model's pose in world, and its planar velocity in its own frame.
   kiva::EntityState trueOdometry(const kiva::World& world) const;
   void publishOdometry(const kiva::World& world, const kiva::EntityState& state);
   void publishOdometryTransform(const kiva::World& world, const kiva::EntityState& state);

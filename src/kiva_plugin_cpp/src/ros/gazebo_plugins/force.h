@@ -9,7 +9,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_force.so: the last wrench on a topic pushes a link, in world, until the next one.
+/// Stands in for libgazebo_ros_force.so: applies the last wrench of a topic to a link, in world,
+/// until the next one.
 class Force : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

@@ -7,8 +7,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_ft_sensor.so: what hangs on a joint pulls and turns at it so; told in the frame of
-/// the joint's child link, about that link's origin.
+/// Stands in for libgazebo_ros_ft_sensor.so: publishes the force and torque on a joint in the frame
+/// of the joint's child link, about that link's origin.
 class FtSensor : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

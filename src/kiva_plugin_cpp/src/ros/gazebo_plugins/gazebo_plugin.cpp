@@ -18,7 +18,7 @@ std::string withoutSlashes(std::string text) {
   return first == std::string::npos ? "" : text.substr(first);
 }
 
-/// SplitMix64 (Steele et al., 2014).
+/// Mixes a number (SplitMix64, Steele et al., 2014).
 std::uint64_t mix(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -26,7 +26,7 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// In (0, 1].
+/// Returns a number in (0, 1].
 double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 1) * 0x1p-53; }
 
 }  // namespace
@@ -36,7 +36,8 @@ bool Schedule::isDue(double now) {
   last_ = now;
   if (now < next_ - kRounding) return false;
   next_ += period_;
-  if (next_ <= now) next_ = now + period_;  // a late start, or a step longer than the period
+  if (next_ <= now)
+    next_ = now + period_;  // after a late start, or with a step longer than the period
   return true;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the stand-ins for gazebo_ros' plugins share. They run on the step thread; the broadcaster
-// publishes what they queue.
+// Shared by the stand-ins for gazebo_ros' plugins. They run on the step thread; the broadcaster
+// publishes the messages that they queue.
 #pragma once
 
 #include <ros/ros.h>
@@ -25,10 +25,10 @@ struct PluginContext {
   const kiva::SensorDescription* sensor;  ///< Null for a plugin of a model.
 };
 
-/// Tells when something is due at a rate of simulated time, also after time went back.
+/// Tells when a message is due at a rate of simulated time, also after time was reset.
 class Schedule {
  public:
-  /// 0 = every step.
+  /// `rate` [Hz]; 0 = every step.
   explicit Schedule(double rate = 0) : period_(rate > 0 ? 1 / rate : 0) {}
   bool isDue(double now);
 
@@ -37,11 +37,11 @@ class Schedule {
   double next_ = 0, last_ = 0;
 };
 
-/// The lower of two rates [Hz], 0 = every step.
+/// Returns the lower of two rates [Hz], where 0 = every step.
 double slower(double a, double b);
 
-/// Normally distributed noise with mean 0 and deviation 1; the same for the same arguments, so that
-/// a run can be repeated from anywhere in it.
+/// Returns normally distributed noise with mean 0 and deviation 1. It depends on the arguments
+/// alone, so that a run can be repeated from any moment.
 double noise(std::uint64_t seed, std::uint64_t step, std::uint64_t index);
 
 class GazeboPlugin : public kiva::Plugin {
@@ -58,24 +58,24 @@ class GazeboPlugin : public kiva::Plugin {
   /// of its own where that is missing or empty.
   void enter(const kiva::World& world, const std::string& model, const kiva::Parameters& parameters,
              const std::string& if_missing, const std::string& if_empty);
-  /// Reads what plugins of Gazebo take and ours have no use for.
+  /// Marks parameters as known that Gazebo's plugin takes and this one has no use for.
   static void skip(const kiva::Parameters& parameters, std::initializer_list<const char*> keys);
   /// A frame's name behind the prefix that holds for this namespace; `prefix_by_namespace`: the
   /// namespace itself is one where the parameter tf_prefix is not set.
   std::string frame(const std::string& name, bool prefix_by_namespace = false) const;
-  /// The text of a parameter without which the plugin can do nothing. Throws DescriptionError if
-  /// it is missing or empty.
+  /// Returns the text of a required parameter. Throws DescriptionError if it is missing or empty.
   static std::string required(const kiva::Parameters& parameters, const std::string& key);
-  /// The sensor that this plugin sits in. Throws DescriptionError if there is none of such a type.
+  /// Returns the sensor of this plugin. Throws DescriptionError if it is not of such a type.
   const kiva::SensorDescription& sensor(const kiva::Parameters& parameters,
                                         const std::string& types) const;
-  /// A link's name, given with its model's or without. Throws DescriptionError if there is none.
+  /// Returns a link's name, which is given with its model's name or without. Throws
+  /// DescriptionError if there is no such link.
   std::string link(const kiva::Parameters& parameters, const std::string& key) const;
-  /// A joint that moves, by the name at `key`. Throws DescriptionError if there is none.
+  /// Returns the movable joint named at `key`. Throws DescriptionError if there is none.
   std::string joint(const kiva::World& world, const kiva::Parameters& parameters,
                     const std::string& key, const std::string& fallback) const;
-  /// `vector` with noise of that deviation; `index`, of each of its three numbers, tells what is
-  /// measured in one step apart.
+  /// Returns `vector` with noise of that deviation added; `index` distinguishes the quantities that
+  /// are measured in one step.
   kiva::Vector3 noisy(const kiva::World& world, const kiva::Vector3& vector, double deviation,
                       std::uint64_t index) const;
 

@@ -7,7 +7,7 @@
 namespace kiva_ros {
 namespace {
 
-/// Three numbers, or one for all three axes.
+/// Reads three numbers, or one for all three axes.
 kiva::Vector3 readAxes(const kiva::Parameters& p, const std::string& key) {
   std::istringstream words(p.text(key, "0"));
   const auto count = std::distance(std::istream_iterator<std::string>(words), {});
@@ -45,7 +45,7 @@ void HectorImu::load(kiva::World& world, const std::string& model, const kiva::P
   if (const double noise = p.number("gaussianNoise", 0, 0, 1e6); noise > 0) {
     acceleration_.noise = rate_.noise = kiva::Vector3::One * noise;
   }
-  // As that plugin reads it: an accelerometer mounted awry, by small angles.
+  // Like that plugin: an accelerometer that is mounted tilted by small angles.
   const auto rpy = p.numbers("rpyOffset", {0, 0, 0});
   acceleration_.offset += kiva::Vector3(rpy[1], -rpy[0], 0) * 9.8065;
   heading_.offset.Z() += rpy[2];

@@ -10,8 +10,8 @@
 
 namespace kiva_ros {
 
-/// libhector_gazebo_ros_imu.so: an IMU of a link with gravity in its acceleration, constant offsets
-/// and noise. Its biases do not drift.
+/// Stands in for libhector_gazebo_ros_imu.so: publishes an IMU of a link, with gravity in its
+/// acceleration, constant offsets and noise. Its biases do not drift.
 class HectorImu : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;
@@ -21,7 +21,7 @@ class HectorImu : public GazeboPlugin {
   void reset(kiva::World& world) override;
 
  private:
-  /// What a quantity is off by, axis by axis: a constant and a standard deviation.
+  /// The error of a quantity, axis by axis: a constant and a standard deviation.
   struct Error {
     kiva::Vector3 offset, noise;
   };

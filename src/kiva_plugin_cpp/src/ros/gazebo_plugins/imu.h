@@ -10,8 +10,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_imu.so: how a link is turned, turns and gathers speed. As in Gazebo, the
-/// acceleration is that of motion alone, without gravity.
+/// Stands in for libgazebo_ros_imu.so: publishes a link's orientation, rates and acceleration. As
+/// in Gazebo, the acceleration is that of motion alone, without gravity.
 class Imu : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

@@ -10,8 +10,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_imu_sensor.so in a <sensor type="imu">; its acceleration is what an accelerometer
-/// feels, upwards at rest.
+/// Stands in for libgazebo_ros_imu_sensor.so in a <sensor type="imu">; its acceleration is the
+/// specific force, upwards at rest.
 class ImuSensor : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

@@ -11,12 +11,12 @@
 
 namespace kiva_ros {
 
-/// What an ideal IMU feels; rates and accelerations in its own frame.
+/// The reading of an ideal IMU; rates and accelerations are in its own frame.
 struct InertialReading {
   kiva::Quaternion rotation;  ///< In world.
   kiva::Vector3 turn;         ///< [rad/s]
   kiva::Vector3 motion;       ///< Acceleration of motion alone [m/s²].
-  kiva::Vector3 gravity;      ///< What holds it against gravity: upwards at rest [m/s²].
+  kiva::Vector3 gravity;      ///< Specific force of support: upwards at rest [m/s²].
 };
 
 /// A frame fixed to a link, whose acceleration follows from its velocity at two times.
@@ -26,7 +26,7 @@ class InertialFrame {
   InertialFrame(std::string link, const kiva::Pose& pose_in_link)
       : link_(std::move(link)), pose_in_link_(pose_in_link) {}
 
-  /// Now, since the last call. Nothing if the link is gone.
+  /// Measures from the last call until now. Returns nothing if the link was deleted.
   std::optional<InertialReading> measure(const kiva::World& world, const std::string& model);
   void reset() { measured_ = -1; }
 
@@ -40,11 +40,11 @@ class InertialFrame {
 /// Sets the three diagonals to the square of a deviation.
 void setCovariance(double deviation, boost::array<double, 9>* covariance);
 
-/// `imu` with a reading in place of its measurements.
+/// Returns `imu` with its measurements replaced by a reading.
 sensor_msgs::Imu filled(const sensor_msgs::Imu& imu, double time, const kiva::Quaternion& rotation,
                         const kiva::Vector3& turn, const kiva::Vector3& acceleration);
 
-/// The service that users of an IMU call before they trust it: this one always is calibrated.
+/// Advertises the calibration service of an IMU, which has nothing to do here.
 bool calibrateImu(std_srvs::Empty::Request&, std_srvs::Empty::Response&);
 
 }  // namespace kiva_ros

@@ -11,7 +11,7 @@
 namespace kiva_ros {
 namespace {
 
-/// `a, b,c` in its parts.
+/// Returns the parts of `a, b,c`.
 std::vector<std::string> listOf(std::string text) {
   std::replace(text.begin(), text.end(), ',', ' ');
   std::istringstream words(text);

@@ -8,7 +8,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_joint_state_publisher.so: where joints are and how fast they move.
+/// Stands in for libgazebo_ros_joint_state_publisher.so: publishes the positions and rates of
+/// joints.
 class JointStates : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

@@ -8,11 +8,11 @@
 
 namespace kiva_ros {
 
-/// Plugins of gazebo_ros without a stand-in that many robots have, by file name: what is missing,
+/// Maps common plugins of gazebo_ros without a stand-in, by file name, to advice: what is missing,
 /// and what to do instead.
 const std::map<std::string, std::string>& lackingPlugins();
 
-/// One of them: refuses with that advice.
+/// A plugin without a stand-in: load() refuses it with that advice.
 class Lacking : public GazeboPlugin {
  public:
   Lacking(const PluginContext& context, std::string advice)

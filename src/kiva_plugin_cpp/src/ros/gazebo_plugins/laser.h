@@ -11,8 +11,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_laser.so in a <sensor type="ray">: a scan in the sensor's plane, which its own
-/// model does not show up in.
+/// Stands in for libgazebo_ros_laser.so in a <sensor type="ray">: publishes a scan in the sensor's
+/// plane; rays pass through the sensor's own model.
 class Laser : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

@@ -9,7 +9,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_p3d.so: where a link truly is, in world or seen from another link.
+/// Stands in for libgazebo_ros_p3d.so: publishes the true pose and velocity of a link, in world or
+/// relative to another link.
 class P3d : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

@@ -5,8 +5,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_planar_move.so: a model slides over the floor as cmd_vel says, whatever its wheels
-/// do.
+/// Stands in for libgazebo_ros_planar_move.so: moves a model over the floor by cmd_vel, whatever
+/// its wheels do.
 class PlanarMove : public Drive {
  public:
   using Drive::Drive;

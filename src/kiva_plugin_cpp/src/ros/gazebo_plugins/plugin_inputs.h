@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What plugins subscribe to. The newest message of a topic takes effect at the beginning of the
-// next step, for all plugins that subscribe to it, so that a recording knows when it did.
+// The topics that plugins subscribe to. The newest message of a topic takes effect at the beginning
+// of the next step, for all plugins that subscribe to it, so that a recording knows the step.
 #pragma once
 
 #include <ros/ros.h>
@@ -21,17 +21,17 @@
 
 namespace kiva_ros {
 
-/// One topic, whatever its type; on the step thread but where said otherwise.
+/// A topic of any type. Used on the step thread, except where noted.
 class InputTopic {
  public:
   virtual ~InputTopic() = default;
-  /// Makes the newest message the one that holds. Whether there was one.
+  /// Makes the newest message the current one. Returns whether there was one.
   virtual bool advance() = 0;
-  /// Forgets what came since the last step.
+  /// Discards the messages since the last step.
   virtual void discard() = 0;
-  /// The message that holds, into a recording.
+  /// Writes the current message into a recording.
   virtual void write(rosbag::Bag& bag, const ros::Time& stamp) const = 0;
-  /// Lets a recorded message come.
+  /// Receives a recorded message.
   virtual void replay(const rosbag::MessageInstance& recorded) = 0;
 };
 
@@ -40,7 +40,7 @@ class TypedInputTopic : public InputTopic {
  public:
   using Pointer = boost::shared_ptr<const Message>;
 
-  /// `name`: resolved. `live`: whether it subscribes; in a replay it does not.
+  /// `name`: resolved. `live`: whether to subscribe; a replay does not.
   TypedInputTopic(ros::NodeHandle& node, const std::string& name, bool live) : name_(name) {
     if (!live) return;
     const boost::function<void(const Pointer&)> keep = [this](const Pointer& m) { receive(m); };
@@ -67,7 +67,7 @@ class TypedInputTopic : public InputTopic {
   std::uint64_t revision() const { return revision_; }  ///< Counts up with each advance.
 
  private:
-  /// In any thread.
+  /// Receives a message, in any thread.
   void receive(const Pointer& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     newest_ = message;
@@ -78,10 +78,10 @@ class TypedInputTopic : public InputTopic {
   Pointer newest_;  ///< Guarded by mutex_.
   Pointer current_;
   std::uint64_t revision_ = 0;
-  ros::Subscriber subscriber_;  ///< The last: no message comes to what is half destroyed.
+  ros::Subscriber subscriber_;  ///< Declared last, destroyed first: no message comes meanwhile.
 };
 
-/// One plugin's view of a topic.
+/// A plugin's subscription to a topic.
 template <typename Message>
 class PluginInput {
  public:
@@ -89,7 +89,8 @@ class PluginInput {
   explicit PluginInput(std::shared_ptr<TypedInputTopic<Message>> topic)
       : topic_(std::move(topic)), seen_(topic_->revision()) {}
 
-  /// The message that holds since this step began; null if none came since the last call.
+  /// Returns the message that became current with this step; null if there is none since the last
+  /// call.
   const Message* take() {
     if (!topic_ || topic_->revision() == seen_) return nullptr;
     seen_ = topic_->revision();
@@ -101,21 +102,21 @@ class PluginInput {
   std::uint64_t seen_ = 0;
 };
 
-/// All topics that plugins subscribe to. Must outlive the plugins.
+/// Holds all topics that plugins subscribe to. Must outlive the plugins.
 class PluginInputs : public StepHook {
  public:
-  /// `live`: false where a replay takes the place of those who publish.
+  /// `live`: false in a replay, which takes the place of the publishers.
   explicit PluginInputs(bool live) : live_(live) {}
 
-  /// Throws std::runtime_error if another plugin has that topic with another type.
+  /// Returns a topic. Throws std::runtime_error if another plugin uses it with another type.
   template <typename Message>
   PluginInput<Message> subscribe(ros::NodeHandle& node, const std::string& topic);
 
-  /// Called with each topic on which a message takes effect at the step to come.
+  /// Sets a function to call with each topic on which a message takes effect at the next step.
   void onMessage(std::function<void(std::shared_ptr<const InputTopic>)> call) {
     on_message_ = std::move(call);
   }
-  /// Lets a recorded message come, if a plugin subscribes to its topic.
+  /// Receives a recorded message, if a plugin subscribes to its topic.
   void replay(const rosbag::MessageInstance& recorded);
 
   bool beforeStep(kiva::World& world) override;

@@ -9,8 +9,8 @@
 
 namespace kiva_ros {
 
-/// Stand-ins for the plugins of gazebo_ros, by their file names; the arguments must outlive what it
-/// makes.
+/// Returns a factory of stand-ins for the plugins of gazebo_ros, by their file names. The arguments
+/// must outlive the plugins.
 kiva::PluginFactory pluginTable(ros::NodeHandle& root, PublishQueue& publish_queue,
                                 PluginInputs& inputs);
 

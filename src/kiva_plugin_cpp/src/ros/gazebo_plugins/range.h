@@ -11,7 +11,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_range.so in a <sensor type="ray">: the nearest that any of its rays meets.
+/// Stands in for libgazebo_ros_range.so in a <sensor type="ray">: publishes the nearest distance
+/// that any of its rays meets.
 class Range : public GazeboPlugin {
  public:
   using GazeboPlugin::GazeboPlugin;

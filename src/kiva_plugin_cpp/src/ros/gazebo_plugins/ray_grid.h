@@ -26,11 +26,12 @@ struct RayGrid {
   double noise = 0;                     ///< Standard deviation [m].
 
   int size() const { return across.samples * up.samples; }
-  /// Unit vectors of all rays in the sensor's frame.
+  /// Returns unit vectors of all rays in the sensor's frame.
   std::vector<kiva::Vector3> directions() const;
 };
 
-/// Distances along directions of a sensor at that pose in world, but for model `but`; +inf = none.
+/// Returns distances [m] along directions of a sensor at that pose in world; rays pass through
+/// model `but`; +inf = no return.
 std::vector<double> castFrom(const kiva::World& world, const kiva::Pose& pose,
                              const std::vector<kiva::Vector3>& directions, double range,
                              const std::string& but);

@@ -19,7 +19,7 @@ std::string toText(const std::vector<double>& numbers) {
 std::vector<double> fromText(const std::string& text, std::size_t count) {
   std::istringstream words(text);
   std::vector<double> out;
-  // Streams read no hexadecimal floats.
+  // Streams can't read hexadecimal floats.
   for (std::string word; words >> word;) out.push_back(std::strtod(word.c_str(), nullptr));
   out.resize(count, std::numeric_limits<double>::quiet_NaN());
   return out;

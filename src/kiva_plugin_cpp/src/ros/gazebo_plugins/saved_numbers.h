@@ -6,11 +6,11 @@
 
 namespace kiva_ros {
 
-/// Numbers as text that a checkpoint keeps to the last bit.
+/// Returns numbers as text that keeps every bit, for checkpoints.
 std::string toText(const std::vector<double>& numbers);
-/// As many as that, NaN where the text has none: it may come from anywhere.
+/// Returns that many numbers of a text, NaN where it has none: the text is not trusted.
 std::vector<double> fromText(const std::string& text, std::size_t count);
-/// The number within ±`most`; 0 where it is not finite.
+/// Returns a number clamped to ±`most`; 0 if it is not finite.
 double bounded(double number, double most);
 
 }  // namespace kiva_ros

@@ -55,7 +55,7 @@ std::string SkidSteer::save() const {
 void SkidSteer::restore(kiva::World&, const std::string& state) {
   const std::vector<double> numbers = fromText(state, 2 + wheels_.size());
   setCommand({bounded(numbers[0], kMost), 0, bounded(numbers[1], kMost)});
-  // The motors are as they were: to set them once more would be another future.
+  // The motors are restored already; setting them again would change the future of the world.
   for (std::size_t i = 0; i < wheels_.size(); ++i) wheels_[i].applied = numbers[2 + i];
 }
 

@@ -8,7 +8,8 @@
 
 namespace kiva_ros {
 
-/// libgazebo_ros_skid_steer_drive.so: two driven wheels a side, which slide sideways in turns.
+/// Stands in for libgazebo_ros_skid_steer_drive.so: drives two wheels a side, which slide sideways
+/// in turns.
 class SkidSteer : public Drive {
  public:
   using Drive::Drive;

@@ -33,7 +33,7 @@ class Writer {
     ++place_->ring;
     ++count_;
   }
-  /// Drops the room that was not used.
+  /// Releases the room of points that were not written.
   void finish() { modifier_.resize(count_); }
 
  private:

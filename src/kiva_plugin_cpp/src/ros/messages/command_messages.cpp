@@ -11,7 +11,7 @@
 namespace kiva_ros {
 namespace {
 
-/// What is wrong with its arrays; empty if they agree.
+/// Returns the fault of a message's arrays; empty if they agree.
 std::string disagreement(const warehouse_msgs::FleetFollow& m) {
   const std::size_t robots = m.kiva_id.size();
   char text[200];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command topics, and what is said on them.
+// The command topics and their messages.
 #pragma once
 
 #include <warehouse_msgs/Cancel.h>
@@ -24,9 +24,9 @@ kiva::Command fromMessage(const warehouse_msgs::Lift& message);
 kiva::Command fromMessage(const warehouse_msgs::Cancel& message);
 kiva::Command fromMessage(const warehouse_msgs::Stop& message);
 kiva::FollowPath fromMessage(const warehouse_msgs::FollowPath& message);
-/// One for every robot; of arrays that don't agree, one that says so.
+/// Returns an order for every robot; for arrays that don't agree, one that states this fault.
 Orders fromMessage(const warehouse_msgs::FleetFollow& message);
-/// Cancellations first, then paths, then lifts.
+/// Returns cancellations first, then paths, then lifts.
 Orders fromMessage(const warehouse_msgs::FleetOrders& message);
 
 warehouse_msgs::MoveTo toMoveTo(const kiva::Command& command);

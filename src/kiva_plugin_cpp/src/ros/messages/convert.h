@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Between the messages that everybody has and the world's structs.
+// Converts between common messages and the world's structs.
 #pragma once
 
 #include <gazebo_msgs/ModelState.h>
@@ -25,21 +25,21 @@ geometry_msgs::Vector3 toMessage(const kiva::Vector3& vector);
 geometry_msgs::Pose toMessage(const kiva::Pose& pose);
 geometry_msgs::Twist toMessage(const kiva::Twist& twist);
 geometry_msgs::Transform toTransform(const kiva::Pose& pose);
-/// Of frame `child` in frame `parent`, at `time` [s].
+/// Returns the transform of frame `child` in frame `parent`, at `time` [s].
 geometry_msgs::TransformStamped transform(double time, const std::string& parent,
                                           const std::string& child, const kiva::Pose& pose);
-/// In the layout that arrays of poses have in messages: x y z, then the quaternion x y z w.
+/// Appends a pose in the layout of arrays in messages: x y z, then the quaternion x y z w.
 void append(const kiva::Pose& pose, std::vector<double>* out);
 
 // --- message to world
-/// A quaternion of zeros is identity, as clients expect. Throws std::invalid_argument if a number
-/// is not finite.
+/// Converts a pose; a quaternion of zeros is identity, as clients expect. Throws
+/// std::invalid_argument if a number is not finite.
 kiva::Pose fromMessage(const geometry_msgs::Pose& pose);
 kiva::Vector3 fromMessage(const geometry_msgs::Vector3& vector, const char* what);
 kiva::Vector3 fromMessage(const geometry_msgs::Point& point, const char* what);
 kiva::Twist fromMessage(const geometry_msgs::Twist& twist);
 kiva::EntityState fromMessage(const gazebo_msgs::ModelState& state);
-/// The state's hash as text: the steps since time was 0, a blank, 16 hexadecimal digits.
+/// Returns the state's hash as text: the steps since time was 0, a blank, 16 hexadecimal digits.
 std::string hashText(const kiva::World& world);
 
 }  // namespace kiva_ros

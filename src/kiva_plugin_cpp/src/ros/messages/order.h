@@ -8,9 +8,9 @@
 
 namespace kiva_ros {
 
-/// What a client asks of a robot.
+/// A client's order to a robot.
 using Order = std::variant<kiva::Command, kiva::FollowPath>;
-/// What one message asks: mostly one thing.
+/// The orders of one message: mostly one.
 using Orders = std::vector<Order>;
 
 inline int robotOf(const Order& order) {

@@ -12,22 +12,22 @@
 
 namespace kiva_ros {
 
-/// `model::link`, or a model alone, as its two names.
+/// Returns the two names in `model::link`, or a model's name alone.
 std::pair<std::string, std::string> splitScoped(const std::string& name);
 
-/// The model and the name in it of a joint: `model::joint`, or the first model's that has one of
-/// that name. Nothing if there is none.
+/// Returns the model and the name in it of a joint, given as `model::joint` or by its name alone,
+/// of the first model with such a joint. Returns nothing if there is none.
 std::optional<std::pair<std::string, std::string>> findJoint(const kiva::World& world,
                                                              const std::string& name);
 
-/// Whether that is a name of the world's own frame.
+/// Returns whether a frame is the world's own.
 bool isInertial(const std::string& frame);
 
-/// The state of a frame in world; nothing if there is no such frame.
+/// Returns the state of a frame in world; nothing if there is no such frame.
 std::optional<kiva::EntityState> frameState(const kiva::World& world, const std::string& frame);
 
-/// A state in world as it is seen from a frame, and back. As in Gazebo, a frame's own velocity
-/// counts only on the way into it, and its rotation adds no velocity at a distance.
+/// Convert a state in world to a frame, and back. As in Gazebo, a frame's own velocity counts only
+/// in relativeTo, and its rotation adds no velocity at a distance.
 kiva::EntityState relativeTo(const kiva::EntityState& frame, const kiva::EntityState& in_world);
 kiva::EntityState inWorld(const kiva::EntityState& frame, const kiva::EntityState& in_frame);
 

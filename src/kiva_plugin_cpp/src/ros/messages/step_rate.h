@@ -7,7 +7,7 @@
 
 namespace kiva_ros {
 
-/// How many steps of `step_size` [s] lie between two messages at `rate` [Hz]; 0 = every step.
+/// Returns the number of steps of `step_size` [s] between two messages at `rate` [Hz]; at 0, 1.
 inline std::uint64_t stepsPer(double rate, double step_size) {
   if (rate <= 0) return 1;
   return static_cast<std::uint64_t>(std::max(1.0, std::round(1 / (rate * step_size))));

@@ -11,13 +11,14 @@
 namespace kiva_ros {
 namespace {
 
-/// For a slow subscriber: all commands that may wait for one step, each answered, several times.
+/// Queue size for a slow subscriber: several times all commands that may wait for one step, with an
+/// event each.
 constexpr int kEventQueue = 1000000;
 
 constexpr std::size_t kCrowd = 10;  // messages at once
 constexpr auto kBatch = std::chrono::milliseconds(2);
 
-/// Latched, so that who comes while time stands still learns it too.
+/// Topics are latched whose message new subscribers need while time stands still.
 constexpr bool kLatched = true;
 
 std_msgs::String hashMessage(const std::string& hash) {
@@ -70,7 +71,7 @@ void Broadcaster::run() {
       bulk += snapshot.bulk();
     }
     events_.flush();
-    // Together rather than one by one: so this thread and each client's wake less often.
+    // Together rather than one by one, so that this thread and those of clients wake less often.
     if (bulk >= kCrowd && !batch.back().reliable) std::this_thread::sleep_for(kBatch);
   }
 }
@@ -104,7 +105,7 @@ void Broadcaster::publish(const Snapshot& s) {
   if (s.links) publishLinks(*s.links);
   for (const PublishQueue::Publication& publication : s.publications) publication();
   if (!s.state_hash.empty()) hash_.publish(hashMessage(s.state_hash));
-  // roscpp's queues are short: what comes next could push this out.
+  // roscpp's queues are short: the next message could push this one out.
   if (s.reliable || s.published) {
     events_.flush();
     poll_thread_.flush();
@@ -125,7 +126,7 @@ void Broadcaster::publishEvent(const kiva::Event& event) {
 
 namespace {
 
-/// Names only where they changed.
+/// Publishes the states of models; their names are copied only after a change.
 template <typename Message>
 void fill(const ModelStates& from, std::shared_ptr<const std::vector<std::string>>* names,
           Message* out) {

@@ -21,15 +21,15 @@
 
 namespace kiva_ros {
 
-/// The one thread that publishes what the step thread saw: serialisation and sockets are the
-/// second core's.
+/// Publishes the step thread's snapshots on a thread of its own, so that a second core serialises
+/// messages and writes to sockets.
 class Broadcaster {
  public:
-  /// `node`: the node's private names.
+  /// `node`: has the node's private names.
   Broadcaster(ros::NodeHandle& root, ros::NodeHandle& node, SubscriberCounts& subscribers,
               SnapshotQueue& snapshots);
   ~Broadcaster() { stop(); }
-  /// Publishes what is still on its way, and nothing after it.
+  /// Publishes the snapshots that are queued, and none after them.
   void stop();
 
  private:
@@ -48,7 +48,8 @@ class Broadcaster {
   ros::Publisher collisions_, fleet_, objects_, units_, people_, hash_;
   ros::Publisher model_states_, gazebo_model_states_, link_states_;
   // Kept, since their names seldom change.
-  std::shared_ptr<const std::vector<std::string>> names_, link_names_;  ///< Those in the next two.
+  std::shared_ptr<const std::vector<std::string>> names_,
+      link_names_;  ///< The names in the next two.
   gazebo_msgs::ModelStates models_;
   gazebo_msgs::LinkStates links_;
   std::thread thread_;

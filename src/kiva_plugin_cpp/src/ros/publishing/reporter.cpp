@@ -13,9 +13,9 @@ namespace kiva_ros {
 namespace {
 
 constexpr double kRobotsRate = 20;  // [Hz], odometry and transforms
-// Simulated time may fly; a client that gets a thousand clocks a second does little else.
+// Without pacing, a client that gets a thousand clocks a second does little else.
 constexpr auto kClockGap = std::chrono::milliseconds(4);
-constexpr double kStatusRate = 10;  // [Hz], while somebody subscribes
+constexpr double kStatusRate = 10;  // [Hz], while there are subscribers
 constexpr double kHashRate = 1;     // [Hz]
 constexpr auto kObjectsInterval = std::chrono::milliseconds(100);
 constexpr auto kLatchedStatusInterval = std::chrono::milliseconds(400);
@@ -47,12 +47,12 @@ RobotPose poseOf(const kiva::World& world, int i) {
   return out;
 }
 
-/// Whether nothing comes from the robot itself.
+/// Returns whether a robot's radio is lost, so that it reports nothing.
 bool isSilent(const kiva::World& world, int robot) {
   return (world.fleet().failures[robot] & kiva::bitOf(kiva::Failure::kRadio)) != 0;
 }
 
-/// As the robot's own odometry has it.
+/// Returns a robot's pose and twist by its own odometry.
 RobotPose believedOf(const kiva::World& world, int i) {
   RobotPose out = poseOf(world, i);
   if (!world.realism().localisation.enabled) return out;
@@ -101,7 +101,7 @@ void Reporter::refused(const kiva::World& world, int kiva_id, const std::string&
 
 void Reporter::beginTimeline() {
   ++timeline_;
-  units_revision_ = kNever;  // where they stand is told again, as it is in the new one
+  units_revision_ = kNever;  // publishes the units' places of the new timeline
 }
 
 void Reporter::restored(const kiva::World& world, const std::vector<std::string>& before) {
@@ -109,16 +109,16 @@ void Reporter::restored(const kiva::World& world, const std::vector<std::string>
   const std::vector<std::string> now = world.modelNames();
   const std::set<std::string> old_names(before.begin(), before.end());
   const std::set<std::string> new_names(now.begin(), now.end());
-  const auto tell = [&](Kind kind, const std::string& name) {
+  const auto report = [&](Kind kind, const std::string& name) {
     extra_events_.push_back({world.time(), kind, name, "", "by going back to a checkpoint"});
   };
   for (const std::string& name : before) {
-    if (!new_names.count(name)) tell(Kind::kDeleted, name);
+    if (!new_names.count(name)) report(Kind::kDeleted, name);
   }
   for (const std::string& name : now) {
-    if (!old_names.count(name)) tell(Kind::kSpawned, name);
+    if (!old_names.count(name)) report(Kind::kSpawned, name);
   }
-  last_steps_ = clock_sent_steps_ = kNever;  // whatever the time was and is, it jumped
+  last_steps_ = clock_sent_steps_ = kNever;  // time jumped
 }
 
 void Reporter::whenPublished(const kiva::World& world, std::function<void()> done) {
@@ -136,7 +136,7 @@ void Reporter::afterRequests(kiva::World& world, bool paused, bool moved) {
   out.time = world.time();
   addNews(world, &out);
   updateSubscribedRobots();
-  // Where time stands still or jumped, nobody should have to wait for a step to learn of it.
+  // While time stands still, or after it jumped, subscribers must not have to wait for a step.
   const bool reset = world.steps() < last_steps_;
   if ((paused || reset) && world.steps() != clock_sent_steps_) {
     out.reliable_clock = true;
@@ -183,7 +183,7 @@ void Reporter::addNews(kiva::World& world, Snapshot* out) {
   }
 }
 
-/// Whether a robot came or went.
+/// Returns whether an event is about a robot that was added or removed.
 bool Reporter::isAboutRobot(const kiva::World& world, const kiva::Event& event) const {
   if (event.kind == kiva::Event::Kind::kDeleted) return robots_.count(event.model) != 0;
   return event.kind == kiva::Event::Kind::kSpawned &&
@@ -205,8 +205,8 @@ void Reporter::addClock(const kiva::World& world, bool reliable, Snapshot* out) 
   if (reliable) clock_sent_steps_ = world.steps();
 }
 
-/// Of robots with subscribers at kStatusRate; of every robot once a simulated second, or where
-/// that is often by the wall clock less often, to refresh what is latched.
+/// Adds the status of robots with subscribers at kStatusRate, and of every robot once a simulated
+/// second, less often where that would be too often by the wall clock, to refresh latched messages.
 void Reporter::addHeartbeats(const kiva::World& world, Snapshot* out) {
   const std::uint64_t beat = world.steps() / heartbeat_every_;
   const int slot = static_cast<int>(beat % kHeartbeatSlots);
@@ -269,8 +269,8 @@ void Reporter::addFleet(const kiva::World& world, Snapshot* out) const {
 
 void Reporter::addPeople(const kiva::World& world, Snapshot* out) {
   warehouse_msgs::People people = peopleMessage(world);
-  if (!people.name.empty() || somebody_there_) out->people = people;
-  somebody_there_ = !people.name.empty();
+  if (!people.name.empty() || people_were_there_) out->people = people;
+  people_were_there_ = !people.name.empty();
 }
 
 void Reporter::addOdometry(const kiva::World& world, Snapshot* out) const {
@@ -333,7 +333,7 @@ void Reporter::addObjects(const kiva::World& world, Snapshot* out, bool at_once)
     next_due_ = objects_sent_ + kObjectsInterval;
     return;
   }
-  // Together, since the second is read by the order of the first.
+  // Together, since the second message uses the order of the first.
   if (models) out->objects = warehouseObjects(world);
   out->units = unitStates(world);
   out->units->timeline = timeline_;

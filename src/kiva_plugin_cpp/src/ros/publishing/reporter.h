@@ -18,7 +18,7 @@
 
 namespace kiva_ros {
 
-/// On the step thread: samples what is due to be published and queues it for the broadcaster.
+/// Samples, on the step thread, what is due to be published and queues it for the broadcaster.
 ///
 /// Rates are of simulated time and counted in steps; only the two latched messages of objects and
 /// units are throttled by the wall clock, since models come and go while time stands still.
@@ -30,26 +30,27 @@ class Reporter {
     double fleet = 10;         ///< [Hz], of FleetState.
   };
 
-  /// `rtf`: the target real-time factor; unpaced, /clock is throttled by the wall clock.
+  /// `rtf`: the target real-time factor; at 0, as fast as possible, the wall clock throttles
+  /// /clock.
   Reporter(const kiva::World& world, const Rates& rates, double rtf, SubscriberCounts& subscribers,
            PublishQueue& publish_queue, SnapshotQueue& snapshots);
   void retime(double step_size, double rtf);
 
-  /// `reliable`: nothing is dropped because a subscriber is slow.
+  /// Reports a step. `reliable`: nothing is dropped, however slow a subscriber is.
   void afterStep(kiva::World& world, bool reliable = false);
-  /// After requests were served between steps. `moved`: models may stand elsewhere than before.
+  /// Reports requests that were served between steps. `moved`: models may have been moved.
   void afterRequests(kiva::World& world, bool paused, bool moved);
-  /// A command that the world never got.
+  /// Reports a command that was refused before it reached the world.
   void refused(const kiva::World& world, int kiva_id, const std::string& text);
-  /// The world is reset, or another one than before: what was decided upon holds no more.
+  /// Begins a new timeline, since the world was reset or restored: orders of the old one are void.
   void beginTimeline();
-  /// Counts those, from 1.
+  /// Returns the number of the timeline, counted from 1.
   std::uint32_t timeline() const { return timeline_; }
-  /// The world is another one than before, whose models were these.
+  /// Reports a restored world; `before` are the names of the models before it.
   void restored(const kiva::World& world, const std::vector<std::string>& before);
-  /// Calls `done`, on another thread, when all that was reported so far is with the sockets.
+  /// Calls `done`, on another thread, when everything reported so far has been written to sockets.
   void whenPublished(const kiva::World& world, std::function<void()> done);
-  /// When afterRequests should be called even if there was no request.
+  /// Returns when afterRequests is to be called even without a request.
   WallClock::time_point nextDue() const { return next_due_; }
 
  private:
@@ -77,23 +78,23 @@ class Reporter {
   SubscriberCounts& subscribers_;
   PublishQueue& publish_queue_;
   SnapshotQueue& snapshots_;
-  WallClock::duration clock_gap_{0};  ///< Least wall time between two clocks.
+  WallClock::duration clock_gap_{0};  ///< Least wall time between two /clock messages.
   std::uint64_t clock_every_, models_every_, fleet_every_, robots_every_, heartbeat_every_,
       hash_every_;  // steps
 
   std::uint32_t timeline_ = 1;
-  bool somebody_there_ = false;              ///< When people were told last.
-  std::uint64_t clock_sent_steps_ = kNever;  ///< Of the last reliable clock.
+  bool people_were_there_ = false;           ///< In the last People message.
+  std::uint64_t clock_sent_steps_ = kNever;  ///< At the last reliable clock.
   WallClock::time_point clock_sent_;
   std::uint64_t last_steps_ = kNever;
-  std::vector<kiva::Event> extra_events_;                  ///< That are none of the world's.
-  std::set<std::string> robots_;                           ///< Names of those last told.
+  std::vector<kiva::Event> extra_events_;  ///< Events that the world does not report itself.
+  std::set<std::string> robots_;           ///< Names of the robots last reported.
   std::shared_ptr<const std::vector<std::string>> names_;  ///< All models',
   std::uint64_t names_revision_ = kNever;                  ///< at that revision.
   std::shared_ptr<const std::vector<std::string>> link_names_;
   std::uint64_t link_names_revision_ = kNever;
 
-  static constexpr int kHeartbeatSlots = 10;  ///< Each robot has one, so that load is level.
+  static constexpr int kHeartbeatSlots = 10;  ///< Each robot has one, which spreads the load.
   std::array<WallClock::time_point, kHeartbeatSlots> heartbeat_sent_;
   std::vector<int> status_ids_, scan_ids_, odometry_ids_;  ///< Robots with subscribers,
   std::uint64_t subscribed_revision_ = kNever;             ///< at that revision of their counts.

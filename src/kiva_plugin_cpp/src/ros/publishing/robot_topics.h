@@ -15,10 +15,10 @@
 
 namespace kiva_ros {
 
-/// Messages that wait for a slow subscriber, of what is soon told anew.
+/// Queue size for a slow subscriber of periodic messages.
 constexpr int kStreamQueue = 10;
 
-/// The topics of each robot: they come and go with it.
+/// Publishes the topics of each robot, and advertises them as long as the robot exists.
 class RobotTopics {
  public:
   RobotTopics(ros::NodeHandle& node, SubscriberCounts& subscribers)

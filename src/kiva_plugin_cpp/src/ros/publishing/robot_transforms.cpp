@@ -14,7 +14,7 @@ constexpr int kQueue = 100;
 
 kiva::Pose laserPose(const kiva::LaserParameters& laser) { return {laser.x, 0, laser.z, 0, 0, 0}; }
 
-/// A wheel turned about its axle, which lies along y.
+/// Returns a wheel's pose turned about its axle, which lies along y.
 kiva::Pose turned(const kiva::Pose& wheel, double angle) {
   return {wheel.Pos(), kiva::Quaternion(0, angle, 0) * wheel.Rot()};
 }

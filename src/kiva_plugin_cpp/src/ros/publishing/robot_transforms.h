@@ -11,7 +11,8 @@
 
 namespace kiva_ros {
 
-/// The frames: world → kiva<id>/base_link → left_wheel, right_wheel, tower; laser is static.
+/// Publishes the frames world → kiva<id>/base_link → left_wheel, right_wheel, tower; laser is
+/// static.
 class RobotTransforms {
  public:
   RobotTransforms(ros::NodeHandle& node, SubscriberCounts& subscribers);

@@ -34,7 +34,7 @@ Look toMessage(kiva::Look look) {
   return out;
 }
 
-/// The looks of a scenery, each description but once.
+/// Collects the looks of a scenery, each description once.
 class Looks {
  public:
   Looks(const kiva::World& world, std::vector<Look>* out) : world_(world), out_(*out) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What only a picture of the warehouse needs, as messages.
+// Makes the messages that only viewers of the warehouse need.
 #pragma once
 
 #include <warehouse_msgs/FleetPaths.h>
@@ -11,7 +11,8 @@
 namespace kiva_ros {
 
 warehouse_msgs::Scenery sceneryOf(const kiva::World& world);
-/// Brings its poses and its time up to date while no model comes or goes. Whether any moved.
+/// Updates the poses and the time of a scenery while no model is added or removed. Returns whether
+/// any model moved.
 bool updatePoses(const kiva::World& world, warehouse_msgs::Scenery* scenery);
 warehouse_msgs::FleetPaths pathsOf(const kiva::World& world);
 

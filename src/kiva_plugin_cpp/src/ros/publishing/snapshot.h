@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the step thread hands to the broadcaster: copies, so that neither waits for the other.
+// Data that the step thread hands to the broadcaster: copies, so that neither waits for the other.
 #pragma once
 
 #include <warehouse_msgs/FleetState.h>
@@ -19,7 +19,7 @@
 
 namespace kiva_ros {
 
-/// What the topics of one robot need to know about it.
+/// The constants of a robot that its topics need.
 struct RobotInfo {
   int id = 0;
   kiva::LaserParameters laser;
@@ -40,29 +40,30 @@ struct RobotPose {
   double tower = 0;                ///< Above its rest [m].
 };
 
-/// Of all models, or of all links.
+/// The states of all models, or of all links.
 struct ModelStates {
-  std::shared_ptr<const std::vector<std::string>> names;  ///< The same object while none changes.
+  std::shared_ptr<const std::vector<std::string>>
+      names;  ///< The same object while no name changes.
   std::vector<kiva::EntityState> states;
 };
 
-/// One moment of the world; only what is due.
+/// What is due to be published of one moment of the world.
 struct Snapshot {
   double time = 0;  ///< Simulated [s].
 
-  // Reliable: each reaches the broadcaster.
-  bool reliable_clock = false;  ///< To be sent, whatever the rate of /clock.
+  // Reliable parts: each reaches the broadcaster.
+  bool reliable_clock = false;  ///< To be published, whatever the rate of /clock.
   std::vector<kiva::Event> events;
-  std::optional<RobotInfos> robots;  ///< All robots, after some came or went.
+  std::optional<RobotInfos> robots;  ///< All robots, after some were added or removed.
   std::vector<kiva::StatusChange> statuses;
   std::optional<warehouse_msgs::WarehouseObjects> objects;
   std::optional<warehouse_msgs::UnitStates> units;
   std::vector<PublishQueue::Publication> publications;  ///< Of plugins.
   std::string state_hash;                               ///< Empty: not due.
-  std::function<void()> published;  ///< To be called when this and all before is with the sockets.
-  bool reliable = false;            ///< All of it is: somebody waits for these steps.
+  std::function<void()> published;  ///< Called when this snapshot is written to sockets.
+  bool reliable = false;            ///< Nothing may be dropped: a client waits for the step.
 
-  // Best effort, since the next one is as good: dropped where the broadcaster lags.
+  // Best-effort parts: dropped where the broadcaster lags, since the next ones replace them.
   bool clock = false;
   std::optional<warehouse_msgs::People> people;
   std::optional<warehouse_msgs::FleetState> fleet;
@@ -73,7 +74,7 @@ struct Snapshot {
   std::vector<RobotPose> odometry;
   std::vector<RobotPose> transforms;
 
-  /// How many of those messages go to topics of single robots.
+  /// Returns the number of messages to topics of single robots.
   std::size_t bulk() const { return heartbeats.size() + scans.size() + odometry.size(); }
   bool hasReliable() const {
     return reliable_clock || !events.empty() || robots || !statuses.empty() || objects || units ||

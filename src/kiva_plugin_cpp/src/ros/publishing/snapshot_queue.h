@@ -10,16 +10,16 @@
 
 namespace kiva_ros {
 
-/// Snapshots on their way from the step thread to the broadcaster, in order and in bounded memory:
-/// where the broadcaster lags, best-effort parts are dropped, and the step thread waits before a
-/// reliable one would be.
+/// Queues snapshots from the step thread to the broadcaster, in order and in bounded memory: where
+/// the broadcaster lags, best-effort parts are dropped, and the step thread waits before a reliable
+/// one would be.
 class SnapshotQueue {
  public:
-  /// `reliable`: its best-effort parts are to reach the broadcaster too.
+  /// Appends a snapshot. `reliable`: none of its best-effort parts may be dropped.
   void push(Snapshot snapshot, bool reliable = false);
-  /// All that wait, once there is one; none: it was closed and is empty.
+  /// Waits for snapshots and returns all of them; returns none once the queue is closed and empty.
   std::deque<Snapshot> take();
-  /// Lets both sides go; what is pushed from now on is dropped.
+  /// Releases both sides; snapshots pushed afterwards are dropped.
   void close();
 
  private:

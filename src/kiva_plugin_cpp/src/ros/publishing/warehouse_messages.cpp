@@ -12,20 +12,10 @@ namespace kiva_ros {
 namespace {
 
 using warehouse_msgs::KivaStatus;
-static_assert(int(kiva::Status::kBlocked) == int(KivaStatus::STATUS_BLOCKED));
-static_assert(int(kiva::State::kMovingX) == int(KivaStatus::STATE_MOVING_X));
-static_assert(int(kiva::State::kBlocked) == int(KivaStatus::STATE_BLOCKED));
-static_assert(int(kiva::State::kWaiting) == int(KivaStatus::STATE_WAITING));
-static_assert(int(kiva::Event::Kind::kRefused) == int(warehouse_msgs::Event::REFUSED));
-static_assert(int(kiva::Event::Kind::kDeleted) == int(warehouse_msgs::Event::DELETED));
-static_assert(int(kiva::Event::Kind::kLost) == int(warehouse_msgs::Event::LOST));
-static_assert(int(kiva::Event::Kind::kRepaired) == int(warehouse_msgs::Event::REPAIRED));
-static_assert(int(kiva::Event::Kind::kTipped) == int(warehouse_msgs::Event::TIPPED));
-static_assert(int(kiva::Event::Kind::kPickedUp) == int(warehouse_msgs::Event::PICKED_UP));
 
 std::string robotName(int id) { return "kiva" + std::to_string(id); }
 
-/// The number in `kiva<id>` of the robot at that index, 0 for none.
+/// Returns the number in `kiva<id>` of the robot at that index, 0 for -1.
 int idOf(const kiva::Fleet& fleet, int robot) { return robot < 0 ? 0 : fleet.robots[robot].id; }
 
 int shelfOf(const kiva::World& world, int robot) {

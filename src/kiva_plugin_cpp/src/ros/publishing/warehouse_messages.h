@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The state of robots and warehouse, and what happened there, as messages.
+// Makes messages of the state of robots and warehouse, and of events.
 #pragma once
 
 #include <nav_msgs/Odometry.h>
@@ -19,16 +19,16 @@
 namespace kiva_ros {
 
 warehouse_msgs::Event toMessage(const kiva::Event& event);
-/// Of a collision's event.
+/// Returns the message of a collision's event.
 warehouse_msgs::Collision toCollision(const kiva::Event& event);
 warehouse_msgs::KivaStatus toMessage(const kiva::StatusChange& status);
 sensor_msgs::LaserScan toMessage(const Scan& scan, const kiva::LaserParameters& laser, double time);
 nav_msgs::Odometry toMessage(const RobotPose& robot, double time);
 
-/// What a robot's status is now.
+/// Returns a robot's status of now.
 kiva::StatusChange statusOf(const kiva::World& world, int robot);
 warehouse_msgs::FleetState fleetState(const kiva::World& world);
-/// Who walks on the floor, and which robots mind; empty if nobody does.
+/// Returns the people on the floor and the robots that slow down for them; empty without people.
 warehouse_msgs::People peopleMessage(const kiva::World& world);
 warehouse_msgs::WarehouseObjects warehouseObjects(const kiva::World& world);
 warehouse_msgs::UnitStates unitStates(const kiva::World& world);

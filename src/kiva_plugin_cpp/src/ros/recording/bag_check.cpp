@@ -25,7 +25,7 @@ void limit(int resource, rlim_t value) {
   setrlimit(resource, &both);
 }
 
-/// Its exit status as waitpid knows it; what it said is appended.
+/// Runs the check and returns its exit status as waitpid has it; appends its output to `said`.
 int runCheck(const std::string& path, std::string* said) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe for the check of " + path);

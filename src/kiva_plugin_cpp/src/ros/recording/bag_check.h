@@ -9,13 +9,13 @@
 
 namespace kiva_ros {
 
-/// The argument, before a path, with which this program is that process.
+/// The argument, before a path, that makes this program that process.
 constexpr char kCheckBagOption[] = "--check-bag";
 
-/// Throws std::runtime_error that says what is wrong with the bag, and what may help.
+/// Checks a bag. Throws std::runtime_error with its fault and a remedy.
 void checkBag(const std::string& path);
 
-/// What that process does: tells on stdout what is wrong. Returns its exit code.
+/// Checks a bag in that process: prints its fault to stdout and returns the exit code.
 int checkBagHere(const std::string& path);
 
 }  // namespace kiva_ros

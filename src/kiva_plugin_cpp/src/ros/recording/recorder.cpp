@@ -75,7 +75,7 @@ bool Recorder::beforeStep(kiva::World& world) {
     poses_every_ = stepsPer(kPoseRate, step_size_);
   }
   if (changed_) {
-    write(kKeyframeTopic, keyframe(world.checkpoint()));  // commands that wait are in it
+    write(kKeyframeTopic, keyframe(world.checkpoint()));  // includes commands that wait
   } else {
     for (const Order& order : commands_) {
       std::visit([this](const auto& asked) { write(asked); }, order);
@@ -120,15 +120,15 @@ void Recorder::attempt(Act act) {
   }
 }
 
-/// Once a second of the wall clock the hash closes the chunk of the bag, which till then is in
-/// memory for the most part and of no use to `rosbag reindex`.
+/// Writes the hash; once a second of the wall clock this closes the chunk of the bag, which until
+/// then is mostly in memory and of no use to `rosbag reindex`.
 void Recorder::writeHash(const kiva::World& world) {
   const auto now = WallClock::now();
   const bool closes = now >= saved_ + kSaveInterval;
   attempt([&](rosbag::Bag& bag) { bag.setChunkThreshold(closes ? 0 : kChunk); });  // may write
   write(kHashTopic, hashOf(world));
   if (!closes || !bag_) return;
-  std::fflush(nullptr);  // librosbag shows nobody its file
+  std::fflush(nullptr);  // librosbag does not expose its file
   saved_ = now;
   is_saved_ = true;
 }

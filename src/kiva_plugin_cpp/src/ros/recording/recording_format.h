@@ -24,7 +24,7 @@ namespace kiva_ros {
 constexpr char kHashTopic[] = "/warehouse/state_hash";
 constexpr char kKeyframeTopic[] = "/warehouse/keyframe";
 
-/// Of message number `index` within a step.
+/// Returns the time stamp of message number `index` within a step.
 inline ros::Time recordingStamp(std::uint64_t step, double step_size, std::uint32_t index) {
   ros::Time stamp;
   stamp.fromNSec(

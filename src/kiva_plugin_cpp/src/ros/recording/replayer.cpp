@@ -14,7 +14,7 @@
 namespace kiva_ros {
 namespace {
 
-/// Whether it tells how the world was after a step.
+/// Returns whether a message states how the world was after a step.
 bool isReport(const rosbag::MessageInstance& message) {
   return message.getTopic() == kHashTopic || message.getTopic() == "/tf";
 }
@@ -25,7 +25,7 @@ std::string checkpointIn(const rosbag::MessageInstance& message) {
   return {keyframe->data.begin(), keyframe->data.end()};
 }
 
-/// None if it is no command.
+/// Returns the command in a message, or none if it is not one.
 Orders ordersIn(const rosbag::MessageInstance& message) {
   Orders out;
   forEachCommandTopic([&](auto type, const char* topic, auto toOrders) {

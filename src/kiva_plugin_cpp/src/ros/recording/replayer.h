@@ -15,29 +15,29 @@
 
 namespace kiva_ros {
 
-/// Runs a recording again and checks that the world goes the same way; see recording_format.h.
+/// Replays a recording and checks that the world behaves identically; see recording_format.h.
 class Replayer : public StepHook {
  public:
-  /// Throws std::runtime_error if the bag can't be read or is no recording.
+  /// Opens the bag. Throws std::runtime_error if it can't be read or is not a recording.
   explicit Replayer(const std::string& path);
-  /// Makes the world the one with which the recording begins; before the simulation starts.
+  /// Restores the world with which the recording begins; call it before the simulation starts.
   void begin(kiva::World& world);
-  /// How the simulation goes to a later keyframe.
+  /// Sets the function that restores a later keyframe.
   void onKeyframe(std::function<void(kiva::World&, const std::string&)> restore) {
     restore_ = std::move(restore);
   }
 
-  /// What takes all messages that are none of the recording's own.
+  /// Sets the function that takes the messages for plugins.
   void onInput(std::function<void(const rosbag::MessageInstance&)> replay) {
     replay_ = std::move(replay);
   }
 
-  /// What follows once it has ended, and was the same all along.
+  /// Sets the function to call after a replay that was identical to its end.
   void onEnd(std::function<void()> end) { end_ = std::move(end); }
 
-  /// False when the recording has ended.
+  /// Returns false when the recording has ended.
   bool beforeStep(kiva::World& world) override;
-  /// Throws std::runtime_error, which names the step, where the world goes another way.
+  /// Throws std::runtime_error with the step where the world deviates.
   void afterStep(kiva::World& world) override;
 
  private:

@@ -13,8 +13,8 @@
 
 namespace kiva_ros {
 
-/// As Gazebo's clients ask for it: a start in the past is now, a negative duration is for ever, and
-/// anything acts for one step at least.
+/// Returns a period as Gazebo's clients mean it: a start in the past is now, a negative duration is
+/// unlimited, and the least duration is one step.
 inline kiva::Period periodOf(const kiva::World& world, const ros::Time& start_time,
                              const ros::Duration& duration) {
   const double start = std::max(start_time.toSec(), world.time());
@@ -24,7 +24,8 @@ inline kiva::Period periodOf(const kiva::World& world, const ros::Time& start_ti
   return {start, end};
 }
 
-/// Throws std::invalid_argument where a force would leave nothing but infinities behind.
+/// Throws std::invalid_argument for a force or torque so large that velocities would become
+/// infinite.
 inline void checkSize(double size, const std::string& what) {
   constexpr double kMost = 1e9;  // [N, Nm]
   if (!(size <= kMost)) throw std::invalid_argument("the " + what + " must be below 1e9 N or Nm");

@@ -16,19 +16,19 @@
 
 namespace kiva_ros {
 
-/// The whole world, saved and restored: /warehouse/checkpoint, /warehouse/restore and, from a ring
-/// of checkpoints, /warehouse/undo. The ring takes one before every reset and, if it is to, one a
-/// simulated second.
+/// Saves and restores the whole world: /warehouse/checkpoint, /warehouse/restore and, from a ring
+/// of checkpoints, /warehouse/undo. The ring takes one before every reset and, with `autosave`, one
+/// a simulated second.
 class CheckpointServices : public StepHook {
  public:
   struct Options {
-    bool undo = true;               ///< Whether there is a ring at all.
-    int autosave = 0;               ///< How many of a second each it holds, 0 = none.
-    std::string folder;             ///< Where checkpoints that are files lie.
-    std::uintmax_t most_bytes = 0;  ///< Of those in memory, of the files, and of the ring.
+    bool undo = true;               ///< Whether the ring is kept.
+    int autosave = 0;               ///< Checkpoints kept, one a simulated second; 0 = none.
+    std::string folder;             ///< Folder of checkpoints that are files.
+    std::uintmax_t most_bytes = 0;  ///< Limit in memory, of the files, and of the ring, each.
   };
 
-  /// `root`: its calls write and read files, so best one with a thread of its own.
+  /// `root`: serves calls that write and read files, so preferably the node of a thread of its own.
   CheckpointServices(ros::NodeHandle& root, SimulationThread& simulation, const Options& options);
 
   void beforeReset(kiva::World& world) override;
@@ -37,9 +37,9 @@ class CheckpointServices : public StepHook {
  private:
   using Request = warehouse_msgs::Checkpoint::Request;
   using Response = warehouse_msgs::Checkpoint::Response;
-  /// One of the ring.
+  /// A checkpoint of the ring.
   struct Saved {
-    double age;  ///< As `age_` counts [s].
+    double age;  ///< The value of `age_` when it was taken [s].
     std::string bytes;
   };
 
@@ -53,8 +53,8 @@ class CheckpointServices : public StepHook {
   const Options options_;
   CheckpointStore store_;
 
-  // Of the step thread.
-  double age_ = 0;          ///< Simulated, less what was undone; no reset of time changes it [s].
+  // Used by the step thread alone.
+  double age_ = 0;          ///< Simulated time less the time undone; resets don't change it [s].
   std::deque<Saved> ring_;  ///< The oldest first.
   std::uintmax_t ring_bytes_ = 0;
   std::vector<ros::ServiceServer> servers_;

@@ -25,7 +25,7 @@ bool isFile(const std::string& name) {
 
 bool isFit(unsigned char c) { return c >= 0x80 || (std::isprint(c) && c != '/' && c != '\\'); }
 
-/// A name must not lead out of the folder.
+/// Throws Refusal unless a name is a plain file name, which can't lead out of the folder.
 void checkName(const std::string& name) {
   const bool fits = !name.empty() && name.size() <= kLongestName && name[0] != '.' &&
                     std::all_of(name.begin(), name.end(), isFit);
@@ -79,14 +79,14 @@ std::string CheckpointStore::load(const std::string& name) const {
                 (known.empty() ? "is none" : "are " + known));
 }
 
-/// Nobody sees half a file.
+/// Writes a file under a temporary name and renames it, so that readers never meet half a file.
 void CheckpointStore::saveFile(const std::string& name, const std::string& bytes) const {
   const fs::path path = fs::path(folder_) / name;
   const fs::path partial = path.string() + ".part";
   std::error_code error;
   fs::create_directories(folder_, error);
   checkRoom(inFolder() - sizeOf(path), bytes.size(), most_bytes_, "in " + folder_);
-  fs::remove(partial, error);  // whatever it is, it is not written through
+  fs::remove(partial, error);  // a link there must not be written through
   std::ofstream file(partial, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();

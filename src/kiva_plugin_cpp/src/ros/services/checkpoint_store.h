@@ -7,16 +7,16 @@
 
 namespace kiva_ros {
 
-/// Checkpoints by name: in memory or, where the name ends in `.checkpoint`, as files of one folder.
-/// One thread at a time.
+/// Keeps checkpoints by name: in memory or, if the name ends in `.checkpoint`, as files of one
+/// folder. For one thread at a time.
 class CheckpointStore {
  public:
-  /// `most_bytes`: in memory, and in the folder.
+  /// `most_bytes`: limits the checkpoints in memory, and those in the folder.
   CheckpointStore(std::string folder, std::uintmax_t most_bytes);
 
-  /// All or nothing. Throws Refusal that says why not.
+  /// Saves a checkpoint whole or throws Refusal with the cause.
   void save(const std::string& name, std::string bytes);
-  /// Throws Refusal that says why there is none.
+  /// Returns a checkpoint. Throws Refusal with the cause if there is none.
   std::string load(const std::string& name) const;
 
  private:

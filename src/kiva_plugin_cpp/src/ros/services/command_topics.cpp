@@ -8,7 +8,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr int kUnlimited = 0;  // every command is answered, however fast they come
+constexpr int kUnlimited = 0;  // every command is answered, at any rate
 
 }  // namespace
 

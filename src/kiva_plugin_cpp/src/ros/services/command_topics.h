@@ -9,7 +9,7 @@
 
 namespace kiva_ros {
 
-/// The command topics, one subscriber each whatever the number of robots.
+/// Subscribes to the command topics, once each for any number of robots.
 class CommandTopics {
  public:
   CommandTopics(ros::NodeHandle& root, SimulationThread& simulation);

@@ -10,11 +10,6 @@ namespace kiva_ros {
 namespace {
 
 using warehouse_msgs::FailRequest;
-static_assert(int(kiva::Failure::kMotor) == int(FailRequest::MOTOR));
-static_assert(int(kiva::Failure::kLift) == int(FailRequest::LIFT_STUCK));
-static_assert(int(kiva::Failure::kLaser) == int(FailRequest::LASER_BLIND));
-static_assert(int(kiva::Failure::kRadio) == int(FailRequest::RADIO_LOST));
-static_assert(int(kiva::Failure::kWheelSlip) == int(FailRequest::WHEEL_SLIPS));
 
 void act(kiva::World& world, const FailRequest& request) {
   if (request.kind > FailRequest::WHEEL_SLIPS) {

@@ -8,7 +8,7 @@
 
 namespace kiva_ros {
 
-/// `/warehouse/fail`: breaks something in a robot, or repairs it.
+/// Serves `/warehouse/fail`: causes or repairs a failure of a robot.
 class FailureService {
  public:
   FailureService(ros::NodeHandle& root, SimulationThread& simulation);

@@ -47,19 +47,18 @@ void describe(const kiva::World& world, const std::string& name, Properties* out
   const kiva::JointState state = *world.joint(model, joint);
   const kiva::Joint::Kind kind = world.description(model)->findJoint(joint)->kind;
   out->type = typeOf(kind);
-  if (kind == kiva::Joint::Kind::kBall) return;  // It has no axis to tell of.
+  if (kind == kiva::Joint::Kind::kBall) return;  // It has no axis.
   out->damping = {state.settings.damping};
   out->position = {state.position};
   out->rate = {state.rate};
 }
 
-/// The first of a list that has one value an axis; our joints have one axis.
+/// Returns the first of a list with one value an axis; our joints have one axis.
 void read(const std::vector<double>& values, double* out) {
   if (!values.empty()) *out = values.front();
 }
 
-/// What ODE calls fmax and vel is a motor here too; the rest of its settings means nothing to
-/// Bullet.
+/// Sets a joint. ODE's fmax and vel become a motor; its other settings mean nothing to Bullet.
 std::string configure(kiva::World& world, const gazebo_msgs::SetJointProperties::Request& request) {
   const auto [model, joint] = jointNamed(world, request.joint_name, "SetJointProperties");
   const gazebo_msgs::ODEJointProperties& ode = request.ode_joint_config;

@@ -9,7 +9,7 @@
 
 namespace kiva_ros {
 
-/// Joints as Gazebo's node offers them: get_joint_properties, set_joint_properties,
+/// Serves joints as Gazebo's node does: get_joint_properties, set_joint_properties,
 /// set_model_configuration, apply_joint_effort, clear_joint_forces.
 class JointServices {
  public:

@@ -9,8 +9,8 @@
 
 namespace kiva_ros {
 
-/// Lights as Gazebo's node offers them, kept and told: get_light_properties,
-/// set_light_properties, delete_light.
+/// Serves lights as Gazebo's node does: get_light_properties, set_light_properties, delete_light.
+/// Their values are stored and returned, and have no effect.
 class LightServices {
  public:
   LightServices(ros::NodeHandle& node, SimulationThread& simulation);

@@ -23,7 +23,8 @@ using kiva::Matrix3;
 
 constexpr int kSetLinkQueue = 10;
 
-/// Throws Refusal with that text unless there is such a link.
+/// Returns the model and the link that a name means. Throws Refusal with that text if there is no
+/// such link.
 std::pair<std::string, std::string> linkNamed(const kiva::World& world, const std::string& name,
                                               const std::string& no_link) {
   const auto scoped = splitScoped(name);
@@ -67,7 +68,8 @@ void setState(kiva::World& world, const gazebo_msgs::LinkState& asked) {
   world.setLinkState(model, link, inWorld(frame, in_frame));
 }
 
-/// The tensor is about the centre of mass, along the link's axes.
+/// Fills in a link's mass, gravity flag and inertia; the tensor is about the centre of mass, along
+/// the link's axes.
 void describe(const kiva::Link& link, gazebo_msgs::GetLinkProperties::Response* out) {
   const Matrix3 turn(link.inertial_pose_in_link.Rot());
   const kiva::Vector3& m = link.principal_moments;
@@ -83,7 +85,7 @@ void describe(const kiva::Link& link, gazebo_msgs::GetLinkProperties::Response* 
   out->izz = tensor(2, 2);
 }
 
-/// Throws Refusal unless it is finite and no more than physics can compute with.
+/// Throws Refusal unless a value is finite and within what physics can compute with.
 void checkNumber(double value, double most, const char* what) {
   if (std::abs(value) <= most) return;
   throw Refusal("SetLinkProperties: " + std::string(what) + " must be finite and at most " +
@@ -111,8 +113,8 @@ kiva::Link likeRequest(const std::string& name,
   return like;
 }
 
-/// In an inertial frame the force acts at the centre of mass, displaced by the reference point; in
-/// that of a link or a model, at the point as that frame sees it.
+/// Applies a wrench. In an inertial frame the force acts at the centre of mass, displaced by the
+/// reference point; in the frame of a link or a model, at the point in that frame.
 kiva::Wrench wrenchOf(const kiva::World& world,
                       const gazebo_msgs::ApplyBodyWrench::Request& request) {
   const auto [model, link] =

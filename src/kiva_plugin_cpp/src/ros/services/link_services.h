@@ -10,7 +10,7 @@
 
 namespace kiva_ros {
 
-/// Links as Gazebo's node offers them: get_link_state, set_link_state and its topic,
+/// Serves links as Gazebo's node does: get_link_state, set_link_state and its topic,
 /// get_link_properties, set_link_properties, apply_body_wrench, clear_body_wrenches.
 class LinkServices {
  public:

@@ -8,8 +8,8 @@
 
 namespace kiva_ros {
 
-/// `/warehouse/map` (nav_msgs/GetMap): the floor with one cell a grid point, 100 where a model that
-/// belongs to no warehouse is in a robot's way, 0 where none is.
+/// Serves `/warehouse/map` (nav_msgs/GetMap): the floor with one cell a grid point, 100 where a
+/// model that belongs to no warehouse blocks robots, 0 elsewhere.
 class MapService {
  public:
   MapService(ros::NodeHandle& root, SimulationThread& simulation);

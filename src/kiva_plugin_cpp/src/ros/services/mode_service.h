@@ -8,7 +8,7 @@
 
 namespace kiva_ros {
 
-/// `~keep_robot_mode`: keeps who commands a robot with the world's state, for a coordinator.
+/// Serves `~keep_robot_mode`: stores a robot's mode in the world's state, for a coordinator.
 class ModeService {
  public:
   ModeService(ros::NodeHandle& node, SimulationThread& simulation);

@@ -5,8 +5,8 @@
 
 namespace kiva_ros {
 
-/// A text with every `package://name/` of a package that is found written as its path; URDF files
-/// name their meshes so.
+/// Returns a text in which each `package://name/` of an installed package is replaced by its path;
+/// URDF files name their meshes by such URIs.
 std::string resolvePackageUris(const std::string& text);
 
 }  // namespace kiva_ros

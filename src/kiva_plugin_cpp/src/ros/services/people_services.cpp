@@ -29,7 +29,7 @@ kiva::Walk walkOf(const warehouse_msgs::Person::Request& request) {
   return walk;
 }
 
-/// A person comes to where the walk begins; gone again if it can't.
+/// Adds a person where the walk begins, and removes it again if the walk is refused.
 void come(kiva::World& world, kiva::ModelInstance person, const kiva::Walk& walk) {
   if (walk.waypoints.empty()) {
     throw std::invalid_argument("there is no '" + person.name + "', and no place to come to");

@@ -10,8 +10,8 @@
 
 namespace kiva_ros {
 
-/// `/warehouse/person` and `/warehouse/light_curtain`: who walks where, and where robots stand
-/// meanwhile.
+/// Serves `/warehouse/person` and `/warehouse/light_curtain`: where people walk, and where robots
+/// stop for them.
 class PeopleServices {
  public:
   PeopleServices(ros::NodeHandle& root, SimulationThread& simulation, kiva::ModelPaths model_paths);

@@ -26,7 +26,7 @@ void PerformanceTopic::publish() {
     out.header = header(simulation_.run([](kiva::World& world) { return world.time(); }), "");
     out.real_time_factor = simulation_.realTimeFactor();
     publisher_.publish(out);
-  } catch (const std::exception&) {  // it is shutting down
+  } catch (const std::exception&) {  // the node is shutting down
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace kiva_ros {
 
-/// How fast simulated time passes, as Gazebo's node tells it: ~performance_metrics, while somebody
-/// listens, also while time stands still.
+/// Publishes ~performance_metrics, the real-time factor as Gazebo's node computes it, while there
+/// are subscribers, also while time stands still.
 class PerformanceTopic {
  public:
   PerformanceTopic(ros::NodeHandle& node, SimulationThread& simulation);

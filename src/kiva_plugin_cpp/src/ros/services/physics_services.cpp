@@ -92,7 +92,8 @@ gazebo_msgs::SetPhysicsProperties::Request fromConfig(
   return out;
 }
 
-/// Simulated seconds a wall second at so many steps a wall second; 0 = as fast as it goes.
+/// Returns simulated seconds a wall second at that many steps a wall second; 0 = as fast as
+/// possible.
 double factorOf(double max_update_rate, double step_size) {
   constexpr double kLeast = 1e-4, kMost = 1e6;
   if (!std::isfinite(max_update_rate)) {
@@ -122,7 +123,8 @@ PhysicsServices::PhysicsServices(ros::NodeHandle& node, const kiva::World& world
                                  SimulationThread& simulation)
     : simulation_(simulation), server_(mutex_, node) {
   using namespace gazebo_msgs;
-  tell(propertiesOf(world, simulation));  // not what another run left on the parameter server
+  offer(propertiesOf(world,
+                     simulation));  // replaces values of an earlier run on the parameter server
   server_.setCallback([this](Config& config, std::uint32_t) { reconfigure(config); });
   servers_.push_back(serve<GetPhysicsProperties>(
       node, "get_physics_properties", "GetPhysicsProperties", [&simulation](auto&, auto& response) {
@@ -138,12 +140,12 @@ PhysicsServices::PhysicsServices(ros::NodeHandle& node, const kiva::World& world
   servers_.push_back(serve<SetPhysicsProperties>(
       node, "set_physics_properties", "SetPhysicsProperties", [this](auto& request, auto&) {
         set(request);
-        tell(request);
+        offer(request);
         return "physics engine updated; ode_config is kept, but Bullet has no counterpart for it";
       }));
 }
 
-/// All or nothing.
+/// Sets all properties, or none if one is wrong.
 void PhysicsServices::set(const Properties& properties) {
   const double rate = properties.max_update_rate;
   const double factor = factorOf(rate, properties.time_step);
@@ -177,7 +179,7 @@ void PhysicsServices::reconfigure(Config& config) {
   }
 }
 
-void PhysicsServices::tell(const Properties& properties) {
+void PhysicsServices::offer(const Properties& properties) {
   const boost::recursive_mutex::scoped_lock lock(mutex_);
   last_ = toConfig(properties);
   server_.updateConfig(last_);

@@ -14,8 +14,9 @@
 
 namespace kiva_ros {
 
-/// Gravity, step and pace: get_physics_properties and set_physics_properties of Gazebo's node, and
-/// the same by dynamic_reconfigure. What belongs to ODE alone is kept and told.
+/// Serves gravity, step size and pace: get_physics_properties and set_physics_properties of
+/// Gazebo's node, and the same parameters by dynamic_reconfigure. Settings of ODE are stored and
+/// returned, and have no effect.
 class PhysicsServices {
  public:
   PhysicsServices(ros::NodeHandle& node, const kiva::World& world, SimulationThread& simulation);
@@ -26,12 +27,12 @@ class PhysicsServices {
 
   void set(const Properties& properties);
   void reconfigure(Config& config);
-  void tell(const Properties& properties);
+  void offer(const Properties& properties);
 
   SimulationThread& simulation_;
   std::vector<ros::ServiceServer> servers_;
-  boost::recursive_mutex mutex_;  ///< The server's, and of last_.
-  Config last_;                   ///< What holds now.
+  boost::recursive_mutex mutex_;  ///< Guards the server and last_.
+  Config last_;                   ///< The current settings.
   dynamic_reconfigure::Server<Config> server_;
 };
 

@@ -9,17 +9,17 @@
 namespace kiva_ros {
 namespace {
 
-/// All whose unit stands; returns what became of the others.
+/// Picks up every item whose unit stands upright, and returns why the others were refused.
 std::string pickUpAll(kiva::World& world) {
-  std::string left;
+  std::string refusals;
   for (const kiva::FallenItem& item : world.fallenItems()) {
     try {
       world.pickUp(item.name);
     } catch (const std::invalid_argument& error) {
-      left += (left.empty() ? "" : "; ") + std::string(error.what());
+      refusals += (refusals.empty() ? "" : "; ") + std::string(error.what());
     }
   }
-  return left;
+  return refusals;
 }
 
 }  // namespace

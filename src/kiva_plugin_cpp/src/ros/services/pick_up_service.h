@@ -8,7 +8,7 @@
 
 namespace kiva_ros {
 
-/// `/warehouse/pick_up`: items that fell off their storage units are put back.
+/// Serves `/warehouse/pick_up`: puts items that fell off their storage units back on them.
 class PickUpService {
  public:
   PickUpService(ros::NodeHandle& root, SimulationThread& simulation);

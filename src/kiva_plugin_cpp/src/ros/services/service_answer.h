@@ -10,13 +10,13 @@
 
 namespace kiva_ros {
 
-/// Refuses a request with the status text that clients know.
+/// Refuses a request; the text is the status message that Gazebo's clients know.
 struct Refusal : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Fills a response with what `body` returns, the status text, or with what it throws: a failure
-/// is a reply that names its cause, never a call that fails.
+/// Fills a response with the status text that `body` returns, or with the text of its exception: a
+/// failure is a reply with its cause, not a failed call.
 template <typename Response, typename Body>
 bool answer(const std::string& service, Response& response, Body body) {
   try {
@@ -32,7 +32,7 @@ bool answer(const std::string& service, Response& response, Body body) {
   return true;
 }
 
-/// The same for responses of our own, whose text is called message.
+/// Does the same for our own responses, whose text is the field `message`.
 template <typename Response, typename Body>
 bool reply(Response& response, Body body) {
   try {
@@ -46,7 +46,7 @@ bool reply(Response& response, Body body) {
 }
 
 /// Advertises a service with such responses: `body(request, response)` returns the status text.
-/// `label`: what the service is called in texts.
+/// `label`: the service's name in texts.
 template <typename Service, typename Body>
 ros::ServiceServer serve(ros::NodeHandle& node, const std::string& name, const std::string& label,
                          Body body) {

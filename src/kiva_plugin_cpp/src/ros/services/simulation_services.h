@@ -13,7 +13,7 @@
 
 namespace kiva_ros {
 
-/// The simulation as a whole: pause_physics, unpause_physics, reset_simulation, reset_world
+/// Serves the simulation as a whole: pause_physics, unpause_physics, reset_simulation, reset_world
 /// and get_world_properties of Gazebo's node.
 class SimulationServices {
  public:

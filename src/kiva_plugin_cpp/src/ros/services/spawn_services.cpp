@@ -11,7 +11,7 @@
 namespace kiva_ros {
 namespace {
 
-/// Parsed it takes many times its size.
+/// Throws Refusal for a document that is too large; parsed, it takes many times its size.
 void checkBytes(const std::string& xml) {
   constexpr std::size_t kMost = 10'000'000;
   if (xml.size() <= kMost) return;
@@ -19,7 +19,8 @@ void checkBytes(const std::string& xml) {
                 " bytes; at most " + std::to_string(kMost) + " are read");
 }
 
-/// The frame composes with `initial_pose`, and that with the poses of the document.
+/// Places a document's models and lights in world: its poses are relative to `initial_pose`, and
+/// that to the frame.
 void place(const kiva::World& world, const std::string& frame_name, const kiva::Pose& initial_pose,
            SpawnServices::Document* document) {
   const auto frame = frameState(world, frame_name);
@@ -45,7 +46,7 @@ void checkNames(const kiva::World& world, const SpawnServices::Document& documen
     throw Refusal("SpawnModel: Failure - entity already exists." + which);
   };
   for (const kiva::ModelInstance& model : document.models) check(model.name, world.has(model.name));
-  if (!document.models.empty()) return;  // beside models, a light that is there stays as it is
+  if (!document.models.empty()) return;  // beside models, an existing light stays unchanged
   for (const kiva::Light& light : document.lights) check(light.name, hasLight(world, light));
 }
 
@@ -86,7 +87,7 @@ std::string SpawnServices::spawn(const gazebo_msgs::SpawnModel::Request& request
   return "SpawnModel: Successfully spawned entity";
 }
 
-/// Off the step thread, since a large document takes longer than a step may.
+/// Parses off the step thread, since a large document takes longer than a step may.
 SpawnServices::Document SpawnServices::parse(const gazebo_msgs::SpawnModel::Request& request,
                                              const std::string& xml) {
   std::vector<std::string> warnings;
@@ -98,9 +99,9 @@ SpawnServices::Document SpawnServices::parse(const gazebo_msgs::SpawnModel::Requ
     ROS_WARN("SpawnModel '%s': %s", request.model_name.c_str(), warning.c_str());
   }
   for (kiva::ModelInstance& model : out.models) model.robot_namespace = request.robot_namespace;
-  // What is left of a world keeps its name.
+  // Models of a world file keep their names.
   if (request.model_name.empty() && xml.find("<world") != std::string::npos) return out;
-  // One goes by the name that was asked for; several keep those of their document.
+  // A single model gets the requested name; several keep those of their document.
   if (out.models.size() == 1) {
     out.models.front().name = request.model_name;
   } else if (out.models.empty() && out.lights.size() == 1) {

@@ -13,12 +13,12 @@
 
 namespace kiva_ros {
 
-/// Models come and go: spawn_sdf_model, spawn_urdf_model and delete_model of Gazebo's node.
+/// Adds and removes models: spawn_sdf_model, spawn_urdf_model and delete_model of Gazebo's node.
 class SpawnServices {
  public:
   SpawnServices(ros::NodeHandle& node, SimulationThread& simulation, kiva::ModelPaths model_paths);
 
-  /// What a request asks for.
+  /// The content of a request.
   struct Document {
     std::vector<kiva::ModelInstance> models;
     std::vector<kiva::Light> lights;
@@ -32,7 +32,7 @@ class SpawnServices {
 
   SimulationThread& simulation_;
   const kiva::ModelPaths model_paths_;
-  std::mutex parsing_;  ///< The parser's cache is for one thread at a time.
+  std::mutex parsing_;  ///< Guards the parser's cache.
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -29,7 +29,7 @@ void describe(const kiva::ModelDescription& model,
   }
 }
 
-/// A state in world as `frame` sees it. Throws Refusal where there is no such frame.
+/// Returns a state in world relative to `frame`. Throws Refusal if there is no such frame.
 kiva::EntityState seenFrom(const kiva::World& world, const std::string& frame_name,
                            const kiva::EntityState& state, const std::string& no_frame) {
   const auto frame = frameState(world, frame_name);

@@ -15,8 +15,8 @@
 
 namespace kiva_ros {
 
-/// Where models are, what they are made of, and putting them elsewhere: get_model_state (at the
-/// root as well), get_model_properties, set_model_state and its topic.
+/// Serves the states of models: get_model_state (at the root as well), get_model_properties,
+/// set_model_state and its topic.
 class StateServices {
  public:
   StateServices(ros::NodeHandle& root, ros::NodeHandle& node, SimulationThread& simulation);
@@ -31,7 +31,8 @@ class StateServices {
   void setModelByTopic(const gazebo_msgs::ModelState& state);
 
   SimulationThread& simulation_;
-  std::map<std::string, std::uint32_t> asked_;  ///< How often, by model; the step thread's.
+  std::map<std::string, std::uint32_t>
+      asked_;  ///< Number of requests by model; used by the step thread alone.
   std::vector<ros::ServiceServer> servers_;
   ros::Subscriber set_model_;
 };

@@ -8,8 +8,8 @@
 
 namespace kiva_ros {
 
-/// ~step: time by the step, for those who want to see what each does. A call may take as long as
-/// its steps do, so `node` is best that of a thread of its own.
+/// Serves ~step: advances time step by step, for clients that need the result of each step. A call
+/// takes as long as its steps, so `node` is preferably that of a thread of its own.
 class StepService {
  public:
   StepService(ros::NodeHandle& node, SimulationThread& simulation);

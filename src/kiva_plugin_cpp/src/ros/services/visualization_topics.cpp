@@ -27,7 +27,7 @@ void VisualizationTopics::publish() {
   try {
     if (scenery_topic_.getNumSubscribers() > 0) publishScenery();
     if (paths_topic_.getNumSubscribers() > 0) publishPaths();
-  } catch (const std::exception&) {  // it is shutting down
+  } catch (const std::exception&) {  // the node is shutting down
   }
 }
 

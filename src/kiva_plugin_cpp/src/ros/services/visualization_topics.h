@@ -12,8 +12,8 @@
 
 namespace kiva_ros {
 
-/// What only a picture of the warehouse needs: /warehouse/scenery and /warehouse/paths, by the wall
-/// clock, also while time stands still. Costs nothing while nobody listens.
+/// Publishes /warehouse/scenery and /warehouse/paths, which only viewers need, by the wall clock,
+/// also while time stands still. Without subscribers it costs nothing.
 class VisualizationTopics {
  public:
   VisualizationTopics(ros::NodeHandle& root, SimulationThread& simulation);
@@ -24,10 +24,10 @@ class VisualizationTopics {
   void publishPaths();
 
   SimulationThread& simulation_;
-  std::atomic<bool> newcomer_{false};  ///< Somebody came who has seen no scenery yet.
-  warehouse_msgs::Scenery scenery_;    ///< As last looked at,
+  std::atomic<bool> newcomer_{false};  ///< A new subscriber waits for the scenery.
+  warehouse_msgs::Scenery scenery_;    ///< As of
   std::uint64_t models_revision_ =
-      std::numeric_limits<std::uint64_t>::max();  ///< at that revision.
+      std::numeric_limits<std::uint64_t>::max();  ///< this revision of the models.
   ros::Publisher scenery_topic_, paths_topic_;
   ros::WallTimer timer_;
 };

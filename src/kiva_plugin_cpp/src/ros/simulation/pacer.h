@@ -9,21 +9,22 @@ namespace kiva_ros {
 
 /// Tells when steps are due so that simulated time follows the wall clock.
 ///
-/// Steps come in batches, since waking up for each costs more than a small world's step; a batch
-/// is short against the reaction time of whatever listens. Time that was lost is forgiven: a
-/// world that was too slow goes on from where it is, without a burst.
+/// Steps come in batches, since waking up for each costs more than a small world's step; a batch is
+/// short against the reaction time of clients. Lost time is not caught up: a world that was too
+/// slow continues without a burst.
 class Pacer {
  public:
-  /// `rtf`: simulated seconds a wall second, 0 = as fast as it goes.
+  /// `rtf`: simulated seconds a wall second; 0 = as fast as possible.
   Pacer(double step_size, double rtf);
 
   bool paced() const { return rtf_ > 0; }
-  /// From now on.
+  /// Restarts the pace at `now`.
   void restart(WallClock::time_point now);
-  /// How many steps are owed; unpaced, as many as are done before the clock is asked again.
+  /// Returns the number of steps that are due; without pacing, the number to make before the clock
+  /// is read again.
   int due(WallClock::time_point now);
   void stepped() { ++done_; }
-  /// When the next batch is due.
+  /// Returns when the next batch is due.
   WallClock::time_point next() const;
 
  private:

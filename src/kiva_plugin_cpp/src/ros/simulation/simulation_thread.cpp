@@ -34,7 +34,7 @@ void SimulationThread::start() {
       refuseRequests();
       ros::requestShutdown();
     }
-    step_requests_.clear();  // and with them the promises of their answers
+    step_requests_.clear();  // with the promises of their answers
   });
 }
 
@@ -45,7 +45,7 @@ void SimulationThread::stop() {
 }
 
 void SimulationThread::refuseRequests() {
-  Requests unanswered;  // dies here, and with it the promises of its answers
+  Requests unanswered;  // destroyed here, with the promises of its answers
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = false;
   attention_ = true;
@@ -251,7 +251,7 @@ bool SimulationThread::stepOnce(bool reliable) {
   }
   world_.step();
   for (StepHook* hook : hooks_) hook->afterStep(world_);
-  models_revision_ = world_.modelsRevision();  // what plugins do, they will do again
+  models_revision_ = world_.modelsRevision();  // plugins repeat their own changes
   reporter_.afterStep(world_, reliable);
   return true;
 }

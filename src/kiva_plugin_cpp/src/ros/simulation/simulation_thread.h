@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The step thread. It alone touches the world; whoever wants something of the world posts it.
+// The step thread. It alone touches the world; other threads post requests to it.
 #pragma once
 
 #include <atomic>
@@ -27,45 +27,47 @@ namespace kiva_ros {
 
 class SimulationThread {
  public:
-  /// `rtf`: simulated seconds a wall second, 0 = as fast as it goes. `lockstep`: time advances by
-  /// step() alone.
+  /// `rtf`: simulated seconds a wall second; 0 = as fast as possible. `lockstep`: only step()
+  /// advances time.
   SimulationThread(kiva::World& world, Reporter& reporter, double rtf, bool lockstep);
   ~SimulationThread() { stop(); }
   SimulationThread(const SimulationThread&) = delete;
   SimulationThread& operator=(const SimulationThread&) = delete;
 
-  /// Before start().
+  /// Adds a hook; call it before start().
   void add(StepHook& hook) { hooks_.push_back(&hook); }
   void start();
-  /// Ends the thread. Requests that still wait are answered with an exception.
+  /// Ends the thread and answers the requests that still wait with an exception.
   void stop();
-  /// Whether a step threw and thus ended the thread; it was logged.
+  /// Returns whether an exception in a step has ended the thread; it was logged.
   bool failed() const { return failed_; }
 
   /// Runs `request(world)` between two steps, paused or not, without waiting for it.
   void post(std::function<void(kiva::World&)> request);
-  /// The same, and returns what it returns or throws. Not from the step thread.
+  /// Runs a request like post(), waits, and returns its result or throws its exception. Not for the
+  /// step thread.
   template <typename Request>
   auto run(Request request);
-  /// The same for what moves models: who reads their states learns of it even while paused.
+  /// Runs a request like run() that moves models: their states are published even while paused.
   template <typename Request>
   auto move(Request request);
 
-  /// The same for what else changes the world, models that come and go aside: a recording has to
-  /// know.
+  /// Runs a request like run() that changes the world otherwise, so that a recording notes it;
+  /// adding and removing models is noted anyway.
   template <typename Request>
   auto change(Request request);
-  /// From the step thread: counts how often the world was reset or restored, from 1.
+  /// Returns the number of the timeline: 1, and one more for each reset or restore. For the step
+  /// thread.
   std::uint32_t timeline() const { return reporter_.timeline(); }
-  /// From the step thread: the world is being changed.
+  /// Notes that a request changes the world. For the step thread.
   void noteChange() { changed_ = true; }
 
-  /// Gives the world a command at the next step, without waiting for it. In lockstep those that
-  /// came since the last step are put in the order of their robots, since what comes over several
-  /// connections has none of its own. Refused by an event where too many wait already, and where a
-  /// reset or a restore comes before that step.
+  /// Posts commands for the next step, without waiting for it. In lockstep the commands since the
+  /// last step are sorted by robot, since several connections have no common order. An event
+  /// refuses commands where too many wait already, and where a reset or a restore precedes that
+  /// step.
   void command(Orders orders);
-  /// The same for what was decided upon in that timeline of the world: refused in any other.
+  /// Posts commands that are valid in that timeline of the world, and refuses them in any other.
   void command(Orders orders, std::uint32_t timeline);
 
   struct Stepped {
@@ -73,47 +75,46 @@ class SimulationThread {
     std::uint64_t steps = 0;  ///< Since time was 0.
     std::size_t waiting = 0;  ///< Commands for the next step.
   };
-  /// Makes so many steps, paused or not, as fast as it goes; returns when all that they publish is
-  /// with the sockets. `is_abandoned` is asked meanwhile, on the caller's thread: once it says so,
-  /// the steps that are left are not made. Not from the step thread.
+  /// Makes so many steps, paused or not, as fast as possible, and returns when all their messages
+  /// have been written to sockets. Calls `is_abandoned` meanwhile, on the caller's thread: once it
+  /// returns true, the remaining steps are skipped. Not for the step thread.
   Stepped step(std::uint32_t steps, const std::function<bool()>& is_abandoned);
 
-  /// A checkpoint of the world.
+  /// Returns a checkpoint of the world.
   std::string checkpoint();
-  /// Goes back, or ahead, to a checkpoint. Returns the time [s] then. Throws what World::restore
-  /// throws.
+  /// Restores a checkpoint and returns its time [s]. Throws as World::restore does.
   double restore(const std::string& checkpoint);
-  /// The same on the step thread.
+  /// Restores a checkpoint, on the step thread.
   void restoreHere(kiva::World& world, const std::string& checkpoint);
 
-  /// Everything back to where it was spawned, and time too if `time_too`.
+  /// Puts everything back to where it was spawned, and time to 0 if `time_too`.
   void reset(bool time_too);
   void pause(bool paused);
-  /// From the step thread: another step size, or another pace (as in the constructor).
+  /// Changes the step size and the pace (as in the constructor). For the step thread.
   void retime(double step_size, double rtf);
   bool paused() const { return paused_; }
   double targetFactor() const { return target_factor_; }
-  /// Simulated seconds a wall second, measured over the last second.
+  /// Returns simulated seconds a wall second, measured over the last second.
   double realTimeFactor() const { return real_time_factor_; }
 
  private:
   using Requests = std::vector<std::function<void(kiva::World&)>>;
 
-  /// Steps that somebody waits for.
+  /// A call of step() that waits for its steps.
   struct StepRequest {
     std::uint32_t left = 0;
     std::shared_ptr<std::promise<Stepped>> done = std::make_shared<std::promise<Stepped>>();
     std::shared_ptr<std::atomic<bool>> is_cancelled = std::make_shared<std::atomic<bool>>(false);
   };
 
-  bool runs() const { return !paused_ && !lockstep_; }  ///< By itself.
+  bool runs() const { return !paused_ && !lockstep_; }  ///< Without being asked for steps.
   void loop();
   void startClocks();
-  bool waitForWork(Requests* requests);  ///< False when it is time to stop.
+  bool waitForWork(Requests* requests);  ///< Returns false when the thread is to end.
   void handleRequests(const Requests& requests);
   void advance();
   void runSteps(StepRequest& request);
-  bool stepOnce(bool reliable);  ///< False if a hook wants no further step.
+  bool stepOnce(bool reliable);  ///< Returns false if a hook prevents further steps.
   void takeOrders(const Orders& orders);
   void postCommands();
   void refuse(const Orders& orders, const std::string& why);
@@ -133,11 +134,11 @@ class SimulationThread {
   std::condition_variable wake_;
   Requests requests_;  ///< Guarded by mutex_, as is running_.
   bool running_ = false;
-  std::atomic<bool> attention_{false};  ///< There are requests, or it is time to stop.
+  std::atomic<bool> attention_{false};  ///< There are requests, or the thread is to end.
 
   std::atomic<bool> paused_{false};
   bool moved_ = false, changed_ = false;
-  std::uint64_t models_revision_ = 0;  ///< Of which the hooks know.
+  std::uint64_t models_revision_ = 0;  ///< The revision that the hooks know.
   std::vector<StepHook*> hooks_;
   std::deque<StepRequest> step_requests_;
   Orders held_commands_;  ///< Until the next step.

@@ -5,17 +5,17 @@
 
 namespace kiva_ros {
 
-/// Called by the step thread, on it, as things happen.
+/// Observes the simulation. All calls come from the step thread.
 class StepHook {
  public:
   virtual ~StepHook() = default;
-  /// A command was posted; it is answered at the next step.
+  /// Called when a command was posted; its event follows at the next step.
   virtual void onCommand(const Order& /*order*/) {}
-  /// Everything is about to go back to where it was spawned.
+  /// Called before everything is put back to where it was spawned.
   virtual void beforeReset(kiva::World& /*world*/) {}
-  /// Models came, went or were moved from outside.
+  /// Called after models were added, removed or moved by a request.
   virtual void onChange() {}
-  /// What is to happen before the next step; false if there is to be none.
+  /// Called before each step; returns false to prevent it.
   virtual bool beforeStep(kiva::World& /*world*/) { return true; }
   virtual void afterStep(kiva::World& /*world*/) {}
 };

@@ -6,18 +6,18 @@
 
 namespace kiva_ros {
 
-/// A callback queue with a thread of its own, for services whose calls may take long: one call at a
-/// time, while all others are answered by other threads. Outlives what is advertised by its node.
+/// A callback queue with a thread of its own, for services whose calls may take long: it serves one
+/// call at a time, while other threads answer all others. Outlives what its node advertises.
 class CallbackThread {
  public:
   explicit CallbackThread(const ros::NodeHandle& node) : node_(node), spinner_(1, &queue_) {
     node_.setCallbackQueue(&queue_);
   }
 
-  /// The same names, served by this thread.
+  /// Returns a node with the same names that is served by this thread.
   ros::NodeHandle& node() { return node_; }
   void start() { spinner_.start(); }
-  /// Waits for the call that is being answered.
+  /// Ends the thread after the call in progress.
   void stop() { spinner_.stop(); }
 
  private:

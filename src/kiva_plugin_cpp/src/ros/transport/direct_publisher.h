@@ -14,11 +14,12 @@
 
 namespace kiva_ros {
 
-/// One topic of thousands, or of many messages, on which a single thread publishes; not latched.
+/// Publishes on one of thousands of topics, or many messages, from a single thread; not latched.
 ///
-/// roscpp compares the names of all topics for each message, wakes its own thread, which looks
-/// through all topics, and has that wait for the socket by four system calls before it writes: with
-/// ten thousand messages a second most of their cost. This keeps the topic at hand and writes.
+/// For each message roscpp compares the names of all topics and wakes its own thread, which
+/// searches all topics and waits for the socket by four system calls before it writes: with ten
+/// thousand messages a second that is most of their cost. This class keeps the topic and writes
+/// itself.
 class DirectPublisher {
  public:
   DirectPublisher() = default;
@@ -31,8 +32,8 @@ class DirectPublisher {
     add(message);
     flush();
   }
-  /// Publishes with the next flush(): several together are one to the network and to who receives
-  /// them. `message` gets its sequence number.
+  /// Publishes with the next flush(): several messages become one write, and one read of the
+  /// subscriber. `message` gets its sequence number.
   template <typename Message>
   void add(Message& message) {
     if (!topic_) return;

@@ -12,13 +12,13 @@
 
 namespace kiva_ros {
 
-/// A DirectPublisher whose last message a newcomer gets at once. roscpp would have it made ready to
-/// be sent each time, though nobody comes.
+/// A DirectPublisher whose last message a new subscriber gets at once. roscpp would serialise each
+/// message for that, even without a new subscriber.
 template <typename Message>
 class LatchedPublisher {
  public:
   LatchedPublisher() = default;
-  /// `count` is called with +1 or -1 as subscribers come and go.
+  /// `count` is called with +1 or -1 as subscribers connect and disconnect.
   LatchedPublisher(ros::NodeHandle& node, const std::string& topic, int queue_size,
                    const std::function<void(int)>& count)
       : last_(std::make_shared<Last>()) {
@@ -34,7 +34,7 @@ class LatchedPublisher {
   }
 
   void publish(Message message) {
-    // So that no newcomer hears of older things last.
+    // Ensures that a new subscriber never gets an older message last.
     const std::lock_guard<std::mutex> lock(last_->mutex);
     publisher_.add(message);
     publisher_.flush();

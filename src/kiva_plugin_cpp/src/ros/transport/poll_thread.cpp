@@ -8,7 +8,7 @@
 namespace kiva_ros {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(1);  // it may be gone already
+constexpr auto kPatience = std::chrono::seconds(1);  // the thread may have ended already
 
 }  // namespace
 

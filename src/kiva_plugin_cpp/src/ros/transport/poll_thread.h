@@ -8,12 +8,12 @@
 
 namespace kiva_ros {
 
-/// roscpp only queues what its publishers publish; a thread of its own writes it.
+/// Waits for the thread of roscpp that writes the messages which publishers queue.
 class PollThread {
  public:
   PollThread();
   ~PollThread();
-  /// Returns when that thread has handed all that was published before to the sockets.
+  /// Returns when that thread has written all earlier messages to sockets.
   void flush();
 
  private:

@@ -7,8 +7,8 @@
 
 namespace kiva_ros {
 
-/// What plugins publish: posted on the step thread, published by the broadcaster, after the clock
-/// of the same step.
+/// Queues the messages of plugins from the step thread to the broadcaster, which publishes them
+/// after the clock of the same step.
 class PublishQueue {
  public:
   using Publication = std::function<void()>;

@@ -7,13 +7,13 @@
 
 namespace kiva_ros {
 
-/// Who waits for the answer of a service call.
+/// The client of a service call.
 class ServiceCaller {
  public:
-  /// `service`: its full name. `header`: the call's own, that ServiceEvent::getConnectionHeader()
-  /// returns.
+  /// `service`: its full name. `header`: the call's connection header, from
+  /// ServiceEvent::getConnectionHeader().
   ServiceCaller(const std::string& service, const ros::M_string& header);
-  /// Whether its connection was closed: nobody will read the answer.
+  /// Returns whether the client has closed its connection, so that the answer is void.
   bool isGone() const;
 
  private:

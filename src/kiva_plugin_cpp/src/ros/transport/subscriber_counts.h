@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Subscribers, counted as they come and go, so that the step thread never has to ask roscpp, which
-// takes a lock and walks a list for every answer.
+// Counts subscribers as they connect and disconnect, so that the step thread never has to ask
+// roscpp, which takes a lock and walks a list for every answer.
 #pragma once
 
 #include <ros/ros.h>
@@ -21,9 +21,9 @@ class SubscriberCounts {
   enum class Topic { kFleet, kModelStates, kLinkStates, kTransforms, kStateHash, kEnd };
   enum class RobotTopic { kStatus, kScan, kOdometry, kEnd };
 
-  /// Called, in any thread, when a subscriber came.
+  /// Sets a function to call, in any thread, when a subscriber connects.
   void onSubscribe(std::function<void()> call) { on_subscribe_ = std::move(call); }
-  /// Whether a subscriber of that topic, of one robot or another, came since the last call.
+  /// Returns whether a subscriber of that topic, of any robot, connected since the last call.
   bool takeNewSubscriber(Topic topic) {
     return new_subscriber_[static_cast<int>(topic)].exchange(false);
   }
@@ -32,14 +32,14 @@ class SubscriberCounts {
   }
 
   bool hasSubscribers(Topic topic) const { return counts_[static_cast<int>(topic)] > 0; }
-  /// Counts up whenever the ids that subscribedRobots returns may have changed.
+  /// Returns a number that grows whenever the result of subscribedRobots may have changed.
   std::uint64_t robotsRevision() const { return robots_revision_; }
-  /// Ids of the robots with a subscriber of that topic, ascending.
+  /// Returns the ids of the robots with a subscriber of that topic, ascending.
   std::vector<int> subscribedRobots(RobotTopic topic) const;
 
   void count(Topic topic, int change);
   void count(RobotTopic topic, int kiva_id, int change);
-  /// A robot went, and its topics with it.
+  /// Forgets a robot that was removed.
   void forget(int kiva_id);
 
  private:

@@ -8,9 +8,9 @@
 
 namespace kiva_ros {
 
-/// Writes messages of one topic, in their order, to all who subscribe to it: at once and together,
-/// in the caller's thread. To whom older ones wait, or whose socket is full, roscpp's thread sends
-/// them, or forgets the oldest if there are more than the topic's queue holds. One thread a topic.
+/// Writes messages of one topic, in their order, to all of its subscribers: at once and together,
+/// in the caller's thread. Where older messages wait, or the socket is full, roscpp's thread sends
+/// them, and drops the oldest beyond the topic's queue size. For one thread a topic.
 void writeToSubscribers(ros::Publication& topic,
                         const std::vector<ros::SerializedMessage>& messages);
 

@@ -3,8 +3,9 @@
 
 namespace kiva_ros {
 
-/// Takes all topics of this node off the master in one call. roscpp would ask for each by itself,
-/// which takes seconds with those of a thousand robots. Nothing may be published afterwards.
+/// Unregisters all topics of this node from the master in one call. roscpp would use a call for
+/// each, which takes seconds with the topics of a thousand robots. Nothing may be published
+/// afterwards.
 void unadvertiseTopics();
 
 }  // namespace kiva_ros

@@ -5,7 +5,7 @@
 
 namespace kiva_ros {
 
-/// Real time that no change of the system's time touches.
+/// The monotonic clock, which no change of the system's time affects.
 using WallClock = std::chrono::steady_clock;
 
 }  // namespace kiva_ros

@@ -13,6 +13,8 @@ Cooperative Tasks", NeurIPS 2021) with networkx 3. Importing this registers what
 does; image_registration() and full_registration() add what they add there.
 """
 
+from typing import Any
+
 from warehouse_learning.rware import ids
 from warehouse_learning.rware.env import Warehouse
 from warehouse_learning.rware.task import (
@@ -38,17 +40,17 @@ __all__ = [
 ]
 
 
-def image_registration():
+def image_registration() -> None:
     """Registers the tasks with pictures: kiva-rware-img-…, -imgdict-…, each also with -Nd."""
     ids.register_all(ids.of_images())
 
 
-def full_registration():
+def full_registration() -> None:
     """Registers every combination that RWARE knows; takes some seconds."""
     ids.register_all(ids.full())
 
 
-def parallel_env(name=None, **options):
+def parallel_env(name: str | None = None, **options: Any) -> Any:
     """A PettingZoo ParallelEnv of a registered task, by RWARE's name or with kiva- before it, or of
     options as of Warehouse; an option beside a name replaces the task's."""
     import gymnasium

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """RWARE as a Gymnasium environment of all agents."""
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -23,7 +25,7 @@ class Warehouse(gymnasium.Env):
 
     metadata = RENDERING
 
-    def __init__(self, *arguments, render_mode=None, **options):
+    def __init__(self, *arguments: Any, render_mode: str | None = None, **options: Any) -> None:
         self.task = Task(*arguments, **options)
         self.render_mode = render_mode
         self._warehouses = self.task.warehouses(1)
@@ -36,11 +38,13 @@ class Warehouse(gymnasium.Env):
         self._is_seeded = self._has_begun = False
 
     @property
-    def n_agents(self):
+    def n_agents(self) -> int:
         """How many agents there are."""
         return self.task.n_agents
 
-    def reset(self, *, seed=None, options=None):
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
         """Begins an episode. Without a seed the random stream goes on, as RWARE's does."""
         super().reset(seed=seed)
         if seed is not None or not self._is_seeded:
@@ -49,7 +53,7 @@ class Warehouse(gymnasium.Env):
         self._warehouses.reset(ALL)
         return self._observer.of_first(), {}
 
-    def step(self, actions):
+    def step(self, actions: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """actions: an Action an agent, or with messages [Action, bit, …] an agent.
 
         Raises ValueError for what is no action, or not one an agent.
@@ -73,8 +77,8 @@ class Warehouse(gymnasium.Env):
         self._warehouses.step(ALL, chosen, messages, self._rewards, ends)
         return bool(ends[0])
 
-    def render(self):
-        """(height, width, 3) uint8, with render_mode "rgb_array"; None without."""
+    def render(self) -> np.ndarray | None:
+        """Returns (height, width, 3) uint8 with render_mode "rgb_array", else None."""
         if self.render_mode != "rgb_array" or not self._has_begun:
             return None
         return picture(self.task, self._warehouses, 0)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The names under which RWARE registers its tasks; ours have `kiva-` before them."""
 
+from collections.abc import Iterable, Iterator
 from itertools import product
+from typing import Any
 
 from gymnasium import register
 
@@ -50,18 +52,18 @@ def _sized(views, ranges, heights):
         yield name, seen | _sizes(rows, columns, height, n, requests, cells)
 
 
-def plain():
-    """(name, options) of the tasks that importing RWARE registers."""
+def plain() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yields (name, options) of the tasks that importing RWARE registers."""
     return _sized(list(_views(VECTORS)), {"": 1}, {"": 8})
 
 
-def of_images():
-    """(name, options) of those that its image_registration adds."""
+def of_images() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yields (name, options) of those that its image_registration adds."""
     return _sized(list(_views(IMAGES)), {"": 1}, {"": 8})
 
 
-def full():
-    """(name, options) of those that its full_registration adds, some hundred thousand."""
+def full() -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yields (name, options) of those that its full_registration adds, some hundred thousand."""
     views = list(_views(VECTORS | {"-img": ObservationType.IMAGE}))
     yield from _sized(views, RANGES, {f"-{height}h": height for height in range(1, 16)})
     agents = range(1, MOST_AGENTS + 1)
@@ -73,7 +75,7 @@ def full():
         yield name, seen | sizes | {"reward_type": REWARDS[reward]}
 
 
-def register_all(tasks):
+def register_all(tasks: Iterable[tuple[str, dict[str, Any]]]) -> None:
     """Registers (name, options) as kiva-NAME, alone and vectorised."""
     for name, options in tasks:
         register(

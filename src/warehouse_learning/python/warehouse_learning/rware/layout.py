@@ -18,12 +18,13 @@ class Layout:
     column_height: int | None = None
 
     @property
-    def grid_size(self):
+    def grid_size(self) -> tuple[int, int]:
         """(height, width) in cells."""
-        return self.highways.shape
+        height, width = self.highways.shape
+        return height, width
 
 
-def of_parameters(shelf_columns, shelf_rows, column_height):
+def of_parameters(shelf_columns: int, shelf_rows: int, column_height: int) -> Layout:
     """Returns the Layout with blocks of 2 x `column_height` shelves and two goals at the bottom.
 
     Raises ValueError if the numbers make no floor.
@@ -41,7 +42,7 @@ def of_parameters(shelf_columns, shelf_rows, column_height):
     return Layout(highways.astype(np.uint8), goals, column_height)
 
 
-def of_text(text):
+def of_text(text: str) -> Layout:
     """Returns the Layout that a text draws: a line a row, x = a shelf, g = a goal, . = a highway.
 
     Raises ValueError that names line and column.

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What agents observe, read out of the warehouses."""
 
+from typing import Any
+
 import numpy as np
 
-from warehouse_learning.rware.task import FEATURES, ObservationType
+from warehouse_learning.rware.task import FEATURES, ObservationType, Task
 
 
 class Observer:
@@ -12,7 +14,7 @@ class Observer:
     arrays(): new arrays, (count, agents, …) float32: one, or with IMAGE_DICT `image`, `features`.
     """
 
-    def __init__(self, task, warehouses, count):
+    def __init__(self, task: Task, warehouses: Any, count: int) -> None:
         self._task, self._warehouses = task, warehouses
         lead = count, task.n_agents
         self._vector_shape = *lead, task.vector_size
@@ -29,8 +31,8 @@ class Observer:
             ObservationType.IMAGE,
         )
 
-    def of_first(self):
-        """A tuple of what each agent of the first warehouse observes, as RWARE gives it."""
+    def of_first(self) -> tuple[Any, ...]:
+        """Returns what each agent of the first warehouse observes, as RWARE gives it."""
         arrays = self.arrays()
         if self._are_plain:
             return tuple(arrays[0])

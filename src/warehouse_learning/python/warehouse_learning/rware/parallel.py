@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """RWARE for PettingZoo: each robot an agent."""
 
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
 from pettingzoo import ParallelEnv
 
 from warehouse_learning.rware.env import RENDERING, Warehouse
@@ -11,30 +15,32 @@ class RwareParallelEnv(ParallelEnv):
 
     metadata = {**RENDERING, "name": "kiva_rware_v2", "is_parallelizable": True}
 
-    def __init__(self, render_mode=None, **options):
+    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
         self._env = Warehouse(render_mode=render_mode, **options)
         self.render_mode = render_mode
         self.possible_agents = [f"agent_{i}" for i in range(self._env.n_agents)]
-        self.agents = []
+        self.agents: list[str] = []
         self.observation_spaces = self._each(self._env.observation_space)
         self.action_spaces = self._each(self._env.action_space)
 
-    def observation_space(self, agent):
-        """What an agent observes."""
+    def observation_space(self, agent: str) -> Any:
+        """Returns the space of an agent's observations."""
         return self.observation_spaces[agent]
 
-    def action_space(self, agent):
-        """What an agent may do."""
+    def action_space(self, agent: str) -> Any:
+        """Returns the space of an agent's actions."""
         return self.action_spaces[agent]
 
-    def reset(self, seed=None, options=None):
+    def reset(
+        self, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins an episode; see Warehouse.reset."""
         observations, _ = self._env.reset(seed=seed, options=options)
         self.agents = list(self.possible_agents)
         return self._each(observations), {agent: {} for agent in self.agents}
 
-    def step(self, actions):
-        """actions: one an agent, by name."""
+    def step(self, actions: Mapping[str, Any]) -> tuple[dict[str, Any], ...]:
+        """Takes {agent: action}; returns observations, rewards, ends, truncations and infos."""
         chosen = [actions[agent] for agent in self.possible_agents]
         observations, rewards, ends, _, _ = self._env.step(chosen)
         agents = self.agents
@@ -48,12 +54,12 @@ class RwareParallelEnv(ParallelEnv):
             {agent: {} for agent in agents},
         )
 
-    def render(self):
-        """As Warehouse.render."""
+    def render(self) -> np.ndarray | None:
+        """Returns the picture as Warehouse.render does."""
         return self._env.render()
 
-    def close(self):
-        """Ends nothing: there is no window."""
+    def close(self) -> None:
+        """Does nothing: there is no window."""
 
     def _each(self, values):
         return dict(zip(self.possible_agents, values))

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse of RWARE as a picture."""
 
+from typing import Any
+
 import numpy as np
 
-from warehouse_learning.rware.task import Direction
+from warehouse_learning.rware.task import Direction, Task
 
 CELL = 20  # [pixels]
 FLOOR, LINE = (255, 255, 255), (214, 217, 222)
@@ -12,7 +14,7 @@ AGENT, LOADED, AHEAD = (255, 140, 0), (200, 30, 30), (0, 0, 0)
 AHEAD_OF = {Direction.UP: (0, -1), Direction.DOWN: (0, 1), Direction.LEFT: (-1, 0)}
 
 
-def picture(task, warehouses, i):
+def picture(task: Task, warehouses: Any, i: int) -> np.ndarray:
     """(height, width, 3) uint8 of warehouse i: goals grey, shelves blue, requested ones green,
     agents orange, with a load red; a black dot shows where an agent looks."""
     height, width = task.floor.grid_size

@@ -1,21 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Gymnasium spaces of RWARE."""
 
+from typing import Any
+
 import numpy as np
 from gymnasium import spaces
 
-from warehouse_learning.rware.task import FEATURES, Action, Direction, ImageLayer, ObservationType
+from warehouse_learning.rware.task import (
+    FEATURES,
+    Action,
+    Direction,
+    ImageLayer,
+    ObservationType,
+    Task,
+)
 
 
-def of_actions(task):
-    """The actions of an agent: which, and the bits of its message if there are any."""
+def of_actions(task: Task) -> Any:
+    """Returns the actions of an agent: which, and the bits of its message if there are any."""
     if not task.msg_bits:
         return spaces.Discrete(len(Action))
     return spaces.MultiDiscrete([len(Action), *task.msg_bits * (2,)])
 
 
-def of_observations(task):
-    """What an agent observes."""
+def of_observations(task: Task) -> Any:
+    """Returns the space of an agent's observations."""
     if task.observation_type is ObservationType.DICT:
         return _of_dictionaries(task)
     if task.observation_type is ObservationType.FLATTENED:

@@ -3,11 +3,12 @@
 
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum
+from typing import Any
 
 import numpy as np
 
 from warehouse_learning._core import Rware
-from warehouse_learning.rware.layout import of_parameters, of_text
+from warehouse_learning.rware.layout import Layout, of_parameters, of_text
 
 
 class Action(IntEnum):
@@ -30,8 +31,8 @@ class Direction(IntEnum):
 
 
 class RewardType(Enum):
-    """Who is rewarded for a delivery: all agents, or its carrier, or its carrier half then and half
-    when the shelf is put back."""
+    """Which agents a delivery rewards: all, its carrier, or its carrier by half, and by the other
+    half when the shelf is put back."""
 
     GLOBAL = 0
     INDIVIDUAL = 1
@@ -92,7 +93,7 @@ class Task:
     image_observation_layers: tuple = LAYERS
     image_observation_directional: bool = True
     normalised_coordinates: bool = False
-    floor: object = field(init=False, repr=False)
+    floor: Layout = field(init=False, repr=False)
 
     def __post_init__(self):
         self.reward_type = _member(RewardType, self.reward_type)
@@ -106,28 +107,28 @@ class Task:
             self.floor = of_parameters(self.shelf_columns, self.shelf_rows, self.column_height)
 
     @property
-    def sees_images(self):
+    def sees_images(self) -> bool:
         """Whether agents see layers of a picture."""
         return self.observation_type in (ObservationType.IMAGE, ObservationType.IMAGE_DICT)
 
     @property
-    def vector_size(self):
+    def vector_size(self) -> int:
         """Numbers that an agent's vector has."""
         return 8 + self.sensor_cells * (7 + self.msg_bits)
 
     @property
-    def sensor_cells(self):
+    def sensor_cells(self) -> int:
         """Cells that an agent sees."""
         return (1 + 2 * self.sensor_range) ** 2
 
     @property
-    def image_shape(self):
+    def image_shape(self) -> tuple[int, ...]:
         """(layers, height, width) of an agent's picture."""
         width = 1 + 2 * self.sensor_range
         return len(self.image_observation_layers), width, width
 
-    def warehouses(self, count, threads=1):
-        """The warehouses of it, not begun yet."""
+    def warehouses(self, count: int, threads: int = 1) -> Any:
+        """Returns `count` warehouses of this task, whose episodes have not begun."""
         height, width = self.floor.grid_size
         return Rware(
             height=height,
@@ -154,9 +155,9 @@ def _member(kind, given):
     return kind(getattr(given, "value", given))
 
 
-def seed_of(number):
-    """The arguments of Rware.seed for the stream that Gymnasium makes of a seed; None: any."""
+def seed_of(number: int | None) -> tuple[Any, ...]:
+    """Returns the arguments of Rware.seed for Gymnasium's stream of a seed; None: any seed."""
     state = np.random.PCG64(np.random.SeedSequence(number)).state
-    numbers = (state["state"][name] for name in ("state", "inc"))
+    numbers = (state["state"]["state"], state["state"]["inc"])
     words = [word for n in numbers for word in (n >> 64, n & (2**64 - 1))]
     return words, bool(state["has_uint32"]), state["uinteger"]

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Many warehouses of RWARE in arrays, stepped on all cores in one call."""
 
+from typing import Any
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
@@ -24,12 +26,12 @@ class RwareVectorEnv(VectorEnv):
 
     def __init__(
         self,
-        num_envs=1,
-        render_mode=None,
-        threads=0,
-        autoreset_mode=AutoresetMode.NEXT_STEP,
-        **options,
-    ):
+        num_envs: int = 1,
+        render_mode: str | None = None,
+        threads: int = 0,
+        autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
+        **options: Any,
+    ) -> None:
         self.task = task = Task(**options)
         if task.observation_type is ObservationType.DICT:
             raise ValueError("observation_type DICT has no arrays; FLATTENED has the same content")
@@ -46,7 +48,9 @@ class RwareVectorEnv(VectorEnv):
         self._ended = np.zeros(num_envs, bool)
         self._is_seeded = np.zeros(num_envs, bool)
 
-    def reset(self, *, seed=None, options=None):
+    def reset(
+        self, *, seed: Any = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
         """Begins episodes in all, or in those of options["reset_mask"], (num_envs,) bool.
 
         seed: a number, and environment i gets seed + i, or one for each, None = its stream goes on.
@@ -66,7 +70,7 @@ class RwareVectorEnv(VectorEnv):
         self._begin(which)
         return self._observer.arrays(), {}
 
-    def step(self, actions):
+    def step(self, actions: Any) -> tuple[Any, ...]:
         """Observations, rewards, terminated, truncated (never), infos; see the class.
 
         What ended begins again by autoreset_mode; with SAME_STEP infos["final_obs"] has the last
@@ -89,8 +93,8 @@ class RwareVectorEnv(VectorEnv):
             observations = self._observer.arrays()
         return observations, rewards, ends, np.zeros(self.num_envs, bool), infos
 
-    def render(self):
-        """The first one's picture, with render_mode "rgb_array"."""
+    def render(self) -> Any:
+        """Returns the first one's picture with render_mode "rgb_array"."""
         if self.render_mode != "rgb_array" or not self._is_seeded.all():
             return None
         return (picture(self.task, self._warehouses, 0),)

@@ -6,7 +6,7 @@
     storage: {name: my_module:ByWeight, heavy: 40}    # a class of your own with options
 
 What is left out is as in DEFAULTS. A class of your own has the methods of the protocol of its role;
-its constructor takes the options. `view` is the Shift: its documented attributes tell the state.
+its constructor takes the options. `view` is a view.View of the shift.
 """
 
 import importlib

@@ -17,7 +17,7 @@ class Park:
 
 
 class LikelyUnit:
-    """Beneath the unit that orders want most, of the nearest ones that nobody waits for.
+    """Beneath the unit that orders want most, of the nearest ones that are in storage.
 
     among: how many of the nearest are looked at.
     """

@@ -37,7 +37,7 @@ class Threshold:
 
     def _shortages(self, view):
         for sku, lacking in sorted(view.shortages().items()):
-            pieces = min(lacking, AHEAD - view.replenishing.ordered_of.get(sku, 0))
+            pieces = min(lacking, AHEAD - view.pieces_at_door(sku))
             whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
             wanted = whole if view.inventory.roomy[sku] else pieces
             for begun in range(0, wanted, BUNDLE_MOST):

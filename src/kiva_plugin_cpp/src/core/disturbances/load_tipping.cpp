@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/disturbances/load_tipping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/models/models.h"
+#include "core/state/poses.h"
+#include "core/state/tasks.h"
+
+namespace kiva {
+namespace {
+
+constexpr double kTips = 0.1;  // [rad] from which on Bullet steps the load
+
+/// Returns the angular acceleration about the edge towards which the load leans [rad/s²]: a rigid
+/// body on a base that moves.
+double tiltAcceleration(const Robot& r, double gravity, double tilt, double pushed) {
+  const double h = r.load_height, d = r.load_foothold, c = std::cos(tilt), s = std::sin(tilt);
+  const double torque = pushed * (h * c + d * s) - gravity * (d * c - h * s);
+  return r.load_mass * torque / r.load_tipping_inertia;
+}
+
+/// Leans the load against the acceleration of its feet.
+void lean(Sway* sway, const Robot& r, double gravity, double ax, double ay, double dt) {
+  if (sway->tilt == 0) {
+    const double size = std::hypot(ax, ay);
+    if (size * r.load_height <= gravity * r.load_foothold) return;
+    sway->to_x = -ax / size;
+    sway->to_y = -ay / size;
+  }
+  const double pushed = -(ax * sway->to_x + ay * sway->to_y);
+  sway->rate += tiltAcceleration(r, gravity, sway->tilt, pushed) * dt;
+  sway->tilt += sway->rate * dt;
+  if (sway->tilt > 0) return;
+  sway->tilt = sway->rate = 0;
+}
+
+/// Hands the load over to Bullet as it is: tilted about the edge of its plate, and turning.
+void tipOff(ModelView& world, int robot) {
+  FleetState& f = world.fleet;
+  const Sway sway = f.sway[robot];
+  f.sway[robot] = {};
+  Model& unit = *world.models[world.storage.units[f.unit[robot]].model];
+  const Pose pose = unitPose(world, f.unit[robot]), plate = towerPose(world, robot);
+  const Vector3 axis(-sway.to_y, sway.to_x, 0);
+  const Quaternion turn(axis, sway.tilt);
+  const double reach = f.robots[robot].load_foothold;
+  const Vector3 edge = plate.Pos() + Vector3(sway.to_x, sway.to_y, 0) * reach;
+  EntityState state;
+  state.pose = Pose(edge + turn * (pose.Pos() - edge), turn * pose.Rot());
+  state.twist.angular = axis * sway.rate;
+  state.twist.linear =
+      Vector3(f.vx[robot], f.vy[robot], 0) + state.twist.angular.Cross(state.pose.Pos() - edge);
+  world.log.report(Event::Kind::kTipped, unit.name, f.robots[robot].name,
+                   unit.name + " tips off " + f.robots[robot].name);
+  placeModel(world, unit, state);
+  haltRobot(world, robot, unit.name, "has lost its load");
+}
+
+void stepOne(ModelView& world, int robot) {
+  FleetState& f = world.fleet;
+  Sway& sway = f.sway[robot];
+  const double ax = (f.vx[robot] - sway.vx) / world.clock.dt,
+               ay = (f.vy[robot] - sway.vy) / world.clock.dt;
+  const bool is_next = sway.step + 1 == world.clock.total_steps;
+  sway.vx = f.vx[robot];
+  sway.vy = f.vy[robot];
+  sway.step = world.clock.total_steps;
+  if (!is_next) return;  // the robot stood, or cruised
+  lean(&sway, f.robots[robot], world.settings.gravityDown(), ax, ay, world.clock.dt);
+  if (sway.tilt > kTips) tipOff(world, robot);
+}
+
+}  // namespace
+
+void stepLoadTipping(ModelView& world) {
+  if (!world.settings.realism.loads.enabled) return;
+  const std::vector<int> stepped =
+      world.schedule.stepped_singly;  // a robot that loses its load may be deleted by that
+  for (const int robot : stepped) {
+    if (robot < world.fleet.size() && world.fleet.unit[robot] >= 0) stepOne(world, robot);
+  }
+}
+
+}  // namespace kiva

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The coordinator of a running warehouse as its services and topics offer it."""
+
+import threading
+from types import ModuleType
+from typing import NamedTuple
+
+from warehouse_msgs.msg import CoordinatorState, TransportEvent
+from warehouse_msgs.srv import CancelTransport, ReleaseTransport, Transport
+
+
+class Answer(NamedTuple):
+    """The answer to a request for a transport; `transport_id` is 0 if it was refused."""
+
+    transport_id: int
+    accepted: bool
+    message: str
+
+
+class Coordinator:
+    """A client of the coordinator.
+
+    ros: rospy, or what stands in for it in a test. state: its last CoordinatorState, or None.
+    """
+
+    def __init__(self, ros: ModuleType) -> None:
+        self._ros = ros
+        self._events: list[TransportEvent] = []
+        self._lock = threading.Lock()
+        self.state: CoordinatorState | None = None
+        self._transport = ros.ServiceProxy("/warehouse/transport", Transport)
+        self._release = ros.ServiceProxy("/warehouse/release_transport", ReleaseTransport)
+        self._cancel = ros.ServiceProxy("/warehouse/cancel_transport", CancelTransport)
+        ros.Subscriber("/warehouse/transports", TransportEvent, self._on_event, queue_size=10000)
+        ros.Subscriber("/warehouse/coordinator", CoordinatorState, self._on_state, queue_size=1)
+
+    def submit(
+        self,
+        shelf_id: int,
+        station: str = "",
+        x: float = 0.0,
+        y: float = 0.0,
+        then: int = 0,
+        priority: int = 0,
+    ) -> Answer:
+        """Asks for a transport to a station, or without one to x, y in world [m].
+
+        A coordinator that does not answer refuses.
+        """
+        try:
+            answer = self._transport(shelf_id, station, x, y, then, priority)
+        except self._ros.ServiceException as error:
+            return Answer(0, False, str(error))
+        return Answer(answer.transport_id, answer.accepted, answer.message)
+
+    def release(self, transport_id: int) -> tuple[bool, str]:
+        """Lets a unit leave its station. Returns success and the fault."""
+        return self._call(self._release, transport_id)
+
+    def cancel(self, transport_id: int) -> tuple[bool, str]:
+        """Cancels a transport. Returns success and the fault."""
+        return self._call(self._cancel, transport_id)
+
+    def _call(self, service, transport_id):
+        try:
+            answer = service(transport_id)
+        except self._ros.ServiceException as error:
+            return False, str(error)
+        return answer.success, answer.message
+
+    def take_events(self) -> list[TransportEvent]:
+        """Returns the TransportEvent messages that came since the last call, in order."""
+        with self._lock:
+            events, self._events = self._events, []
+        return events
+
+    def _on_event(self, event):
+        with self._lock:
+            self._events.append(event)
+
+    def _on_state(self, state):
+        self.state = state

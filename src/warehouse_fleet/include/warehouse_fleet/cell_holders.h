@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which robot holds which cell, and which cells are closed. Each cell is held by one robot at the
+// most, from before the robot may enter until it and its load have left.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "warehouse_fleet/floor.h"
+
+namespace fleet {
+
+constexpr int kNobody = -1;  ///< No robot.
+
+class CellHolders {
+ public:
+  explicit CellHolders(const Floor& floor);
+
+  /// Frees all cells. Closed cells stay closed.
+  void clear();
+  void hold(Cell cell, int robot) { holder_[cell] = robot; }
+  /// Frees a cell if that robot holds it.
+  void free(Cell cell, int robot);
+  /// Returns the robot that holds a cell; kNobody.
+  int holder(Cell cell) const { return holder_[cell]; }
+  bool isFreeFor(Cell cell, int robot) const {
+    return holder_[cell] == kNobody || holder_[cell] == robot;
+  }
+
+  /// Closes a cell until `until` [s]; nothing for a cell off the floor.
+  void close(Cell cell, double until);
+  bool isClosed(Cell cell, double now) const { return closed_until_[cell] > now; }
+  /// Returns whether a cell is closed by close().
+  bool isClosing(double now) const;
+  /// Closes these cells, where people are or are about to be, instead of those before. A robot
+  /// inside goes on with what was released, and out.
+  void setZone(std::vector<Cell> cells);
+  bool isInZone(Cell cell) const { return is_in_zone_[cell] != 0; }
+  /// Returns the cells of the zone, and those closed by close(), in no order.
+  std::vector<Cell> closed(double now) const;
+
+  /// Sets the cells of the aisles in which units stand: loaded robots can't pass.
+  void setUnits(std::vector<Cell> cells) { units_ = std::move(cells); }
+  const std::vector<Cell>& units() const { return units_; }
+
+ private:
+  const Floor& floor_;
+  std::vector<int> holder_;           ///< by cell
+  std::vector<double> closed_until_;  ///< by cell [s]
+  std::vector<Cell> closing_;         ///< cells that are closed, or were
+  std::vector<Cell> zone_;
+  std::vector<std::uint8_t> is_in_zone_;  ///< by cell
+  std::vector<Cell> units_;
+};
+
+}  // namespace fleet

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A course: one robot's path, what the robot holds of it, and how far it has come.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "warehouse_fleet/fleet.h"
+
+namespace fleet {
+
+/// Where a robot is with its path.
+///
+///   from                on                                      to
+///   kObstacle           admit: it stands where it may           kStanding
+///   kStanding           send: a path is released to it          kSent
+///   kSent               refuse: the robot refuses the path      kRefused
+///   kSent, kRefused     accept: the robot reports the path      kDriving
+///   kDriving            withdraw: told to stop                  kWithdrawn
+///   all but kObstacle   finish: its path is over                kStanding
+///   all                 a new Course: it left the fleet         kObstacle
+enum class Phase : std::uint8_t {
+  kObstacle,   ///< Commanded by others, or pushed off the floor.
+  kStanding,   ///< A member of the fleet without a path.
+  kSent,       ///< The path was sent, and not reported yet.
+  kRefused,    ///< Refused; a release may have been sent twice, and the duplicate be accepted.
+  kDriving,    ///< The robot has reported the path.
+  kWithdrawn,  ///< Told to stop before an obstacle.
+};
+
+/// How a robot's way to its goal went, to compare what was driven with what was planned.
+struct Journey {
+  double driven = 0;  ///< since it left [s]
+  double alone = 0;   ///< what the same way takes a robot without others [s]
+  /// That, and where the plan let it wait: by itself, or behind a robot that stood [s].
+  double planned = 0;
+  int cells = 0;
+};
+
+/// A cell that a plan passes, and the tick at which it is entered.
+struct Step {
+  Cell cell;
+  int tick;
+};
+
+/// How a robot that was pushed comes back to the middle of a cell.
+struct Recovery {
+  double since = -1;          ///< [s]; -1: there is nothing to come back from
+  std::vector<Cell> refused;  ///< where it can't begin a path
+};
+
+struct Course {
+  std::uint32_t id = 0;  ///< of the path; the last one if it is over
+  int refusals = 0;      ///< of paths, one after the other
+  double sent = 0;       ///< when a release was sent last [s]
+
+  // The path: points 0 to released - 1; the cell where the robot stands if there is no path.
+  std::vector<Cell> cells;
+  int reached = 1, left = 0;
+  bool is_short = false;    ///< of the middle of the last cell that it reached
+  Cell at = kNowhere;       ///< where it stands, or was last
+  Cell turning = kNowhere;  ///< where it has been released around a corner
+
+  // The plan beyond.
+  std::vector<Step> plan;
+  int committed = 0;           ///< cells that it had before it when the plan was asked for
+  std::vector<Cell> granted;   ///< what it was released since then
+  bool plan_is_stale = false;  ///< it is not any more where the plan was asked for
+  bool travels = false;        ///< has somewhere to go
+  bool waits_by_plan = false;
+  int waits_for = -1;  ///< a robot
+
+  // Off the grid.
+  bool is_astray = false;      ///< was pushed, and is not in the middle of its cell
+  std::vector<Cell> occupied;  ///< what it stands on beyond `cells`: an obstacle, or astray
+  Recovery recovery;
+
+  double still_since = 0, blocked_since = -1;
+  double moved = 0;  ///< when it moved last, or had nothing before it [s]
+  Journey journey;
+  int run = 0, run_heading = 0;  ///< cells that it has driven straight on, and where to
+
+  Phase phase() const { return phase_; }
+  bool isMember() const { return phase_ != Phase::kObstacle; }
+  /// Whether a path is under way, or sent and not yet accepted.
+  bool isActive() const { return phase_ > Phase::kStanding; }
+  bool isAccepted() const { return phase_ >= Phase::kDriving; }
+  bool isRefused() const { return phase_ == Phase::kRefused; }
+  bool isWithdrawn() const { return phase_ == Phase::kWithdrawn; }
+  int points() const { return static_cast<int>(cells.size()); }
+
+  /// It is a member of the fleet from now on, in a cell.
+  void admit(Cell cell, double now, int heading);
+  /// A path, or more of one, is sent.
+  void send();
+  /// The robot refuses what was sent, unless it has reported the path.
+  void refuse();
+  /// The robot reports the path.
+  void accept();
+  /// The robot is told to stop; what was planned beyond holds no more.
+  void withdraw();
+  /// The path is over, in a cell.
+  void finish(Cell cell);
+
+ private:
+  Phase phase_ = Phase::kObstacle;
+};
+
+}  // namespace fleet

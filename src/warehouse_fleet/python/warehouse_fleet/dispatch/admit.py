@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Admits units to stations: lifts those for which there is room."""
+
+from typing import TYPE_CHECKING
+
+from warehouse_fleet.dispatch import carry
+from warehouse_fleet.transport_book import Step, Transport
+
+if TYPE_CHECKING:
+    from warehouse_fleet.transports import Transports
+
+
+def run(work: "Transports") -> None:
+    """Lifts units for whose station there is room, in the order in which their robots came."""
+    book = work.book
+    waiting, book.ready = book.ready, []
+    for transport in waiting:
+        if transport.step != Step.READY:
+            continue
+        station = transport.station
+        is_full = station and book.inbound[station] >= work.capacity(station)
+        if is_full or not _is_beneath(work, transport):
+            book.ready.append(transport)
+            continue
+        book.fetched[station] -= 1
+        book.inbound[station] += 1
+        transport.attempts = 0
+        carry.begin_lift(work, transport, Step.LIFTING)
+
+
+def _is_beneath(work: "Transports", transport: Transport) -> bool:
+    robots, robot = work.robots, transport.robot
+    return bool(robots.stands[robot] and robots.cell[robot] == robots.goal[robot])

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parks robots without work."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from warehouse_fleet.robot_table import NOWHERE
+
+if TYPE_CHECKING:
+    from warehouse_fleet.transports import Transports
+
+
+def run(work: "Transports") -> None:
+    """Sends robots without work to where they are to wait; those that stand in a street or a lane
+    go beneath a stored unit."""
+    robots, idle = work.robots, work.without_work()
+    idle[list(work.charging.cell_of)] = False
+    robots.goal[idle & (robots.goal == robots.cell)] = NOWHERE
+    # A robot with work at a cell comes first, and stays.
+    robots.goal[idle & np.isin(robots.goal, robots.goal[~idle])] = NOWHERE
+    _send_freed(work, idle)
+    _clear_streets(work, idle & (robots.goal == NOWHERE) & ~work.aside[robots.cell])
+
+
+def _send_freed(work: "Transports", idle: np.ndarray) -> None:
+    """Asks the policy about robots that have ended a transport since the last tick."""
+    robots = work.robots
+    freed, work.freed = work.freed, []
+    for robot in freed:
+        cell = work.park(robot) if idle[robot] else None
+        if cell is None or cell in robots.goal:
+            continue
+        if cell != robots.cell[robot] and work.aside[cell]:
+            robots.send(robot, cell)
+
+
+def _clear_streets(work: "Transports", in_the_way: np.ndarray) -> None:
+    if not in_the_way.any():
+        return
+    robots = work.robots
+    kept = set(robots.goal.tolist()) | set(robots.cell.tolist())
+    places = [cell for cell in work.units.unit_in if work.aside[cell] and cell not in kept]
+    for robot in np.flatnonzero(in_the_way).tolist():
+        place = work.nearest(int(robots.cell[robot]), places)
+        if place != NOWHERE:
+            places.remove(place)
+            robots.send(robot, place)

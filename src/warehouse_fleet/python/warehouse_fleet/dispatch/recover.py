@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recovers transports whose robots fail, and units that are found where no transport put them."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from warehouse_fleet.dispatch import carry
+from warehouse_fleet.robot_table import IDLE, NOWHERE, Mode
+from warehouse_fleet.transport_book import Kind, Step
+
+if TYPE_CHECKING:
+    from warehouse_fleet.transports import Transports
+
+DEAD = 30.0  # a robot that does not move for so long has its transport taken from it [s]
+URGENT = 255  # the highest priority
+
+
+def run(work: "Transports", reports: np.ndarray) -> None:
+    """Takes transports from robots that are lost, gives one to each robot found carrying a unit,
+    and sends units elsewhere whose place is closed. reports: (n,) of REPORT."""
+    _drop_lost(work)
+    _adopt_loaded(work, reports)
+    _avoid(work, set(work.traffic.closed.tolist()))
+
+
+def _lost(work: "Transports") -> np.ndarray:
+    """(n,) bool: robots that others command, or that have not moved for DEAD seconds."""
+    robots = work.robots
+    return ~robots.automatic | (work.traffic.time - robots.stalled_since > DEAD)
+
+
+def _drop_lost(work: "Transports") -> None:
+    robots, lost = work.robots, _lost(work)
+    for robot in np.flatnonzero(lost | robots.broken | robots.lifts_not).tolist():
+        transport = work.book.of_robot.get(robot)
+        if transport is None:
+            continue
+        if transport.step <= Step.READY:
+            work.book.unassign(transport)
+        elif lost[robot]:  # one that is broken may soon go on
+            work.abandoned_units.add(transport.shelf)
+            work.fail(transport, _why_lost(work, robot))
+
+
+def _why_lost(work: "Transports", robot: int) -> str:
+    robots = work.robots
+    if robots.gone[robot]:
+        return "its robot is gone"
+    if robots.broken[robot]:
+        return "its robot is broken"
+    if robots.mode[robot] == Mode.AUTOMATIC:
+        return "its robot does not move"
+    return f"its robot is {Mode(robots.mode[robot]).name} now"
+
+
+def _adopt_loaded(work: "Transports", reports: np.ndarray) -> None:
+    robots, shelf = work.robots, reports["shelf_id"]
+    loaded = shelf != 0
+    without = np.ones(len(robots), bool)
+    without[list(work.book.of_robot)] = False
+    robots.loaded[without] = loaded[without]
+    # A robot that broke while it lifted, or was served, and lost its transport, is free again.
+    robots.busy[without & ~robots.broken & (reports["status"] == IDLE)] = False
+    ready = without & loaded & robots.stands & ~robots.broken & ~_lost(work)
+    for robot in np.flatnonzero(ready).tolist():
+        _adopt(work, robot, int(shelf[robot]))
+
+
+def _adopt(work: "Transports", robot: int, shelf: int) -> None:
+    """Creates a transport for a robot found carrying a unit without one: the unit is stored. A
+    transport that asks for the unit is done after that."""
+    asked = work.book.of_unit.get(shelf)
+    if asked is not None and asked.robot != NOWHERE:
+        return
+    transport = work.book.add(shelf, "", int(work.robots.cell[robot]))
+    transport.robot = robot
+    work.book.of_robot[robot] = transport
+    work.units.cell_of[shelf] = NOWHERE
+    work.robots.loaded[robot] = True
+    work.publish_event(transport, Kind.RECEIVED, "its robot was found with it")
+    carry.store(work, transport, is_inbound=False)
+
+
+def _avoid(work: "Transports", closed: set[int]) -> None:
+    """Chooses another place for units that can't get to theirs, which is closed."""
+    for transport in work.book.assigned():
+        is_away = work.robots.cell[transport.robot] != transport.place
+        if transport.step == Step.STORING and transport.place in closed and is_away:
+            carry.store(work, transport, is_inbound=False)
+
+
+def store_abandoned(work: "Transports") -> None:
+    """Creates urgent transports for units that lost robots left in the streets."""
+    for shelf in sorted(work.abandoned_units & work.units.cell_of.keys()):
+        cell = work.units.cell_of[shelf]
+        if cell == NOWHERE or not work.units.is_in_reach(cell):
+            continue
+        work.abandoned_units.discard(shelf)
+        if work.plan.storage.flat[cell]:
+            continue
+        if shelf in work.book.of_unit:
+            work.book.of_unit[shelf].priority = URGENT
+            work.book.sort_open()
+            continue
+        transport = work.book.add(shelf, "", cell, priority=URGENT)
+        work.book.enqueue(transport)
+        work.publish_event(transport, Kind.RECEIVED, "its robot was lost")

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The records of transports: what was asked for, how far each is, and which events that caused."""
+
+import collections
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import NamedTuple
+
+from warehouse_fleet.robot_table import NOWHERE
+
+STORE, STAY = 0, 1  # what becomes of the unit afterwards
+
+
+class Kind(IntEnum):
+    """What happened to a transport."""
+
+    RECEIVED = 0
+    ASSIGNED = 1
+    LIFTED = 2
+    ARRIVED = 3
+    RELEASED = 4
+    STORED = 5
+    FAILED = 6
+    CANCELLED = 7
+
+
+ENDS = frozenset((Kind.STORED, Kind.FAILED))
+
+
+class TransportEvent(NamedTuple):
+    """An event, as the message of this name."""
+
+    stamp: float  # simulated [s]
+    transport_id: int
+    kind: Kind
+    kiva_id: int  # 0: no robot
+    shelf_id: int
+    station: str
+    text: str
+
+
+class Answer(NamedTuple):
+    """The answer to a request; `transport_id` is 0 if it was refused."""
+
+    transport_id: int
+    accepted: bool
+    message: str
+
+
+class Step(IntEnum):
+    """How far a transport is."""
+
+    OPEN = 0  # no robot yet
+    FETCHING = 1  # the robot drives beneath the unit
+    READY = 2  # and waits there until its station has room for it
+    LIFTING = 3
+    BRINGING = 4
+    WAITING = 5  # at its destination, until it is released
+    STORING = 6  # on the way to a storage place
+    DROPPING = 7
+
+
+@dataclass
+class Transport:
+    """One transport; cells are the floor's, times simulated [s]."""
+
+    number: int
+    shelf: int
+    station: str
+    cell: int  # its destination
+    then: int = STORE
+    priority: int = 0
+    step: Step = Step.OPEN
+    robot: int = NOWHERE  # an index
+    let_go: bool = False  # the station has released it
+    since: float = 0.0  # the step began
+    attempts: int = 0  # at lifting
+    place: int = NOWHERE  # the storage cell that is kept for it while it is under way
+
+
+@dataclass
+class Totals:
+    """What all robots have done so far."""
+
+    delivered: int = 0  # units that came to their destination
+    stored: int = 0
+    failed: int = 0
+    cells: int = 0
+    shortest: int = 0  # cells of the same journeys on the shortest ways
+    driven: float = 0.0  # [s]
+    planned: float = 0.0  # [s]
+
+    @property
+    def executed_over_planned(self) -> float:
+        """Seconds driven over those planned, of all journeys; 1 before there is one."""
+        return self.driven / self.planned if self.planned else 1.0
+
+
+def _urgency(transport: Transport) -> tuple[int, int]:
+    return -transport.priority, transport.number
+
+
+class TransportBook:
+    """All transports that are not over, by number, robot and unit. Numbers begin after `last`.
+
+    `open`: those without a robot, the most urgent first. `ready`: those at step READY, in the order
+    in which they came to it. `inbound` counts lifted units by the station they go to or are at,
+    `fetched` those whose robot is on its way to the unit.
+    """
+
+    def __init__(self, last: int = 0) -> None:
+        self.totals = Totals()
+        self.open: list[Transport] = []
+        self.ready: list[Transport] = []
+        self.of_robot: dict[int, Transport] = {}
+        self.of_unit: dict[int, Transport] = {}
+        self.inbound: collections.Counter[str] = collections.Counter()
+        self.fetched: collections.Counter[str] = collections.Counter()
+        self._by_number: dict[int, Transport] = {}
+        self._last = last
+        self._events: list[TransportEvent] = []
+
+    def __iter__(self) -> Iterator[Transport]:
+        return iter(list(self._by_number.values()))
+
+    def __contains__(self, number: object) -> bool:
+        return number in self._by_number
+
+    def get(self, number: int) -> Transport | None:
+        """Returns the transport of that number; None if it is over, or never was."""
+        return self._by_number.get(number)
+
+    def assigned(self) -> list[Transport]:
+        """Returns the transports that a robot does."""
+        return list(self.of_robot.values())
+
+    def add(
+        self, shelf: int, station: str, cell: int, then: int = STORE, priority: int = 0
+    ) -> Transport:
+        """Adds a transport to a cell, with the next number."""
+        self._last += 1
+        transport = Transport(self._last, shelf, station, cell, then, priority)
+        self._by_number[self._last] = self.of_unit[shelf] = transport
+        return transport
+
+    def enqueue(self, transport: Transport) -> None:
+        """Adds a transport to those without a robot."""
+        self.open.append(transport)
+        self.sort_open()
+
+    def sort_open(self) -> None:
+        """Sorts the transports without a robot by priority, then by number."""
+        self.open.sort(key=_urgency)
+
+    def assign(self, transport: Transport, robot: int, time: float) -> None:
+        """Gives an open transport to a robot, which fetches the unit."""
+        self.open.remove(transport)
+        transport.robot, transport.step, transport.since = robot, Step.FETCHING, time
+        self.of_robot[robot] = transport
+        self.fetched[transport.station] += 1
+
+    def unassign(self, transport: Transport) -> None:
+        """Takes a transport from its robot before the unit is lifted: another one fetches it."""
+        self.fetched[transport.station] -= 1
+        self.of_robot.pop(transport.robot, None)
+        transport.robot, transport.step = NOWHERE, Step.OPEN
+        self.enqueue(transport)
+
+    def remove(self, transport: Transport) -> None:
+        """Removes a transport that is over."""
+        if transport.step in (Step.FETCHING, Step.READY):
+            self.fetched[transport.station] -= 1
+        if transport in self.open:
+            self.open.remove(transport)
+        self.of_robot.pop(transport.robot, None)
+        if self.of_unit.get(transport.shelf) is transport:
+            del self.of_unit[transport.shelf]
+            for asked in self.open:
+                if asked.shelf == transport.shelf:
+                    self.of_unit[asked.shelf] = asked
+        self._by_number.pop(transport.number, None)
+
+    def waiting(self, station: str) -> int:
+        """Returns how many units are at a station or on the way to it."""
+        return self.inbound[station] + self.fetched[station]
+
+    def open_for(self, station: str) -> int:
+        """Returns how many transports to a station have no robot yet."""
+        return sum(transport.station == station for transport in self.open)
+
+    def kept_places(self) -> set[int]:
+        """Returns the storage cells that are kept for units under way."""
+        return {transport.place for transport in self.of_robot.values()}
+
+    def publish_event(
+        self, time: float, transport: Transport, kind: Kind, kiva_id: int, text: str = ""
+    ) -> None:
+        """Adds an event of that time [s] for take_events()."""
+        number, shelf, station = transport.number, transport.shelf, transport.station
+        self._events.append(TransportEvent(time, number, kind, kiva_id, shelf, station, text))
+
+    def take_events(self) -> list[TransportEvent]:
+        """Returns all events since the last call, in order."""
+        events, self._events = self._events, []
+        return events

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The cells in which storage units stand."""
+
+import itertools
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from warehouse_fleet.robot_table import NOWHERE
+from warehouse_layout.floor_plan import FloorPlan
+
+CROOKED = 0.05  # from the middle of its cell, and farther: a unit can't be lifted there [m]
+ASKEW = 0.1  # [rad] from the axes, and more: nor there
+UNIT_REACH = 0.48  # of a unit's sides, with room for a robot that turns beside it [m]
+SEEN_LATE = 0.5  # what is reported of units may lag behind by so much [s]
+
+
+class UnitPoses(NamedTuple):
+    """Where all storage units stood at a time; arrays (n,), in the frame world."""
+
+    shelf_id: np.ndarray
+    x: np.ndarray  # [m]
+    y: np.ndarray  # [m]
+    yaw: np.ndarray  # [rad]
+    carried: np.ndarray  # bool
+    stamp: float  # [s]
+
+
+class UnitMap:
+    """The cell of each unit, `cell_of`: NOWHERE if it is carried, or stands across cells. `unit_in`
+    holds those that stand, by cell."""
+
+    def __init__(self, plan: FloorPlan) -> None:
+        self.cell_of: dict[int, int] = {}
+        self.unit_in: dict[int, int] = {}
+        self._plan = plan
+        self._put_down: dict[int, float] = {}  # when each unit was put down last [s]
+
+    def locate(self, poses: UnitPoses) -> tuple[dict[int, int], set[int]]:
+        """Returns ({unit: cell}, the cells that units which stand crooked obstruct)."""
+        plan = self._plan
+        cells = plan.cell_of(poses.x, poses.y)
+        centre_x, centre_y = plan.point_of(cells)
+        off = np.hypot(poses.x - centre_x, poses.y - centre_y)
+        askew = abs(np.remainder(poses.yaw + np.pi / 4, np.pi / 2) - np.pi / 4)
+        crooked = (off > CROOKED) | (askew > ASKEW)
+        crooked &= ~poses.carried & (cells != NOWHERE)
+        obstructed = set()
+        for unit in np.flatnonzero(crooked):
+            x, y, yaw = poses.x[unit], poses.y[unit], poses.yaw[unit]
+            half = UNIT_REACH * (abs(np.cos(yaw)) + abs(np.sin(yaw)))
+            for dx, dy in itertools.product((-half, 0, half), repeat=2):
+                obstructed.add(int(plan.cell_of(x + dx, y + dy)))
+        cells = np.where(poses.carried | crooked, NOWHERE, cells)
+        return dict(zip(poses.shelf_id.tolist(), cells.tolist())), obstructed
+
+    def update(self, cells: dict[int, int], stamp: float, lifted: Iterable[int]) -> None:
+        """Sets the cell of each unit, {unit: cell} as seen at `stamp` [s]. The cells of units that
+        robots have `lifted`, or put down since then, are known better, and stay."""
+        better = set(lifted)
+        better |= {unit for unit, time in self._put_down.items() if time >= stamp - SEEN_LATE}
+        kept = {unit: cell for unit, cell in self.cell_of.items() if unit in better & cells.keys()}
+        self.cell_of = {**cells, **kept}
+        self.unit_in = {cell: unit for unit, cell in self.cell_of.items() if cell != NOWHERE}
+
+    def lift(self, unit: int) -> int:
+        """Notes that a unit was lifted; returns the cell in which it stood."""
+        cell = self.cell_of[unit]
+        self.unit_in.pop(cell, None)
+        self.cell_of[unit] = NOWHERE
+        return cell
+
+    def put_down(self, unit: int, cell: int, time: float) -> None:
+        """Notes that a unit stands in a cell since `time` [s]."""
+        self.cell_of[unit] = cell
+        self.unit_in[cell] = unit
+        self._put_down[unit] = time
+
+    def in_streets(self) -> list[int]:
+        """Returns the cells in which units stand off the storage places."""
+        storage = self._plan.storage.flat
+        return [cell for cell in self.unit_in if not storage[cell]]
+
+    def is_in_reach(self, cell: int) -> bool:
+        """Returns whether a robot can come to a unit's cell; NOWHERE counts as reachable."""
+        return cell == NOWHERE or bool(self._plan.passable.flat[cell])
+
+    def out_of_reach(self) -> list[int]:
+        """Returns the units that no robot can come to, ascending."""
+        return sorted(unit for unit, cell in self.cell_of.items() if not self.is_in_reach(cell))

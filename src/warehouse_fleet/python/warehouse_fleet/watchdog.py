@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Watches for robots that make no progress."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from warehouse_fleet.robot_table import NOWHERE, Mode
+
+if TYPE_CHECKING:
+    from warehouse_fleet.traffic import Traffic
+
+NO_PROGRESS = 30.0  # after which a robot is counted [s]
+TRAPPED = 15.0  # without progress where something is in the way: others drive around it [s]
+LOOKS_AHEAD = 5.0  # without progress, after which the cause of waiting is looked up [s]
+MOVES_UP = 10.0  # a robot that has moved in a lane within this is about to be served, or leaves [s]
+
+
+class Watchdog:
+    """Counts robots of a Traffic that make no progress. A robot that waits for one that is served
+    at a station, broken or commanded by a person is excused."""
+
+    def __init__(self, traffic: "Traffic") -> None:
+        self.count = 0  # how often a robot made no progress for NO_PROGRESS
+        self._traffic, self._robots = traffic, traffic.robots
+        count = len(traffic.robots)
+        self._excused = np.full(count, -np.inf)  # when each was last seen to be excused [s]
+        self._counted = np.zeros(count, bool)
+
+    @property
+    def stuck_for(self) -> np.ndarray:
+        """(n,) [s]: how long each robot has made no progress without an excuse; excuses are looked
+        up after LOOKS_AHEAD."""
+        return self._traffic.time - np.maximum(self._robots.still_since, self._excused)
+
+    def update(self) -> None:
+        """Looks up excuses and counts the robots without one."""
+        robots, time = self._robots, self._traffic.time
+        self._excused[robots.broken | robots.slowed_for_people] = time
+        for robot in np.flatnonzero(self.stuck_for > LOOKS_AHEAD):
+            if self._is_excused(robot):
+                self._excused[robot] = time
+        stuck = self.stuck_for > NO_PROGRESS
+        self.count += int(np.count_nonzero(stuck & ~self._counted))
+        self._counted = stuck
+
+    def trapped_cells(self) -> np.ndarray:
+        """Returns the cells of robots that can't go on for an obstacle: a loaded one can't turn
+        back in a one-way street. The robot that is to take the obstacle away comes another way."""
+        robots, traffic = self._robots, self._traffic
+        trapped = (traffic.time - robots.still_since > TRAPPED) & ~robots.stalled & ~robots.busy
+        trapped &= robots.automatic & ~traffic.plan.lane.ravel()[robots.cell]
+        return robots.cell[trapped]
+
+    def _is_excused(self, robot: int) -> bool:
+        robots, seen = self._robots, set()
+        while robot != NOWHERE and robot not in seen:
+            seen.add(robot)
+            robot = self._traffic.ahead_of(robot)
+            if robot == NOWHERE:
+                return False
+            if robots.busy[robot] or robots.mode[robot] != Mode.AUTOMATIC:
+                return True
+            if robots.broken[robot] or robots.slowed_for_people[robot] or self._moves_up(robot):
+                return True
+        return False
+
+    def _moves_up(self, robot: int) -> bool:
+        """Returns whether a robot has just moved in a lane, which all pass in their order."""
+        in_lane = self._traffic.plan.lane.flat[self._robots.cell[robot]]
+        return in_lane and self._traffic.time - self._robots.still_since[robot] < MOVES_UP

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "warehouse_fleet/course.h"
+
+namespace fleet {
+
+void Course::admit(Cell cell, double now, int heading) {
+  phase_ = Phase::kStanding;
+  at = cell;
+  cells = {cell};
+  plan_is_stale = true;
+  still_since = moved = now;
+  run_heading = heading;
+}
+
+void Course::send() {
+  if (phase_ == Phase::kStanding) phase_ = Phase::kSent;
+}
+
+void Course::refuse() {
+  if (phase_ == Phase::kSent) phase_ = Phase::kRefused;
+}
+
+void Course::accept() {
+  if (phase_ != Phase::kWithdrawn) phase_ = Phase::kDriving;
+  refusals = 0;
+}
+
+void Course::withdraw() {
+  phase_ = Phase::kWithdrawn;
+  plan.clear();
+  plan_is_stale = true;
+}
+
+void Course::finish(Cell cell) {
+  phase_ = Phase::kStanding;
+  at = cell;
+  cells = {cell};
+  reached = 1;
+  left = 0;
+  is_short = false;
+  turning = kNowhere;
+  blocked_since = -1;
+}
+
+}  // namespace fleet

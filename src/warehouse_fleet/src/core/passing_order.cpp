@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "warehouse_fleet/passing_order.h"
+
+#include <algorithm>
+
+#include "warehouse_fleet/cell_holders.h"
+
+namespace fleet {
+
+void PassingOrder::clear() {
+  claims_.clear();
+  std::fill(next_.begin(), next_.end(), -1);
+}
+
+void PassingOrder::set(const std::vector<int>& robots, const std::vector<Course>& courses) {
+  for (const Claim& claim : claims_) next_[claim.cell] = -1;
+  claims_.clear();
+  for (const int robot : robots) {
+    for (const Step& step : courses[robot].plan) claims_.push_back({step.cell, step.tick, robot});
+  }
+  std::sort(claims_.begin(), claims_.end(), [](const Claim& one, const Claim& other) {
+    if (one.cell != other.cell) return one.cell < other.cell;
+    return one.tick != other.tick ? one.tick < other.tick : one.robot < other.robot;
+  });
+  for (std::size_t i = claims_.size(); i-- > 0;) next_[claims_[i].cell] = static_cast<int>(i);
+}
+
+int PassingOrder::first(Cell cell, const std::vector<Course>& courses) {
+  int& next = next_[cell];
+  while (next >= 0) {
+    const Claim& claim = claims_[next];
+    const std::vector<Step>& plan = courses[claim.robot].plan;
+    // Its plan's first step to this cell, if it has that step still before it.
+    const auto has = [&](const Step& step) { return step.cell == cell && step.tick == claim.tick; };
+    if (std::any_of(plan.begin(), plan.end(), has)) return claim.robot;
+    const std::size_t following = next + 1;
+    next = following < claims_.size() && claims_[following].cell == cell
+               ? static_cast<int>(following)
+               : -1;
+  }
+  return kNobody;
+}
+
+}  // namespace fleet

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Rows to be written to the database of a warehouse."""
+
+from collections import defaultdict
+
+from sqlalchemy import bindparam, insert, update
+
+from warehouse_operations import schema
+
+TABLES = (  # in the order in which rows may refer to each other
+    schema.run,
+    schema.sku,
+    schema.unit,
+    schema.bin_,
+    schema.orders,
+    schema.order_line,
+    schema.assignment,
+    schema.visit,
+    schema.move,
+    schema.event,
+    schema.heat,
+)
+
+
+class Rows:
+    """Rows to be inserted and changes of rows that are there, by table and key."""
+
+    def __init__(self):
+        self.inserts, self.updates = defaultdict(dict), defaultdict(dict)
+
+    def __bool__(self):
+        return bool(self.inserts or self.updates)
+
+    def insert(self, table, key, **values):
+        self.inserts[table][key] = values
+
+    def update(self, table, key, **values):
+        known = self.inserts[table] if key in self.inserts.get(table, ()) else self.updates[table]
+        known.setdefault(key, {}).update(values)
+
+    def merge(self, later):
+        for table, rows in later.inserts.items():
+            self.inserts[table].update(rows)
+        for table, rows in later.updates.items():
+            for key, values in rows.items():
+                self.update(table, key, **values)
+
+    def write(self, connection):
+        for table in TABLES:
+            names = [column.name for column in table.primary_key]
+            if table in self.inserts:
+                connection.execute(
+                    insert(table),
+                    [_named(names, key) | row for key, row in self.inserts[table].items()],
+                )
+            # Those that change the same columns go together.
+            alike = defaultdict(list)
+            for key, row in self.updates.get(table, {}).items():
+                alike[tuple(row)].append(
+                    {f"key_{n}": v for n, v in _named(names, key).items()} | row
+                )
+            for columns, rows in alike.items():
+                where = [table.c[name] == bindparam(f"key_{name}") for name in names]
+                values = {column: bindparam(column) for column in columns}
+                connection.execute(update(table).where(*where).values(values), rows)
+
+
+def _named(names, key):
+    return dict(zip(names, key if isinstance(key, tuple) else (key,)))

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The settings of a shift's stations."""
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+UNITS_LEAST, UNITS_MOST = 2, 8  # at a station or on their way to it
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The settings of stations and of what a shift asks of the fleet; defaults are RAWSim-O's."""
+
+    slots: int = 12  # open orders a picking station
+    piece_s: float = 10.0  # from a piece to the next
+    pick_s: float = 3.0  # of that, until the piece is out of its bin and the unit may leave
+    bundle_s: float = 10.0
+    units_per_station: int | None = None  # at it or on their way; None: by the number of robots
+    by_station: dict[str, dict[str, Any]] = field(default_factory=dict)  # exceptions, by name
+
+    def of(self, station: str) -> "Settings":
+        """Returns the settings of the station of that name."""
+        return replace(self, **self.by_station.get(station, {}))
+
+    def units_at(self, robots: int, stations: int) -> int:
+        """Returns how many units at most are at a station or on their way to it.
+
+        Robots are shared out to stations, and a few units more are asked for than are fetched at
+        once.
+        """
+        share = round(1.5 * robots / max(stations, 1))
+        return self.units_per_station or min(max(share, UNITS_LEAST), UNITS_MOST)

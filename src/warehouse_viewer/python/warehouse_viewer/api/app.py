@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The application of a warehouse behind ROS: the page, its WebSocket and the HTTP API."""
+
+import asyncio
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI, HTTPException, Request
+from fastapi.responses import JSONResponse
+from starlette.routing import Match
+
+from warehouse_msgs.msg import Event, TransportEvent
+from warehouse_viewer.api import catalogue, description, routes
+from warehouse_viewer.api.backend import ApiBackend
+from warehouse_viewer.api.change_book import ChangeBook
+from warehouse_viewer.api.metrics import Metrics
+from warehouse_viewer.api.routes import prometheus, sockets
+from warehouse_viewer.api.transport_book import TransportBook
+from warehouse_viewer.page.hub import Hub
+from warehouse_viewer.page.journal import Journal
+from warehouse_viewer.page.model import Model
+from warehouse_viewer.page.source import Source
+from warehouse_viewer.ros.commander import Commander
+from warehouse_viewer.ros.coordination import Coordination
+from warehouse_viewer.ros.feed import Feed
+from warehouse_viewer.ros.operations_client import OperationsClient
+from warehouse_viewer.ros.shift_feed import ShiftFeed
+from warehouse_viewer.ros.simulation import Simulation
+from warehouse_viewer.server.access import AccessControl
+from warehouse_viewer.server.http_server import HubTask, Server, config_of
+from warehouse_viewer.server.page_files import PageFiles, SocketLimit
+from warehouse_viewer.server.static_files import Files
+from warehouse_viewer.shared_files import THREE
+
+PAGES = {"/": "index.html", "/operations": "operations.html", "/docs": "docs.html"}
+
+
+class Viewer:
+    """Everything behind one address. `ros` is rospy, `web` the folder of the page."""
+
+    def __init__(self, ros: Any, web: Path) -> None:
+        self.journal = Journal()
+        self.commander = Commander(ros)
+        self.transports = TransportBook()
+        self.changes = ChangeBook()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
+        simulation = Simulation(ros)
+        source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
+        self.hub = Hub(source, Model())
+        operations = OperationsClient(ros, ShiftFeed(ros, self.changes))
+        self.metrics = Metrics(feed, operations)
+        self.backend = ApiBackend(
+            feed,
+            self.journal,
+            simulation,
+            self.commander,
+            Coordination(ros),
+            self.transports,
+            operations,
+            self.changes,
+        )
+        self._web = web
+        self._hub_task = HubTask(self.hub)
+
+    def _on_event(self, event: Event) -> None:
+        entry = self.journal.add(catalogue.event(event))
+        with suppress(RuntimeError):  # the loop has ended
+            if self._loop:
+                self._loop.call_soon_threadsafe(self._note, entry)
+
+    def _note(self, entry):
+        self.commander.note(entry)
+        self.hub.notify()
+
+    def _on_transport(self, event: TransportEvent) -> None:
+        self.changes.note("transports", event.transport_id, self.transports.add(event))
+
+    def _on_message(self) -> None:
+        self.hub.notify()
+
+    def application(self, token: str = "", rate: float = 100) -> AccessControl:
+        """Returns the ASGI application; `rate` is in requests per second of each address."""
+        app = FastAPI(
+            title="Kiva warehouse",
+            version="1",
+            description="The simulated warehouse over HTTP. States and events come as JSON over "
+            "WebSockets, and figures for Prometheus at /metrics.",
+            docs_url=None,
+            redoc_url=None,
+            openapi_url="/openapi.json",
+        )
+        app.state.backend, app.state.hub = self.backend, self.hub
+        app.state.metrics, app.state.sockets = self.metrics, SocketLimit()
+        app.include_router(routes.router)
+        setattr(app, "openapi", lambda: description.described(app))  # noqa: B010 (for mypy)
+        app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
+        app.add_exception_handler(405, not_allowed)
+        app.include_router(sockets.router)
+        app.include_router(prometheus.router)
+        self._add_files(app)
+        return AccessControl(app, token, rate)
+
+    def start(self) -> None:
+        """Begins to serve pages, in the running asyncio loop."""
+        self._loop = asyncio.get_running_loop()
+        self._hub_task.start()
+
+    def _add_files(self, app):
+        page = PageFiles(self._web)
+        for path, name in PAGES.items():
+            app.get(path, include_in_schema=False)(page.endpoint(name))
+        app.mount("/three", Files(directory=THREE, check_dir=False))
+        app.mount("/web", page.files)
+
+
+async def not_allowed(request: Request, error: HTTPException) -> JSONResponse:
+    """Answers 405 with every method of the path: each method has a route of its own."""
+    routes = [
+        route for route in request.app.routes if route.matches(request.scope)[0] != Match.NONE
+    ]
+    methods = sorted(set().union(*(getattr(route, "methods", None) or () for route in routes)))
+    headers = {"allow": ", ".join(methods)}
+    return JSONResponse({"detail": error.detail}, error.status_code, headers=headers)
+
+
+def server_of(viewer: Viewer, token: str = "", rate: float = 100) -> Server:
+    """Returns a Server for a Viewer; run it with the sockets to listen at."""
+    return Server(config_of(viewer.application(token, rate)), viewer.start)

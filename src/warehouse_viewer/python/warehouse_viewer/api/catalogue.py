@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots, storage units, items and the warehouse, as the HTTP API tells them."""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from warehouse_client import tracking
+from warehouse_client.message_names import EVENT, STATE, STATUS, failures_of
+from warehouse_client.tracking import Tracked
+from warehouse_layout.models import kind_and_number
+from warehouse_msgs.msg import CoordinatorState, Event, FleetState, UnitStates, WarehouseObjects
+from warehouse_viewer.api.schemas.fleet import (
+    Coordinator,
+    RobotsByMode,
+    RobotsByWork,
+    TransportCounts,
+    Waiting,
+)
+from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
+from warehouse_viewer.page.statuses import HOLDING, activity, shown_status
+
+ACTIVITY = STATUS | {HOLDING: "HOLDING"}  # as statuses.activity() numbers it
+
+
+def robots(fleet: FleetState) -> list[Robot]:
+    """Returns a Robot for each one in a FleetState."""
+    status, does = shown_status(fleet), activity(fleet)
+    state, last_end = bytes(fleet.state), bytes(fleet.last_end)
+    return [
+        Robot(
+            name=f"kiva{number}",
+            id=number,
+            status=STATUS[status[i]],
+            activity=ACTIVITY[does[i]],
+            state=STATE[state[i]],
+            last_end=EVENT[last_end[i]] if last_end[i] else "",
+            x=fleet.x[i],
+            y=fleet.y[i],
+            yaw=fleet.yaw[i],
+            storage_unit=f"storage_unit{fleet.shelf_id[i]}" if fleet.shelf_id[i] else "",
+            charge=fleet.charge[i],
+            failures=failures_of(fleet.failures[i]),
+        )
+        for i, number in enumerate(map(int, fleet.kiva_id))
+    ]
+
+
+def coordinator(state: CoordinatorState) -> Coordinator:
+    """Returns a CoordinatorState as the API describes it."""
+    waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
+    return Coordinator(
+        time=state.header.stamp.to_sec(),
+        robots={name: getattr(state, name) for name in RobotsByMode.__fields__},
+        work={name: getattr(state, name) for name in RobotsByWork.__fields__},
+        transports={name: getattr(state, name) for name in TransportCounts.__fields__},
+        manual=list(state.manual_kiva),
+        out_of_service=list(state.out_of_service_kiva),
+        plan_p50=state.plan_p50,
+        plan_p99=state.plan_p99,
+        executed_over_planned=state.executed_over_planned,
+        queues=dict(zip(state.station, state.queue)),
+        waiting=[Waiting(robot=r, waits_for=f, since=s, text=t) for r, f, s, t in waiting],
+        collisions=state.collisions,
+        blocked=state.blocked,
+        watchdog=state.watchdog,
+        alarms=list(state.alarms),
+    )
+
+
+def plain_coordinator(state: CoordinatorState) -> dict[str, Any]:
+    """Returns a CoordinatorState as JSON has it."""
+    return json.loads(coordinator(state).json())
+
+
+def things(kind: str, objects: WarehouseObjects, states: UnitStates) -> Tracked:
+    """Returns where all "storage_units" or "items", as `kind` says, are."""
+    return getattr(tracking, kind)(objects, states)
+
+
+def find(tracked: Tracked, text: str = "", unit: str = "") -> list[int]:
+    """Returns the indices of those whose name contains `text` and, if given, that lie on `unit`."""
+    return [
+        i
+        for i, name in enumerate(tracked.names)
+        if text in name and (not unit or tracked.unit[i] == unit)
+    ]
+
+
+def thing(tracked: Tracked, i: int) -> Thing:
+    """Returns the i-th of them as a Thing."""
+    carrier = tracked.carrier[i]
+    return Thing(
+        name=tracked.names[i],
+        id=kind_and_number(tracked.names[i])[1],
+        pose=dict(zip(Pose.__fields__, np.asarray(tracked.pose[i]).tolist())),
+        storage_unit=tracked.unit[i],
+        carrier=f"kiva{carrier}" if carrier else "",
+    )
+
+
+def event(message: Event) -> dict[str, Any]:
+    """Returns an Event as the journal keeps it, without its id."""
+    return {
+        "time": round(message.header.stamp.to_sec(), 3),
+        "kind": EVENT.get(message.kind, str(message.kind)),
+        "command": message.command,
+        "model": message.model,
+        "other": message.other,
+        "text": message.text,
+    }

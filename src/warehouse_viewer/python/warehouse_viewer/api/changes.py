@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Changes of orders, stock, stations and transports, and figures, in JSON over a WebSocket.
+
+    /api/v1/changes?of=orders,stations&rate=2     messages of a kind a second at most, 0.1 … 10
+
+First comes {"type": "shift", "runs": true}, and again whenever that changes. Stations, kpis,
+throughput, coordinator, notices and heat come whole: as they are now, then as often as they change.
+
+    {"type": "stations", "stations": [{"name": "pick1", "shelf_id": 12, …}, …]}
+    {"type": "kpis", "kpis": {"items_picked": 123, …}}
+
+Of orders, stock and transports come the rows that have changed, as the requests of those names tell
+them. Who opens the WebSocket before asking for a list misses nothing in between.
+
+    {"type": "orders", "orders": [{"order_id": 7, "state": "COMPLETED", …}, …], "missed": false}
+
+A slow reader misses states in between, never the newest. `missed`: there were more; read the
+list again.
+"""
+
+import asyncio
+import json
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Literal
+
+from pydantic import BaseModel, Field
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from warehouse_viewer.api import catalogue, operations_json
+from warehouse_viewer.api.backend import ApiBackend
+from warehouse_viewer.api.schemas.fleet import Coordinator, Transport
+from warehouse_viewer.api.schemas.operations import Heat, Order, Place, Station, Throughput
+from warehouse_viewer.api.stream import until_gone
+
+ROWS = {
+    "orders": operations_json.order,
+    "stock": operations_json.plain,
+    "transports": dict,
+}  # each as JSON has it
+WHOLE = (*operations_json.SHOWN, "coordinator")
+TOPICS = (*ROWS, *WHOLE)
+
+
+class Shift(BaseModel):
+    type: Literal["shift"]
+    runs: bool
+
+
+class OrdersChanged(BaseModel):
+    type: Literal["orders"]
+    orders: list[Order]
+    missed: bool = Field(description="there were more; read the list again")
+
+
+class StockChanged(BaseModel):
+    type: Literal["stock"]
+    stock: list[Place]
+    missed: bool
+
+
+class TransportsChanged(BaseModel):
+    type: Literal["transports"]
+    transports: list[Transport]
+    missed: bool
+
+
+class StationsNow(BaseModel):
+    type: Literal["stations"]
+    stations: list[Station]
+
+
+class KpisNow(BaseModel):
+    type: Literal["kpis"]
+    kpis: dict[str, float | int | str | dict[str, float]]
+
+
+class ThroughputNow(BaseModel):
+    type: Literal["throughput"]
+    throughput: Throughput
+
+
+class CoordinatorNow(BaseModel):
+    type: Literal["coordinator"]
+    coordinator: Coordinator | None
+
+
+class NoticesNow(BaseModel):
+    type: Literal["notices"]
+    notices: list[str]
+
+
+class HeatNow(BaseModel):
+    type: Literal["heat"]
+    heat: Heat
+
+
+MESSAGES = (
+    Shift,
+    OrdersChanged,
+    StockChanged,
+    TransportsChanged,
+    StationsNow,
+    KpisNow,
+    ThroughputNow,
+    CoordinatorNow,
+    HeatNow,
+    NoticesNow,
+)
+
+
+def topics(text: str) -> list[str]:
+    """Returns the TOPICS in a list with commas; for an empty one all but the large heat map.
+
+    Raises ValueError for one that does not exist.
+    """
+    wanted = [name for name in text.split(",") if name] or [t for t in TOPICS if t != "heat"]
+    unknown = sorted(set(wanted) - set(TOPICS))
+    if unknown:
+        raise ValueError(f"no {', '.join(unknown)} to follow; there are {', '.join(TOPICS)}")
+    return wanted
+
+
+async def serve(socket: WebSocket, backend: ApiBackend, wanted: Sequence[str], rate: float) -> None:
+    """Serves one client until it disconnects: the TOPICS `wanted`, each at most `rate` times a
+    second. The socket is accepted already."""
+    listener = asyncio.create_task(until_gone(socket))
+    reader = _Reader(socket, backend, wanted)
+    with suppress(WebSocketDisconnect, RuntimeError):
+        while not listener.done():
+            await reader.send_news()
+            await asyncio.wait({listener}, timeout=1 / rate)
+    listener.cancel()
+
+
+class _Reader:
+    def __init__(self, socket, backend, wanted):
+        self._socket, self._backend, self._wanted = socket, backend, wanted
+        self._feed, self._book = backend.operations.feed, backend.changes
+        self._read = {topic: self._book.last if topic in ROWS else 0 for topic in wanted}
+        self._runs, self._coordinator = None, ()
+
+    async def send_news(self):
+        runs = self._feed.runs
+        if runs != self._runs:
+            self._runs = runs
+            await self._send("shift", runs=runs)
+        for topic in self._wanted:
+            if topic == "coordinator":
+                await self._send_coordinator()
+            elif topic in ROWS:
+                await self._send_rows(topic)
+            elif runs or topic == "notices":
+                await self._send_whole(topic)
+
+    async def _send_rows(self, topic):
+        now = self._book.last
+        rows, missed = self._book.since(topic, self._read[topic])
+        self._read[topic] = now
+        if rows or missed:
+            shown = [ROWS[topic](row) for row in rows]
+            await self._send(topic, **{topic: shown}, missed=missed)
+
+    async def _send_whole(self, topic):
+        now = self._book.last
+        rows, _ = self._book.since(topic, self._read[topic])
+        if rows:
+            self._read[topic] = now
+            await self._send(topic, **{topic: operations_json.SHOWN[topic](rows[-1])})
+
+    async def _send_coordinator(self):
+        self._backend.feed.subscribe(("coordinator", "fleet"))
+        state = self._backend.feed.coordinator
+        if state is not self._coordinator:
+            self._coordinator = state
+            told = catalogue.plain_coordinator(state) if state else None
+            await self._send("coordinator", coordinator=told)
+
+    async def _send(self, kind, **fields):
+        await self._socket.send_text(json.dumps({"type": kind, **fields}, separators=(",", ":")))

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The messages of a shift as JSON has them."""
+
+from collections.abc import Callable
+from typing import Any
+
+import genpy
+
+from warehouse_msgs import msg
+from warehouse_viewer.api.schemas.operations import MODES, STATES
+
+
+def plain(message: Any) -> Any:
+    """Returns a message as JSON has it, without its header."""
+    if isinstance(message, genpy.Message):
+        return {n: plain(getattr(message, n)) for n in message.__slots__ if n != "header"}
+    if isinstance(message, list | tuple):
+        return [plain(one) for one in message]
+    return message
+
+
+def order(one: msg.OrderStatus) -> dict[str, Any]:
+    """Returns an OrderStatus as JSON has it."""
+    lines = zip(one.lines, one.picked)
+    out = plain(one)
+    del out["picked"]
+    return out | {
+        "state": STATES[one.state],
+        "lines": [plain(line) | {"picked": picked} for line, picked in lines],
+    }
+
+
+def stations(message: msg.StationStates) -> list[dict[str, Any]]:
+    """Returns the stations of StationStates as JSON has them."""
+    return [plain(one) | {"mode": MODES[one.mode]} for one in message.stations]
+
+
+def notices(message: msg.Notices) -> list[str]:
+    """Returns the sentences of Notices."""
+    return list(message.notices)
+
+
+# From each of a shift's topics to what JSON has of it.
+SHOWN: dict[str, Callable[[Any], Any]] = {
+    "stations": stations,
+    "kpis": plain,
+    "throughput": plain,
+    "heat": plain,
+    "notices": notices,
+}

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The routes below /api/v1, a module for each subject, and the WebSockets."""
+
+from fastapi import APIRouter
+
+from warehouse_viewer.api.routes import (
+    coordinator,
+    events,
+    figures,
+    models,
+    orders,
+    robots,
+    simulation,
+    stations,
+    warehouse,
+)
+
+router = APIRouter(prefix="/api/v1")
+for _subject in (
+    warehouse,
+    events,
+    robots,
+    models,
+    simulation,
+    coordinator,
+    orders,
+    stations,
+    figures,
+):
+    router.include_router(_subject.router)

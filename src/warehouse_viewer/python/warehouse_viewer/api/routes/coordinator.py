@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The coordinator: its state, modes of robots, and transports."""
+
+from typing import Any
+
+from fastapi import APIRouter, HTTPException, Path
+
+from warehouse_viewer.api import catalogue
+from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, problems
+from warehouse_viewer.api.schemas.base import Done
+from warehouse_viewer.api.schemas.fleet import (
+    Coordinator,
+    NewMode,
+    NewTransport,
+    Transport,
+    TransportNumber,
+    Transports,
+    TransportState,
+)
+
+router = APIRouter()
+TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
+
+
+@router.get("/coordinator", response_model=Coordinator, responses=problems(404))
+async def get_coordinator(backend: ApiBackend = BACKEND) -> Any:
+    """The fleet at a glance."""
+    return catalogue.coordinator(await backend.coordinator())
+
+
+@router.post("/robots/{number}/mode", response_model=Done, responses=problems(404, *SENT))
+async def set_mode(wanted: NewMode, number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+    """Gives a robot to the coordinator or to a person, or takes it out of service."""
+    await backend.robot(number)
+    return {"message": await backend.coordinate("set_mode", number, wanted.mode)}
+
+
+@router.get("/transports", response_model=Transports, responses=problems())
+async def get_transports(
+    state: TransportState | None = None,
+    limit: int = LIMIT,
+    offset: int = OFFSET,
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """How far each is, the newest first; those since the viewer began."""
+    found = backend.transports.newest_first(state)
+    return {"total": len(found), "transports": found[offset : offset + limit]}
+
+
+@router.get("/transports/{number}", response_model=Transport, responses=problems(404))
+async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) -> Any:
+    """How far it is."""
+    found = backend.transports.get(number)
+    if found is None:
+        raise HTTPException(404, f"no transport {number}")
+    return found
+
+
+@router.post(
+    "/transports",
+    status_code=201,
+    response_model=TransportNumber,
+    responses=problems(*SENT),
+)
+async def submit_transport(wanted: NewTransport, backend: ApiBackend = BACKEND) -> Any:
+    """Has a storage unit brought somewhere. It waits there to be released."""
+    return {"transport_id": await backend.coordinate("submit", *wanted.dict().values())}
+
+
+@router.post(
+    "/transports/{number}/release",
+    response_model=Done,
+    responses=problems(409),
+)
+async def release_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) -> Any:
+    """The station is done with the unit: it may leave."""
+    return {"message": await backend.coordinate("release", number)}

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The newest events, as JSON and for a spreadsheet."""
+
+from typing import Any
+
+from fastapi import APIRouter, Query, Response
+
+from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.routes.common import problems
+from warehouse_viewer.api.schemas.commands import Events
+from warehouse_viewer.page.journal import KEPT
+
+router = APIRouter()
+CSV: dict[int | str, dict[str, Any]] = {
+    200: {"content": {"text/csv": {"schema": {"type": "string"}}}}
+}
+
+
+@router.get("/events", response_model=Events, responses=problems())
+async def get_events(
+    since: int = Query(0, ge=0, le=2**53, description="the last id you know"),
+    model: str = Query("", max_length=100, description="of this model alone"),
+    limit: int = Query(100, ge=1, le=KEPT, description="rows in the answer"),
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """The newest events, oldest first."""
+    return {"events": backend.journal.since(since, model or None, limit)}
+
+
+@router.get("/events.csv", response_class=Response, responses=problems() | CSV)
+async def export_events(backend: ApiBackend = BACKEND) -> Any:
+    """All events that are kept, oldest first, for a spreadsheet."""
+    headers = {"content-disposition": 'attachment; filename="events.csv"'}
+    return Response(backend.journal.csv(), media_type="text/csv", headers=headers)

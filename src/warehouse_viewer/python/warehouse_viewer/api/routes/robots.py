@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots: where they are, adding, removing and commanding them; and people."""
+
+from typing import Any, Literal
+
+from fastapi import APIRouter, Body, Depends, HTTPException, Query, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic.error_wrappers import ErrorWrapper
+from pydantic.errors import StrError
+
+from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, TEXT, problems
+from warehouse_viewer.api.schemas.base import Done
+from warehouse_viewer.api.schemas.commands import Command, NewWalk, Outcome, Walker
+from warehouse_viewer.api.schemas.models import NewRobot, Robot, Robots
+
+router = APIRouter()
+ANSWER, END = 10.0, 300.0  # for the answer to a command, and for its end [s, wall]
+COMMAND = Body(discriminator="command")
+
+
+async def _check_command(request: Request):
+    """Raises 422 where `command` is no text, for which pydantic 1 would fail an assertion."""
+    try:
+        body = await request.json()
+    except (ValueError, RecursionError):
+        return  # FastAPI tells what is wrong with it
+    if isinstance(body, dict) and not isinstance(body.get("command", ""), str):
+        raise RequestValidationError([ErrorWrapper(StrError(), ("body", "command"))])
+
+
+@router.get("/robots", response_model=Robots, responses=problems())
+async def get_robots(
+    status: Literal["IDLE", "BUSY", "BLOCKED"] | None = None,
+    name: str = TEXT,
+    limit: int = LIMIT,
+    offset: int = OFFSET,
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """Robots with their poses and status."""
+    found = [r for r in await backend.robots() if name in r.name and status in (None, r.status)]
+    return {"total": len(found), "robots": found[offset : offset + limit]}
+
+
+@router.get("/robots/{number}", response_model=Robot, responses=problems(404))
+async def get_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+    """One robot."""
+    return await backend.robot(number)
+
+
+@router.post("/robots", status_code=201, response_model=Robot, responses=problems(*SENT))
+async def add_robot(wanted: NewRobot, backend: ApiBackend = BACKEND) -> Any:
+    """Puts a robot on a free grid point; it gets the lowest free number."""
+    number = await backend.change("add_robot", wanted.x, wanted.y, wanted.heading)
+    return await backend.robot(number)
+
+
+@router.delete("/robots/{number}", response_model=Done, responses=problems(404, 409))
+async def remove_robot(number: int = NUMBER, backend: ApiBackend = BACKEND) -> Any:
+    """Takes away a robot that carries nothing."""
+    if (await backend.robot(number)).storage_unit:
+        raise HTTPException(409, f"kiva{number} carries a storage unit; let it drop that first")
+    return {"message": await backend.change("remove_robot", number)}
+
+
+@router.post(
+    "/robots/{number}/commands",
+    dependencies=[Depends(_check_command)],
+    response_model=Outcome,
+    responses=problems(404, *SENT) | {202: {"model": Outcome}},
+)
+async def command_robot(
+    command: Command = COMMAND,
+    number: int = NUMBER,
+    wait: Literal["answer", "end"] = Query("answer", description="for what to wait"),
+    timeout: float | None = Query(
+        None,
+        ge=0.01,
+        le=END,
+        description=f"[s, wall]; {ANSWER:g} for the answer, {END:g} for the end if not given",
+    ),
+    backend: ApiBackend = BACKEND,
+) -> Any:
+    """Sends a command. A refused one answers 409 with the reason.
+
+    202 tells that what was waited for has not come in time.
+    """
+    await backend.robot(number)
+    fields = command.dict(exclude={"command"})
+    topic = f"/{command.command}"
+    if not await backend.commander.ready(topic):
+        raise HTTPException(503, f"{topic} has no subscriber; does the world run?")
+    to_end = wait == "end"
+    timeout = timeout or (END if to_end else ANSWER)
+    outcome = await backend.commander.send(topic, number, fields, to_end, timeout)
+    if outcome.kind == "refused":
+        raise HTTPException(409, outcome.events[-1]["text"])
+    answer = {"outcome": outcome.kind, "events": outcome.events}
+    late = outcome.kind in ("pending", "accepted" if to_end else "")
+    return JSONResponse(answer, 202) if late else answer
+
+
+@router.post("/people", status_code=201, response_model=Walker, responses=problems(*SENT))
+async def send_person(wanted: NewWalk, backend: ApiBackend = BACKEND) -> Any:
+    """Has a person walk over the floor, around obstacles and never into them."""
+    return {"name": await backend.simulate("walk", *wanted.dict().values())}

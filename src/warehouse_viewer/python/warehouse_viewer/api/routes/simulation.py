@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Simulated time: pause, speed, steps and checkpoints."""
+
+from typing import Any
+
+from fastapi import APIRouter, Body
+
+from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.routes.common import SENT, problems
+from warehouse_viewer.api.schemas.base import Done
+from warehouse_viewer.api.schemas.warehouse import Checkpoint, Reset, Speed, Step, Undo
+
+router = APIRouter()
+RESET, STEP = Body(Reset()), Body(Step())  # if there is no body
+
+
+@router.post("/simulation/pause", response_model=Done, responses=problems(*SENT))
+async def pause(backend: ApiBackend = BACKEND) -> Any:
+    """Time stands still."""
+    return {"message": await backend.simulate("pause")}
+
+
+@router.post("/simulation/resume", response_model=Done, responses=problems(*SENT))
+async def resume(backend: ApiBackend = BACKEND) -> Any:
+    """Time goes on."""
+    return {"message": await backend.simulate("resume")}
+
+
+@router.post("/simulation/reset", response_model=Done, responses=problems(*SENT))
+async def reset(wanted: Reset = RESET, backend: ApiBackend = BACKEND) -> Any:
+    """Everything goes back to where it came."""
+    return {"message": await backend.simulate("reset", *wanted.dict().values())}
+
+
+@router.post("/simulation/step", response_model=Done, responses=problems(*SENT))
+async def step(wanted: Step = STEP, backend: ApiBackend = BACKEND) -> Any:
+    """While paused: so many steps of the physics."""
+    return {"message": await backend.simulate("step", *wanted.dict().values())}
+
+
+@router.post("/simulation/speed", response_model=Done, responses=problems(*SENT))
+async def speed(wanted: Speed, backend: ApiBackend = BACKEND) -> Any:
+    """How fast simulated time passes."""
+    return {"message": await backend.simulate("speed", *wanted.dict().values())}
+
+
+@router.post("/simulation/checkpoint", response_model=Done, responses=problems(*SENT))
+async def checkpoint(wanted: Checkpoint, backend: ApiBackend = BACKEND) -> Any:
+    """Keeps the world as it is."""
+    return {"message": await backend.simulate("checkpoint", *wanted.dict().values())}
+
+
+@router.post("/simulation/restore", response_model=Done, responses=problems(*SENT))
+async def restore(wanted: Checkpoint, backend: ApiBackend = BACKEND) -> Any:
+    """Goes back to a checkpoint."""
+    return {"message": await backend.simulate("restore", *wanted.dict().values())}
+
+
+@router.post("/simulation/undo", response_model=Done, responses=problems(*SENT))
+async def undo(wanted: Undo, backend: ApiBackend = BACKEND) -> Any:
+    """Goes back so many simulated seconds."""
+    return {"message": await backend.simulate("undo", *wanted.dict().values())}

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The warehouse as a whole: its state, and building another one."""
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from warehouse_layout.request import LIMITS, PRESETS
+from warehouse_viewer.api.backend import BACKEND, ApiBackend
+from warehouse_viewer.api.routes.common import SENT, problems
+from warehouse_viewer.api.schemas.base import Done
+from warehouse_viewer.api.schemas.warehouse import NewWarehouse, Sizes, Warehouse
+
+router = APIRouter()
+
+
+@router.get("/warehouse", response_model=Warehouse, responses=problems())
+async def get_warehouse(backend: ApiBackend = BACKEND) -> Any:
+    """What stands there, and how time passes."""
+    await backend.wait_for_positions()
+    objects, performance = backend.feed["objects"], backend.feed["performance"]
+    name, number = await backend.simulate("warehouse")
+    lacks = await backend.simulate("offers")
+    return {
+        "name": name,
+        "id": number,
+        "robots": len(objects.kiva_id),
+        "storage_units": len(objects.storage_units),
+        "items": len(objects.items),
+        "belts": len(objects.belts),
+        "time": backend.feed["fleet"].stamp.to_sec(),
+        "real_time_factor": performance.real_time_factor if performance else 0.0,
+        "lacks": {action: lack for action, lack in lacks.items() if lack},
+        **await backend.simulate("state"),
+    }
+
+
+@router.get("/warehouse/sizes", response_model=Sizes, responses=problems())
+async def get_sizes(backend: ApiBackend = BACKEND) -> Any:
+    """Presets, and the limits of counts of one's own."""
+    presets = {name: vars(counts) for name, counts in PRESETS.items()}
+    return {"presets": presets, "limits": LIMITS}
+
+
+@router.post("/warehouse", response_model=Done, responses=problems(*SENT))
+async def create_warehouse(wanted: NewWarehouse, backend: ApiBackend = BACKEND) -> Any:
+    """Builds a warehouse in place of the one that stands."""
+    counts = (wanted.robots, wanted.items, wanted.shelves)
+    return {"message": await backend.change("create", wanted.name, wanted.id, *counts)}

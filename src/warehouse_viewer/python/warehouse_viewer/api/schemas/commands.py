@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Commands to robots and people, and what became of them."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field, StrictBool
+
+from warehouse_viewer.api.schemas.base import Body, Int8, Int32, Name, Number, UInt8
+
+
+class Mov(Body):
+    """Go to (x, y): along x first, then along y."""
+
+    command: Literal["mov"]
+    x: Number = Field(description="[m]")
+    y: Number = Field(description="[m]")
+
+
+class MovX(Body):
+    """Go along the world's x axis."""
+
+    command: Literal["movx"]
+    distance: Number = Field(description="[m], signed, a whole number of cells")
+
+
+class MovY(Body):
+    """Go along the world's y axis."""
+
+    command: Literal["movy"]
+    distance: Number = Field(description="[m], signed, a whole number of cells")
+
+
+class Rot(Body):
+    """Turn a quarter."""
+
+    command: Literal["rot"]
+    direction: Int8 = Field(description="1 counterclockwise, -1 clockwise")
+
+
+class LiftCommand(Body):
+    """Carry or drop a storage unit."""
+
+    command: Literal["lift"]
+    status: UInt8 = Field(description="1 carry, 0 drop")
+    shelf_id: Int32 = Field(
+        0, description="the number in storage_unit<id>; may be left out to drop what it carries"
+    )
+
+
+Command = Mov | MovX | MovY | Rot | LiftCommand
+
+
+class WalkingSpeed(Number):
+    ge, le = 0.01, 1.6
+
+
+class NewWalk(Body):
+    """Has a person walk from place to place; one of a new name comes to the first place."""
+
+    name: Name = Field("", description="who; empty: a new person")
+    x: list[Number] = Field(max_items=1000, description="[m], of each place")
+    y: list[Number] = Field(max_items=1000, description="[m], as many")
+    speed: WalkingSpeed = Field(1.2, description="[m/s]")
+    loop: StrictBool = Field(False, description="after the last place comes the first again")
+
+
+class Walker(BaseModel):
+    name: str
+
+
+class Event(BaseModel):
+    id: int
+    time: float = Field(description="[s], simulated")
+    kind: str
+    command: int = Field(description="the one it belongs to, counted from 1; 0: none")
+    model: str
+    other: str
+    text: str
+
+
+class Events(BaseModel):
+    events: list[Event]
+
+
+class Outcome(BaseModel):
+    """What became of a command so far."""
+
+    outcome: Literal["accepted", "done", "blocked", "pending"]
+    events: list[Event]

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The coordinator: transports, modes of robots and its state at a glance."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field, root_validator
+
+from warehouse_viewer.api.schemas.base import Body, Int32, Name, Number, UInt8
+
+Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
+TransportState = Literal[
+    "RECEIVED", "ASSIGNED", "LIFTED", "ARRIVED", "RELEASED", "STORED", "FAILED", "CANCELLED"
+]
+
+
+class NewTransport(Body):
+    """Has a storage unit brought to a station, or to the cell at (x, y), by whichever robot."""
+
+    storage_unit: Int32 = Field(description="the number in storage_unit<id>")
+    station: Name = Field("", description="its name, or empty: to the cell at (x, y)")
+    x: Number | None = Field(None, description="[m], of a grid point")
+    y: Number | None = Field(None, description="[m], of a grid point")
+    then: Literal["STORE", "STAY"] = Field(
+        "STORE", description="what becomes of the unit once it is released; STAY: put down there"
+    )
+    priority: UInt8 = Field(0, description="higher ones come first")
+
+    class Config(Body.Config):
+        schema_extra = {
+            "oneOf": [
+                {
+                    "required": ["station"],
+                    "properties": {"station": {"minLength": 1}},
+                    "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
+                },
+                {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
+            ]
+        }
+
+    @root_validator(skip_on_failure=True)
+    def _has_one_destination(cls, values):  # noqa: N805 (pydantic's)
+        at = [values["x"], values["y"]]
+        if values["station"] and at == [None, None]:
+            return values
+        if not values["station"] and None not in at:
+            return values
+        raise ValueError("either a station or both x and y were expected")
+
+
+class NewMode(Body):
+    mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
+
+
+class TransportNumber(BaseModel):
+    transport_id: int
+
+
+class Transport(BaseModel):
+    id: int
+    state: TransportState = Field(
+        description="ARRIVED: waits to be released. STORED, FAILED: it is over"
+    )
+    since: float = Field(description="[s], simulated")
+    robot: str = Field(description="that does it, or empty")
+    storage_unit: str
+    station: str = Field(description="or empty, if it is brought to a cell")
+    text: str
+
+
+class Transports(BaseModel):
+    total: int
+    transports: list[Transport]
+
+
+class RobotsByMode(BaseModel):
+    automatic: int
+    manual: int
+    out_of_service: int
+
+
+class RobotsByWork(BaseModel):
+    """Robots that are AUTOMATIC."""
+
+    idle: int
+    fetching: int
+    ready: int = Field(description="beneath a unit, until its station has room for it")
+    lifting: int
+    bringing: int
+    waiting: int = Field(description="at a station, or a cell, until their transport is released")
+    storing: int
+    dropping: int
+
+
+class TransportCounts(BaseModel):
+    open: int = Field(description="without a robot yet")
+    under_way: int
+    delivered: int
+    stored: int
+    failed: int
+
+
+class Waiting(BaseModel):
+    """A robot that has stood for 10 s or longer although it has somewhere to go."""
+
+    robot: int
+    waits_for: int = Field(description="a robot; 0: not known")
+    since: float = Field(description="[s], simulated")
+    text: str = Field(description="for what it waits, for a person")
+
+
+class Coordinator(BaseModel):
+    """The fleet at a glance."""
+
+    time: float = Field(description="[s], simulated")
+    robots: RobotsByMode
+    work: RobotsByWork
+    transports: TransportCounts
+    manual: list[int] = Field(description="robots that a person commands")
+    out_of_service: list[int]
+    plan_p50: float = Field(description="computing time of a plan [ms], median")
+    plan_p99: float = Field(description="[ms]")
+    executed_over_planned: float = Field(description="seconds driven over those planned")
+    queues: dict[str, int] = Field(description="units at each station or on their way there")
+    waiting: list[Waiting]
+    collisions: int
+    blocked: int
+    watchdog: int = Field(description="how often robots made no progress for 30 s")
+    alarms: list[str]

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Robots, storage units and items."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field
+
+from warehouse_viewer.api.schemas.base import Body, Number
+
+
+class NewRobot(Body):
+    x: Number = Field(description="[m], of a grid point")
+    y: Number = Field(description="[m], of a grid point")
+    heading: Number = Field(0, description="[rad] about z, by quarter turns; 0: along x")
+
+
+class Pose(BaseModel):
+    x: float
+    y: float
+    z: float
+    qx: float
+    qy: float
+    qz: float
+    qw: float
+
+
+class Robot(BaseModel):
+    name: str
+    id: int
+    status: Literal["IDLE", "BUSY", "BLOCKED"] = Field(
+        description="whether it takes a command; BLOCKED: its last one ended so, and none was "
+        "accepted since"
+    )
+    activity: Literal["IDLE", "BUSY", "BLOCKED", "HOLDING"] = Field(
+        description="what the page calls it: its status, or HOLDING if it carries a storage unit "
+        "and has no command"
+    )
+    state: str
+    last_end: Literal["", "DONE", "BLOCKED"] = Field(
+        description="how its last command ended, until the next is accepted"
+    )
+    x: float
+    y: float
+    yaw: float
+    storage_unit: str = Field(description="the one it carries, or empty")
+    charge: float = Field(description="of its battery, 0 to 1; 1 where energy is not simulated")
+    failures: list[str] = Field(description="what is broken in it")
+
+
+class Thing(BaseModel):
+    """A storage unit or an item."""
+
+    name: str
+    id: int
+    pose: Pose
+    storage_unit: str = Field(description="the one an item lies on, or empty")
+    carrier: str = Field(description="the robot that carries it, or empty")
+
+
+class Robots(BaseModel):
+    total: int
+    robots: list[Robot]
+
+
+class Things(BaseModel):
+    total: int
+    things: list[Thing]

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Orders, stock, stations and figures of a shift."""
+
+import re
+from typing import Literal, get_args
+
+from pydantic import (
+    BaseModel,
+    ConstrainedInt,
+    ConstrainedStr,
+    Field,
+    StrictBool,
+)
+
+from warehouse_viewer.api.schemas.base import INT32, Body, Number, UInt8
+
+State = Literal["OPEN", "ASSIGNED", "COMPLETED", "CANCELLED"]
+Mode = Literal["AUTOMATIC", "MANUAL"]
+PickOutcome = Literal["DONE", "SHORT", "DAMAGED"]
+# By the numbers of the messages.
+STATES, MODES, OUTCOMES = map(get_args, (State, Mode, PickOutcome))
+
+
+class Sku(ConstrainedStr):
+    """The name of a kind of goods."""
+
+    strict, min_length, max_length = True, 1, 80
+    regex = re.compile(r"^[ -~]+$")
+
+
+class Pieces(ConstrainedInt):
+    """How many pieces, at least one."""
+
+    strict, ge, le = True, 1, INT32
+
+
+class PiecesOrNone(ConstrainedInt):
+    """How many pieces, or 0."""
+
+    strict, ge, le = True, 0, INT32
+
+
+class OrderNumber(ConstrainedInt):
+    """An order's number, or 0."""
+
+    strict, ge, le = True, 0, 2**53
+
+
+class Reference(ConstrainedStr):
+    """What the orderer calls an order."""
+
+    strict, max_length, regex = True, 200, re.compile(r"^[ -~]*$")
+
+
+class Moment(Number):
+    ge, le = 0, 4e9
+
+
+class Line(Body):
+    sku: Sku
+    quantity: Pieces
+
+
+class NewOrder(Body):
+    """An order; `due` in simulated time, 0 = none."""
+
+    reference: Reference = Reference()
+    lines: list[Line] = Field(min_items=1, max_items=100)
+    due: Moment = Field(0.0, description="[s], simulated time")
+    priority: UInt8 = UInt8(0)
+
+
+class Accepted(BaseModel):
+    order_id: int
+    message: str
+
+
+class OrderLine(BaseModel):
+    sku: str
+    quantity: int
+    picked: int
+
+
+class Order(BaseModel):
+    """Times are simulated seconds of the run in which it came; 0 = none, not yet."""
+
+    order_id: int
+    reference: str
+    state: State
+    station: str
+    priority: int
+    created: float
+    due: float
+    completed: float
+    lines: list[OrderLine]
+
+
+class Orders(BaseModel):
+    total: int
+    orders: list[Order]
+
+
+class Place(BaseModel):
+    item: str
+    shelf_id: int
+    sku: str
+    quantity: int
+    reserved: int
+    capacity: int
+
+
+class Stock(BaseModel):
+    total: int
+    pieces: int
+    places: list[Place]
+
+
+class Pick(BaseModel):
+    sku: str
+    quantity: int
+    item: str
+    order_id: int
+    reference: str
+    sequence: int = Field(
+        description="another one for each thing to be done, and what is left of it"
+    )
+
+
+class Station(BaseModel):
+    name: str
+    kind: str
+    open: bool
+    mode: Mode
+    shelf_id: int
+    inbound: list[int]
+    orders: list[int]
+    slots: int
+    picks: list[Pick]
+    pieces: int
+    busy_fraction: float
+    waiting: float = Field(description="for so long a person has been waited for [s]; 0: none is")
+
+
+class Stations(BaseModel):
+    stations: list[Station]
+
+
+class SetStation(Body):
+    open: StrictBool
+    mode: Mode = "AUTOMATIC"
+
+
+class Confirmation(Line):
+    """So many pieces were taken out, or a bundle of so many was put in."""
+
+
+class Short(Line):
+    """So many pieces are not there, or are damaged; those to be put in stay out."""
+
+    damaged: StrictBool = False
+
+
+class PickReport(Body):
+    """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
+    bin is empty; DAMAGED: so many are."""
+
+    order_id: OrderNumber = OrderNumber(0)
+    item: Sku
+    quantity: PiecesOrNone
+    outcome: PickOutcome = "DONE"
+
+
+class Reported(BaseModel):
+    message: str
+    quantity: int = Field(description="pieces taken, put in or written off")
+
+
+class Throughput(BaseModel):
+    """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
+    whole multiples of their length; the last one goes on."""
+
+    interval: float = Field(description="[s], simulated")
+    begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")
+    end: float = Field(description="up to which the last one goes so far [s]")
+    items_picked: list[int]
+    pieces_stored: list[int]
+    orders_completed: list[int]
+
+
+class Notices(BaseModel):
+    notices: list[str]
+
+
+class Heat(BaseModel):
+    """Where robots drive and wait, by cell, row after row from the smallest y on."""
+
+    seconds: float = Field(description="that it covers, an hour at most")
+    x: float = Field(description="[m] of the first cell's centre")
+    y: float
+    spacing: float = Field(description="[m] of the cells")
+    width: int = Field(description="cells in a row")
+    traffic: list[float] = Field(description="robots that came into the cell")
+    waiting: list[float] = Field(description="[s] that robots waited there for their way")

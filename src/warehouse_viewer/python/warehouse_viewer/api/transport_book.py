@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How far each transport is, by what the coordinator has told since this began."""
+
+import threading
+from typing import Any
+
+from warehouse_client.message_names import TRANSPORT
+from warehouse_msgs.msg import TransportEvent
+
+KEPT = 2000
+
+
+class TransportBook:
+    """Transports as dicts by their number. Any thread may add, any may read."""
+
+    def __init__(self, kept: int = KEPT) -> None:
+        self._lock, self._kept = threading.Lock(), kept
+        self._transports: dict[int, dict[str, Any]] = {}
+
+    def add(self, event: TransportEvent) -> dict[str, Any]:
+        """Adds what an event says of its transport; returns the transport's entry."""
+        number, entry = event.transport_id, entry_of(event)
+        with self._lock:
+            # A coordinator counts from 1; after a restart it has no earlier transports.
+            if event.kind == TransportEvent.RECEIVED and number in self._transports:
+                self._transports.clear()
+            self._transports[number] = entry
+            while len(self._transports) > self._kept:
+                del self._transports[min(self._transports)]
+        return entry
+
+    def get(self, number: int) -> dict[str, Any] | None:
+        """Returns the transport of that number, or None."""
+        with self._lock:
+            return self._transports.get(number)
+
+    def newest_first(self, state: str | None = None) -> list[dict[str, Any]]:
+        """Returns all transports, or those in one state: the name of a kind of TransportEvent."""
+        with self._lock:
+            found = [t for t in self._transports.values() if state in (None, t["state"])]
+        return sorted(found, key=lambda transport: -transport["id"])
+
+
+def entry_of(event: TransportEvent) -> dict[str, Any]:
+    """Returns what the API says of the transport that an event is about."""
+    return {
+        "id": event.transport_id,
+        "state": TRANSPORT[event.kind],
+        "since": round(event.header.stamp.to_sec(), 3),
+        "robot": f"kiva{event.kiva_id}" if event.kiva_id else "",
+        "storage_unit": f"storage_unit{event.shelf_id}",
+        "station": event.station,
+        "text": event.text,
+    }

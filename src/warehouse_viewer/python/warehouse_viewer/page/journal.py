@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The last events, numbered, for readers that come late or read slowly."""
+
+import csv
+import io
+import re
+import threading
+from collections import deque
+from typing import Any
+
+KEPT = 2000
+FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
+NUMBER = re.compile(r"[+-]?\d+(\.\d*)?\Z")
+COLUMNS = ("id", "time", "kind", "command", "model", "other", "text")
+
+
+class Journal:
+    """Events as dicts of COLUMNS, with a running `id`. Any thread may add, any may read."""
+
+    def __init__(self, kept: int = KEPT) -> None:
+        self._lock, self.last_id = threading.Lock(), 0
+        self._events: deque[dict[str, Any]] = deque(maxlen=kept)
+
+    def add(self, event: dict[str, Any]) -> dict[str, Any]:
+        """Adds an event with all COLUMNS but its id; returns its entry."""
+        with self._lock:
+            self.last_id += 1
+            entry = event | {"id": self.last_id}
+            self._events.append(entry)
+            return entry
+
+    def since(
+        self, number: int, model: str | None = None, limit: int = KEPT
+    ) -> list[dict[str, Any]]:
+        """Returns the newest `limit` of the entries with an id above `number`, oldest first.
+
+        With `model` only those that name it.
+        """
+        if number >= self.last_id:
+            return []
+        with self._lock:
+            found = [
+                e
+                for e in self._events
+                if e["id"] > number and (model is None or model in (e["model"], e["other"]))
+            ]
+        return found[-limit:]
+
+    def csv(self) -> str:
+        """Returns all entries, oldest first, for a spreadsheet."""
+        text = io.StringIO()
+        table = csv.DictWriter(text, COLUMNS)
+        table.writeheader()
+        table.writerows({name: _cell(e[name]) for name in COLUMNS} for e in self.since(0))
+        return text.getvalue()
+
+
+def _cell(value):
+    """What no spreadsheet takes for a formula: names and texts are of anybody (OWASP, CSV
+    injection). Numbers stay numbers."""
+    is_formula = isinstance(value, str) and value.startswith(FORMULA) and not NUMBER.match(value)
+    return f"'{value}" if is_formula else value

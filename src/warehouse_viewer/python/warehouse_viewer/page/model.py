@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the page shows, made from the newest messages: a scene that seldom changes, and tables."""
+
+import json
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from warehouse_layout import floor_markings, painted, poses
+from warehouse_viewer.page import protocol
+from warehouse_viewer.page.statuses import activity
+from warehouse_viewer.page.table import Table
+
+TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
+STANDS = 1e-3  # speeds below this are none [m/s, rad/s]
+
+
+class Model:
+    """Tables by tick. One thread at a time."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self.tick, self.stamp, self.revision = 0, 0.0, 0
+        self.changed_at = 0  # the last tick at which there was something to show
+        self.robots, self.units = Table(protocol.ROBOT), Table(protocol.BODY)
+        self.loose, self.scenery = Table(protocol.BODY), Table(protocol.BODY)
+        self._objects: Any = None  # the newest messages
+        self._states: Any = None
+        self._scenery: Any = None
+        self._fleet: Any = None
+        self._kiva_id = np.zeros(0, int)
+        self._robot_of: dict[int, int] = {}
+        self._solid = np.zeros(0, int)  # indices of models in a Scenery that are not paint
+        self._scene_text: str | None = None
+        self._told, self._told_at = 0.0, 0.0  # the time in the last update, and when [s, wall]
+
+    # --- messages in
+    def is_same_scene(self, objects: Any, scenery: Any) -> bool:
+        """Whether these messages name the same models as those of the last update()."""
+        return objects is self._objects and _look_alike(scenery, self._scenery)
+
+    def update(self, objects: Any, states: Any, fleet: Any, scenery: Any) -> bool:
+        """Takes over the newest messages. `objects` and `states` must be of the same revision.
+
+        Returns whether a page has something new to show.
+        """
+        self.tick += 1
+        scene = self._take_scene(objects, fleet, scenery)
+        moved = self._take_fleet(fleet) if fleet is not self._fleet or scene else False
+        self._fleet = fleet
+        if states is not self._states or moved or scene:
+            moved |= self._take_units(states)
+            self._states = states
+        if scenery is not self._scenery or scene:
+            moved |= self.scenery.set(self.tick, pose=poses.rows(scenery.pose)[self._solid])
+            self._scenery = scenery
+        # Time alone is worth an update too, now and then: the page shows it.
+        late = self._clock() - self._told_at >= TIME_GAP
+        if scene or moved or (late and self.stamp != self._told):
+            self.changed_at = self.tick
+            self._told, self._told_at = self.stamp, self._clock()
+        return self.changed_at == self.tick
+
+    def _take_scene(self, objects, fleet, scenery):
+        """True if things came or went, so that indices mean others."""
+        ids = np.array(fleet.kiva_id, int)
+        if self.is_same_scene(objects, scenery) and np.array_equal(ids, self._kiva_id):
+            return False
+        self.revision += 1
+        self._objects, self._kiva_id = objects, ids
+        self._robot_of = {number: i for i, number in enumerate(ids.tolist())}
+        self.robots.resize(len(ids), self.tick)
+        self.units.resize(len(objects.storage_units), self.tick)
+        self.loose.resize(len(objects.items), self.tick)
+        painted = [floor_markings.is_name(name) for name in scenery.models]
+        self._solid = np.flatnonzero(np.logical_not(painted))
+        self.scenery.resize(len(self._solid), self.tick)
+        self._scenery, self._scene_text = scenery, None
+        return True
+
+    def _take_fleet(self, fleet):
+        self.stamp = fleet.stamp.to_sec()
+        return self.robots.set(
+            self.tick,
+            x=fleet.x,
+            y=fleet.y,
+            yaw=fleet.yaw,
+            shelf=fleet.shelf_id,
+            status=activity(fleet),
+            state=np.frombuffer(bytes(fleet.state), np.uint8),
+            charge=np.rint(100 * np.asarray(fleet.charge)),
+            failures=np.frombuffer(bytes(fleet.failures), np.uint8),
+            load_limit=_limits(fleet),
+        )
+
+    def _take_units(self, states):
+        self.stamp = max(self.stamp, states.header.stamp.to_sec())
+        pose, carrier = poses.rows(states.pose).copy(), np.array(states.carrier, int)
+        robot = np.array([self._robot_of.get(n, -1) for n in carrier.tolist()], int)
+        carrier[robot < 0] = 0
+        carried = np.flatnonzero(carrier)
+        if len(carried):
+            pose[carried] = self._on_carriers(carried, robot[carried], pose[carried])
+        moved = self.units.set(self.tick, pose=pose, carrier=carrier)
+        loose = self.loose.rows["pose"].copy()
+        loose[list(states.loose_item)] = poses.rows(states.loose_pose)
+        return self.loose.set(self.tick, pose=loose) or moved
+
+    def _on_carriers(self, units, robots, pose):
+        """Poses of carried units on their robots; they change only while the robot stands.
+
+        So a unit costs nothing to send while it is driven about, and never lags behind its robot.
+        """
+        x, y, yaw = (np.asarray(c)[robots] for c in (self._fleet.x, self._fleet.y, self._fleet.yaw))
+        inner = poses.compose(poses.inverse(_planar(x, y, yaw)), pose)
+        drives = ~self._stands(robots)
+        known = self.units.rows["carrier"][units] == self._kiva_id[robots]
+        inner[drives & ~known] = _centred(inner[drives & ~known])
+        inner[drives & known] = self.units.rows["pose"][units[drives & known]]
+        return inner
+
+    def _stands(self, robots):
+        speeds = np.abs([self._fleet.vx, self._fleet.vy, self._fleet.yaw_rate])
+        return speeds[:, robots].max(axis=0, initial=0) < STANDS
+
+    # --- out to pages
+    def encode_update(self, since: int) -> bytes:
+        """Returns the message for a page that has shown the tick `since`; see protocol.py."""
+        tables = (self.robots, self.units, self.loose, self.scenery)
+        rows = [table.since(since) for table in tables]
+        return protocol.update(self.tick, self.stamp, self.revision, rows)
+
+    def scene_text(self) -> str:
+        """Returns the scene as JSON text, which is made once."""
+        if self._scene_text is None:
+            self._scene_text = json.dumps(self.scene(), separators=(",", ":"))
+        return self._scene_text
+
+    def scene(self) -> dict[str, Any]:
+        """Returns what the tables' indices mean, and the looks. Needs an update() before."""
+        objects, scenery = self._objects, self._scenery
+        return {
+            "type": "scene",
+            "protocol": protocol.VERSION,
+            "revision": self.revision,
+            "robots": self._kiva_id.tolist(),
+            "units": list(objects.storage_units),
+            "items": list(objects.items),
+            "item_unit": list(map(int, objects.item_unit)),
+            "item_pose": _short(objects.item_pose),
+            "fallen_item": list(map(int, objects.fallen_item)),
+            "fallen_from": list(map(int, objects.fallen_from)),
+            "floor": list(map(float, scenery.floor)),
+            "grid": scenery.grid_spacing,
+            **_paint(scenery),
+            "looks": self._looks(),
+            "robot_look": scenery.kiva_look,
+            "unit_look": scenery.storage_unit_look,
+            "item_look": scenery.item_look,
+            "scenery": [scenery.models[i] for i in self._solid],
+            "scenery_look": [int(scenery.model_look[i]) for i in self._solid],
+        }
+
+    def _looks(self):
+        """Of all but paint, which the page draws as it likes."""
+        scenery = self._scenery
+        solid = {scenery.model_look[i] for i in self._solid}
+        paint = {*scenery.model_look} - solid
+        return [[] if i in paint else _look(look) for i, look in enumerate(scenery.looks)]
+
+
+def _limits(fleet):
+    """What robots keep below for their loads' sake [m/s²]; 0 where there is none."""
+    limits = np.asarray(fleet.load_limit, np.float32)
+    return np.where(np.isfinite(limits), limits, 0) if len(limits) else np.zeros(len(fleet.kiva_id))
+
+
+def _paint(scenery):
+    """Rectangles on the floor by kind, x y and full extents of each in a row [m]; stations."""
+    marks = painted.marks(scenery)
+    rectangles = {}
+    for m in marks:
+        rectangles.setdefault(m.kind, []).extend(_short([m.x, m.y, m.size_x, m.size_y]))
+    return {
+        "paint": rectangles,
+        "stations": [{"name": m.station, "x": m.x, "y": m.y} for m in painted.served(marks)],
+    }
+
+
+def _look_alike(a, b):
+    """Whether two sceneries differ in no more than poses."""
+    if a is b or a is None or b is None:
+        return a is b
+    return a.models == b.models and a.model_look == b.model_look and a.looks == b.looks
+
+
+def _planar(x, y, yaw):
+    """(n, 7) of robots on the floor."""
+    out = np.zeros((len(x), 7))
+    out[:, 0], out[:, 1] = x, y
+    out[:, 5], out[:, 6] = np.sin(np.asarray(yaw) / 2), np.cos(np.asarray(yaw) / 2)
+    return out
+
+
+def _centred(inner):
+    """Of a unit first seen under way, whose pose and its robot's may be of different moments.
+
+    It sits over the robot's centre, turned by whole quarters.
+    """
+    quarter = np.round(poses.yaw(inner) / (np.pi / 2)) * (np.pi / 2)
+    out = _planar(np.zeros(len(inner)), np.zeros(len(inner)), quarter)
+    out[:, 2] = inner[:, 2]
+    return out
+
+
+def _short(numbers):
+    """Rounded to 0.1 mm: half the bytes."""
+    return np.round(np.asarray(numbers, float), 4).tolist()
+
+
+def _look(look):
+    """A Look as a list of links, each with its shapes."""
+    links = [
+        {"name": name, "pose": pose, "shapes": []}
+        for name, pose in zip(look.links, poses.rows(_short(look.link_pose)).tolist())
+    ]
+    shape_pose = poses.rows(_short(look.shape_pose)).tolist()
+    size = np.reshape(_short(look.shape_size), (-1, 3)).tolist()
+    colour = np.reshape(_short(look.shape_colour), (-1, 4)).tolist()
+    for i, link in enumerate(look.shape_link):
+        links[link]["shapes"].append(
+            {
+                "kind": bytes(look.shape_kind)[i],
+                "pose": shape_pose[i],
+                "size": size[i],
+                "colour": colour[i],
+            }
+        )
+    return links

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The coordinator as its services offer it: transports, and who commands a robot."""
+
+from typing import Any
+
+from warehouse_client.message_names import MODE, THEN
+from warehouse_msgs.srv import ReleaseTransport, SetRobotMode, Transport
+from warehouse_viewer.page.source import RefusedError
+from warehouse_viewer.ros.simulation import is_offered, request
+
+SERVICES = {
+    Transport: "/warehouse/transport",
+    ReleaseTransport: "/warehouse/release_transport",
+    SetRobotMode: "/warehouse/set_robot_mode",
+}
+NONE_RUNS = "no coordinator runs: start with coordinator:=true"
+_MODES = {name: number for number, name in MODE.items()}
+_THEN = {name: number for number, name in THEN.items()}
+
+
+class Coordination:
+    """One client of those services; calls block. `ros` is rospy.
+
+    What is asked of the coordinator raises RefusedError, AwayError.
+    """
+
+    def __init__(self, ros: Any) -> None:
+        self._ros = ros
+
+    def runs(self) -> bool:
+        """Returns whether a coordinator runs. Raises AwayError."""
+        return is_offered(self._ros, SERVICES[Transport])
+
+    def submit(
+        self,
+        storage_unit: int,
+        station: str,
+        x: float | None,
+        y: float | None,
+        then: str,
+        priority: int,
+    ) -> int:
+        """Submits a transport to a station or to the cell at (x, y) [m]; returns its number."""
+        answer = self._call(
+            Transport,
+            shelf_id=storage_unit,
+            station=station,
+            x=x or 0.0,
+            y=y or 0.0,
+            then=_THEN[then],
+            priority=priority,
+        )
+        if not answer.accepted:
+            raise RefusedError(answer.message)
+        return answer.transport_id
+
+    def release(self, transport: int) -> str:
+        """Releases a transport whose station is done; returns the coordinator's message."""
+        return self._done(self._call(ReleaseTransport, transport_id=transport))
+
+    def set_mode(self, robot: int, mode: str) -> str:
+        """Sets a robot's mode by its name; returns the coordinator's message."""
+        return self._done(self._call(SetRobotMode, kiva_id=robot, mode=_MODES[mode]))
+
+    def _call(self, kind, **fields):
+        if not self.runs():
+            raise RefusedError(NONE_RUNS)
+        return request(self._ros, SERVICES[kind], kind, fields)
+
+    def _done(self, answer):
+        if not answer.success:
+            raise RefusedError(answer.message)
+        return answer.message

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of the world, subscribed to only while a page or a request needs them."""
+
+import threading
+import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from rospy.numpy_msg import numpy_msg
+from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+
+from gazebo_msgs.msg import PerformanceMetrics
+from warehouse_msgs.msg import (
+    CoordinatorPaths,
+    CoordinatorState,
+    Event,
+    FleetPaths,
+    FleetState,
+    Scenery,
+    TransportEvent,
+    UnitStates,
+    WarehouseObjects,
+)
+from warehouse_viewer.ros.simulation import Standing
+
+TOPICS = {
+    "fleet": ("/warehouse/fleet", numpy_msg(FleetState)),
+    "objects": ("/warehouse/objects", WarehouseObjects),
+    "states": ("/warehouse/unit_states", numpy_msg(UnitStates)),
+    "scenery": ("/warehouse/scenery", Scenery),
+    "coordinator": ("/warehouse/coordinator", CoordinatorState),
+    "performance": ("/gazebo/performance_metrics", PerformanceMetrics),
+}
+SILENT = 5.0  # after which a coordinator counts as gone [s, simulated and wall]
+LINGER = 10.0  # for which subscriptions outlast their last use [s, wall]
+
+
+class Feed:
+    """The newest message of each topic, as page.source.Feed wants it.
+
+    `ros` is rospy. `on_event(Event)`, `on_transport(TransportEvent)` and `on_message()` are called
+    in ROS's threads.
+    """
+
+    def __init__(
+        self,
+        ros: Any,
+        on_event: Callable[[Event], None],
+        on_transport: Callable[[TransportEvent], None],
+        on_message: Callable[[], None],
+    ) -> None:
+        self._ros, self._on_message, self._lock = ros, on_message, threading.Lock()
+        self._messages: dict[str, Any] = {}
+        self._subscribers: dict[str, Any] = {}
+        self._extras: dict[str, Any] = {}
+        self._used, self._coordinated = 0.0, 0.0
+        ros.Subscriber("/warehouse/events", Event, on_event, queue_size=10000)
+        topic = "/warehouse/transports"
+        ros.Subscriber(topic, TransportEvent, on_transport, queue_size=10000)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._messages.get(name)
+
+    @property
+    def objects_and_states(self) -> tuple[WarehouseObjects, UnitStates] | None:
+        """(WarehouseObjects, UnitStates) of the same revision; None if there are none yet."""
+        objects, states = self["objects"], self["states"]
+        fit = objects and states and objects.revision == states.revision
+        return (objects, states) if fit else None
+
+    @property
+    def coordinator(self) -> CoordinatorState | None:
+        """The newest CoordinatorState; None if no coordinator runs.
+
+        A killed coordinator does not say goodbye: it is silent while time goes on. One that refuses
+        the floor is silent too after it has said so once, and coordinates no robot.
+        """
+        state, fleet = self["coordinator"], self["fleet"]
+        subscriber = self._subscribers.get("coordinator")
+        if not (state and fleet and subscriber and subscriber.get_num_connections()):
+            return None
+        behind = (fleet.stamp - state.header.stamp).to_sec()
+        is_silent = min(behind, time.monotonic() - self._coordinated) > SILENT
+        return None if is_silent and (state.automatic or not state.alarms) else state
+
+    def subscribe(self, names: Iterable[str] = tuple(TOPICS)) -> None:
+        """Subscribes to these TOPICS, and keeps all subscriptions for another LINGER seconds."""
+        with self._lock:
+            self._used = time.monotonic()
+            for name in set(names) - self._subscribers.keys():
+                self._subscribers[name] = self._subscribe(name, *TOPICS[name])
+
+    def resubscribe(self, name: str) -> None:
+        """Forgets a topic's message and subscribes again, which brings a message of now."""
+        with self._lock:
+            if name in self._subscribers:
+                self._subscribers.pop(name).unregister()
+                self._messages.pop(name, None)
+                self._subscribers[name] = self._subscribe(name, *TOPICS[name])
+
+    def unsubscribe_if_idle(self) -> bool:
+        """Drops subscriptions and messages LINGER seconds after their last use; True if it did."""
+        with self._lock:
+            if not self._subscribers or time.monotonic() - self._used < LINGER:
+                return False
+            for subscriber in self._subscribers.values():
+                subscriber.unregister()
+            self._subscribers.clear()
+            self._messages.clear()
+            return True
+
+    @property
+    def has_positions(self) -> bool:
+        """Whether it is known where every robot, storage unit and item is."""
+        return bool(self.objects_and_states and self["fleet"])
+
+    def reflects(
+        self, standing: Standing, objects: WarehouseObjects | None, fleet: FleetState | None
+    ) -> bool:
+        """Whether the newest messages describe the models of `standing`.
+
+        `objects` and `fleet` are the messages from before a change; they never count as newest.
+        """
+        if not self.has_positions:
+            return False
+        told = _names(self["objects"])
+        robots = {f"kiva{n}" for n in self["fleet"].kiva_id}
+        if told != standing.names or robots != {n for n in told if n.startswith("kiva")}:
+            return False
+        is_new = self["objects"] is not objects or not told
+        stamp = self["fleet"].stamp.to_sec()
+        came_later = standing.is_paused or stamp >= standing.time
+        return is_new and (not robots or (self["fleet"] is not fleet and came_later))
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether everything is there that a picture needs."""
+        return bool(self.has_positions and self["scenery"])
+
+    def subscribe_extras(self, paths: bool, ways: bool, scans: Sequence[int]) -> None:
+        """Subscribes to paths, to ways, and to the scans of exactly these robots (ids)."""
+        wanted = {f"scan{n}": (f"/kiva{n}/chassis/laser/scan", LaserScan) for n in scans}
+        if scans:
+            wanted["frames"] = ("/tf_static", TFMessage)
+        if paths:
+            wanted["paths"] = ("/warehouse/paths", FleetPaths)
+        if ways:
+            wanted["ways"] = ("/warehouse/coordinator_paths", numpy_msg(CoordinatorPaths))
+        with self._lock:
+            for name in self._extras.keys() - wanted.keys():
+                self._extras.pop(name).unregister()
+                self._messages.pop(name, None)
+            for name in wanted.keys() - self._extras.keys():
+                self._extras[name] = self._subscribe(name, *wanted[name])
+
+    def _subscribe(self, name, topic, kind):
+        return self._ros.Subscriber(topic, kind, self._keep, callback_args=name, queue_size=1)
+
+    def _keep(self, message, name):
+        self._messages[name] = message
+        if name == "coordinator":
+            self._coordinated = time.monotonic()
+        self._on_message()
+
+
+def _names(objects):
+    """Returns the names of every model in a WarehouseObjects."""
+    robots = (f"kiva{n}" for n in objects.kiva_id)
+    return {*robots, *objects.storage_units, *objects.items, *objects.belts}

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a shift of operations tells, heard all the time: it is little."""
+
+from typing import Any
+
+from warehouse_msgs.msg import (
+    HeatMap,
+    Kpis,
+    Notices,
+    OrderStatuses,
+    StationStates,
+    StockPlaces,
+    Throughput,
+)
+
+WHOLE = {
+    "stations": StationStates,
+    "kpis": Kpis,
+    "throughput": Throughput,
+    "heat": HeatMap,
+    "notices": Notices,
+}
+
+
+class ShiftFeed:
+    """The newest message of what is told as a whole, None where no shift runs; all that changes
+    goes into a ChangeBook. `ros` is rospy."""
+
+    def __init__(self, ros: Any, book: Any) -> None:
+        self._book = book
+        self._messages: dict[str, Any] = {}
+        self._seq: dict[str, int] = {}
+        self._subscribers = {
+            name: ros.Subscriber(f"/warehouse/{name}", kind, self._keep, name, queue_size=1)
+            for name, kind in WHOLE.items()
+        }
+        for topic, kind, take in (
+            ("/warehouse/order_changes", OrderStatuses, self._take_orders),
+            ("/warehouse/stock_changes", StockPlaces, self._take_places),
+        ):
+            ros.Subscriber(topic, kind, take, queue_size=10000)
+
+    @property
+    def runs(self) -> bool:
+        """Whether a shift is running."""
+        return self._subscribers["stations"].get_num_connections() > 0
+
+    def __getitem__(self, name: str) -> Any:
+        is_told = self.runs or name == "notices"  # such as why there is no shift
+        return self._messages.get(name) if is_told else None
+
+    def _keep(self, message, name):
+        self._messages[name] = message
+        self._book.note(name, name, message)
+
+    def _take_orders(self, message):
+        self._count("orders", message)
+        for one in message.orders:
+            self._book.note("orders", one.order_id, one)
+
+    def _take_places(self, message):
+        self._count("stock", message)
+        for one in message.places:
+            self._book.note("stock", one.item, one)
+
+    def _count(self, topic, message):
+        """Notes where a message was missed, or another shift has begun."""
+        last, self._seq[topic] = self._seq.get(topic), message.header.seq
+        if last is not None and message.header.seq != last + 1:
+            self._book.miss(topic)

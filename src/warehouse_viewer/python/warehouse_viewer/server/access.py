@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Who may come in: token, origin, size and rate, before any of the application is reached."""
+
+import hmac
+import ipaddress
+import json
+import time
+from collections.abc import Callable, Hashable, Sequence
+from http.cookies import CookieError, SimpleCookie
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+from warehouse_viewer.server import token_page
+
+MOST_BODY = 64 * 1024  # [bytes]
+COOKIE = "warehouse_token"
+CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
+HEADERS = [
+    (b"content-security-policy", CONTENT),
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+]
+
+
+def is_local(host: str) -> bool:
+    """Returns whether only this machine reaches a server that listens there."""
+    try:
+        return host == "localhost" or ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+class RateLimit:
+    """So many requests a second of each address, and as many at once as two seconds bring."""
+
+    MOST_ADDRESSES = 10000
+
+    def __init__(self, rate: float, clock: Callable[[], float] = time.monotonic) -> None:
+        self._rate, self._clock = rate, clock
+        self._left: dict[Hashable, tuple[float, float]] = {}
+
+    def allows(self, address: Hashable) -> bool:
+        """Counts a request; returns whether the address may send it."""
+        now = self._clock()
+        left, then = self._left.get(address, (2 * self._rate, now))
+        left = min(2 * self._rate, left + (now - then) * self._rate)
+        if len(self._left) > self.MOST_ADDRESSES:
+            self._left.clear()
+        self._left[address] = (max(0, left - 1), now)
+        return left >= 1
+
+
+class Refusal(Exception):  # noqa: N818 (an answer)
+    """An HTTP status and the reason."""
+
+    def __init__(
+        self, status: int, reason: str, headers: Sequence[tuple[bytes, bytes]] = ()
+    ) -> None:
+        super().__init__(reason)
+        self.status, self.headers = status, list(headers)
+
+
+class AccessControl:
+    """ASGI middleware. With a token everybody needs it; without, only this machine's names serve.
+
+    The latter keeps a foreign page from reaching the server under a name of its own that leads to
+    127.0.0.1. A browser gives the token once, in a form (token_page) or as ?token=…, and a cookie
+    from then on; programs send `Authorization: Bearer …`.
+    """
+
+    def __init__(self, app: Any, token: str = "", rate: float = 100) -> None:
+        self._app, self._token, self._limit = app, token, RateLimit(rate)
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        headers = {k.decode("latin-1"): v.decode("latin-1") for k, v in scope["headers"]}
+        try:
+            self._check(scope, headers)
+        except Refusal as refusal:
+            asks_person = refusal.status == 401 and token_page.wanted(scope, headers)
+            await (_ask(scope, send) if asks_person else _refuse(scope, send, refusal))
+            return
+        if scope["type"] == "websocket":
+            await self._app(scope, receive, send)
+        elif self._is_form(scope):
+            await self._take_form(scope, receive, send)
+        elif self._brings_token(scope):
+            await _keep_token(send, self._token)
+        else:
+            await _limited(self._app, scope, receive, send)
+
+    def _check(self, scope, headers):
+        address = scope["client"][0] if scope.get("client") else ""
+        if not self._limit.allows(address):
+            raise Refusal(429, "too many requests; slow down", [(b"retry-after", b"1")])
+        if int(headers.get("content-length", "0") or 0) > MOST_BODY:
+            raise Refusal(413, f"the body is larger than {MOST_BODY} bytes")
+        self._check_origin(headers)
+        if not self._is_form(scope):
+            self._check_token(scope, headers)
+
+    def _is_form(self, scope):
+        """Whether a person sends the token."""
+        posts = scope["type"] == "http" and scope["method"] == "POST"
+        return self._token and posts and scope["path"] == token_page.PATH
+
+    async def _take_form(self, scope, receive, send):
+        body, more = b"", True
+        while more and len(body) <= token_page.MOST_FORM:
+            message = await receive()
+            body, more = body + message.get("body", b""), message.get("more_body", False)
+        given, to = token_page.parse(body[: token_page.MOST_FORM])
+        if hmac.compare_digest(given.encode(), self._token.encode()):
+            await _keep_token(send, self._token, to)
+        else:
+            await _ask(scope, send, to, wrong=True)
+
+    def _check_origin(self, headers):
+        host = headers.get("host", "")
+        # Starlette's TrustedHostMiddleware knows no IPv6 addresses.
+        if not self._token and not is_local(_split(f"//{host}").hostname or ""):
+            raise Refusal(403, f"'{host}' is no name of this machine alone; that needs a token")
+        origin = headers.get("origin")
+        if origin is not None and _split(origin).netloc != host:
+            raise Refusal(403, f"the origin '{origin}' is foreign")
+
+    def _check_token(self, scope, headers):
+        if not self._token:
+            return
+        scheme, _, given = headers.get("authorization", "").partition(" ")
+        if scheme.lower() != "bearer":
+            given = _cookie(headers) or _query_token(scope)
+        if not hmac.compare_digest(given.encode(), self._token.encode()):
+            challenge = [(b"www-authenticate", b"Bearer")]
+            raise Refusal(401, "give the token: ?token=… or Authorization: Bearer …", challenge)
+
+    def _brings_token(self, scope):
+        """Whether a browser comes with the token in its address, where it should not stay."""
+        return self._token and scope["path"] == "/" and _query_token(scope)
+
+
+def _split(address):
+    """Its parts. Raises Refusal."""
+    try:
+        return urlsplit(address)
+    except ValueError as error:
+        raise Refusal(400, f"'{address}' is no address: {error}") from error
+
+
+def _query_token(scope):
+    return parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+
+
+def _cookie(headers):
+    try:
+        morsel = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return morsel.value if morsel else ""
+
+
+async def _refuse(scope, send, refusal):
+    if scope["type"] == "websocket":
+        await send({"type": "websocket.close", "code": 1008})
+        return
+    body = json.dumps({"detail": str(refusal)}).encode()
+    headers = [(b"content-type", b"application/json"), *refusal.headers, *HEADERS]
+    await send({"type": "http.response.start", "status": refusal.status, "headers": headers})
+    await send({"type": "http.response.body", "body": body})
+
+
+async def _ask(scope, send, to=None, wrong=False):
+    """The page that asks for the token, and leads to what was asked for."""
+    own = {
+        b"content-security-policy": token_page.CONTENT,
+        b"referrer-policy": b"same-origin",  # else a browser posts the form as of no origin
+    }
+    headers = [(b"content-type", b"text/html; charset=utf-8"), (b"cache-control", b"no-store")]
+    headers += (dict(HEADERS) | own).items()
+    body = token_page.text(scope["path"] if to is None else to, wrong)
+    await send({"type": "http.response.start", "status": 401, "headers": headers})
+    await send({"type": "http.response.body", "body": b"" if scope["method"] == "HEAD" else body})
+
+
+async def _keep_token(send, token, to="/"):
+    cookie = SimpleCookie({COOKIE: token})
+    cookie[COOKIE].update({"httponly": True, "samesite": "Strict", "path": "/"})
+    headers = [(b"location", to.encode()), (b"set-cookie", cookie[COOKIE].OutputString().encode())]
+    await send({"type": "http.response.start", "status": 303, "headers": headers})
+    await send({"type": "http.response.body", "body": b""})
+
+
+async def _limited(app, scope, receive, send):
+    """The application, with a body of bounded size whatever its header claims, and our headers."""
+    size = 0
+
+    async def bounded():
+        nonlocal size
+        message = await receive()
+        size += len(message.get("body", b""))
+        if size > MOST_BODY:
+            return {"type": "http.disconnect"}
+        return message
+
+    async def headed(message):
+        if message["type"] == "http.response.start":
+            message = message | {"headers": [*message.get("headers", []), *HEADERS]}
+        await send(message)
+
+    await app(scope, bounded, headed)

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the package's own files lie, in the source tree, installed or in a wheel."""
+
+from pathlib import Path
+
+from warehouse_layout import files
+
+SHARE = files.share(__file__)
+WEB = SHARE / "web"  # the page
+RVIZ_CONFIG = SHARE / "rviz" / "warehouse.rviz"
+PACKED = SHARE / "three"  # in a wheel
+THREE = PACKED if PACKED.is_dir() else Path("/usr/share/javascript/three")  # of libjs-three

@@ -1,0 +1,395 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A fleet at work while things go wrong: no robot touches another, and all flows again afterwards.
+
+Robots and physics are the real ones; what goes wrong is drawn by seeds.
+"""
+
+import itertools
+import os
+from functools import partial
+
+import numpy as np
+import pytest
+from faults import BadConnection, Stops
+
+from kiva_plugin_cpp import World
+from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.random_transports import RandomTransports
+from warehouse_fleet.robot_table import Mode, reports_of
+from warehouse_fleet.transports import Kind
+from warehouse_layout.stations import PICK
+
+BOX = """<sdf version="1.6"><model name="box"><static>true</static><link name="link">
+  <collision name="body"><pose>0 0 0.3 0 0 0</pose>
+    <geometry><box><size>0.5 0.5 0.6</size></box></geometry></collision>
+</link></model></sdf>"""
+PILLAR = BOX.replace("0.5 0.5 0.6", "0.1 0.1 0.6")
+# Of pillars that leave no room on any grid point between them [m].
+AROUND = list(itertools.product((-0.5, 0.95), (-0.9, 0.0, 0.9)))
+WARM_UP = 60  # until units arrive as fast as they are taken [s]
+WINDOW = 240  # over which deliveries are counted [s]
+AS_BEFORE = 0.8  # of the deliveries of a calm fleet: they vary so much by chance
+SEEDS = range(1, 1 + int(os.environ.get("FAULT_SEEDS", "1")))
+
+
+class Site:
+    """`medium` with twenty robots, all its stations busy."""
+
+    def __init__(self, seed=1, connection=lambda world, seed: world):
+        self.seed = seed
+        self.world = World.preset("medium", seed=seed)
+        self.begin(connection(self.world, seed))
+        self.run(WARM_UP)
+
+    def begin(self, world):
+        """With a driver that knows nothing yet."""
+        self.driver = FleetDriver(world, seed=self.seed)
+        self.traffic, self.transports = self.driver.traffic, self.driver.transports
+        self.plan = self.driver.plan
+        self._demand = RandomTransports(self.transports, self.seed, exchange=10)
+        self.events = []
+
+    def take_over(self):
+        """Another driver, that ends the paths it finds."""
+        self.driver.close()
+        self.begin(self.world)
+        while (found := self.traffic.inherited(reports_of(self.world.fleet))).any():
+            self.world.cancel(self.traffic.robots.kiva_ids[found])
+            self.run(0.5)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.driver.close()
+
+    def run(self, seconds, *happenings):
+        """Goes on for so long. Units delivered a minute."""
+        before, end = self.transports.totals.delivered, self.world.time + seconds
+        while self.world.time < end - 1e-9:
+            for happening in happenings:
+                happening.advance()
+            self.step()
+        return (self.transports.totals.delivered - before) * 60 / seconds
+
+    def step(self):
+        self.driver.step()
+        events = self.transports.take_events()
+        self.events += events
+        self._demand.advance(self.world.time, events)
+
+    def until(self, condition, patience=60):
+        """Goes on until that holds: what it says."""
+        end = self.world.time + patience
+        while not (met := condition()):
+            assert self.world.time < end, "waited in vain"
+            self.step()
+        return met
+
+    def has_seen(self, kind, shelf):
+        return any(e.kind == kind and e.shelf_id == shelf for e in self.events)
+
+    def at_speed(self, loaded):
+        """Robots that drive fast through a street."""
+        fleet = self.world.fleet
+        fast = np.hypot(fleet.vx, fleet.vy) > 1
+        aside = (self.plan.storage | self.plan.lane).ravel()
+        ready = fast & ((fleet.shelf_id != 0) == loaded) & ~aside[self.traffic.robots.cell]
+        return np.flatnonzero(ready).tolist()
+
+    def between_cells(self, loaded):
+        """Those of them that are far from the middle of a cell."""
+        fleet = self.world.fleet
+        x, y = self.plan.point_of(self.plan.cell_of(fleet.x, fleet.y))
+        off = np.hypot(fleet.x - x, fleet.y - y)
+        return [robot for robot in self.at_speed(loaded) if off[robot] > 0.2]
+
+    def traffic_says(self, what, robot):
+        return getattr(self.traffic.robots, what)[robot]
+
+    def name(self, robot):
+        return f"kiva{self.traffic.robots.kiva_ids[robot]}"
+
+
+@pytest.fixture(scope="module")
+def calm():
+    """What `medium` delivers a minute when nothing goes wrong."""
+    rates = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            rates.append(site.run(WINDOW))
+            assert site.driver.collisions == site.driver.blocked == site.traffic.watchdog.count == 0
+    return float(np.mean(rates))
+
+
+def test_robots_that_stop_delay_only_whom_they_must(calm):
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            stops = Stops(site.world, seed)
+            during.append(site.run(WINDOW, stops))
+            stops.end()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert not site.traffic.robots.mode.any()
+    told(calm, during, after)
+    assert np.mean(during) > 0.3 * calm
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def test_messages_late_and_lost(calm):
+    during = []
+    for seed in SEEDS:
+        with Site(seed, BadConnection) as site:
+            during.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert not site.traffic.robots.mode.any()
+            assert site.transports.totals.failed == 0
+    told(calm, during, [])
+    assert np.mean(during) > 0.6 * calm
+
+
+def test_all_at_once(calm):
+    """Stops over bad lines."""
+    during = []
+    for seed in SEEDS:
+        with Site(seed, BadConnection) as site:
+            stops = Stops(site.world, seed)
+            during.append(site.run(WINDOW, stops))
+            stops.end()
+            assert site.driver.collisions == 0
+            assert not site.traffic.robots.mode.any()
+    told(calm, during, [])
+    assert np.mean(during) > 0.25 * calm
+
+
+PUSHES = [(0.2, 0.0), (0.0, -0.3), (0.45, 0.0), (0.0, 0.6), (-0.6, 0.0)]  # [m]
+
+
+@pytest.mark.parametrize("is_loaded", [False, True])
+def test_a_robot_pushed_aside_finds_back(calm, is_loaded):
+    """One that drives, one that lifts, one that waits; to where no robot is."""
+    after = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            for dx, dy in PUSHES:
+                robot = site.until(partial(pushable, site, is_loaded, dx, dy))[0]
+                pose = site.world.pose(site.name(robot))
+                yaw = site.world.fleet.yaw[robot] + 0.3
+                site.world.set_pose(site.name(robot), pose[0] + dx, pose[1] + dy, pose[2], yaw)
+                site.run(30)
+                assert site.driver.collisions == 0, (dx, dy)
+                assert not site.traffic.robots.astray.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert len(site.driver.refusals) < 10 * len(PUSHES), site.driver.refusals[-5:]
+    told(calm, [], after)
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+@pytest.mark.parametrize(
+    ("dx", "yaw"), [(0.15, 0.1), (-0.45, 0.3)], ids=["towards the belt", "away from it"]
+)
+def test_a_robot_pushed_beneath_its_station_finds_back(dx, yaw):
+    """The belt leaves no room to turn beside it: the robot must drive out of there."""
+    with Site() as site:
+        robot = site.until(partial(served, site))
+        service = int(site.traffic.robots.cell[robot])
+        shelf = int(site.world.fleet.shelf_id[robot])
+        pose = site.world.pose(site.name(robot))
+        turned = site.world.fleet.yaw[robot] + yaw
+        site.world.set_pose(site.name(robot), pose[0] + dx, pose[1], pose[2], turned)
+        site.until(lambda: site.traffic.robots.astray[robot])
+        site.until(lambda: not site.traffic.robots.astray[robot], 40)
+        site.until(partial(site.has_seen, Kind.STORED, shelf), 180)
+        behind = site.transports.totals.delivered
+        site.until(lambda: site.transports.totals.delivered > behind + 5)
+        assert site.driver.collisions == 0
+        assert len(site.driver.refusals) < 10, site.driver.refusals
+        assert not site.traffic.robots.mode.any()
+        assert site.traffic.robots.cell[robot] != service
+
+
+def served(site):
+    """A robot that stands at the belt of a station, where it is served; or None."""
+    cells = {station.service_cell for station in site.plan.stations if station.kind == PICK}
+    at = np.flatnonzero(np.isin(site.traffic.robots.cell, list(cells)) & site.traffic.robots.busy)
+    return next((int(robot) for robot in at if site.world.fleet.shelf_id[robot]), None)
+
+
+def test_a_robot_that_finds_no_way_back_is_out_of_order(calm):
+    """Between things that leave it no room anywhere; the others drive around it."""
+    during = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(partial(pushable_off_its_point, site))[0]
+            x, y = site.world.pose(site.name(robot))[:2]
+            site.world.set_pose(site.name(robot), x + 0.3, y, 0, 0.3)
+            for number, (dx, dy) in enumerate(AROUND):
+                site.world.spawn(PILLAR, f"pillar{number}", (x + dx, y + dy, 0, 0))
+            site.until(partial(site.traffic_says, "lost", robot))
+            asked = refusals_of(site, robot)
+            assert site.traffic.robots.mode[robot] == Mode.OUT_OF_SERVICE
+            assert site.until(partial(failed, site)) == ["its robot is OUT_OF_SERVICE now"]
+            for number in range(len(AROUND)):
+                site.world.delete(f"pillar{number}")
+            during.append(site.run(WINDOW))
+            assert refusals_of(site, robot) <= asked + 1  # the last one was on its way
+            assert site.traffic.robots.lost[robot]
+            site.traffic.robots.mode[robot] = Mode.AUTOMATIC
+            site.until(partial(site.traffic_says, "astray", robot))
+            site.until(lambda: not site.traffic.robots.astray.any())
+            assert not site.traffic.robots.lost[robot]
+            assert site.driver.collisions == 0
+    told(calm, during, [])
+    assert np.mean(during) > 0.3 * calm
+
+
+def refusals_of(site, robot):
+    return sum(text.startswith(f"{site.name(robot)}:") for text in site.driver.refusals)
+
+
+def failed(site):
+    return [event.text for event in site.events if event.kind == Kind.FAILED]
+
+
+def pushable_off_its_point(site):
+    """Those with a load that stand on a grid point and can be pushed 0.3 m along x."""
+    fleet, found = site.world.fleet, pushable(site, True, 0.3, 0.0)
+    x, y = site.plan.point_of(site.traffic.robots.cell)
+    return [robot for robot in found if np.hypot(fleet.x - x, fleet.y - y)[robot] < 0.01]
+
+
+def pushable(site, is_loaded, dx, dy):
+    """Robots that can be pushed so without touching anybody."""
+    fleet, found = site.world.fleet, []
+    passable, reach = site.plan.passable.ravel(), 0.5
+    corners = reach * np.array([(-1, -1), (-1, 1), (1, -1), (1, 1)])
+    for robot in np.flatnonzero((fleet.shelf_id != 0) == is_loaded):
+        x, y = fleet.x[robot] + dx, fleet.y[robot] + dy
+        far = np.maximum(abs(fleet.x - x), abs(fleet.y - y))
+        far[robot] = np.inf
+        units = site.world.storage_units
+        free = units["kiva_id"] == 0
+        away = np.maximum(abs(units["x"] - x), abs(units["y"] - y))[free]
+        covered = site.plan.cell_of(*(np.array([x, y]) + corners).T)
+        is_street = all(
+            cell >= 0 and passable[cell] and not site.plan.storage.flat[cell]
+            for cell in (site.plan.cell_of(x, y), site.traffic.robots.cell[robot])
+        )
+        is_room = (covered >= 0).all() and passable[covered].all()
+        if is_street and is_room and far.min() > 1.3 and away.min() > (1.1 if is_loaded else 0.9):
+            found.append(int(robot))
+    return found
+
+
+def test_a_robot_dies_in_a_street_with_a_unit_on_it(calm):
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(lambda: site.at_speed(loaded=True))[0]
+            site.world.stop(int(site.traffic.robots.kiva_ids[robot]), True)
+            during.append(site.run(WINDOW))
+            assert site.traffic.robots.stalled[robot]
+            fails = [e for e in site.events if e.kind == Kind.FAILED]
+            assert [f.text for f in fails] == ["its robot does not move"]
+            site.world.stop(int(site.traffic.robots.kiva_ids[robot]), False)
+            site.run(60)
+            assert not site.traffic.robots.stalled.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+    told(calm, during, after)
+    assert np.mean(during) > 0.5 * calm
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def test_a_robot_is_deleted_and_leaves_its_unit_across_the_street(calm):
+    """The rest drive around the unit, until a person puts it straight; then it is taken away."""
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(lambda: site.between_cells(loaded=True))[0]
+            shelf = int(site.world.fleet.shelf_id[robot])
+            site.world.delete(site.name(robot))
+            during.append(site.run(WINDOW))
+            name = f"storage_unit{shelf}"
+            x, y = site.world.pose(name)[:2]
+            cell = site.plan.cell_of(x, y)
+            assert np.hypot(*np.subtract(site.plan.point_of(cell), (x, y))) > 0.05
+            assert cell in site.traffic.closed
+            site.events.clear()
+            site.world.set_pose(name, *site.plan.point_of(cell))
+            site.until(partial(site.has_seen, Kind.LIFTED, shelf))
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+    told(calm, during, after)
+    assert np.mean(during) > 0.5 * calm
+    assert np.mean(after) > AS_BEFORE * 19 / 20 * calm
+
+
+@pytest.mark.parametrize("what", ["box", "person"])
+def test_something_stands_in_a_street_for_a_minute(calm, what):
+    during, after = [], []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            robot = site.until(lambda: ahead_of(site))[0]
+            x, y = ahead(site, robot, 3)
+            if what == "box":
+                site.world.spawn(BOX, "thing", (x, y, 0, 0))
+            else:
+                site.world.spawn_model("person", "thing", x, y)
+            cell = site.plan.cell_of(x, y)
+            during.append(site.run(60))
+            assert not (site.traffic.robots.cell == cell).any()
+            site.world.delete("thing")
+            site.run(20)
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            assert site.traffic.robots.stalled.sum() == 0
+    told(calm, during, after)
+    assert np.mean(during) > 0.3 * calm
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def ahead(site, robot, cells):
+    fleet = site.world.fleet
+    column, row = round(np.cos(fleet.yaw[robot])), round(np.sin(fleet.yaw[robot]))
+    x, y = site.plan.point_of(site.traffic.robots.cell[robot])
+    return x + cells * column * site.plan.spacing, y + cells * row * site.plan.spacing
+
+
+def ahead_of(site):
+    """Robots at speed with a free street before them."""
+    aside = (site.plan.storage | site.plan.lane).ravel() | ~site.plan.passable.ravel()
+    found = []
+    for robot in site.at_speed(loaded=False):
+        x, y = ahead(site, robot, 3)
+        cell = site.plan.cell_of(x, y)
+        fleet = site.world.fleet
+        if cell >= 0 and not aside[cell] and np.hypot(fleet.x - x, fleet.y - y).min() > 1.5:
+            found.append(robot)
+    return found
+
+
+def test_another_driver_takes_over_what_is_under_way(calm):
+    """As a coordinator does that was killed: all it knows is what robots report."""
+    after = []
+    for seed in SEEDS:
+        with Site(seed) as site:
+            carried = site.world.fleet.shelf_id.copy()
+            assert (carried != 0).sum() >= 10
+            site.take_over()
+            site.run(WARM_UP)
+            assert not site.traffic.robots.mode.any()
+            after.append(site.run(WINDOW))
+            assert site.driver.collisions == 0
+            stored = {event.shelf_id for event in site.events if event.kind == Kind.STORED}
+            assert set(carried[carried != 0].tolist()) <= stored
+    told(calm, [], after)
+    assert np.mean(after) > AS_BEFORE * calm
+
+
+def told(calm, during, after):
+    """Prints figures: pytest -s."""
+    rates = [f"{np.mean(r):.1f}" if len(r) else "–" for r in (during, after)]
+    print(f"delivered a minute: calm {calm:.1f}, during {rates[0]}, after {rates[1]}")

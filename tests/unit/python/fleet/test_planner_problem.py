@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The competition's problems, run by the program, and their results looked at by themselves."""
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from paths import ROOT
+
+from warehouse_fleet import generator, problem
+
+PLAN = ROOT / "src/warehouse_fleet/nodes/plan"
+STEPS = {0: (0, 1), 1: (1, 0), 2: (0, -1), 3: (-1, 0)}  # east, south, west, north: row, column
+STEPS_MADE = 150
+
+
+@pytest.fixture(scope="module")
+def floor():
+    return generator.warehouse(blocks=(5, 4))
+
+
+@pytest.fixture
+def made(floor, tmp_path):
+    """Writes a problem: made(robots, …) is the path of its file."""
+
+    def make(robots, round_robin=True, tasks=None, seed=1):
+        rng = np.random.default_rng(seed)
+        agents = generator.starts(floor, robots, rng)
+        if tasks is None:
+            tasks = [[task] for task in generator.tasks(floor, 40 * robots, rng)]
+        return problem.write_problem(
+            tmp_path, "small", floor.walls(), agents, tasks, round_robin, reveal=1.5
+        )
+
+    return make
+
+
+def run(*args, **kwargs):
+    return subprocess.run(
+        [sys.executable, PLAN, *map(str, args)],
+        capture_output=True,
+        check=False,
+        text=True,
+        timeout=120,
+        **kwargs,
+    )
+
+
+def planned(path, *args):
+    out = path.with_name("result.json")
+    done = run(path, "--steps", STEPS_MADE, "--out", out, *args)
+    assert done.returncode == 0, done.stderr
+    result = json.loads(out.read_text())
+    assert f"numTaskFinished: {result['numTaskFinished']}\n" in done.stdout
+    assert "step [ms]: median " in done.stdout
+    return result
+
+
+def drive(source, result):
+    """Drives actualPaths and looks at each tick; the places of all robots by tick."""
+    passable = source.passable
+    at = [tuple(place[:2]) for place in result["start"]]
+    assert [row * passable.shape[1] + column for row, column in at] == source.agents.tolist()
+    heading, history = [0] * len(at), [at]
+    paths = [path.split(",") for path in result["actualPaths"]]
+    assert {len(path) for path in paths} == {result["makespan"]}
+    for actions in zip(*paths):
+        then = []
+        for robot, action in enumerate(actions):
+            row, column = at[robot]
+            if action == "F":
+                row, column = row + STEPS[heading[robot]][0], column + STEPS[heading[robot]][1]
+                assert 0 <= row < passable.shape[0] and 0 <= column < passable.shape[1]
+                assert passable[row, column], f"robot {robot} in a wall"
+            heading[robot] = (heading[robot] + {"R": 1, "C": 3}.get(action, 0)) % 4
+            then.append((row, column))
+        assert len(set(then)) == len(then), "two in a cell"
+        moved = {(one, other) for one, other in zip(at, then) if one != other}
+        assert not moved & {(other, one) for one, other in moved}, "a swap"
+        at = then
+        history.append(at)
+    return history
+
+
+def count(source, history):
+    """Tasks finished when task k belongs to robot k mod robots."""
+    robots, finished = len(source.agents), 0
+    for robot in range(robots):
+        task, errand = robot, 0
+        for at in history[1:]:
+            if task >= len(source.tasks):
+                break
+            goal = divmod(source.tasks[task][errand], source.passable.shape[1])
+            if at[robot] != goal:
+                continue
+            errand += 1
+            if errand == len(source.tasks[task]):
+                task, errand, finished = task + robots, 0, finished + 1
+    return finished
+
+
+@pytest.mark.parametrize("robots,seed", [(10, 1), (60, 2), (60, 3), (100, 4)])
+def test_round_robin(made, robots, seed):
+    path = made(robots, seed=seed)
+    source, result = problem.read(path), planned(path, "--attempts", 20)
+    assert count(source, drive(source, result)) == result["numTaskFinished"] > robots * 2
+
+
+def test_following_forbidden(made):
+    path = made(40)
+    source, result = problem.read(path), planned(path, "--no-following")
+    history = drive(source, result)
+    assert count(source, history) == result["numTaskFinished"] > 40
+    for at, then in zip(history, history[1:]):
+        before = {place: robot for robot, place in enumerate(at)}
+        assert all(before.get(place, robot) == robot for robot, place in enumerate(then))
+
+
+def test_planner_chooses(made, floor):
+    rng = np.random.default_rng(8)
+    pairs = generator.tasks(floor, 1000, rng).reshape(-1, 2).tolist()
+    path = made(30, round_robin=False, tasks=pairs)
+    source, result = problem.read(path), planned(path)
+    history = drive(source, result)
+    done = 0
+    for tick, robot, task, errand in result["events"]:
+        goal = source.tasks[task][errand - 1]
+        assert history[tick][robot] == divmod(goal, source.passable.shape[1])
+        done += errand == len(source.tasks[task])
+    assert done == result["numTaskFinished"] > 30
+    assert len({task for _, _, task, errand in result["events"] if errand == 2}) == done
+
+
+def test_same_seed_same_plan(made):
+    path = made(50)
+    first, second = planned(path, "--attempts", 60), planned(path, "--attempts", 60)
+    assert first["actualPaths"] == second["actualPaths"]
+
+
+def test_round_trip(made):
+    path = made(12)
+    one = problem.read(path)
+    again = problem.read(
+        problem.write_problem(
+            path.parent / "again", "copy", one.passable, one.agents, one.tasks, one.round_robin
+        )
+    )
+    assert (again.passable == one.passable).all() and (again.agents == one.agents).all()
+    assert again.tasks == one.tasks and again.round_robin
+
+
+def test_comments_and_letters_of_the_competition(made):
+    path = made(3)
+    map_file = path.with_suffix(".map")
+    map_file.write_text(map_file.read_text().replace(".", "S", 3).replace(".", "E", 1))
+    agents = path.with_suffix(".agents")
+    agents.write_text("# version for LoRR 2024\n" + agents.read_text())
+    assert len(problem.read(path).agents) == 3
+
+
+@pytest.mark.parametrize(
+    "ending,change,expected",
+    [
+        (".json", lambda text: text[:-5], "small.json:7: Unterminated string"),
+        (".json", lambda text: text.replace("mapFile", "map"), "small.json: there is no 'mapFile'"),
+        (".json", lambda text: text.replace('"teamSize": 5', '"teamSize": 9'),
+         "small.json: teamSize is 9; 1 to 5, the robots of"),
+        (".json", lambda text: text.replace("roundrobin", "random"),
+         "taskAssignmentStrategy is 'random'; roundrobin or greedy was expected"),
+        (".json", lambda text: text.replace("small.tasks", "gone.tasks"),
+         "gone.tasks: No such file or directory"),
+        (".map", lambda text: text.replace("width", "breadth"), "small.map:3: a line 'width …'"),
+        (".map", lambda text: text.replace("@", "x", 1), "'x' in column"),
+        (".map", lambda text: text.replace("....", "...", 1), "small.map:5:"),
+        (".map", lambda text: text[:-60], "rows were expected"),
+        (".agents", lambda text: text.replace("\n", "\n-1\n", 1), "small.agents:2: '-1'"),
+        (".agents", lambda text: text.replace("\n", "\n99999\n", 1),
+         "small.agents:2: location 99999; 0 to"),
+        (".agents", lambda text: "2\n0\n0\n", "small.agents:3: location 0 has a robot already"),
+        (".agents", lambda text: "7\n0\n", "7 lines were announced, 1 are there"),
+        (".tasks", lambda text: text.replace("\n", "\nx\n", 1), "small.tasks:2: 'x'"),
+        (".tasks", lambda text: "", "small.tasks:1: the number of lines"),
+    ],
+)  # fmt: skip
+def test_bad_files(made, ending, change, expected):
+    path = made(5)
+    file = path.with_suffix(ending)
+    text = file.read_text()
+    file.write_text(change(text))
+    assert file.read_text() != text
+    with pytest.raises(problem.ProblemError) as error:
+        if ending == ".agents" and expected.endswith("already"):
+            path.write_text(path.read_text().replace('"teamSize": 5', '"teamSize": 2'))
+        problem.read(path)
+    assert expected in str(error.value)
+
+
+def test_the_program_says_what_is_wrong(made):
+    path = made(5)
+    path.with_suffix(".map").unlink()
+    done = run(path, "--steps", 5)
+    assert done.returncode == 1
+    assert done.stderr == f"plan: {path.with_suffix('.map')}: No such file or directory\n"
+    assert run("--help").returncode == 0
+    assert "a whole number from 1" in run(path, "--steps", 0).stderr
+
+
+def test_interrupted_it_writes_what_it_has(made):
+    path = made(60)
+    out = path.with_name("result.json")
+    command = [sys.executable, PLAN, path, "--steps", "1000000", "--step-ms", "1", "--out", out]
+    process = subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+    )
+    # It says nothing before its end: its own counter of what it did tells that it plans.
+    clock = Path(f"/proc/{process.pid}/stat")
+    while int(clock.read_text().split()[13]) < 150:
+        assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert "interrupted after" in errors and "Traceback" not in errors
+    assert len(json.loads(out.read_text())["start"]) == 60

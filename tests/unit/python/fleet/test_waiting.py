@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Why robots wait, in words for a person."""
+
+import numpy as np
+
+from warehouse_fleet.robot_table import NOWHERE, Mode, RobotTable
+from warehouse_fleet.transport_book import Step, Transport
+from warehouse_fleet.waiting import Waiting
+
+NOW = 1200.0  # [s]
+
+
+class Queue:
+    """The part of Traffic that Waiting asks. The first of four robots is at work, each other stands
+    behind the one before it, all for 20 minutes."""
+
+    def __init__(self):
+        self.time = NOW
+        self.robots = RobotTable(np.arange(1, 5))
+        self.robots.busy[0] = True
+
+    def ahead_of(self, robot):
+        return robot - 1 if robot else NOWHERE
+
+
+def served(robot, station):
+    return Transport(1, 7, station, 0, 0, 0, step=Step.WAITING, robot=robot)
+
+
+def test_a_queue_is_told_by_its_station():
+    told = Waiting(Queue(), [served(0, "pick1")]).long()
+    assert told == [
+        (1, "in the queue of pick1 behind kiva1"),
+        (2, "in the queue of pick1 behind kiva2"),
+        (3, "in the queue of pick1 behind kiva3"),
+    ]
+
+
+def test_a_station_by_hand_is_named_instead_of_its_queue():
+    waiting = Waiting(Queue(), [served(0, "pick1")], frozenset(["pick1"]))
+    assert waiting.long() == []
+    assert waiting.for_people() == ["pick1 waits for a person, 20 min"]
+
+
+def test_what_stands_in_the_way_is_told():
+    queue = Queue()
+    queue.robots.mode[0] = Mode.MANUAL
+    queue.robots.busy[0] = False
+    told = dict(Waiting(queue, []).long())
+    assert told[1] == "behind kiva1, which is MANUAL"
+    assert told[2] == "behind kiva2, in a row that kiva1 heads"
+    queue.robots.slowed_for_people[0] = True
+    assert dict(Waiting(queue, []).long())[0] == "for people on the floor"
+
+
+def test_each_robot_does_one_thing_and_one_that_is_gone_none():
+    queue = Queue()
+    queue.robots.mode[1], queue.robots.gone[2] = Mode.OUT_OF_SERVICE, True
+    doing = Waiting(queue, [served(0, "pick1")]).doing()
+    assert doing == {1: "waiting", 2: "out_of_service", 4: "idle"}

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files of the page: those that are there, and nothing else."""
+
+import gzip
+import tempfile
+from pathlib import Path
+
+import pytest
+from asgi import request
+from fastapi import FastAPI
+
+from warehouse_viewer.server.static_files import Files, FreshFiles
+
+
+@pytest.mark.parametrize("kind", [Files, FreshFiles])
+def test_serves_what_is_there(tmp_path, kind):
+    (tmp_path / "page.html").write_text("hello")
+    app = kind(directory=tmp_path)
+    assert request(app, "/page.html").body == b"hello"
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["/nothing", "/\0", "/" + "x" * 300, "/" + "x/" * 3000, "/../secret", "/page.html/x"],
+    ids=lambda path: repr(path[:12]),
+)
+def test_what_is_no_file_is_not_found(tmp_path, path):
+    (tmp_path / "secret").write_text("secret")
+    web = tmp_path / "web"
+    web.mkdir()
+    (web / "page.html").write_text("hello")
+    assert status_of(FreshFiles(directory=web), path) == 404
+
+
+def status_of(app, path):
+    """As FastAPI answers."""
+    outer = FastAPI()
+    outer.mount("/web", app)
+    return request(outer, f"/web{path}").status
+
+
+def test_a_text_travels_compressed_and_once():
+    with tempfile.TemporaryDirectory() as folder:
+        text = "const same = 'again';\n" * 1000
+        (Path(folder) / "page.js").write_text(text)
+        app = FreshFiles(directory=folder)
+        taken = {"accept-encoding": "br, gzip"}
+        packed = request(app, "/page.js", headers=taken)
+        assert gzip.decompress(packed.body).decode() == text
+        assert len(packed.body) < len(text) / 20
+        assert packed.headers["content-encoding"] == "gzip"
+        assert packed.headers["content-type"].startswith("text/javascript")
+        assert packed.headers["cache-control"] == "no-cache"
+        tag = packed.headers["etag"]
+        again = request(app, "/page.js", headers=taken | {"if-none-match": tag})
+        assert (again.status, again.body) == (304, b"")
+        (Path(folder) / "page.js").write_text(text + "// another\n")
+        assert request(app, "/page.js", headers=taken | {"if-none-match": tag}).status == 200
+        # Programs that take none get the file itself, and neither is taken for the other.
+        plain = request(app, "/page.js")
+        assert (
+            plain.body.decode() == text + "// another\n" and "content-encoding" not in plain.headers
+        )
+        assert plain.headers["vary"] == packed.headers["vary"] == "accept-encoding"
+
+
+def test_what_is_there_for_good_is_kept_by_a_browser(tmp_path):
+    (tmp_path / "page.bin").write_bytes(b"\0")
+    answer = request(Files(directory=tmp_path), "/page.bin", headers={"accept-encoding": "gzip"})
+    assert "max-age" in answer.headers["cache-control"]
+    assert "content-encoding" not in answer.headers
