@@ -44,7 +44,8 @@ class Search {
     if (name.empty() || name == "world" || name == "__root__" || name == "__model__")
       return Pose::Zero;
     const std::size_t colons = name.find("::");
-    const XmlElement& part = requiredPart(scope, name.substr(0, colons));
+    const std::string first_name = name.substr(0, colons);
+    const XmlElement& part = requiredPart(scope, first_name);
     const Pose first = around(part);
     if (colons == std::string::npos) return first;
     return first * frame(part, name.substr(colons + 2));

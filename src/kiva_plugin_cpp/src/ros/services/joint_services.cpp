@@ -70,7 +70,7 @@ std::string configure(kiva::World& world, const gazebo_msgs::SetJointProperties:
   read(ode.vel, &settings.motor_speed);
   world.setJoint(model, joint, settings);
   std::string ignored;
-  for (const auto& [name, values] :
+  for (const auto [name, values] :
        {std::make_pair("erp", &ode.erp), std::make_pair("cfm", &ode.cfm),
         std::make_pair("stop_erp", &ode.stop_erp), std::make_pair("stop_cfm", &ode.stop_cfm),
         std::make_pair("fudge_factor", &ode.fudge_factor)}) {
