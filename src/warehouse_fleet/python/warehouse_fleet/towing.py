@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from warehouse_fleet.failures import EMPTY
-from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transports import Transports
 
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transport_book import Step, Transport
 
 if TYPE_CHECKING:

@@ -4,8 +4,8 @@
 from collections import deque
 
 from warehouse_operations.inventory import Reason
-from warehouse_operations.orders import OrderEventKind
-from warehouse_operations.tasks import Answer, Outcome
+from warehouse_operations.message_enums import OrderEventKind, Outcome
+from warehouse_operations.tasks import Answer
 
 
 class ManualPicking:

@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from warehouse_operations import acceptance
-from warehouse_operations.orders import Backlog, Order, OrderEventKind, OrderState
+from warehouse_operations.message_enums import OrderEventKind, OrderState
+from warehouse_operations.orders import Backlog, Order
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift

@@ -3,12 +3,16 @@
 
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
+import { LiftStatus, RobotMode, Turn } from './message_enums.js';
 import { ACTIVITY, FAILURE, STATE } from './words.js';
 
-const LIFT = { drop: 0, carry: 1 };
+const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
-const MODE = { AUTOMATIC: 'the coordinator commands it', MANUAL: 'you command it; other robots drive around it',
-  OUT_OF_SERVICE: 'it takes no commands; other robots drive around it' };
+const MODE = {
+  [RobotMode.AUTOMATIC]: 'the coordinator commands it',
+  [RobotMode.MANUAL]: 'you command it; other robots drive around it',
+  [RobotMode.OUT_OF_SERVICE]: 'it takes no commands; other robots drive around it',
+};
 const WAITS = 'sent; time stands still: the robot starts when time goes on, even after a reset';
 
 export class Details {
@@ -20,8 +24,8 @@ export class Details {
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
-    on($('left'), 'click', () => this.turn(1));
-    on($('right'), 'click', () => this.turn(-1));
+    on($('left'), 'click', () => this.turn(Turn.COUNTERCLOCKWISE));
+    on($('right'), 'click', () => this.turn(Turn.CLOCKWISE));
     on($('carry'), 'click', () => this.lift('carry'));
     on($('drop'), 'click', () => this.lift('drop'));
     on($('fetch'), 'click', () => this.sendRobotHere());

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from warehouse_fleet.robot_table import NOWHERE, Mode, RobotTable
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.transport_book import Step, Transport
 from warehouse_fleet.waiting import Waiting
 

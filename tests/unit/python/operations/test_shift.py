@@ -20,9 +20,8 @@ from kiva_plugin_cpp import World
 from warehouse_operations import Operations, check, demand, queries, stored
 from warehouse_operations.database import DatabaseError, open_engine
 from warehouse_operations.inventory import Reason
-from warehouse_operations.orders import OrderEventKind, OrderState
+from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.returning import SiteError
-from warehouse_operations.stations import Mode
 
 PICK, REPLENISH = "pick1", "replenish3"
 
