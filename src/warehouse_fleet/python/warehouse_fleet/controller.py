@@ -164,7 +164,7 @@ class FleetController:
         if robot == NOWHERE:
             raise ValueError(f"there is no kiva{kiva_id}")
         if self.robots.gone[robot]:
-            raise ValueError(f"kiva{kiva_id} is gone")
+            raise ValueError(f"kiva{kiva_id} was removed from the world")
         return robot
 
     def tow(self, kiva_id: int) -> TowOrder:

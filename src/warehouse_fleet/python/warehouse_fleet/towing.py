@@ -30,7 +30,7 @@ def order(transports: Transports, kiva_id: int) -> TowOrder:
         raise ValueError(f"kiva{kiva_id} is not broken")
     cell = transports.nearest(int(robots.cell[robot]), _free_refuges(transports, robot))
     if cell == NOWHERE:
-        raise ValueError("there is no place for it")
+        raise ValueError(f"there is no free cell to tow kiva{kiva_id} to")
     x, y = transports.plan.point_of(cell)
     return TowOrder(kiva_id, float(x), float(y))
 

@@ -99,7 +99,7 @@ class Waiting:
                 return "for people on the floor"
             if self._robots.broken[robot]:
                 return "until it is repaired"
-            return "until its way is free"
+            return "until its route is free"
         behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
         if station:
             return f"in the queue of {station} {behind}"
@@ -110,7 +110,7 @@ class Waiting:
         return (
             behind
             if last == ahead
-            else f"{behind}, in a row that kiva{self._robots.kiva_ids[last]} heads"
+            else f"{behind}, in a queue behind kiva{self._robots.kiva_ids[last]}"
         )
 
 

@@ -54,11 +54,11 @@ class OrderBook:
         lacking = [s for s, n in merged.items() if n > self.unpromised(s)]
         for sku in lacking:
             self.publish_event(
-                order, OrderEventKind.SHORT, sku, merged[sku], text="waits for new stock"
+                order, OrderEventKind.SHORT, sku, merged[sku], text="waits for replenishment"
             )
         self.backlog.add(order)
         self._shift.picking.on_backlog_change()
-        return order, f"waits for new stock of {', '.join(lacking)}" if lacking else ""
+        return order, f"waits for replenishment of {', '.join(lacking)}" if lacking else ""
 
     def unpromised(self, sku: str) -> int:
         """Returns how many available pieces of a SKU the backlog does not ask for."""

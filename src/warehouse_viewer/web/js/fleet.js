@@ -13,11 +13,11 @@ export function factsOf({ robots, work, transports, executed_over_planned: execu
     ['robots', counted(robots)],
     ['at work', counted(work)],
     ['transports', `${transports.open} open, ${transports.under_way} under way`],
-    ['done', `${transports.delivered} delivered, ${transports.stored} stored`
+    ['completed', `${transports.delivered} delivered, ${transports.stored} stored`
       + (transports.failed ? `, ${transports.failed} failed` : '')],
-    ['planning', `${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
-    ['driven / planned', `${executed.toFixed(2)} s/s`],
-    ['so far', countedEvents({
+    ['planning time', `median ${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
+    ['driven / planned time', executed.toFixed(2)],
+    ['incidents', countedEvents({
       [EventKind.COLLISION]: told.collisions, [EventKind.BLOCKED]: told.blocked, watchdog: told.watchdog })],
   ];
 }

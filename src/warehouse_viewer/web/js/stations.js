@@ -71,14 +71,14 @@ class Card {
     this.queue.replaceChildren(...unit ? [chip(unit, 'here')] : [], ...inbound.map((other) => chip(other)));
     this.queue.title = `storage units: ${unit ? `${unit} is there, ` : ''}${inbound.length} on their way`;
     this.gate.textContent = open ? 'Close' : 'Open';
-    this.hand.textContent = this.isByHand ? 'By itself' : 'By hand';
+    this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
     this.screen.href = `#${name}`;
   }
 }
 
 /** That a station has waited for a person for a minute or longer; '': it has not. */
 export function waitingOf({ waiting }) {
-  return waiting < UNATTENDED ? '' : `waits for a person, ${Math.floor(waiting / 60)} min`;
+  return waiting < UNATTENDED ? '' : `waiting for a person for ${Math.floor(waiting / 60)} min`;
 }
 
 function chip(text, className = '') {

@@ -41,8 +41,8 @@ export class WorkScreen {
     this.isSure = false;
     this.shown = this.keyOf(this.station ?? {});
     if (!this.station) this.say(`there is no station ${this.name}`);
-    else if (mode !== StationMode.MANUAL) this.say(`${this.name} works by itself.`, this.byHand('Work by hand', StationMode.MANUAL));
-    else if (!picks.length) this.say(this.waitsFor(), this.byHand('Let it work by itself', StationMode.AUTOMATIC));
+    else if (mode !== StationMode.MANUAL) this.say(`${this.name} works automatically.`, this.byHand('Work manually', StationMode.MANUAL));
+    else if (!picks.length) this.say(this.waitsFor(), this.byHand('Back to automatic', StationMode.AUTOMATIC));
     else this.ask(picks);
   }
 
@@ -111,7 +111,7 @@ export class WorkScreen {
       this.enable();
     } });
     const short = this.button('short', 'Short', () => this.sure(pick, PickOutcome.SHORT, isPicking));
-    short.title = isPicking ? 'no more of them are in the bin' : 'so many did not come';
+    short.title = isPicking ? 'the bin is empty' : 'so many pieces are missing';
     const damaged = this.button('damaged', 'Damaged', () => this.sure(pick, PickOutcome.DAMAGED));
     const left = picks.length > 1 ? `then ${picks.length - 1} more` : 'the last one at this unit';
     this.draw([confirm, short, damaged],
@@ -150,7 +150,7 @@ export class WorkScreen {
     return this.send(() => post(path, { order_id: order, item, quantity, outcome }), ({ quantity: pieces }) => {
       if (outcome === PickOutcome.DONE) return this.told.clear();
       const what = `${pieces} × ${sku} in ${item}`;
-      return this.told.offer(`${what}: out of the books`, 'Undo', () => remove(path), `${what}: in the books again`);
+      return this.told.offer(`${what}: written off`, 'Undo', () => remove(path), `${what}: back in stock`);
     });
   }
 

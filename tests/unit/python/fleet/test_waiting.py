@@ -49,7 +49,7 @@ def test_what_stands_in_the_way_is_told():
     queue.robots.busy[0] = False
     told = dict(Waiting(queue, []).long())
     assert told[1] == "behind kiva1, which is MANUAL"
-    assert told[2] == "behind kiva2, in a row that kiva1 heads"
+    assert told[2] == "behind kiva2, in a queue behind kiva1"
     queue.robots.slowed_for_people[0] = True
     assert dict(Waiting(queue, []).long())[0] == "for people on the floor"
 

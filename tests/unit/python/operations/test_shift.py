@@ -423,7 +423,7 @@ def test_more_than_there_is_waits_for_new_stock_and_nothing_else_suffers():
     told = events_of(ops)
     there = ops.shift.inventory.available("sku-1")
     greedy, message = ops.shift.submit([("sku-1", there + 5)])
-    assert message == "waits for new stock of sku-1"
+    assert message == "waits for replenishment of sku-1"
     assert told[-1][1] == OrderEventKind.SHORT
     modest, _ = ops.shift.submit([("sku-2", 1)])
     ops.run(minutes=15)

@@ -48,7 +48,9 @@ def _watch_lift(work: "Transports", robot: int, report: np.void) -> None:
             begin_lift(work, transport, transport.step)
         else:
             robots.busy[robot] = False
-            work.fail(transport, "its robot does not lift" if is_up else "it can't be dropped")
+            work.fail(
+                transport, "its robot can't lift it" if is_up else "its robot can't put it down"
+            )
 
 
 def begin_lift(work: "Transports", transport: Transport, step: Step) -> None:

@@ -47,7 +47,7 @@ def _drop_lost(work: "Transports") -> None:
 def _why_lost(work: "Transports", robot: int) -> str:
     robots = work.robots
     if robots.gone[robot]:
-        return "its robot is gone"
+        return "its robot was removed from the world"
     if robots.broken[robot]:
         return "its robot is broken"
     if robots.mode[robot] == Mode.AUTOMATIC:
