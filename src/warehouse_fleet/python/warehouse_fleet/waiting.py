@@ -73,7 +73,8 @@ class Waiting:
     def for_people(self) -> list[str]:
         """Returns a sentence for each station that waits for a person to confirm, and how long."""
         return [
-            f"{station} waits for a person, {_lasting(self._traffic.time - transport.since)}"
+            f"{station} has waited for a person for "
+            f"{_lasting(self._traffic.time - transport.since)}"
             for robot, transport in sorted(self._of_robot.items())
             if (station := self._served_at(robot)) in self._by_hand
             and self._traffic.time - transport.since > WAITS_LONG

@@ -78,7 +78,7 @@ class Card {
 
 /** That a station has waited for a person for a minute or longer; '': it has not. */
 export function waitingOf({ waiting }) {
-  return waiting < UNATTENDED ? '' : `waiting for a person for ${Math.floor(waiting / 60)} min`;
+  return waiting < UNATTENDED ? '' : `has waited for a person for ${Math.floor(waiting / 60)} min`;
 }
 
 function chip(text, className = '') {

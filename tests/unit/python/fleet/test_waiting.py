@@ -40,7 +40,7 @@ def test_a_queue_is_told_by_its_station():
 def test_a_station_by_hand_is_named_instead_of_its_queue():
     waiting = Waiting(Queue(), [served(0, "pick1")], frozenset(["pick1"]))
     assert waiting.long() == []
-    assert waiting.for_people() == ["pick1 waits for a person, 20 min"]
+    assert waiting.for_people() == ["pick1 has waited for a person for 20 min"]
 
 
 def test_what_stands_in_the_way_is_told():
