@@ -4,8 +4,8 @@
 from collections import deque
 
 from warehouse_operations.inventory import Reason
-from warehouse_operations.orders import OrderEventKind
-from warehouse_operations.tasks import Answer, Outcome
+from warehouse_operations.message_enums import OrderEventKind, Outcome
+from warehouse_operations.tasks import Answer
 
 
 class ManualPicking:
@@ -36,7 +36,7 @@ class ManualPicking:
             return False, f"none of {sku} is asked for at {station.name} now"
         one = picks[0].bin
         if not 0 < lacking <= one.quantity:
-            return False, f"{one.quantity} of {sku} are in {one.item} by the books"
+            return False, f"{one.quantity} of {sku} are in stock in {one.item}"
         self._write_off(visit, one, lacking, reason)
         return True, ""
 
@@ -82,7 +82,7 @@ class ManualPicking:
         is_empty = report.outcome == Outcome.SHORT and not report.quantity
         lacking = one.quantity if is_empty else report.quantity
         if not 0 < lacking <= one.quantity:
-            return Answer(False, f"{one.quantity} of {sku} are in {one.item} by the books")
+            return Answer(False, f"{one.quantity} of {sku} are in stock in {one.item}")
         reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
         lines = self._write_off(visit, one, lacking, reason)
         undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731

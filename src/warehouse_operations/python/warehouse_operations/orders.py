@@ -3,23 +3,8 @@
 
 from collections import defaultdict
 from dataclasses import dataclass, field
-from enum import IntEnum
 
-
-class OrderState(IntEnum):
-    OPEN = 0  # no station has it
-    ASSIGNED = 1
-    COMPLETED = 2
-    CANCELLED = 3
-
-
-class OrderEventKind(IntEnum):
-    RECEIVED = 0
-    ASSIGNED = 1
-    PICKED = 2
-    COMPLETED = 3
-    CANCELLED = 4
-    SHORT = 5
+from warehouse_operations.message_enums import OrderState
 
 
 class Line:

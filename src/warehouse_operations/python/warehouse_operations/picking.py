@@ -4,8 +4,8 @@
 import math
 from collections import defaultdict
 
-from warehouse_operations.orders import OrderEventKind, OrderState
-from warehouse_operations.stations import Mode, Pick
+from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
+from warehouse_operations.stations import Pick
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]

@@ -4,8 +4,8 @@
 from collections import deque
 from itertools import islice
 
+from warehouse_operations.message_enums import Mode
 from warehouse_operations.orders import Bundle
-from warehouse_operations.stations import Mode
 
 PERIOD = 10.0  # between two looks at what is to be ordered [s]
 RETRY = 1.0  # after the fleet refused a unit [s]

@@ -9,9 +9,10 @@ from sqlalchemy.engine import Engine
 
 from warehouse_msgs import srv
 from warehouse_operations import queries
+from warehouse_operations.message_enums import Outcome
 from warehouse_operations.operation_messages import stock_place, stored_order_status
 from warehouse_operations.shift import Shift
-from warehouse_operations.tasks import Outcome, Report
+from warehouse_operations.tasks import Report
 
 
 class Host(Protocol):

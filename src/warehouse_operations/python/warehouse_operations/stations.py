@@ -3,14 +3,8 @@
 
 from collections import defaultdict, deque
 from dataclasses import dataclass, field
-from enum import IntEnum
 
-
-class Mode(IntEnum):
-    """Whether a station works by itself or waits for a person."""
-
-    AUTOMATIC = 0
-    MANUAL = 1
+from warehouse_operations.message_enums import Mode
 
 
 @dataclass(eq=False)

@@ -12,7 +12,8 @@ from warehouse_operations import schema
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.inventory import Bin, Reason
 from warehouse_operations.kpis import INTERVAL
-from warehouse_operations.orders import Order, OrderState
+from warehouse_operations.message_enums import OrderState
+from warehouse_operations.orders import Order
 
 
 @dataclass(frozen=True)

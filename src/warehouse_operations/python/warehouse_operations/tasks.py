@@ -3,20 +3,11 @@
 
 import itertools
 from dataclasses import dataclass
-from enum import IntEnum
 
-from warehouse_operations.stations import Mode
+from warehouse_operations.message_enums import Mode, Outcome
 
 KEPT = 1000  # reports that are known when they come again
 UNDO_WITHIN = 60.0  # after a report [s], simulated: ten seconds of a person where time runs faster
-
-
-class Outcome(IntEnum):
-    """Of a task."""
-
-    DONE = 0
-    SHORT = 1
-    DAMAGED = 2
 
 
 @dataclass(frozen=True)

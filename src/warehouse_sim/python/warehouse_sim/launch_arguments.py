@@ -171,7 +171,7 @@ ARGUMENTS = {
     "size": _one_of("none", *PRESETS, FIT),
     "at": _point,
     "rviz": _flag,
-    "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as it goes)"),
+    "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as possible)"),
     "seed": _whole(MOST_WHOLE),
     "drive": _one_of("", "traction", "jointed"),
     "realism": _realism,

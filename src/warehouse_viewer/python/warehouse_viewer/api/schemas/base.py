@@ -76,7 +76,7 @@ class Body(BaseModel):
 
 
 class Problem(BaseModel):
-    detail: str = Field(description="the reason, for a person")
+    detail: str = Field(description="the reason, as a sentence")
 
 
 class Done(BaseModel):

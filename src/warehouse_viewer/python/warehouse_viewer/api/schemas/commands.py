@@ -57,11 +57,11 @@ class WalkingSpeed(Number):
 class NewWalk(Body):
     """Has a person walk from place to place; one of a new name comes to the first place."""
 
-    name: Name = Field("", description="who; empty: a new person")
-    x: list[Number] = Field(max_items=1000, description="[m], of each place")
-    y: list[Number] = Field(max_items=1000, description="[m], as many")
+    name: Name = Field("", description="name of the person; empty: a new person")
+    x: list[Number] = Field(max_items=1000, description="x of each waypoint [m]")
+    y: list[Number] = Field(max_items=1000, description="y of each waypoint [m], as many as x")
     speed: WalkingSpeed = Field(1.2, description="[m/s]")
-    loop: StrictBool = Field(False, description="after the last place comes the first again")
+    loop: StrictBool = Field(False, description="walk to the first waypoint again after the last")
 
 
 class Walker(BaseModel):
@@ -72,7 +72,9 @@ class Event(BaseModel):
     id: int
     time: float = Field(description="[s], simulated")
     kind: str
-    command: int = Field(description="the one it belongs to, counted from 1; 0: none")
+    command: int = Field(
+        description="number of the command that the event belongs to, from 1; 0: none"
+    )
     model: str
     other: str
     text: str

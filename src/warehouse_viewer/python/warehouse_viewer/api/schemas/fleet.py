@@ -17,13 +17,15 @@ class NewTransport(Body):
     """Has a storage unit brought to a station, or to the cell at (x, y), by whichever robot."""
 
     storage_unit: Int32 = Field(description="the number in storage_unit<id>")
-    station: Name = Field("", description="its name, or empty: to the cell at (x, y)")
+    station: Name = Field(
+        "", description="name of the station; empty: the goal is the cell at (x, y)"
+    )
     x: Number | None = Field(None, description="[m], of a grid point")
     y: Number | None = Field(None, description="[m], of a grid point")
     then: Literal["STORE", "STAY"] = Field(
         "STORE", description="what becomes of the unit once it is released; STAY: put down there"
     )
-    priority: UInt8 = Field(0, description="higher ones come first")
+    priority: UInt8 = Field(0, description="transports of higher priority are assigned first")
 
     class Config(Body.Config):
         schema_extra = {
@@ -58,12 +60,12 @@ class TransportNumber(BaseModel):
 class Transport(BaseModel):
     id: int
     state: TransportState = Field(
-        description="ARRIVED: waits to be released. STORED, FAILED: it is over"
+        description="ARRIVED: the unit waits to be released. STORED, FAILED: it has ended"
     )
     since: float = Field(description="[s], simulated")
-    robot: str = Field(description="that does it, or empty")
+    robot: str = Field(description="the robot assigned to it, or empty")
     storage_unit: str
-    station: str = Field(description="or empty, if it is brought to a cell")
+    station: str = Field(description="name of the station; empty: the goal is a cell")
     text: str
 
 
@@ -92,7 +94,7 @@ class RobotsByWork(BaseModel):
 
 
 class TransportCounts(BaseModel):
-    open: int = Field(description="without a robot yet")
+    open: int = Field(description="transports without a robot so far")
     under_way: int
     delivered: int
     stored: int
@@ -103,9 +105,9 @@ class Waiting(BaseModel):
     """A robot that has stood for 10 s or longer although it has somewhere to go."""
 
     robot: int
-    waits_for: int = Field(description="a robot; 0: not known")
+    waits_for: int = Field(description="id of the robot that blocks it; 0: unknown")
     since: float = Field(description="[s], simulated")
-    text: str = Field(description="for what it waits, for a person")
+    text: str = Field(description="why the robot waits, as a sentence")
 
 
 class Coordinator(BaseModel):
@@ -118,8 +120,8 @@ class Coordinator(BaseModel):
     manual: list[int] = Field(description="robots that a person commands")
     out_of_service: list[int]
     plan_p50: float = Field(description="computing time of a plan [ms], median")
-    plan_p99: float = Field(description="[ms]")
-    executed_over_planned: float = Field(description="seconds driven over those planned")
+    plan_p99: float = Field(description="computing time of a plan [ms], 99th percentile")
+    executed_over_planned: float = Field(description="driving time as executed, over that planned")
     queues: dict[str, int] = Field(description="units at each station or on their way there")
     waiting: list[Waiting]
     collisions: int

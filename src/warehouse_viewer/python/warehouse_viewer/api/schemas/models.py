@@ -43,8 +43,10 @@ class Robot(BaseModel):
     y: float
     yaw: float
     storage_unit: str = Field(description="the one it carries, or empty")
-    charge: float = Field(description="of its battery, 0 to 1; 1 where energy is not simulated")
-    failures: list[str] = Field(description="what is broken in it")
+    charge: float = Field(
+        description="state of charge of the battery, 0 to 1; 1 where energy is not simulated"
+    )
+    failures: list[str] = Field(description="failures of the robot")
 
 
 class Thing(BaseModel):

@@ -121,9 +121,7 @@ class Pick(BaseModel):
     item: str
     order_id: int
     reference: str
-    sequence: int = Field(
-        description="another one for each thing to be done, and what is left of it"
-    )
+    sequence: int = Field(description="number of the task; a partly done task gets a new number")
 
 
 class Station(BaseModel):
@@ -138,7 +136,9 @@ class Station(BaseModel):
     picks: list[Pick]
     pieces: int
     busy_fraction: float
-    waiting: float = Field(description="for so long a person has been waited for [s]; 0: none is")
+    waiting: float = Field(
+        description="time that the station has waited for a person [s]; 0: it does not wait"
+    )
 
 
 class Stations(BaseModel):
@@ -179,9 +179,11 @@ class Throughput(BaseModel):
     """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
     whole multiples of their length; the last one goes on."""
 
-    interval: float = Field(description="[s], simulated")
-    begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")
-    end: float = Field(description="up to which the last one goes so far [s]")
+    interval: float = Field(description="duration of an interval [s], simulated")
+    begin: float = Field(
+        description="begin of the first interval [s], simulated; the shift's begin if that is later"
+    )
+    end: float = Field(description="end of the last interval so far [s]")
     items_picked: list[int]
     pieces_stored: list[int]
     orders_completed: list[int]
@@ -194,10 +196,10 @@ class Notices(BaseModel):
 class Heat(BaseModel):
     """Where robots drive and wait, by cell, row after row from the smallest y on."""
 
-    seconds: float = Field(description="that it covers, an hour at most")
-    x: float = Field(description="[m] of the first cell's centre")
+    seconds: float = Field(description="time that the map covers [s], an hour at most")
+    x: float = Field(description="x of the first cell's centre [m]")
     y: float
-    spacing: float = Field(description="[m] of the cells")
+    spacing: float = Field(description="spacing of the cells [m]")
     width: int = Field(description="cells in a row")
     traffic: list[float] = Field(description="robots that came into the cell")
     waiting: list[float] = Field(description="[s] that robots waited there for their way")
