@@ -26,6 +26,8 @@ class NewTransport(Body):
     priority: UInt8 = Field(0, description="higher ones come first")
 
     class Config(Body.Config):
+        """Asks for a station, or for both coordinates."""
+
         schema_extra = {
             "oneOf": [
                 {
@@ -48,14 +50,20 @@ class NewTransport(Body):
 
 
 class NewMode(Body):
+    """Sets how a robot is commanded."""
+
     mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
 
 
 class TransportNumber(BaseModel):
+    """The number of a transport."""
+
     transport_id: int
 
 
 class Transport(BaseModel):
+    """A storage unit's way to a station or a cell, and its state."""
+
     id: int
     state: TransportState = Field(
         description="ARRIVED: waits to be released. STORED, FAILED: it is over"
@@ -68,11 +76,15 @@ class Transport(BaseModel):
 
 
 class Transports(BaseModel):
+    """Transports, and how many there are in all."""
+
     total: int
     transports: list[Transport]
 
 
 class RobotsByMode(BaseModel):
+    """Numbers of robots by mode."""
+
     automatic: int
     manual: int
     out_of_service: int
@@ -92,6 +104,8 @@ class RobotsByWork(BaseModel):
 
 
 class TransportCounts(BaseModel):
+    """Numbers of transports by state."""
+
     open: int = Field(description="without a robot yet")
     under_way: int
     delivered: int
