@@ -5,8 +5,8 @@
 # so that a change needs no build.
 function(add_python_package)
   cmake_parse_arguments(PARSE_ARGV 0 core "" "" "SOURCES;LIBRARIES;INCLUDES")
-  set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
-  find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
+  set(Python_EXECUTABLE ${PYTHON_EXECUTABLE})
+  find_package(Python REQUIRED COMPONENTS Interpreter Development.Module)
   find_package(pybind11 REQUIRED)
   set(package ${CATKIN_DEVEL_PREFIX}/${PYTHON_INSTALL_DIR}/${PROJECT_NAME})
   set(module ${PROJECT_NAME}_python)

@@ -43,8 +43,24 @@ TEST(LoadPlanner, RunsTheExample) {
 
 TEST(LoadPlanner, SaysWhatIsMissing) {
   EXPECT_EQ(refusal(kLibrary, "Other"),
-            kLibrary + ": no class Other; it has (anonymous namespace)::RightOfWay");
-  EXPECT_EQ(refusal("/nowhere.so", "Mine"), "/nowhere.so: no library with a registered planner");
+            kLibrary + ": no class Other; it has RightOfWay (fleet::Planner)");
+  EXPECT_EQ(refusal("/nowhere.so", "Mine"),
+            "/nowhere.so: cannot open shared object file: No such file or directory");
+  EXPECT_EQ(refusal(LAYOUT_LIBRARY, "Mine"),
+            LAYOUT_LIBRARY ": no library with a registered planner");
+}
+
+TEST(LoadPlanner, FindsAClassWhateverItsNamespace) {
+  EXPECT_NE(loadPlanner(kLibrary, "mine::RightOfWay"), nullptr);
+}
+
+TEST(LoadPlanner, NamesTheInterfaceOfAClassThatIsNoPlanner) {
+  const std::string library = HELLO_PLUGIN;
+  if (library.empty()) GTEST_SKIP() << "built without the world's package";
+  EXPECT_EQ(refusal(library, "Patrol"),
+            library +
+                ": Patrol is registered as kiva::Plugin; WAREHOUSE_ADD_PLUGIN(Patrol, "
+                "fleet::Planner) was expected");
 }
 
 }  // namespace

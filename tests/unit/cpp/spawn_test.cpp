@@ -313,7 +313,7 @@ TEST_F(Spawn, TwoThousandComingsAndGoingsLeaveTheMemoryAsItWas) {
     for (const auto& [kind, model] : kinds) {
       ModelInstance next = model;
       next.name = names(kind, 100 + i % 7);
-      next.pose.Set(i % 40 - 20, 10, kind == "item" ? 0.46 : 0, 0, 0, 0);
+      next.pose = Pose(i % 40 - 20, 10, kind == "item" ? 0.46 : 0, 0, 0, 0);
       w.world.spawn(next);
     }
     w.step();

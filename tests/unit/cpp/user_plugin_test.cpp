@@ -162,6 +162,12 @@ TEST_F(UserPlugin, ALibraryWithoutAPluginIsNamed) {
   EXPECT_PRED2(contains, reason, "library 'libkiva_core.so' holds no class registered");
 }
 
+TEST_F(UserPlugin, ALibraryOfOtherClassesIsNamedWithWhatItHolds) {
+  const std::string reason = refusal("<plugin name='own' filename='libright_of_way.so'/>");
+  EXPECT_PRED2(contains, reason, "holds no class registered");
+  EXPECT_PRED2(contains, reason, "it has RightOfWay (fleet::Planner)");
+}
+
 TEST_F(UserPlugin, AWorldWithAFaultyPluginGoesWithoutIt) {
   Floorplan plan;
   plan.more = patrol("");

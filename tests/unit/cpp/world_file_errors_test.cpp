@@ -59,7 +59,7 @@ const std::map<std::string, std::string> kErrors = {
     {"root", ": expected <sdf version=\"…\"> as the root element, found <warehouse>"},
     {"two_models", ": expected a <world> in <sdf>, or a URDF <robot>"},
     {"two_worlds", ":3: expected one <world>, found several"},
-    {"version", ": SDF version 3.3 is unknown; expected 1.0 to 1.9"},
+    {"version", ": SDF version 3.3 is unknown; expected 1.0 to 1.11"},
     {"xml", ":6: the XML is ill-formed: mismatched element (XMLElement name=link)"},
 };
 
@@ -117,7 +117,8 @@ const std::map<std::string, Loss> kWarnings = {
      {1,
       {":9:" + kGeometry +
            "/prism: XML Element[prism], child of element[geometry], not defined in SDF",
-       ":8:" + kGeometry + kNoCollision + "<prism> is not supported; " + kShapes, kCube}}},
+       ":9:" + kGeometry + "/prism" + kNoCollision + "<prism> is not supported; " + kShapes,
+       kCube}}},
     {"gravity",
      {0,
       {":5: world 'w', gravity: this gravity is left out: '0 0 down' is no value for <gravity>; "
@@ -136,7 +137,7 @@ const std::map<std::string, Loss> kWarnings = {
     {"include_name",
      {0, {":6: world 'w', include/uri: this include is left out: expected a text in <name>"}}},
     {"include_pose",
-     {0, {":5: world 'w', include: this include is left out: Pose values must be finite"}}},
+     {0, {":7: world 'w', include/pose: this include is left out: Pose values must be finite"}}},
     {"include_uri",
      {0, {":6: world 'w', include/uri: this include is left out: expected a text in <uri>"}}},
     {"inertia", {1, {":8:" + kLink + ", inertial/inertia" + kNoBody}}},
@@ -313,7 +314,10 @@ TEST(WorldFileWarnings, NameWhatIsMissingHoweverDeepItIs) {
   const std::string path = (kFolder / "invalid_deep_include_missing.sdf").string();
   std::vector<std::string> warnings;
   EXPECT_EQ(loadWorld(path, kPaths, &warnings).models.size(), 2u);
-  EXPECT_EQ(warnings, std::vector<std::string>{kBrokenModels + "/outer/model.sdf" + kNowhere});
+  EXPECT_EQ(warnings, std::vector<std::string>{kBrokenModels +
+                                               "/inner/model.sdf:7: model 'inner', "
+                                               "include/uri" +
+                                               kNowhere});
 }
 
 /// A robot whose sensor is in none of the folders drives without it.

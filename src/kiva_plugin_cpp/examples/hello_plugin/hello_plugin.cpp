@@ -11,13 +11,13 @@
 //
 // and the folder of the library into KIVA_PLUGIN_PATH.
 #include <cmath>
-#include <ignition/plugin/Register.hh>
 #include <sstream>
 #include <string>
 #include <utility>
 
 #include "kiva_plugin_cpp/plugin.h"
 #include "kiva_plugin_cpp/world.h"
+#include "warehouse_layout/register_plugin.h"
 
 namespace {
 
@@ -82,4 +82,4 @@ class Patrol : public kiva::Plugin {
 }  // namespace
 
 // By this line the library tells what it holds.
-IGNITION_ADD_PLUGIN(Patrol, kiva::Plugin)
+WAREHOUSE_ADD_PLUGIN(Patrol, kiva::Plugin)

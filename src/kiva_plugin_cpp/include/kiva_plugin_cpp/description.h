@@ -5,13 +5,12 @@
 #pragma once
 
 #include <array>
-#include <ignition/math/Pose3.hh>
-#include <ignition/math/Vector3.hh>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "kiva_plugin_cpp/geometry.h"
 #include "kiva_plugin_cpp/parameters.h"
 #include "kiva_plugin_cpp/people.h"
 
@@ -22,10 +21,6 @@ constexpr double kLeastStep = 1e-6, kMostStep = 1;                 ///< [s]
 constexpr double kMostGravity = 1000;                              ///< Its length [m/s²].
 constexpr double kMostFriction = 10;                               ///< Coulomb coefficient.
 constexpr double kLeastGridSpacing = 0.1, kMostGridSpacing = 100;  ///< [m]
-
-using Pose = ignition::math::Pose3d;
-using Quaternion = ignition::math::Quaterniond;
-using Vector3 = ignition::math::Vector3d;
 
 /// Triangles; shapes of one file share them.
 struct Mesh {

@@ -3,9 +3,9 @@
 // A user's own plugin: derive one class from Plugin in a library, register it, and name the
 // library's file in an SDF `<plugin filename="lib….so">` of a model or a world:
 //
-//   #include <ignition/plugin/Register.hh>
+//   #include "warehouse_layout/register_plugin.h"
 //   class Mine : public kiva::Plugin { … };
-//   IGNITION_ADD_PLUGIN(Mine, kiva::Plugin)
+//   WAREHOUSE_ADD_PLUGIN(Mine, kiva::Plugin)
 //
 // Libraries are searched by name in the folders of KIVA_PLUGIN_PATH, then in those of the
 // workspaces that were sourced (lib/ in CMAKE_PREFIX_PATH). One that is in neither is left out with

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SDF (1.x) to description, checked whole before anything is built from it.
-// Any thread may call; while one does, libsdformat's console and global configuration are its own.
+// SDF (1.0 to 1.11) and URDF to description, checked whole before anything is built from it. Any
+// thread may call.
 #pragma once
 
 #include <string>
@@ -28,7 +28,7 @@ ModelPaths modelPathsAround(const std::string& world_file);
 
 /// Returns the world in the file at `path`.
 /// What is faulty in it is left out, as small a part as the rest can do without, and `warnings`, if
-/// given, is told so: file, line where libsdformat knows it, entity and cause.
+/// given, is told so: file, line, entity and cause.
 /// Throws DescriptionError, in the same words, where no world would be left: what is no XML, no
 /// SDF, has more than 20 MB or nests deeper than 100 elements.
 WorldDescription loadWorld(const std::string& path, const ModelPaths& model_paths,

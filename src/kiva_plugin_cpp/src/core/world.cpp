@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ignition/math/MassMatrix3.hh>
 #include <limits>
 #include <stdexcept>
 
@@ -39,11 +38,13 @@
 #include "core/state/path_progress.h"
 #include "core/state/poses.h"
 #include "core/state/world_state.h"
+#include "kiva_plugin_cpp/principal_inertia.h"
 #include "plugins/plugin_table.h"
 
 namespace kiva {
 namespace {
 
+constexpr double kSameGravity = 1e-3;                 // [m/s²]
 constexpr double kLeastMass = 1e-6, kMostMass = 1e9;  // [kg]
 constexpr double kLeastMoment = 1e-12;                // [kg m²]
 constexpr double kMostArm = 1000;                     // [m]
@@ -205,7 +206,7 @@ void World::setGravity(const Vector3& gravity) {
   if (!gravity.IsFinite() || gravity.Length() > kMostGravity) {
     throw std::invalid_argument("gravity must be finite and at most 1000 m/s²");
   }
-  if (gravity == state_->settings.gravity) return;
+  if (gravity.Equal(state_->settings.gravity, kSameGravity)) return;
   state_->settings.gravity = gravity;
   state_->physics.setGravity(gravity);
   letAllTip(state_->view);
@@ -389,12 +390,12 @@ bool World::setLinkInertia(const std::string& model, const Link& link) {
   Model* found = state_->models.find(model);
   const int index = linkIndex(found, link.name);
   if (index < 0) return false;
-  const ignition::math::MassMatrix3d inertia(link.mass, link.principal_moments, Vector3::Zero);
+  const InertiaTensor inertia{link.principal_moments, Vector3::Zero};
   const bool is_usable =
       link.mass >= kLeastMass && link.mass <= kMostMass && link.principal_moments.IsFinite() &&
       link.principal_moments.Min() >= kLeastMoment && link.inertial_pose_in_link.IsFinite() &&
       link.inertial_pose_in_link.Pos().Abs().Max() <= kMostArm;
-  if (!is_usable || !inertia.IsValid()) {
+  if (!is_usable || !inertia.isPossible(link.mass)) {
     throw std::invalid_argument(
         "no body is like that; expected a mass above 0 kg, principal moments above 0 kg m², none "
         "larger than the sum of the other two, and a centre of mass near the link");

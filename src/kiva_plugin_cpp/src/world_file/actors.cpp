@@ -50,7 +50,7 @@ void append(const KeyFrame& frame, const KeyFrame& before, Walk* walk) {
 }
 
 /// Limits the speed to that of walking, with a warning.
-void slowDown(const XmlElement& waypoint, Waypoint* to, sdf::Errors* warnings) {
+void slowDown(const XmlElement& waypoint, Waypoint* to, Faults* warnings) {
   if (to->speed <= kMostWalkingSpeed) return;
   warnings->push_back(
       noteAt(waypoint, "people walk to this waypoint at 1.6 m/s, and come there later"));
@@ -66,7 +66,7 @@ Pose placeOf(const XmlElement& actor) {
   return Pose(pose->X(), pose->Y(), 0, 0, 0, pose->Yaw());
 }
 
-Walk scriptOf(const XmlElement& actor, sdf::Errors* warnings) {
+Walk scriptOf(const XmlElement& actor, Faults* warnings) {
   const XmlElement* const script = childOf(&actor, "script");
   const XmlElement* const trajectory = trajectoryOf(actor);
   Walk walk;

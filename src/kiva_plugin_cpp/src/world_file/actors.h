@@ -3,8 +3,6 @@
 // An `<actor>` of Gazebo: a person that walks by a script. Here all people look alike.
 #pragma once
 
-#include <sdf/Types.hh>
-
 #include "kiva_plugin_cpp/people.h"
 #include "world_file/xml.h"
 
@@ -16,6 +14,6 @@ Pose placeOf(const XmlElement& actor);
 
 /// How it walks, as its waypoints and their times tell; without a script it stays where it is.
 /// Waypoints that make no sense are left out, and `warnings` is told so.
-Walk scriptOf(const XmlElement& actor, sdf::Errors* warnings);
+Walk scriptOf(const XmlElement& actor, Faults* warnings);
 
 }  // namespace kiva

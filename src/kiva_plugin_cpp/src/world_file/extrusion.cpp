@@ -2,13 +2,18 @@
 #include "world_file/extrusion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kiva {
 namespace {
 
 /// Twice the area of a triangle, positive if a, b, c go counterclockwise.
 double doubleArea(const Vector2& a, const Vector2& b, const Vector2& c) {
-  return (b.X() - a.X()) * (c.Y() - a.Y()) - (b.Y() - a.Y()) * (c.X() - a.X());
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool areSame(const Vector2& a, const Vector2& b) {
+  return std::abs(a.x - b.x) <= kNegligible && std::abs(a.y - b.y) <= kNegligible;
 }
 
 double doubleArea(const std::vector<Vector2>& polygon) {
@@ -51,13 +56,14 @@ std::vector<std::array<int, 3>> triangulate(const std::vector<Vector2>& at) {
 }  // namespace
 
 bool extrude(std::vector<Vector2> points, double height, Mesh* mesh) {
-  if (points.size() > 1 && points.front() == points.back()) points.pop_back();  // closed by hand
+  if (points.size() > 1 && areSame(points.front(), points.back()))
+    points.pop_back();  // closed by hand
   if (points.size() < 3 || doubleArea(points) == 0) return false;
   if (doubleArea(points) < 0) std::reverse(points.begin(), points.end());
   const int first = static_cast<int>(mesh->vertices.size());
   const int n = static_cast<int>(points.size());
   for (const double z : {0.0, height}) {
-    for (const Vector2& point : points) mesh->vertices.emplace_back(point.X(), point.Y(), z);
+    for (const Vector2& point : points) mesh->vertices.emplace_back(point.x, point.y, z);
   }
   for (const auto& [a, b, c] : triangulate(points)) {
     mesh->triangles.push_back({first + a, first + c, first + b});

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ignition/math/Vector2.hh>
 #include <vector>
 
 #include "kiva_plugin_cpp/description.h"
 
 namespace kiva {
 
-using Vector2 = ignition::math::Vector2d;
+/// A point of a polygon [m].
+struct Vector2 {
+  double x = 0, y = 0;
+};
 
 /// Adds the prism over a simple polygon of either sense, from z = 0 to `height` [m], to `mesh`.
 /// Returns false if the points span no area.

@@ -1,136 +1,148 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/format.h"
 
-#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
 #include <map>
-#include <memory>
-#include <sdf/Element.hh>
-#include <sdf/Param.hh>
-#include <sdf/parser.hh>
-#include <set>
+#include <sstream>
 
 namespace kiva {
 namespace {
 
-/// libsdformat's own description of SDF. Building it takes 30 ms, copying it half of that.
-const sdf::ElementPtr& format() {
-  static const sdf::ElementPtr kFormat = [] {
-    auto document = std::make_shared<sdf::SDF>();
-    sdf::init(document);
-    return document->Root();
-  }();
-  return kFormat;
-}
-
-/// Parts that SDF allows to be left out and that take the room.
-constexpr const char* kLargeParts[] = {"actor",
-                                       "atmosphere",
-                                       "audio_sink",
-                                       "audio_source",
-                                       "battery",
-                                       "gripper",
-                                       "gui",
-                                       "heightmap",
-                                       "image",
-                                       "joint",
-                                       "light",
-                                       "material",
-                                       "particle_emitter",
-                                       "physics",
-                                       "polyline",
-                                       "population",
-                                       "projector",
-                                       "road",
-                                       "scene",
-                                       "sensor",
-                                       "state",
-                                       "surface",
-                                       "wind",
-                                       "spherical_coordinates"};
-
-std::set<std::string> absentParts(const std::string& text) {
-  std::set<std::string> absent;
-  for (const std::string name : kLargeParts) {
-    if (text.find("<" + name) == std::string::npos) absent.insert(name);
+/// Reads the table; its elements live as long as the program.
+class Table {
+ public:
+  explicit Table(const char* at) : at_(at) {
+    while (skipBlanks(), *at_ == '#') {
+      ++at_;
+      const std::string line = word();
+      skipBlanks();
+      lines_[line] = element({});
+    }
   }
-  // What libsdformat makes of a URDF's <mu1>, <implicitSpringDamper> and the like.
-  if (text.find("<robot") != std::string::npos) {
-    for (const char* made : {"surface", "physics"}) absent.erase(made);
-  }
-  return absent;
-}
+  const ElementFormat& root() { return *lines_.at("root").format; }
 
-bool isOptional(const sdf::Element& element) {
-  return element.GetRequired() == "0" || element.GetRequired() == "*";
-}
+ private:
+  using Child = ElementFormat::Child;
 
-void copyParam(const sdf::Param& from, sdf::Element* to, bool is_value) {
-  const std::string& type = from.GetTypeName();
-  const std::string value = from.GetDefaultAsString();
-  if (!is_value) return to->AddAttribute(from.GetKey(), type, value, from.GetRequired());
-  const auto least = from.GetMinValueAsString(), most = from.GetMaxValueAsString();
-  to->AddValue(type, value, from.GetRequired(), least.value_or(""), most.value_or(""));
-}
+  void skipBlanks() {
+    while (*at_ == ' ' || *at_ == '\n') ++at_;
+  }
+  std::string word() {
+    const char* const begin = at_;
+    while (*at_ && (std::isalnum(static_cast<unsigned char>(*at_)) || *at_ == '_')) ++at_;
+    return {begin, at_};
+  }
+  std::string text() {
+    const bool is_quoted = *at_ == '\'';
+    if (is_quoted) ++at_;
+    const char* const begin = at_;
+    const char* const stops = is_quoted ? "'" : " \n)<>";
+    at_ += std::strcspn(at_, stops);
+    std::string found(begin, at_);
+    for (char& letter : found) letter = letter == '\n' ? ' ' : letter;
+    if (is_quoted) ++at_;
+    return found;
+  }
+  ValueFormat value() {
+    ValueFormat found;
+    found.type = *at_++;
+    ++at_;  // =
+    found.otherwise = text();
+    for (auto* limit : {&found.least, &found.most}) {
+      if (*at_ != (limit == &found.least ? '<' : '>')) continue;
+      char* end;
+      *limit = std::strtod(at_ + 1, &end);
+      at_ = end;
+      while (*at_ && !std::strchr(" \n)>", *at_)) ++at_;
+    }
+    return found;
+  }
 
-sdf::ElementPtr copyWithout(const std::set<std::string>& absent, const sdf::ElementPtr& from) {
-  auto copy = std::make_shared<sdf::Element>();
-  copy->SetName(from->GetName());
-  copy->SetRequired(from->GetRequired());
-  copy->SetCopyChildren(from->GetCopyChildren());
-  copy->SetReferenceSDF(from->ReferenceSDF());
-  for (const sdf::ParamPtr& attribute : from->GetAttributes()) {
-    copyParam(*attribute, copy.get(), false);
+  Child element(std::vector<const ElementFormat*> around) {
+    elements_.emplace_back();
+    ElementFormat& found = elements_.back();
+    found.name = word();
+    Child child{&found, *at_++};
+    if (*at_ == ':') {
+      ++at_;
+      found.value = value();
+    }
+    around.push_back(&found);
+    for (skipBlanks(); *at_ == '@' || *at_ == '~' || *at_ == '('; skipBlanks()) {
+      const char kind = *at_++;
+      if (kind == '~') found.is_open = true;
+      if (kind == '@') attribute(&found);
+      if (kind == '(') children(&found, around);
+    }
+    return child;
   }
-  if (from->GetValue()) copyParam(*from->GetValue(), copy.get(), true);
-  for (unsigned i = 0; i < from->GetElementDescriptionCount(); ++i) {
-    const sdf::ElementPtr part = from->GetElementDescription(i);
-    if (isOptional(*part) && absent.count(part->GetName())) continue;
-    copy->AddElementDescription(copyWithout(absent, part));
+  void attribute(ElementFormat* of) {
+    AttributeFormat found;
+    found.name = word();
+    found.is_required = *at_++ == '!';
+    found.value = value();
+    of->attributes.push_back(found);
   }
-  return copy;
-}
+  void children(ElementFormat* of, const std::vector<const ElementFormat*>& around) {
+    while (skipBlanks(), *at_ != ')') {
+      const bool is_line = *at_ == '&', is_around = *at_ == '^';
+      if (!is_line && !is_around) {
+        of->children.push_back(element(around));
+        continue;
+      }
+      ++at_;
+      const std::string name = word();
+      Child child = is_line ? lines_.at(name) : Child{around.front(), '*'};
+      if (*at_ && std::strchr("!?+*x", *at_)) child.count = *at_++;
+      of->children.push_back(child);
+    }
+    ++at_;
+  }
+
+  const char* at_;
+  std::deque<ElementFormat> elements_;
+  std::map<std::string, Child> lines_;
+};
 
 }  // namespace
 
-sdf::SDFPtr emptyDocument(const std::string& text) {
-  auto document = std::make_shared<sdf::SDF>();
-  document->Root(copyWithout(absentParts(text), format()));
-  return document;
+const ElementFormat::Child* ElementFormat::child(const std::string& of_name) const {
+  for (const Child& one : children) {
+    if (one.format->name == of_name) return &one;
+  }
+  return nullptr;
 }
 
-/// By hand: std::regex overflows the stack on names of a hundred thousand letters.
-std::vector<PathStep> pathSteps(const std::string& xml_path) {
-  constexpr char kName[] = "[@name=\"";
-  std::vector<PathStep> steps;
-  for (std::size_t at = 0; at < xml_path.size() && xml_path[at] == '/';) {
-    const std::size_t stop = std::min(xml_path.find_first_of("/[", at + 1), xml_path.size());
-    steps.push_back({xml_path.substr(at + 1, stop - at - 1), std::nullopt});
-    at = stop;
-    if (xml_path.compare(at, sizeof(kName) - 1, kName) == 0) {
-      const std::size_t begin = at + sizeof(kName) - 1;
-      const std::size_t end = std::min(xml_path.find("\"]", begin), xml_path.size());
-      steps.back().name = xml_path.substr(begin, end - begin);
-      at = end;
-    }
-    at = std::min(xml_path.find('/', at), xml_path.size());  // Behind `"]` or `[0]`.
-  }
-  return steps;
+const ElementFormat& sdfFormat() {
+  // The line of <sdf> comes last in a table where each line names those before it alone.
+  static Table table(kFormatText);
+  return table.root();
 }
 
-std::string expectedValue(const std::string& xml_path) {
-  static const std::map<std::string, std::string> kWords = {
-      {"double", "a number"},           {"float", "a number"},
-      {"int", "a whole number"},        {"unsigned int", "a whole number of 0 or above"},
-      {"bool", "true or false"},        {"vector2d", "two numbers"},
-      {"vector3", "three numbers"},     {"pose", "six numbers, x y z roll pitch yaw"},
-      {"color", "red green blue alpha"}};
-  sdf::ElementPtr element = format();
-  for (const PathStep& step : pathSteps(xml_path)) {
-    if (step.element != "sdf" && element) element = element->GetElementDescription(step.element);
-  }
-  if (!element || !element->GetValue()) return "";
-  const auto words = kWords.find(element->GetValue()->GetTypeName());
-  return words == kWords.end() ? "" : words->second;
+std::string wordsFor(char type) {
+  static const std::map<char, std::string> kWords = {{'d', "a number"},
+                                                     {'i', "a whole number"},
+                                                     {'u', "a whole number of 0 or above"},
+                                                     {'b', "true or false"},
+                                                     {'2', "two numbers"},
+                                                     {'3', "three numbers"},
+                                                     {'c', "red green blue alpha"},
+                                                     {'p', "six numbers, x y z roll pitch yaw"}};
+  const auto found = kWords.find(type);
+  return found == kWords.end() ? "" : found->second;
+}
+
+std::string defaultText(const ValueFormat& format) {
+  if (!std::strchr("d23c", format.type))
+    return format.type == 'b' ? (format.otherwise == "true" ? "1" : "0") : format.otherwise;
+  std::istringstream in(format.otherwise);
+  std::ostringstream out;
+  out.precision(17);
+  bool is_first = true;
+  for (double number; in >> number; is_first = false) out << (is_first ? "" : " ") << number;
+  return out.str();
 }
 
 }  // namespace kiva

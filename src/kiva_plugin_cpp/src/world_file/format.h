@@ -1,26 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <sdf/SDFImpl.hh>
 #include <string>
 #include <vector>
 
 namespace kiva {
 
-/// An empty document, knowing what SDF allows in it; of its large optional parts, sensors for one,
-/// only those whose names occur in `text`. For libsdformat copies its description of an element,
-/// with all that might be inside, for each that it reads: most of its time goes there.
-sdf::SDFPtr emptyDocument(const std::string& text);
+extern const char* const kFormatText;
 
-/// A part of an address like `/sdf/model[@name="m"]/pose`.
-struct PathStep {
-  std::string element;
-  std::optional<std::string> name;
+/// A text that SDF has in an element or an attribute.
+struct ValueFormat {
+  char type = 's';
+  std::string otherwise;  ///< What it is if it is not given.
+  std::optional<double> least, most;
 };
-std::vector<PathStep> pathSteps(const std::string& xml_path);
 
-/// What a value at `/sdf/model[@name="m"]/pose` looks like, for a person; empty if unknown.
-std::string expectedValue(const std::string& xml_path);
+struct AttributeFormat {
+  std::string name;
+  bool is_required = false;
+  ValueFormat value;
+};
+
+/// What SDF allows in an element.
+struct ElementFormat {
+  struct Child {
+    const ElementFormat* format = nullptr;
+    char count = '?';  ///< ! ? + *
+    bool isRequired() const { return count == '!' || count == '+'; }
+  };
+
+  std::string name;
+  std::optional<ValueFormat> value;
+  std::vector<AttributeFormat> attributes;
+  std::vector<Child> children;
+  bool is_open = false;  ///< Anything may be inside.
+
+  const Child* child(const std::string& of_name) const;
+};
+
+/// `<sdf>` of version 1.9.
+const ElementFormat& sdfFormat();
+
+/// What a value of that type looks like, for a person: "a number"; empty for text.
+std::string wordsFor(char type);
+
+/// A default as a text: numbers with all their digits.
+std::string defaultText(const ValueFormat& format);
 
 }  // namespace kiva

@@ -12,7 +12,7 @@
 namespace kiva {
 namespace {
 
-constexpr int kMostIncludes = 1000;      // within models: each takes libsdformat 20 to 40 ms
+constexpr int kMostIncludes = 1000;      // within models
 constexpr std::size_t kMostNested = 30;  // includes in includes
 
 bool isInclude(const XmlElement& element) { return element.Name() == std::string("include"); }
@@ -26,7 +26,7 @@ std::string blankField(const XmlElement& include) {
   return "";
 }
 
-/// libsdformat 12 ends the process at these in files of SDF 1.7 and newer.
+/// Files of SDF 1.7 and newer have none.
 bool hasOldPose(const XmlElement& include) {
   const XmlElement* const pose = include.FirstChildElement("pose");
   return pose && pose->Attribute("frame");
@@ -67,7 +67,7 @@ void nameStandIn(XmlElement* include) {
 IncludeGraph::IncludeGraph(const ModelPaths& model_paths, FaultOf fault_of)
     : model_paths_(model_paths), fault_of_(std::move(fault_of)) {}
 
-void IncludeGraph::prune(XmlDocument* document, sdf::Errors* warnings) {
+void IncludeGraph::prune(XmlDocument* document, Faults* warnings) {
   XmlElement* const root = document->RootElement();
   if (!root) return;
   forAll(root, [&](XmlElement* element) {
@@ -159,7 +159,7 @@ IncludeGraph::Cost IncludeGraph::read(const std::string& file) {
     if (is_new && hasOldPose(*element)) {
       cost.fault = describe(noteAt(*element, "poses of includes have no 'frame'"), file);
     }
-    // What is missing in there, libsdformat goes on without.
+    // What is missing in there is left out of it.
     const bool is_missing = inner.includes == 0 && inner.fault.rfind("found no", 0) == 0;
     if (!is_missing && !inner.fault.empty()) cost.fault = inner.fault;
     cost.includes = std::min(cost.includes + inner.includes, 1e9);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// libsdformat follows includes wherever they lead: in circles until the stack is full, and through
-// fourteen files that include the next one twice, 16,384 times. Here they are followed first, each
-// file once.
+// Includes may lead in circles, and through fourteen files that include the next one twice, 16,384
+// times. They are followed first, each file once, before anything takes their place.
 #pragma once
 
 #include <functional>
 #include <map>
-#include <sdf/Types.hh>
 #include <set>
 #include <string>
 
@@ -25,13 +23,13 @@ class IncludeGraph {
 
   /// Takes out the includes in a document that lead nowhere or too far, each with a warning. What
   /// they would have put there is unknown: a stand-in takes its place, if there is one.
-  void prune(XmlDocument* document, sdf::Errors* warnings);
+  void prune(XmlDocument* document, Faults* warnings);
 
   /// Those that it has read, and where it looked for what is missing.
   const std::set<std::string>& files() const { return files_; }
 
  private:
-  /// What libsdformat will read.
+  /// What will be read.
   struct Cost {
     double includes = 0, bytes = 0;
     std::string fault;  ///< What is wrong in there; empty: nothing.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <sdf/JointAxis.hh>
 
-#include "world_file/elements.h"
-#include "world_file/errors.h"
+#include "world_file/frames.h"
 #include "world_file/links.h"
+#include "world_file/values.h"
 
 namespace kiva {
 namespace {
@@ -13,74 +12,77 @@ namespace {
 constexpr double kUnlimited = 1e16;
 
 /// Returns the kind of a joint; other types don't pass the checks.
-Joint::Kind kindOf(const sdf::Joint& joint) {
-  switch (joint.Type()) {
-    case sdf::JointType::REVOLUTE:
-      return Joint::Kind::kRevolute;
-    case sdf::JointType::CONTINUOUS:
-      return Joint::Kind::kContinuous;
-    case sdf::JointType::PRISMATIC:
-      return Joint::Kind::kPrismatic;
-    case sdf::JointType::BALL:
-      return Joint::Kind::kBall;
-    default:
-      return Joint::Kind::kFixed;
-  }
+Joint::Kind kindOf(const XmlElement& joint) {
+  const std::string type = attributeOf(joint, "type");
+  if (type == "revolute") return Joint::Kind::kRevolute;
+  if (type == "continuous") return Joint::Kind::kContinuous;
+  if (type == "prismatic") return Joint::Kind::kPrismatic;
+  return type == "ball" ? Joint::Kind::kBall : Joint::Kind::kFixed;
 }
 
-/// Returns the link's name in the flattened model.
-std::string scopedLink(const std::string& name, const Scope& scope) {
-  return name == "world" ? name : scope.prefix + name;
+const XmlElement& modelOf(const XmlElement& joint) { return *joint.Parent()->ToElement(); }
+
+/// The link's name in the flattened model.
+std::string scopedLink(const XmlElement& joint, const char* end, const Scope& scope) {
+  const std::string link = linkOf(modelOf(joint), contentOf(joint.FirstChildElement(end)));
+  return link == "world" ? link : scope.prefix + link;
 }
 
-void setEnds(const sdf::Joint& from, const Scope& scope, Joint* joint) {
-  sdf::Errors errors = from.ResolveParentLink(joint->parent);
-  const sdf::Errors more = from.ResolveChildLink(joint->child);
-  errors.insert(errors.end(), more.begin(), more.end());
-  if (!errors.empty()) failAt(from.Element(), errors.front().Message());
-  joint->parent = scopedLink(joint->parent, scope);
-  joint->child = scopedLink(joint->child, scope);
-}
-
-double atLeastZero(const sdf::ElementPtr& axis, const std::string& name, double value) {
+double atLeastZero(const XmlElement& axis, const std::string& name, double value) {
   if (std::isfinite(value) && value >= 0) return value;
   failAt(axis, "expected a " + name + " of 0 or above");
 }
 
-void setLimits(const sdf::JointAxis& axis, Joint* joint) {
-  if (!(axis.Lower() <= axis.Upper())) {  // Refuses NaN too.
-    failAt(axis.Element(), "expected a lower limit at or below the upper one");
+void setLimits(const XmlElement& axis, Joint* joint) {
+  const XmlElement* const limit = axis.FirstChildElement("limit");
+  const auto number = [limit](const char* name, double otherwise) {
+    return limit ? numberIn(*limit, name, otherwise) : otherwise;
+  };
+  const double lower = number("lower", -kUnlimited), upper = number("upper", kUnlimited);
+  if (!(lower <= upper)) {  // Refuses NaN too.
+    failAt(axis, "expected a lower limit at or below the upper one");
   }
   if (joint->kind != Joint::Kind::kContinuous) {
-    joint->lower = std::clamp(axis.Lower(), -kUnlimited, kUnlimited);
-    joint->upper = std::clamp(axis.Upper(), -kUnlimited, kUnlimited);
+    joint->lower = std::clamp(lower, -kUnlimited, kUnlimited);
+    joint->upper = std::clamp(upper, -kUnlimited, kUnlimited);
   }
-  const auto limit = [](double value) { return std::isfinite(value) && value >= 0 ? value : -1; };
-  joint->max_effort = limit(axis.Effort());
-  joint->max_velocity = limit(axis.MaxVelocity());
+  const auto most = [&](const char* name) {
+    const double value = number(name, -1);
+    return std::isfinite(value) && value >= 0 ? value : -1;
+  };
+  joint->max_effort = most("effort");
+  joint->max_velocity = most("velocity");
 }
 
-void setAxis(const sdf::Joint& from, const Scope& scope, Joint* joint) {
-  const sdf::JointAxis* axis = from.Axis(0);
-  if (!axis) failAt(from.Element(), "expected an <axis>");
-  Vector3 direction;
-  const sdf::Errors errors = axis->ResolveXyz(direction, "__model__");
-  if (!errors.empty()) failAt(axis->Element(), errors.front().Message());
-  joint->axis_in_model = scope.pose.Rot().RotateVector(direction).Normalized();
+/// In the model, with a length of 1.
+Vector3 directionOf(const XmlElement& joint, const XmlElement& axis) {
+  const XmlElement* const xyz = axis.FirstChildElement("xyz");
+  const Vector3 direction = (xyz ? vectorIn(*xyz) : Vector3::UnitZ).Normalized();
+  const std::string frame = xyz ? attributeOf(*xyz, "expressed_in") : "";
+  const Pose pose = frame.empty() ? poseAround(joint) : frameIn(modelOf(joint), frame);
+  return pose.Rot().RotateVector(direction);
+}
+
+void setAxis(const XmlElement& from, const Scope& scope, Joint* joint) {
+  const XmlElement* const axis = from.FirstChildElement("axis");
+  if (!axis) failAt(from, "expected an <axis>");
+  joint->axis_in_model = scope.pose.Rot().RotateVector(directionOf(from, *axis)).Normalized();
   setLimits(*axis, joint);
-  joint->damping = atLeastZero(axis->Element(), "damping", axis->Damping());
-  joint->friction = atLeastZero(axis->Element(), "friction", axis->Friction());
+  const XmlElement* const dynamics = axis->FirstChildElement("dynamics");
+  if (!dynamics) return;
+  joint->damping = atLeastZero(*axis, "damping", numberIn(*dynamics, "damping", 0));
+  joint->friction = atLeastZero(*axis, "friction", numberIn(*dynamics, "friction", 0));
 }
 
 }  // namespace
 
-Joint describeJoint(const sdf::Joint& from, const Scope& scope) {
+Joint describeJoint(const XmlElement& from, const Scope& scope) {
   Joint joint;
-  joint.name = scope.prefix + from.Name();
+  joint.name = scope.prefix + attributeOf(from, "name");
   joint.kind = kindOf(from);
-  setEnds(from, scope, &joint);
-  const Pose pose = resolved(from.SemanticPose(), from.Element(), "__model__");
-  joint.anchor_in_model = (scope.pose * pose).Pos();
+  joint.parent = scopedLink(from, "parent", scope);
+  joint.child = scopedLink(from, "child", scope);
+  joint.anchor_in_model = (scope.pose * poseAround(from)).Pos();
   if (joint.hasAxis()) setAxis(from, scope, &joint);
   return joint;
 }

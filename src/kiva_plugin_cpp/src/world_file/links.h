@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sdf/Joint.hh>
-#include <sdf/Link.hh>
-#include <sdf/Types.hh>
 #include <string>
 
-#include "kiva_plugin_cpp/description.h"
 #include "world_file/shapes.h"
 
 namespace kiva {
@@ -20,7 +16,7 @@ struct Scope {
 };
 
 /// Throw SdfError.
-Link describeLink(const sdf::Link& link, const Scope& scope, sdf::Errors* warnings);
-Joint describeJoint(const sdf::Joint& joint, const Scope& scope);
+Link describeLink(const XmlElement& link, const Scope& scope, Faults* warnings);
+Joint describeJoint(const XmlElement& joint, const Scope& scope);
 
 }  // namespace kiva

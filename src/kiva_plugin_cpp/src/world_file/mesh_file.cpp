@@ -135,7 +135,7 @@ std::string keyOf(const MeshRequest& request) {
   std::ostringstream key;
   key.precision(17);
   key << request.file << '\n'
-      << request.scale << '\n'
+      << request.scale.X() << ' ' << request.scale.Y() << ' ' << request.scale.Z() << '\n'
       << request.submesh << '\n'
       << request.is_centred;
   return key.str();

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/model_library.h"
 
-#include <sdf/Model.hh>
-
 #include "world_file/bounded_cache.h"
-#include "world_file/elements.h"
-#include "world_file/errors.h"
 #include "world_file/files.h"
+#include "world_file/frames.h"
 #include "world_file/model_paths.h"
 #include "world_file/models.h"
 #include "world_file/parser.h"
 #include "world_file/sensors.h"
-#include "world_file/xml.h"
+#include "world_file/values.h"
 
 namespace kiva {
 namespace {
 
-void readModel(const sdf::Model& model, const Origin& origin, sdf::Errors* warnings,
+void readModel(const XmlElement& model, const Origin& origin, Faults* warnings,
                LibraryModel* result) {
-  result->name = model.Name();
-  result->pose = resolved(model.SemanticPose(), model.Element());
-  result->placement = model.RawPose().Inverse() * result->pose;
+  result->name = attributeOf(model, "name");
+  result->pose = poseAround(model);
+  result->placement = valueOfPose(model.FirstChildElement("pose")).Inverse() * result->pose;
   result->description =
       std::make_shared<const ModelDescription>(describeModel(model, origin, warnings));
 }
@@ -29,13 +26,13 @@ LibraryModel readFile(const std::string& folder, const std::string& file,
                       const ModelPaths& model_paths) {
   LibraryModel result;
   SdfDocument document = parseSdf(readText(file, kMostBytes), model_paths);
-  if (const sdf::Model* model = document.root->Model()) {
+  if (const XmlElement* const model = document.root().FirstChildElement("model")) {
     readModel(*model, {file, model_paths}, &document.warnings, &result);
     addMeshFiles(*result.description, &document.files);
-  } else if (const sdf::Light* light = document.root->Light()) {
-    result.light = describeLight(*light, light->RawPose());
+  } else if (const XmlElement* const light = document.root().FirstChildElement("light")) {
+    result.light = describeLight(*light, valueOfPose(light->FirstChildElement("pose")));
   }
-  for (const sdf::Error& warning : document.warnings) {
+  for (const Fault& warning : document.warnings) {
     result.warnings.push_back(describe(warning, file));
   }
   document.files.insert(file);

@@ -6,9 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <regex>
-#include <sdf/parser.hh>
 
-#include "world_file/errors.h"
 #include "world_file/files.h"
 #include "world_file/xml.h"
 
@@ -96,26 +94,30 @@ bool isModel(const fs::path& path) {
   return fs::is_regular_file(path / "model.config", ignored) || fs::is_regular_file(path, ignored);
 }
 
-/// libsdformat 12 ends the process where it wants to tell the name of a model that has none, and
-/// throws a bare "stoi" at versions that are no numbers. Throws SdfError before it comes to that.
-void checkConfig(const std::string& file) {
+/// The newest file of those that a model.config names for versions of SDF. Throws SdfError.
+std::string newestFile(const std::string& config) {
   static const std::regex kVersion("[0-9]{0,4}(\\.[0-9]{1,4}){0,2}");
-  const auto document = parseXml(readText(file, kMostBytes));
+  constexpr double kNewest = 1.91;  // 1.10 and 1.11 count as less
+  const auto document = parseXml(readText(config, kMostBytes));
   const XmlElement* const model = document->FirstChildElement("model");
-  if (!model) return;
-  const XmlElement* sdf = model->FirstChildElement("sdf");
-  bool has_all = sdf != nullptr;
-  for (; sdf; sdf = sdf->NextSiblingElement("sdf")) {
+  if (!model) throw SdfError({"expected a <model>", "", "", 0});
+  std::string newest;
+  double best = 0;
+  for (const XmlElement* sdf = model->FirstChildElement("sdf"); sdf;
+       sdf = sdf->NextSiblingElement("sdf")) {
     const std::string version = attributeOf(*sdf, "version");
     if (!std::regex_match(version, kVersion)) {
       throw SdfError(noteAt(*sdf, "version '" + version + "' is no number"));
     }
-    has_all = has_all && !contentOf(sdf).empty() && sdf->Attribute("version") &&
-              std::atof(version.c_str()) <= std::atof(SDF_VERSION);
+    const double number = std::atof(version.c_str());
+    if (contentOf(sdf).empty() || number <= best || number > kNewest) continue;
+    best = number;
+    newest = contentOf(sdf);
   }
-  if (!has_all && !model->FirstChildElement("name")) {
+  if (newest.empty()) {
     throw SdfError(noteAt(*model, "expected a <name>, and an <sdf> with a version, in <model>"));
   }
+  return newest;
 }
 
 }  // namespace
@@ -164,12 +166,8 @@ std::string leftOut(const std::string& uri, const ModelPaths& paths) {
 
 std::string modelFile(const std::string& folder) {
   if (!fs::is_directory(folder)) return folder;
-  checkConfig((fs::path(folder) / "model.config").string());
-  ConsoleCapture console;
-  const std::string file = sdf::getModelFilePath(folder);
-  sdf::Errors warnings;
-  throwErrors({}, console.take(), &warnings);
-  return file;
+  const fs::path path(folder);
+  return (path / newestFile((path / "model.config").string())).string();
 }
 
 void addCandidates(const std::string& uri, const ModelPaths& paths, std::set<std::string>* files) {

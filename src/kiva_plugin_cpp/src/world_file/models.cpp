@@ -4,10 +4,11 @@
 #include <algorithm>
 
 #include "world_file/elements.h"
-#include "world_file/errors.h"
+#include "world_file/frames.h"
 #include "world_file/links.h"
 #include "world_file/sensors.h"
 #include "world_file/stand_in.h"
+#include "world_file/values.h"
 
 namespace kiva {
 namespace {
@@ -26,40 +27,38 @@ void holdToWorld(std::size_t first, ModelDescription* description) {
 }
 
 /// Adds the parts of `model`, then those of the models inside it.
-void addModel(const sdf::Model& model, const Scope& scope, ModelDescription* description,
-              sdf::Errors* warnings) {
-  for (uint64_t i = 0; i < model.LinkCount(); ++i) {
-    description->links.push_back(describeLink(*model.LinkByIndex(i), scope, warnings));
-    addSensors(*model.LinkByIndex(i), scope, description, warnings);
-  }
-  for (uint64_t i = 0; i < model.JointCount(); ++i) {
-    buildOrLeaveOut("joint", warnings, [&] {
-      description->joints.push_back(describeJoint(*model.JointByIndex(i), scope));
-    });
-  }
-  for (auto& plugin : readPlugins(model.Element(), scope.origin.where)) {
+void addModel(const XmlElement& model, const Scope& scope, ModelDescription* description,
+              Faults* warnings) {
+  forEach(model, "link", [&](const XmlElement& link) {
+    description->links.push_back(describeLink(link, scope, warnings));
+    addSensors(link, scope, description, warnings);
+  });
+  forEach(model, "joint", [&](const XmlElement& joint) {
+    buildOrLeaveOut("joint", warnings,
+                    [&] { description->joints.push_back(describeJoint(joint, scope)); });
+  });
+  for (auto& plugin : readPlugins(model, scope.origin.where)) {
     description->plugins.push_back(std::move(plugin));
   }
-  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
-    const sdf::Model& nested = *model.ModelByIndex(i);
-    const std::string name = scope.prefix + nested.Name();
+  forEach(model, "model", [&](const XmlElement& nested) {
+    const std::string name = scope.prefix + attributeOf(nested, "name");
     description->nested_models.push_back(name);
-    const Pose pose = scope.pose * resolved(nested.SemanticPose(), nested.Element(), "__model__");
+    const Pose pose = scope.pose * poseAround(nested);
     const std::size_t first = description->links.size();
-    const bool is_static = scope.is_static || nested.Static();
-    addModel(nested, {scope.origin, name + "::", pose, is_static}, description, warnings);
-    if (nested.Static() && !description->is_static) holdToWorld(first, description);
-  }
+    const bool is_fixed = flagIn(nested, "static", false);
+    addModel(nested, {scope.origin, name + "::", pose, scope.is_static || is_fixed}, description,
+             warnings);
+    if (is_fixed && !description->is_static) holdToWorld(first, description);
+  });
 }
 
 /// Returns whether a model is static: itself, or since it only wraps static ones.
-bool isStatic(const sdf::Model& model) {
-  if (model.Static()) return true;
-  if (model.LinkCount() > 0 || model.ModelCount() == 0) return false;
-  for (uint64_t i = 0; i < model.ModelCount(); ++i) {
-    if (!isStatic(*model.ModelByIndex(i))) return false;
-  }
-  return true;
+bool isStatic(const XmlElement& model) {
+  if (flagIn(model, "static", false)) return true;
+  if (model.FirstChildElement("link") || !model.FirstChildElement("model")) return false;
+  bool are_static = true;
+  forEach(model, "model", [&](const XmlElement& nested) { are_static &= isStatic(nested); });
+  return are_static;
 }
 
 /// Puts the link that stands for the whole model first, the others as they came.
@@ -70,13 +69,12 @@ void putFirst(const std::string& canonical, std::vector<Link>* links) {
 
 }  // namespace
 
-ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
-                               sdf::Errors* warnings) {
+ModelDescription describeModel(const XmlElement& model, const Origin& origin, Faults* warnings) {
   ModelDescription description;
   description.is_static = isStatic(model);
   addModel(model, {origin, "", Pose::Zero, description.is_static}, &description, warnings);
   addStandIn(model, &description, warnings);
-  putFirst(model.CanonicalLinkAndRelativeName().second, &description.links);
+  putFirst(canonicalLinkOf(model), &description.links);
   return description;
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// libsdformat's models → our descriptions.
+// Models of SDF to descriptions.
 #pragma once
-
-#include <sdf/Model.hh>
-#include <sdf/Types.hh>
 
 #include "kiva_plugin_cpp/description.h"
 #include "world_file/links.h"
@@ -12,7 +9,6 @@
 namespace kiva {
 
 /// With nested models flattened. Throws SdfError.
-ModelDescription describeModel(const sdf::Model& model, const Origin& origin,
-                               sdf::Errors* warnings);
+ModelDescription describeModel(const XmlElement& model, const Origin& origin, Faults* warnings);
 
 }  // namespace kiva

@@ -14,9 +14,7 @@ namespace {
 
 constexpr char kPerson[] = "model://person";
 
-bool is(const XmlElement& element, const char* name) { return element.Name() == std::string(name); }
-
-/// Names that mean something else in SDF are left to libsdformat's rules.
+/// Names that mean something else in SDF are not.
 bool isPlainName(const std::string& name) {
   return !name.empty() && name != "world" && name.find("::") == std::string::npos &&
          name.compare(0, 2, "__") != 0;
@@ -28,7 +26,7 @@ std::optional<bool> parseFlag(const std::string& text) {
   return std::nullopt;
 }
 
-/// libsdformat refuses a world of such a name, and with it the whole file.
+/// SDF keeps such names to itself, also as a name of a world.
 bool isReserved(const std::string& name) {
   const bool is_internal = name.size() >= 4 && name.compare(0, 2, "__") == 0 &&
                            name.compare(name.size() - 2, 2, "__") == 0;
@@ -282,7 +280,7 @@ void modernizePoses(XmlDocument* document) {
     const char* const frame = element->Attribute("frame");
     if (!frame || !is(*element, "pose")) return;
     const std::string name = trimmed(frame);
-    if (!name.empty() && !is_new) return;  // libsdformat knows
+    if (!name.empty() && !is_new) return;  // conversion knows
     if (!name.empty() && !element->Attribute("relative_to")) {
       element->SetAttribute("relative_to", name.c_str());
     }

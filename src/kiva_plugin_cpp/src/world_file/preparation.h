@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a world file may hold beyond what libsdformat makes models of, and what libsdformat would
-// take too long for: it copies its description of all of SDF for every `<include>` (20 to 40 ms),
-// so a world of 5000 shelves would take minutes. Most includes say no more than which model stands
+// What a world file may hold beyond SDF, and what it holds in great numbers: a world of 5000
+// shelves includes the same model 5000 times. Most includes say no more than which model stands
 // where: those are taken out of the text here, and the model they name is read once. So are models
 // whose text has been there before, the clones of populations, and people.
 #pragma once
 
 #include <map>
 #include <optional>
-#include <sdf/Types.hh>
 #include <string>
 #include <vector>
 
@@ -32,23 +30,23 @@ struct Include {
 };
 
 struct PreparedText {
-  std::string rest;  ///< For libsdformat; on the lines where it was.
+  std::string rest;  ///< On the lines where it was.
   std::vector<Include> includes;
   /// The world's models in the order of the text: index of an include, or kOfRest.
   std::vector<int> order;
   static constexpr int kOfRest = -1;
-  sdf::Errors warnings;
-  /// The world's name, where libsdformat keeps it for itself and was given another.
+  Faults warnings;
+  /// The world's name, where SDF keeps it for itself and another was put there.
   std::optional<std::string> world_name;
   /// Where a world's `<state>`, as Gazebo saves it, has its models; by name.
   std::map<std::string, Pose> poses;
 };
 
 /// Leaves in place what it does not understand, and all includes and models if parts of the world
-/// refer to each other: libsdformat then does it, or says what is wrong. Throws SdfError.
+/// refer to each other. Throws SdfError.
 PreparedText prepare(const std::string& xml);
 
-/// `<pose frame="">` and the like, which libsdformat trips over in newer versions of SDF.
+/// `<pose frame="">` and the like, which is not in newer versions of SDF.
 void modernizePoses(XmlDocument* document);
 
 }  // namespace kiva

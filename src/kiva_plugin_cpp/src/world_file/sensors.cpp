@@ -3,57 +3,102 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sdf/Sensor.hh>
+#include <map>
 
 #include "world_file/elements.h"
-#include "world_file/errors.h"
+#include "world_file/frames.h"
+#include "world_file/values.h"
 
 namespace kiva {
 namespace {
 
-SensorDescription describeSensor(const sdf::Sensor& from, const Scope& scope,
+/// Names that SDF has for what a sensor is, with the element that each has, if one.
+const std::map<std::string, std::string> kSensors = {{"air_pressure", "air_pressure"},
+                                                     {"altimeter", "altimeter"},
+                                                     {"boundingbox", "camera"},
+                                                     {"boundingbox_camera", "camera"},
+                                                     {"camera", "camera"},
+                                                     {"contact", ""},
+                                                     {"custom", ""},
+                                                     {"depth", "camera"},
+                                                     {"depth_camera", "camera"},
+                                                     {"force_torque", "force_torque"},
+                                                     {"gps", ""},
+                                                     {"gpu_lidar", ""},
+                                                     {"gpu_ray", ""},
+                                                     {"imu", "imu"},
+                                                     {"lidar", ""},
+                                                     {"logical_camera", ""},
+                                                     {"magnetometer", "magnetometer"},
+                                                     {"multicamera", ""},
+                                                     {"navsat", ""},
+                                                     {"none", ""},
+                                                     {"ray", ""},
+                                                     {"rfid", ""},
+                                                     {"rfidtag", ""},
+                                                     {"rgbd", "camera"},
+                                                     {"rgbd_camera", "camera"},
+                                                     {"segmentation", "camera"},
+                                                     {"segmentation_camera", "camera"},
+                                                     {"sonar", ""},
+                                                     {"thermal", "camera"},
+                                                     {"thermal_camera", "camera"},
+                                                     {"wireless_receiver", ""},
+                                                     {"wireless_transmitter", ""}};
+
+SensorDescription describeSensor(const XmlElement& from, const Scope& scope,
                                  const std::string& link) {
+  const std::string type = attributeOf(from, "type");
+  const auto kind = kSensors.find(type);
+  if (kind == kSensors.end()) failAt(from, "there is no sensor of type '" + type + "' in SDF");
   SensorDescription sensor;
-  sensor.name = from.Name();
-  sensor.type = from.Element()->Get<std::string>("type");
+  sensor.name = attributeOf(from, "name");
+  sensor.type = type;
   sensor.link = link;
-  sensor.pose_in_link = resolved(from.SemanticPose(), from.Element());
-  sensor.update_rate = std::isfinite(from.UpdateRate()) ? std::max(0.0, from.UpdateRate()) : 0;
-  sensor.parameters = readParameters(from.Element(), scope.origin.where);
-  sensor.plugins = readPlugins(from.Element(), scope.origin.where);
+  sensor.pose_in_link = poseAround(from);
+  const double rate = numberIn(from, "update_rate", 0);
+  sensor.update_rate = std::isfinite(rate) ? std::max(0.0, rate) : 0;
+  sensor.parameters = readParameters(from, scope.origin.where);
+  if (!kind->second.empty()) addMissing(from, kind->second, &sensor.parameters);
+  sensor.plugins = readPlugins(from, scope.origin.where);
   return sensor;
 }
 
-void copy(const ignition::math::Color& from, double* to) {
-  const float values[] = {from.R(), from.G(), from.B(), from.A()};
-  std::copy(std::begin(values), std::end(values), to);
+void setColour(const XmlElement& light, const char* name, double* to) {
+  const auto colour = readColour(contentOf(light.FirstChildElement(name)));
+  if (colour) std::copy(colour->begin(), colour->end(), to);
 }
 
 }  // namespace
 
-void addSensors(const sdf::Link& link, const Scope& scope, ModelDescription* description,
-                sdf::Errors* warnings) {
-  for (uint64_t i = 0; i < link.SensorCount(); ++i) {
+void addSensors(const XmlElement& link, const Scope& scope, ModelDescription* description,
+                Faults* warnings) {
+  forEach(link, "sensor", [&](const XmlElement& sensor) {
     buildOrLeaveOut("sensor", warnings, [&] {
       description->sensors.push_back(
-          describeSensor(*link.SensorByIndex(i), scope, scope.prefix + link.Name()));
+          describeSensor(sensor, scope, scope.prefix + attributeOf(link, "name")));
     });
-  }
+  });
 }
 
-Light describeLight(const sdf::Light& from, const Pose& pose) {
+Light describeLight(const XmlElement& from, const Pose& pose) {
   Light light;
-  light.name = from.Name();
-  if (from.Type() == sdf::LightType::SPOT) light.kind = Light::Kind::kSpot;
-  if (from.Type() == sdf::LightType::DIRECTIONAL) light.kind = Light::Kind::kDirectional;
+  light.name = attributeOf(from, "name");
+  const std::string type = attributeOf(from, "type");
+  if (type == "spot") light.kind = Light::Kind::kSpot;
+  if (type == "directional") light.kind = Light::Kind::kDirectional;
   light.pose = pose;
-  copy(from.Diffuse(), light.diffuse);
-  copy(from.Specular(), light.specular);
-  light.attenuation_constant = from.ConstantAttenuationFactor();
-  light.attenuation_linear = from.LinearAttenuationFactor();
-  light.attenuation_quadratic = from.QuadraticAttenuationFactor();
-  light.direction = from.Direction();
-  light.cast_shadows = from.CastShadows();
+  std::fill_n(light.specular, 3, static_cast<float>(0.1));
+  setColour(from, "diffuse", light.diffuse);
+  setColour(from, "specular", light.specular);
+  light.attenuation_linear = 1;
+  if (const XmlElement* const fades = from.FirstChildElement("attenuation")) {
+    light.attenuation_constant = numberIn(*fades, "constant", 1);
+    light.attenuation_linear = numberIn(*fades, "linear", 1);
+    light.attenuation_quadratic = numberIn(*fades, "quadratic", 0);
+  }
+  light.direction = vectorIn(from, "direction", Vector3(0, 0, -1));
+  light.cast_shadows = flagIn(from, "cast_shadows", false);
   return light;
 }
 

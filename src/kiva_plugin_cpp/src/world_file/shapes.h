@@ -4,11 +4,9 @@
 #pragma once
 
 #include <optional>
-#include <sdf/Element.hh>
-#include <sdf/Types.hh>
 #include <string>
 
-#include "kiva_plugin_cpp/world_file.h"
+#include "world_file/xml.h"
 
 namespace kiva {
 
@@ -25,12 +23,12 @@ enum class MeshUse { kTouched, kSeen };
 /// The shape in the `<geometry>` of a collision or a visual; nothing for `<empty>`.
 /// Throws SdfError at a mesh that can't be had, at a size that is not positive, and at a kind we
 /// can't build.
-std::optional<Shape> readShape(const sdf::ElementPtr& owner, const Origin& origin, MeshUse use);
+std::optional<Shape> readShape(const XmlElement& owner, const Origin& origin, MeshUse use);
 
 /// Reads friction and restitution of a `<collision>`.
-void readSurface(const sdf::ElementPtr& element, Collision* collision, sdf::Errors* warnings);
+void readSurface(const XmlElement& element, Collision* collision, Faults* warnings);
 
-/// Returns the colour of a `<visual>`.
-void readMaterial(const sdf::ElementPtr& element, Visual* visual, sdf::Errors* warnings);
+/// Reads the colour of a `<visual>`.
+void readMaterial(const XmlElement& element, Visual* visual, Faults* warnings);
 
 }  // namespace kiva

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sdf/Visual.hh>
 
-#include "world_file/elements.h"
+#include "world_file/frames.h"
+#include "world_file/values.h"
 
 namespace kiva {
 namespace {
@@ -21,30 +21,29 @@ Shape boxOf(const Vector3& size) {
 }
 
 /// The shapes that the link shows, at `place` in it or anywhere.
-std::vector<Collision> visualsOf(const sdf::Link& from, const std::optional<Pose>& place,
+std::vector<Collision> visualsOf(const XmlElement& from, const std::optional<Pose>& place,
                                  const Origin& origin) {
   std::vector<Collision> found;
-  for (uint64_t i = 0; i < from.VisualCount(); ++i) {
-    const sdf::Visual& visual = *from.VisualByIndex(i);
-    sdf::Errors ignored;  // Told where visuals are read.
+  forEach(from, "visual", [&](const XmlElement& visual) {
+    Faults ignored;  // Told where visuals are read.
     buildOrLeaveOut("visual", &ignored, [&] {
-      const Pose pose = resolved(visual.SemanticPose(), visual.Element());
+      const Pose pose = poseAround(visual);
       if (place && pose.Pos().Distance(place->Pos()) > kNoDistance) return;
-      const auto shape = readShape(visual.Element(), origin, MeshUse::kTouched);
+      const auto shape = readShape(visual, origin, MeshUse::kTouched);
       if (!shape || shape->kind == Shape::Kind::kPlane) return;
       Collision collision;
       collision.pose_in_link = pose;
       collision.shape = *shape;
       found.push_back(collision);
     });
-  }
+  });
   return found;
 }
 
 /// SDF has a heightmap around its origin, and above it.
-std::vector<Collision> boxOfHeightmap(const Collision& lost, const sdf::ElementPtr& heightmap) {
-  const Vector3 size = heightmap->Get<Vector3>("size", Vector3::One).first;
-  const Vector3 at = heightmap->Get<Vector3>("pos", Vector3::Zero).first;
+std::vector<Collision> boxOfHeightmap(const Collision& lost, const XmlElement& heightmap) {
+  const Vector3 size = vectorIn(heightmap, "size", Vector3::One);
+  const Vector3 at = vectorIn(heightmap, "pos", Vector3::Zero);
   if (!size.IsFinite() || !at.IsFinite() || size.Min() <= 0) return {};
   Collision box = lost;
   box.shape = boxOf(size);
@@ -52,10 +51,9 @@ std::vector<Collision> boxOfHeightmap(const Collision& lost, const sdf::ElementP
   return {box};
 }
 
-sdf::ElementPtr heightmapOf(const sdf::Link& from, const std::string& collision) {
-  const sdf::ElementPtr element = from.CollisionByName(collision)->Element();
-  const sdf::ElementPtr geometry = element->FindElement("geometry");
-  return geometry ? geometry->FindElement("heightmap") : nullptr;
+const XmlElement* heightmapOf(const XmlElement& collision) {
+  const XmlElement* const geometry = collision.FirstChildElement("geometry");
+  return geometry ? geometry->FirstChildElement("heightmap") : nullptr;
 }
 
 /// Upright in the model, whichever way the link is turned.
@@ -68,14 +66,14 @@ Collision boxAround(const Collision& lost, const Pose& link_in_model) {
   return box;
 }
 
-bool isEmpty(const sdf::Collision& collision) {
-  const sdf::ElementPtr geometry = collision.Element()->FindElement("geometry");
-  return geometry && geometry->HasElement("empty");
+bool isEmpty(const XmlElement& collision) {
+  const XmlElement* const geometry = collision.FirstChildElement("geometry");
+  return geometry && geometry->FirstChildElement("empty");
 }
 
-void warn(const SdfError& cause, const std::string& instead, sdf::Errors* warnings) {
+void warn(const SdfError& cause, const std::string& instead, Faults* warnings) {
   warnings->push_back(
-      reworded(cause.error(), "this collision is left out: " + causeOf(cause.error()) + instead));
+      reworded(cause.error(), "this collision is left out: " + cause.error().message + instead));
 }
 
 }  // namespace
@@ -86,13 +84,14 @@ std::string nameIn(const std::string& uri) {
   return whole.substr(whole.find_last_of('/') + 1);
 }
 
-void addStandIn(const sdf::Link& from, const Collision& lost, const SdfError& cause,
-                const Origin& origin, bool is_static, Link* link, sdf::Errors* warnings) {
+void addStandIn(const XmlElement& from, const XmlElement& collision, const Collision& lost,
+                const SdfError& cause, const Origin& origin, bool is_static, Link* link,
+                Faults* warnings) {
   std::string instead = "; what the link shows stands in for it";
   std::vector<Collision> found = visualsOf(from, lost.pose_in_link, origin);
   if (found.empty()) found = visualsOf(from, std::nullopt, origin);
-  if (const auto heightmap = heightmapOf(from, lost.name)) {
-    found = boxOfHeightmap(lost, heightmap);
+  if (const XmlElement* const heightmap = heightmapOf(collision)) {
+    found = boxOfHeightmap(lost, *heightmap);
     instead = "; the box around it stands in for it";
   }
   if (found.empty() && is_static) {
@@ -108,13 +107,11 @@ void addStandIn(const sdf::Link& from, const Collision& lost, const SdfError& ca
   }
 }
 
-void addStandIn(const sdf::Model& from, ModelDescription* description, sdf::Errors* warnings) {
+void addStandIn(const XmlElement& from, ModelDescription* description, Faults* warnings) {
   bool asks = false;
-  for (uint64_t i = 0; i < from.LinkCount(); ++i) {
-    const sdf::Link& link = *from.LinkByIndex(i);
-    for (uint64_t k = 0; k < link.CollisionCount(); ++k)
-      asks |= !isEmpty(*link.CollisionByIndex(k));
-  }
+  forEach(from, "link", [&](const XmlElement& link) {
+    forEach(link, "collision", [&](const XmlElement& collision) { asks |= !isEmpty(collision); });
+  });
   const bool has_some = std::any_of(description->links.begin(), description->links.end(),
                                     [](const Link& link) { return !link.collisions.empty(); });
   if (!asks || has_some || description->is_static || description->links.empty()) return;
@@ -125,8 +122,8 @@ void addStandIn(const sdf::Model& from, ModelDescription* description, sdf::Erro
   const Vector3 at(link.pose_in_model.X(), link.pose_in_model.Y(), kEdge / 2);
   cube.pose_in_link = link.pose_in_model.Inverse() * Pose(at, Quaternion::Identity);
   link.collisions.push_back(cube);
-  warnings->push_back(noteAt(
-      from.Element(), "none of its collisions can be had; a cube of 1 m stands in for them"));
+  warnings->push_back(
+      noteAt(from, "none of its collisions can be had; a cube of 1 m stands in for them"));
 }
 
 }  // namespace kiva

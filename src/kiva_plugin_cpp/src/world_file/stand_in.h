@@ -3,10 +3,6 @@
 // What can't be loaded is never free floor: something stands in its place.
 #pragma once
 
-#include <sdf/Collision.hh>
-#include <sdf/Link.hh>
-#include <sdf/Model.hh>
-#include <sdf/Types.hh>
 #include <string>
 
 #include "world_file/errors.h"
@@ -25,11 +21,12 @@ std::string nameIn(const std::string& uri);
 /// shape can't be had: the link's visuals at that place, else any of its visuals; for a heightmap
 /// the box around it; else, in a static model, a box of 1 m by 1 m from 2 m below its place to 1 m
 /// above. `cause` is why, for the warning that says what was done.
-void addStandIn(const sdf::Link& from, const Collision& lost, const SdfError& cause,
-                const Origin& origin, bool is_static, Link* link, sdf::Errors* warnings);
+void addStandIn(const XmlElement& from, const XmlElement& collision, const Collision& lost,
+                const SdfError& cause, const Origin& origin, bool is_static, Link* link,
+                Faults* warnings);
 
 /// Without any of its collisions a model that moves would fall through the floor: a cube of 1 m on
 /// its origin stands in for them.
-void addStandIn(const sdf::Model& from, ModelDescription* description, sdf::Errors* warnings);
+void addStandIn(const XmlElement& from, ModelDescription* description, Faults* warnings);
 
 }  // namespace kiva

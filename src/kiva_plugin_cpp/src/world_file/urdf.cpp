@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "world_file/errors.h"
 #include "world_file/xml.h"
 
 namespace kiva {

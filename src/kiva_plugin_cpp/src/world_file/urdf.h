@@ -5,11 +5,14 @@
 
 #include <string>
 
-#include "kiva_plugin_cpp/description.h"
+#include "world_file/xml.h"
 
 namespace kiva {
 
-/// A URDF whose links without an inertial have one: libsdformat leaves out those that have none,
+/// The model that a `<robot>` describes, as SDF. Throws SdfError.
+std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf);
+
+/// A URDF whose links without an inertial have one: Gazebo leaves out those that have none,
 /// and a hall's walls with them.
 std::string withInertias(const std::string& urdf);
 

@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sdf/Model.hh>
-#include <sdf/Physics.hh>
-#include <sdf/World.hh>
 #include <set>
 
 #include "world_file/bounded_cache.h"
 #include "world_file/elements.h"
 #include "world_file/errors.h"
 #include "world_file/files.h"
+#include "world_file/frames.h"
 #include "world_file/model_library.h"
 #include "world_file/model_paths.h"
 #include "world_file/models.h"
@@ -21,83 +19,97 @@
 #include "world_file/sensors.h"
 #include "world_file/stand_in.h"
 #include "world_file/urdf.h"
+#include "world_file/values.h"
 
 namespace kiva {
 namespace {
 
-/// What libsdformat's part of a text came to.
+/// What a text came to, apart from its includes.
 struct ParsedText {
   bool is_world = false;
   WorldDescription world;
-  sdf::Errors warnings;
+  Faults warnings;
   FileStamps stamps;
 };
 
-void addModel(const sdf::Model& model, const Origin& origin, std::vector<ModelInstance>* models,
-              sdf::Errors* warnings) {
+void addModel(const XmlElement& model, const Origin& origin, std::vector<ModelInstance>* models,
+              Faults* warnings) {
   buildOrLeaveOut("model", warnings, [&] {
     ModelInstance instance;
-    instance.name = model.Name();
-    instance.pose = resolved(model.SemanticPose(), model.Element());
+    instance.name = attributeOf(model, "name");
+    instance.pose = poseAround(model);
     instance.description =
         std::make_shared<ModelDescription>(describeModel(model, origin, warnings));
     models->push_back(std::move(instance));
   });
 }
 
-void setPhysics(const sdf::Physics& from, WorldDescription* world) {
-  const double step = from.MaxStepSize(), factor = from.RealTimeFactor();
+/// The one that is marked as the default, else the first.
+const XmlElement* physicsOf(const XmlElement& world) {
+  const XmlElement* found = nullptr;
+  forEach(world, "physics", [&](const XmlElement& physics) {
+    const bool is_default = readFlag(attributeOf(physics, "default")).value_or(false);
+    if (!found || is_default) found = &physics;
+  });
+  return found;
+}
+
+void setPhysics(const XmlElement& from, WorldDescription* world) {
+  const double step = numberIn(from, "max_step_size", 0.001);
+  const double factor = numberIn(from, "real_time_factor", 1);
   if (!(step >= kLeastStep && step <= kMostStep)) {
-    failAt(from.Element(), "expected a max_step_size from 1e-6 to 1 s");
+    failAt(from, "expected a max_step_size from 1e-6 to 1 s");
   }
   if (!std::isfinite(factor) || factor < 0) {
-    failAt(from.Element(), "expected a real_time_factor of 0 or above");
+    failAt(from, "expected a real_time_factor of 0 or above");
   }
   world->step_size = step;
   world->real_time_factor = factor;
 }
 
-void setGravity(const sdf::World& from, WorldDescription* world) {
-  if (!(from.Gravity().Length() <= kMostGravity)) {
-    failAt(from.Element()->FindElement("gravity"), "expected a gravity of 1000 m/s² at most");
+void setGravity(const XmlElement& from, WorldDescription* world) {
+  constexpr double kUsual = -9.8;  // [m/s²], in SDF
+  const Vector3 gravity = vectorIn(from, "gravity", Vector3(0, 0, kUsual));
+  if (!(gravity.Length() <= kMostGravity)) {
+    failAt(*from.FirstChildElement("gravity"), "expected a gravity of 1000 m/s² at most");
   }
-  world->gravity = from.Gravity();
+  world->gravity = gravity;
 }
 
-void describeWorld(const sdf::World& from, const Origin& origin, WorldDescription* world,
-                   sdf::Errors* warnings) {
-  world->name = from.Name();
+void describeWorld(const XmlElement& from, const Origin& origin, WorldDescription* world,
+                   Faults* warnings) {
+  world->name = attributeOf(from, "name");
   buildOrLeaveOut("gravity", warnings, [&] { setGravity(from, world); });
-  if (from.PhysicsDefault()) {
-    buildOrLeaveOut("physics", warnings, [&] { setPhysics(*from.PhysicsDefault(), world); });
+  if (const XmlElement* const physics = physicsOf(from)) {
+    buildOrLeaveOut("physics", warnings, [&] { setPhysics(*physics, world); });
   }
-  world->plugins = readPlugins(from.Element(), origin.where);
-  for (uint64_t i = 0; i < from.ModelCount(); ++i) {
-    addModel(*from.ModelByIndex(i), origin, &world->models, warnings);
-  }
-  for (uint64_t i = 0; i < from.LightCount(); ++i) {
-    const sdf::Light& light = *from.LightByIndex(i);
-    buildOrLeaveOut("light", warnings, [&] {
-      const Pose pose = resolved(light.SemanticPose(), light.Element());
-      world->lights.push_back(describeLight(light, pose));
-    });
-  }
+  world->plugins = readPlugins(from, origin.where);
+  forEach(from, "model",
+          [&](const XmlElement& model) { addModel(model, origin, &world->models, warnings); });
+  forEach(from, "light", [&](const XmlElement& light) {
+    buildOrLeaveOut("light", warnings,
+                    [&] { world->lights.push_back(describeLight(light, poseAround(light))); });
+  });
 }
 
 ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
                      const std::string& where) {
   SdfDocument document = parseSdf(text, model_paths);
-  const sdf::Root& root = *document.root;
+  const XmlElement& root = document.root();
   const Origin origin{where, model_paths};
   ParsedText parsed;
-  parsed.is_world = root.WorldCount() > 0;
-  if (root.WorldCount() > 1) failAt(root.Element(), "expected one <world>, found several");
-  if (parsed.is_world) {
-    describeWorld(*root.WorldByIndex(0), origin, &parsed.world, &document.warnings);
-  } else if (root.Model()) {
-    addModel(*root.Model(), origin, &parsed.world.models, &document.warnings);
-  } else if (root.Light()) {
-    parsed.world.lights.push_back(describeLight(*root.Light(), root.Light()->RawPose()));
+  const XmlElement* const world = root.FirstChildElement("world");
+  parsed.is_world = world != nullptr;
+  if (world && world->NextSiblingElement("world")) {
+    failAt(root, "expected one <world>, found several");
+  }
+  if (world) {
+    describeWorld(*world, origin, &parsed.world, &document.warnings);
+  } else if (const XmlElement* const model = root.FirstChildElement("model")) {
+    addModel(*model, origin, &parsed.world.models, &document.warnings);
+  } else if (const XmlElement* const light = root.FirstChildElement("light")) {
+    parsed.world.lights.push_back(
+        describeLight(*light, valueOfPose(light->FirstChildElement("pose"))));
   }
   parsed.warnings = std::move(document.warnings);
   for (const ModelInstance& model : parsed.world.models) {
@@ -108,7 +120,7 @@ ParsedText parseRest(const std::string& text, const ModelPaths& model_paths,
 }
 
 /// A thousand requests for the same model, or for models of a library by an include each, differ in
-/// nothing that libsdformat sees.
+/// nothing but that.
 std::shared_ptr<const ParsedText> cachedRest(const std::string& text,
                                              const ModelPaths& model_paths) {
   static BoundedCache<ParsedText> cache(256);
@@ -134,8 +146,8 @@ class Reading {
     try {
       const PreparedText prepared = prepare(xml);
       ParsedText parsed = *parse(prepared.rest);
-      for (const sdf::Error& warning : prepared.warnings) warn(describe(warning, where_));
-      for (const sdf::Error& warning : parsed.warnings) warn(describe(warning, where_));
+      for (const Fault& warning : prepared.warnings) warn(describe(warning, where_));
+      for (const Fault& warning : parsed.warnings) warn(describe(warning, where_));
       if (prepared.world_name) parsed.world.name = *prepared.world_name;
       parsed.world.models = merge(prepared, std::move(parsed.world.models));
       std::move(lights_.begin(), lights_.end(), std::back_inserter(parsed.world.lights));

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "world_file/errors.h"
-#include "world_file/format.h"
 
 namespace kiva {
 namespace {
@@ -57,48 +56,61 @@ class FlatPrinter : public tinyxml2::XMLPrinter {
   const XmlElement* but_;
 };
 
-/// As libsdformat has it.
-std::string pathOf(const XmlElement& element) {
-  std::string path = std::string("/") + element.Name();
-  const char* const name = element.Attribute("name");
-  if (name) path += "[@name=\"" + std::string(name) + "\"]";
+const XmlElement* elementAround(const XmlElement& element) {
   const tinyxml2::XMLNode* const parent = element.Parent();
-  return parent && parent->ToElement() ? pathOf(*parent->ToElement()) + path : path;
+  return parent ? parent->ToElement() : nullptr;
 }
 
-XmlElement* find(XmlElement* element, const std::vector<PathStep>& steps, std::size_t depth,
-                 int line) {
-  const PathStep& step = steps[depth];
-  const char* const name = element->Attribute("name");
-  if (step.element != element->Name()) return nullptr;
-  if (step.name && (!name || *step.name != name)) return nullptr;
-  if (depth + 1 == steps.size()) {
-    return line <= 0 || element->GetLineNum() == line ? element : nullptr;
+/// Whether an element stands in another file than the one around it: what it is called begins here.
+bool beginsFile(const XmlElement& element, const XmlElement& around) {
+  const Source* const own = sourceOf(element);
+  const Source* const other = sourceOf(around);
+  return own && (!other || own->file != other->file);
+}
+
+/// `model 'm', link 'l', inertial/mass`
+std::string entityOf(const XmlElement& element) {
+  const std::string kind = element.Name();
+  if (kind == "sdf") return "";
+  const char* const name = element.Attribute("name");
+  const std::string own = kind + (name ? " '" + std::string(name) + "'" : "");
+  const XmlElement* const around = elementAround(element);
+  if (!around || beginsFile(element, *around)) return own;
+  const std::string before = entityOf(*around);
+  if (before.empty()) return own;
+  return before + (around->Attribute("name") || name ? ", " : "/") + own;
+}
+
+/// `Error=XML_ERROR_MISMATCHED_ELEMENT ErrorID=14 (0xe) Line number=3: XMLElement name=link` to
+/// "the XML is ill-formed: mismatched element (XMLElement name=link)".
+Fault faultOfXml(const XmlDocument& document) {
+  if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+    return {"elements nest deeper than " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH), "", "",
+            document.ErrorLineNum()};
   }
-  for (XmlElement* child = element->FirstChildElement(); child;
-       child = child->NextSiblingElement()) {
-    if (XmlElement* found = find(child, steps, depth + 1, line)) return found;
+  std::string cause = document.ErrorName();
+  for (const char* prefix : {"XML_ERROR_", "XML_"}) {
+    if (startsWith(cause, prefix)) cause.erase(0, std::strlen(prefix));
   }
-  return nullptr;
+  for (char& letter : cause) letter = letter == '_' ? ' ' : static_cast<char>(std::tolower(letter));
+  if (startsWith(cause, "parsing")) cause = "error while " + cause;
+  const std::string told = document.ErrorStr();
+  const std::size_t detail = told.find(": ", told.find("Line number="));
+  if (detail != std::string::npos) cause += " (" + told.substr(detail + 2) + ")";
+  return {"the XML is ill-formed: " + cause, "", "", document.ErrorLineNum()};
 }
 
 }  // namespace
 
 std::unique_ptr<XmlDocument> parseXml(const std::string& text) {
   if (text.size() > kMostBytes) {
-    throw SdfError(sdf::Error(sdf::ErrorCode::STRING_READ,
-                              "it has " + std::to_string(text.size()) + " bytes; expected " +
-                                  std::to_string(kMostBytes) + " at the most"));
+    throw SdfError({"it has " + std::to_string(text.size()) + " bytes; expected " +
+                        std::to_string(kMostBytes) + " at the most",
+                    "", "", 0});
   }
   auto document = std::make_unique<XmlDocument>();
   if (document->Parse(text.data(), text.size()) == tinyxml2::XML_SUCCESS) return document;
-  if (document->ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
-    sdf::Error error(sdf::ErrorCode::STRING_READ,
-                     "elements nest deeper than " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH));
-    error.SetLineNumber(document->ErrorLineNum());
-    throw SdfError(error);
-  }
-  throw SdfError(xmlError(document->ErrorStr()));
+  throw SdfError(faultOfXml(*document));
 }
 
 std::string textOf(const XmlDocument& document) {
@@ -113,18 +125,21 @@ std::string textOf(const XmlElement& element, const XmlElement* but) {
   return {printer.CStr(), static_cast<std::size_t>(printer.CStrSize()) - 1};
 }
 
-sdf::Error noteAt(const XmlElement& element, const std::string& message) {
-  sdf::Error note(sdf::ErrorCode::ELEMENT_INVALID, message);
-  note.SetXmlPath(pathOf(element));
-  note.SetLineNumber(element.GetLineNum());
-  return note;
+const Source* sourceOf(const XmlElement& element) {
+  return static_cast<const Source*>(element.GetUserData());
 }
 
-XmlElement* findElement(XmlDocument& document, const std::string& xml_path, int line) {
-  const std::vector<PathStep> steps = pathSteps(xml_path);
-  XmlElement* const root = document.RootElement();
-  return root && !steps.empty() ? find(root, steps, 0, line) : nullptr;
+Fault noteAt(const XmlElement& element, const std::string& message) {
+  const Source* const source = sourceOf(element);
+  return {message, entityOf(element), source ? source->file : "",
+          source ? source->line : element.GetLineNum()};
 }
+
+void failAt(const XmlElement& element, const std::string& message) {
+  throw SdfError(noteAt(element, message));
+}
+
+bool is(const XmlElement& element, const char* name) { return element.Name() == std::string(name); }
 
 std::string attributeOf(const XmlElement& element, const char* name) {
   const char* const value = element.Attribute(name);

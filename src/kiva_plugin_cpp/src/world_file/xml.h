@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// World files as trees that we may change before libsdformat sees them: it is given text again,
-// with every element on the line where it was, so that what it says is about the user's file.
+// World files as trees, and elements as text again with each on the line where it was.
 #pragma once
 
 #include <tinyxml2.h>
 
 #include <memory>
 #include <optional>
-#include <sdf/Error.hh>
 #include <string>
 #include <vector>
 
-#include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/world_file.h"
+#include "world_file/errors.h"
 
 namespace kiva {
 
 using XmlDocument = tinyxml2::XMLDocument;
 using XmlElement = tinyxml2::XMLElement;
 
-/// The largest text that is read [byte]: libsdformat needs fourteen times as much memory.
+/// The largest text that is read [byte].
 constexpr std::size_t kMostBytes = 20'000'000;
 
 /// Throws SdfError with the line where a text is no XML, is too long, or nests too deep.
@@ -31,12 +30,19 @@ std::string textOf(const XmlDocument& document);
 /// The text of one element on one line; `but`, if given, is left out.
 std::string textOf(const XmlElement& element, const XmlElement* but = nullptr);
 
-/// Returns an error at the line and entity of `element`.
-sdf::Error noteAt(const XmlElement& element, const std::string& message);
+/// Where an element stands that came from another file: its user data. Others stand in the document
+/// that was given.
+struct Source {
+  std::string file;
+  int line = 0;
+};
+const Source* sourceOf(const XmlElement& element);
 
-/// The element that libsdformat's `/sdf/model[@name="m"]/link` names, at that line if it is above
-/// 0; null if there is none.
-XmlElement* findElement(XmlDocument& document, const std::string& xml_path, int line);
+/// A message at the file, line and entity of `element`.
+Fault noteAt(const XmlElement& element, const std::string& message);
+[[noreturn]] void failAt(const XmlElement& element, const std::string& message);
+
+bool is(const XmlElement& element, const char* name);
 
 /// Returns an attribute without the blanks around it; empty if there is none.
 std::string attributeOf(const XmlElement& element, const char* name);
@@ -57,11 +63,20 @@ void forAll(XmlElement* element, const Visit& visit) {
   }
 }
 
+/// Calls visit(child) for each child of that name.
+template <typename Visit>
+void forEach(const XmlElement& element, const char* name, const Visit& visit) {
+  for (const XmlElement* child = element.FirstChildElement(name); child;
+       child = child->NextSiblingElement(name)) {
+    visit(*child);
+  }
+}
+
 /// Returns that many finite numbers; nothing for any other text.
 std::optional<std::vector<double>> parseNumbers(const std::string& text, std::size_t count);
 /// Returns a pose of six finite numbers; nothing for any other text.
 std::optional<Pose> parsePose(const std::string& text);
-/// Returns a boolean as libsdformat reads it.
+/// Returns a pose as SDF writes it.
 std::string textOf(const Pose& pose);
 
 }  // namespace kiva

@@ -5,10 +5,10 @@
 // compare it with the one of the house. Named in a YAML file,
 //
 //   planner: /path/to/libright_of_way.so:RightOfWay
-#include <ignition/plugin/Register.hh>
 #include <unordered_set>
 
 #include "warehouse_fleet/planner.h"
+#include "warehouse_layout/register_plugin.h"
 
 namespace {
 
@@ -57,4 +57,4 @@ class RightOfWay : public fleet::Planner {
 }  // namespace
 
 // By this line the library tells what it holds.
-IGNITION_ADD_PLUGIN(RightOfWay, fleet::Planner)
+WAREHOUSE_ADD_PLUGIN(RightOfWay, fleet::Planner)

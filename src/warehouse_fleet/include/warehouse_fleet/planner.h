@@ -3,9 +3,9 @@
 // What every planner is: told the floor once, then asked at each tick what all robots do next. A
 // user's own is one class,
 //
-//   #include <ignition/plugin/Register.hh>
+//   #include "warehouse_layout/register_plugin.h"
 //   class Mine : public fleet::Planner { … };
-//   IGNITION_ADD_PLUGIN(Mine, fleet::Planner)
+//   WAREHOUSE_ADD_PLUGIN(Mine, fleet::Planner)
 //
 // whose library and name are given to loadPlanner. examples/ has one to start from.
 #pragma once

@@ -12,7 +12,7 @@ integer array: the cell it is in, or a neighbour. A robot that doesn't face its 
 towards it, a quarter a tick, and stays in its cell meanwhile. A YAML file names the planner:
 
     planner: my_package.my_module:Mine      # Python
-    planner: /path/to/libmine.so:Mine       # C++: a fleet::Planner, registered by ignition-plugin
+    planner: /path/to/libmine.so:Mine       # C++: a registered fleet::Planner
     planner: epibt                          # the built-in planner, the default
     options: {depth: 5}                     # for epibt, or for the Python class
 """

@@ -1,40 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <ignition/plugin/Loader.hh>
 #include <stdexcept>
 
 #include "warehouse_fleet/planner.h"
+#include "warehouse_layout/plugin_library.h"
 
 namespace fleet {
-namespace {
-
-std::string withoutNamespace(const std::string& name) {
-  const std::size_t end = name.rfind("::");
-  return end == std::string::npos ? name : name.substr(end + 2);
-}
-
-}  // namespace
 
 std::shared_ptr<Planner> loadPlanner(const std::string& path, const std::string& class_name) {
-  // Never unloaded: planners of it may live as long as the program.
-  static ignition::plugin::Loader loader;
-  const auto found = loader.LoadLib(path);
-  if (found.empty()) {
-    throw std::runtime_error(path + ": no library with a registered planner");
+  const warehouse::PluginLibrary library(path);
+  const auto fail = [&path](const std::string& why) {
+    throw std::runtime_error(path + ": " + why);
+  };
+  const std::string contents = library.contents();
+  if (contents.empty()) fail("no library with a registered planner");
+  const warehouse::PluginClass* const found = library.find(class_name);
+  if (!found) fail("no class " + class_name + "; it has " + contents);
+  if (!library.is<Planner>(*found)) {
+    fail(class_name + " is registered as " + found->interface + "; WAREHOUSE_ADD_PLUGIN(" +
+         class_name + ", fleet::Planner) was expected");
   }
-  std::string names, full_name;
-  for (const std::string& name : found) {
-    names += (names.empty() ? "" : ", ") + name;
-    if (withoutNamespace(name) == withoutNamespace(class_name)) full_name = name;
-  }
-  if (full_name.empty()) {
-    throw std::runtime_error(path + ": no class " + class_name + "; it has " + names);
-  }
-  auto planner = loader.Instantiate(full_name)->QueryInterfaceSharedPtr<Planner>();
-  if (planner == nullptr) {
-    throw std::runtime_error(path + ": " + class_name +
-                             " is not registered as a fleet::Planner (IGNITION_ADD_PLUGIN)");
-  }
-  return planner;
+  return library.make<Planner>(*found);
 }
 
 }  // namespace fleet

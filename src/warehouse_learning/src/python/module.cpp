@@ -218,14 +218,14 @@ class Task {
 
   void renewGoals() { goals_.renew(); }
 
-  py::array distance() const {
+  py::array_t<std::int32_t> distance() const {
     py::array_t<std::int32_t> out({state_.warehouses(), state_.robots()});
     for (int w = 0; w < state_.warehouses(); ++w) {
       for (int robot = 0; robot < state_.robots(); ++robot) {
         out.mutable_at(w, robot) = goals_.distance(w, robot);
       }
     }
-    return std::move(out);
+    return out;
   }
 
   py::object way(int w, int robot) const {

@@ -95,7 +95,7 @@ def test_who_does_not_face_its_cell_turns_first(floor):
         ({"planner": "nothing"}, "planner 'nothing'; epibt, MODULE:CLASS or LIBRARY.so:CLASS"),
         ({"planner": "nowhere:Mine"}, "planner 'nowhere:Mine': No module named 'nowhere'"),
         ({"planner": "json:Mine"}, "planner 'json:Mine': module 'json' has no attribute 'Mine'"),
-        ({"planner": f"{LIBRARY}:Mine"}, "no class Mine; it has (anonymous namespace)::RightOfWay"),
+        ({"planner": f"{LIBRARY}:Mine"}, "no class Mine; it has RightOfWay (fleet::Planner)"),
         ({"plan": "epibt"}, "unknown key 'plan'; planner, options were expected"),
         ({"options": {"deep": 4}}, "epibt: no such option: deep"),
     ],

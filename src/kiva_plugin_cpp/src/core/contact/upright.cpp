@@ -18,6 +18,7 @@ constexpr double kVisible = 0.01;      // [rad]: a unit that rocks farther is a 
 constexpr double kCalm = 0.25;         // share of that energy with which it is planar again
 constexpr double kAbove = 0.002;       // [m] that it may hang above the floor then
 constexpr double kRising = 0.02;       // [m/s] with which it may move up or down then
+constexpr double kNoPush = 1e-3;       // [Nms] that no rocking is worth
 constexpr double kBurden = 0.1;        // share of its weight that may press on it from above
 
 /// What of a body's weight and shape matters for rocking.
@@ -209,7 +210,7 @@ void rock(ContactView& world) {
 
 void letTip(ContactView& world, Model& model) {
   EntityState state = stateOf(model);
-  if (model.rocking != Vector3::Zero) {
+  if (!model.rocking.Equal(Vector3::Zero, kNoPush)) {
     // About the edge, which stays on the floor: the centre of mass rises.
     const btRigidBody& body = *model.bodies.links.front().body;
     const Rocking r = rockingOf(world.settings, body, frictionOf(model).feet());

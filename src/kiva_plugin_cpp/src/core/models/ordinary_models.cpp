@@ -42,7 +42,9 @@ void setModelTwist(Model& model, const Twist& twist) {
   const btVector3 origin = toBullet(now.pose.Pos());
   const btVector3 push = toBullet(twist.linear - now.twist.linear);
   const btVector3 turn = toBullet(twist.angular - now.twist.angular);
-  const bool moves = twist.linear != Vector3::Zero || twist.angular != Vector3::Zero;
+  constexpr double kRest = 1e-3;  // [m/s, rad/s]
+  const bool moves =
+      !twist.linear.Equal(Vector3::Zero, kRest) || !twist.angular.Equal(Vector3::Zero, kRest);
   for (LinkBody& link : model.bodies.links) {
     btRigidBody& body = *link.body;
     const btVector3 arm = body.getWorldTransform().getOrigin() - origin;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/models/user_plugins.h"
 
-#include <dlfcn.h>
-
 #include <cstdlib>
 #include <filesystem>
-#include <ignition/plugin/Loader.hh>
 #include <sstream>
 #include <vector>
+
+#include "warehouse_layout/plugin_library.h"
 
 namespace kiva {
 namespace {
@@ -50,32 +49,27 @@ std::string locate(const std::string& filename, std::string* why) {
   return "";
 }
 
-/// Why the dynamic linker can't open it; empty if it can. Ignition's loader only prints.
-std::string linkerError(const std::string& library) {
-  void* handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL);
-  if (!handle) return dlerror();
-  dlclose(handle);
-  return "";
+warehouse::PluginLibrary opened(const std::string& path, const std::string& filename,
+                                const std::string& where) {
+  try {
+    return warehouse::PluginLibrary(path);
+  } catch (const std::runtime_error& error) {
+    throw DescriptionError(where + ": plugin library '" + filename +
+                           "' can't be loaded: " + error.what());
+  }
 }
 
 /// Returns null, with the reason, if there is no such library.
 std::shared_ptr<Plugin> fromLibrary(const std::string& filename, const std::string& where,
                                     std::string* why) {
-  const std::string library = locate(filename, why);
-  if (library.empty()) return nullptr;
-  const std::string error = linkerError(library);
-  if (!error.empty()) {
-    throw DescriptionError(where + ": plugin library '" + filename + "' can't be loaded: " + error);
-  }
-  // One loader for all, for as long as the program runs: a library must outlive its objects.
-  static ignition::plugin::Loader loader;
-  for (const std::string& name : loader.LoadLib(library)) {
-    const auto instance = loader.Instantiate(name);
-    if (!instance) continue;
-    if (auto plugin = instance->QueryInterfaceSharedPtr<Plugin>()) return plugin;
-  }
+  const std::string path = locate(filename, why);
+  if (path.empty()) return nullptr;
+  const warehouse::PluginLibrary library = opened(path, filename, where);
+  if (const auto* const found = library.first<Plugin>()) return library.make<Plugin>(*found);
+  const std::string others = library.contents();
   throw DescriptionError(where + ": library '" + filename +
-                         "' holds no class registered with IGNITION_ADD_PLUGIN(…, kiva::Plugin)");
+                         "' holds no class registered with WAREHOUSE_ADD_PLUGIN(…, kiva::Plugin)" +
+                         (others.empty() ? "" : "; it has " + others));
 }
 
 /// Returns what is left out, and why: `where` names the model as its file does, and here as it is

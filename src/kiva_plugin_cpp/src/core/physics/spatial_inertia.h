@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <ignition/math/Matrix3.hh>
-
 #include "kiva_plugin_cpp/description.h"
+#include "kiva_plugin_cpp/principal_inertia.h"
 
 namespace kiva {
 
 /// Mass, centre and inertia of several bodies as one, all in one frame.
 class SpatialInertia {
  public:
-  using Matrix = ignition::math::Matrix3d;
+  using Matrix = Matrix3;
 
   void add(const Link& link, const Pose& link_in_frame);
   void addPoint(double mass, const Vector3& at);

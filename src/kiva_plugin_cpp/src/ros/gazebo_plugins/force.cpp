@@ -27,7 +27,9 @@ void Force::beforeStep(kiva::World& world, double) {
     force_ = boundedVector(wrench->force.x, wrench->force.y, wrench->force.z);
     torque_ = boundedVector(wrench->torque.x, wrench->torque.y, wrench->torque.z);
   }
-  if (force_ == kiva::Vector3::Zero && torque_ == kiva::Vector3::Zero) return;
+  constexpr double kNothing = 1e-3;  // [N, Nm]
+  if (force_.Equal(kiva::Vector3::Zero, kNothing) && torque_.Equal(kiva::Vector3::Zero, kNothing))
+    return;
   world.applyWrench(model(), link_, force_, torque_);
 }
 

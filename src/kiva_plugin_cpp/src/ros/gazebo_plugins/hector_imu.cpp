@@ -24,7 +24,8 @@ void setCovariance(const kiva::Vector3& deviation, boost::array<double, 9>* cova
 
 HectorImu::Error HectorImu::readError(kiva::World& world, const kiva::Parameters& p,
                                       const std::string& prefix) {
-  if (readAxes(p, prefix + "Drift") != kiva::Vector3::Zero) {
+  constexpr double kNoDrift = 1e-3;  // [m/s², rad/s]
+  if (!readAxes(p, prefix + "Drift").Equal(kiva::Vector3::Zero, kNoDrift)) {
     world.warn(p.where() + ": <" + prefix + "Drift> is left out: biases do not drift here");
   }
   skip(p, {(prefix + "DriftFrequency").c_str()});

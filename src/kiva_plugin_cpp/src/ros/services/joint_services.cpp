@@ -70,11 +70,13 @@ std::string configure(kiva::World& world, const gazebo_msgs::SetJointProperties:
   read(ode.vel, &settings.motor_speed);
   world.setJoint(model, joint, settings);
   std::string ignored;
-  for (const auto& [name, values] :
-       {std::make_pair("erp", &ode.erp), std::make_pair("cfm", &ode.cfm),
-        std::make_pair("stop_erp", &ode.stop_erp), std::make_pair("stop_cfm", &ode.stop_cfm),
-        std::make_pair("fudge_factor", &ode.fudge_factor)}) {
-    if (!values->empty()) ignored += (ignored.empty() ? "" : ", ") + std::string(name);
+  const std::pair<const char*, bool> unused[] = {{"erp", !ode.erp.empty()},
+                                                 {"cfm", !ode.cfm.empty()},
+                                                 {"stop_erp", !ode.stop_erp.empty()},
+                                                 {"stop_cfm", !ode.stop_cfm.empty()},
+                                                 {"fudge_factor", !ode.fudge_factor.empty()}};
+  for (const auto& [name, is_given] : unused) {
+    if (is_given) ignored += (ignored.empty() ? "" : ", ") + std::string(name);
   }
   const std::string done = "SetJointProperties: properties set";
   return ignored.empty() ? done : done + "; without effect here: " + ignored;

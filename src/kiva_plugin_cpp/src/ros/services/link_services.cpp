@@ -9,10 +9,9 @@
 #include <gazebo_msgs/SetLinkState.h>
 
 #include <cmath>
-#include <ignition/math/MassMatrix3.hh>
-#include <ignition/math/Matrix3.hh>
 
 #include "action_period.h"
+#include "kiva_plugin_cpp/principal_inertia.h"
 #include "ros/messages/convert.h"
 #include "ros/messages/reference_frames.h"
 #include "service_answer.h"
@@ -20,8 +19,7 @@
 namespace kiva_ros {
 namespace {
 
-using ignition::math::MassMatrix3d;
-using ignition::math::Matrix3d;
+using kiva::Matrix3;
 
 constexpr int kSetLinkQueue = 10;
 
@@ -73,10 +71,9 @@ void setState(kiva::World& world, const gazebo_msgs::LinkState& asked) {
 /// Fills in a link's mass, gravity flag and inertia; the tensor is about the centre of mass, along
 /// the link's axes.
 void describe(const kiva::Link& link, gazebo_msgs::GetLinkProperties::Response* out) {
-  const Matrix3d turn(link.inertial_pose_in_link.Rot());
+  const Matrix3 turn(link.inertial_pose_in_link.Rot());
   const kiva::Vector3& m = link.principal_moments;
-  const Matrix3d tensor =
-      turn * Matrix3d(m.X(), 0, 0, 0, m.Y(), 0, 0, 0, m.Z()) * turn.Transposed();
+  const Matrix3 tensor = turn * Matrix3(m.X(), 0, 0, 0, m.Y(), 0, 0, 0, m.Z()) * turn.Transposed();
   out->com = toMessage(kiva::Pose(link.inertial_pose_in_link.Pos(), kiva::Quaternion::Identity));
   out->gravity_mode = link.gravity;
   out->mass = link.mass;
@@ -104,15 +101,15 @@ kiva::Link likeRequest(const std::string& name,
        {request.ixx, request.ixy, request.ixz, request.iyy, request.iyz, request.izz}) {
     checkNumber(value, kMostInertia, "an inertia");
   }
-  const MassMatrix3d matrix(request.mass, {request.ixx, request.iyy, request.izz},
-                            {request.ixy, request.ixz, request.iyz});
+  const kiva::InertiaTensor tensor{{request.ixx, request.iyy, request.izz},
+                                   {request.ixy, request.ixz, request.iyz}};
   kiva::Link like;
   like.name = name;
   like.mass = request.mass;
   like.gravity = request.gravity_mode;
-  like.principal_moments = matrix.PrincipalMoments();
+  like.principal_moments = tensor.principalMoments();
   like.inertial_pose_in_link =
-      fromMessage(request.com) * kiva::Pose(kiva::Vector3::Zero, matrix.PrincipalAxesOffset());
+      fromMessage(request.com) * kiva::Pose(kiva::Vector3::Zero, tensor.principalAxes());
   return like;
 }
 

@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "description/regex_once.h"
-
-template class std::__detail::_Compiler<std::regex_traits<char>>;

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// URDF as Gazebo makes SDF of it: a link without a mass is none, and its children are none either;
+// what `<gazebo reference="link">` holds goes into the link, without a reference into the model.
+#include <algorithm>
+#include <charconv>
+
+#include "world_file/urdf.h"
+#include "world_file/urdf_links.h"
+#include "world_file/values.h"
+
+namespace kiva {
+namespace {
+
+constexpr const char* kNoLimit = "1e16";
+
+/// The shortest text that is read as that number again.
+std::string exact(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+std::string exact(const Vector3& v) {
+  return exact(v.X()) + ' ' + exact(v.Y()) + ' ' + exact(v.Z());
+}
+
+class Writer {
+ public:
+  explicit Writer(const XmlElement& robot) : robot_(robot), tree_(readUrdf(robot)) {}
+
+  std::unique_ptr<XmlDocument> run() {
+    XmlElement* const sdf = document_->NewElement("sdf");
+    document_->InsertEndChild(sdf);
+    sdf->SetAttribute("version", "1.9");
+    model_ = sdf->InsertNewChildElement("model");
+    model_->SetAttribute("name", attributeOf(robot_, "name").c_str());
+    write(tree_.root, nullptr);
+    forEach(robot_, "gazebo", [&](const XmlElement& extension) {
+      if (attributeOf(extension, "reference").empty()) copyParts(extension, model_);
+    });
+    return std::move(document_);
+  }
+
+ private:
+  XmlElement* add(XmlElement* parent, const char* name, const std::string& text) {
+    XmlElement* const child = parent->InsertNewChildElement(name);
+    child->SetText(text.c_str());
+    return child;
+  }
+
+  /// Quaternions, not angles: these would be rounded.
+  XmlElement* addPose(XmlElement* parent, const Pose& pose) {
+    const Quaternion& q = pose.Rot();
+    std::string text;
+    for (const double number : {pose.X(), pose.Y(), pose.Z(), q.X(), q.Y(), q.Z(), q.W()}) {
+      text += (text.empty() ? "" : " ") + exact(number);
+    }
+    XmlElement* const element = add(parent, "pose", text);
+    element->SetAttribute("rotation_format", "quat_xyzw");
+    return element;
+  }
+
+  void write(const std::string& name, const UrdfJoint* by) {
+    const UrdfLink& link = tree_.links.at(name);
+    if (name != "world") {
+      if (!link.has_inertia || link.inertia.mass == 0) return;
+      writeLink(link, by);
+      if (by) writeJoint(*by);
+    }
+    for (const std::string& child : link.children) {
+      const UrdfJoint& joint = tree_.joints.at(child);
+      write(joint.child, &joint);
+    }
+  }
+
+  void writeLink(const UrdfLink& from, const UrdfJoint* by) {
+    XmlElement* const link = model_->InsertNewChildElement("link");
+    link->SetAttribute("name", from.name.c_str());
+    if (by) addPose(link, Pose::Zero)->SetAttribute("relative_to", by->name.c_str());
+    writeInertia(from.inertia, link);
+    int count = 0;
+    for (const UrdfShape& shape : from.collisions) {
+      writeFriction(shape, writeShape(from, shape, "collision", count++, link));
+    }
+    count = 0;
+    for (const UrdfShape& shape : from.visuals) {
+      writeColour(shape, writeShape(from, shape, "visual", count++, link));
+    }
+    for (const UrdfExtension& extension : from.extensions) writeExtension(extension, link);
+  }
+
+  void writeInertia(const UrdfInertia& from, XmlElement* link) {
+    XmlElement* const inertial = link->InsertNewChildElement("inertial");
+    addPose(inertial, from.pose);
+    add(inertial, "mass", exact(from.mass));
+    XmlElement* const inertia = inertial->InsertNewChildElement("inertia");
+    const Vector3 &m = from.moments, &p = from.products;
+    const std::pair<const char*, double> parts[] = {{"ixx", m.X()}, {"iyy", m.Y()}, {"izz", m.Z()},
+                                                    {"ixy", p.X()}, {"ixz", p.Y()}, {"iyz", p.Z()}};
+    for (const auto& [name, value] : parts) add(inertia, name, exact(value));
+  }
+
+  XmlElement* writeShape(const UrdfLink& link, const UrdfShape& from, const std::string& kind,
+                         int count, XmlElement* to) {
+    std::string name = from.name + "_" + kind + (count > 0 ? "_" + std::to_string(count) : "");
+    if (!startsWith(name, link.name)) name = link.name + "_fixed_joint_lump__" + name;
+    XmlElement* const shape = to->InsertNewChildElement(kind.c_str());
+    shape->SetAttribute("name", name.c_str());
+    addPose(shape, from.pose);
+    XmlElement* const geometry = shape->InsertNewChildElement("geometry");
+    const XmlElement* const given = from.element->FirstChildElement("geometry");
+    if (given && given->FirstChildElement()) writeGeometry(*given->FirstChildElement(), geometry);
+    return shape;
+  }
+
+  void writeGeometry(const XmlElement& from, XmlElement* geometry) {
+    XmlElement* const shape = geometry->InsertNewChildElement(from.Name());
+    for (const char* size : {"size", "radius", "length", "scale"}) {
+      if (from.Attribute(size)) add(shape, size, attributeOf(from, size));
+    }
+    if (!from.Attribute("filename")) return;
+    std::string uri = attributeOf(from, "filename");
+    const std::string package = "package://";
+    if (startsWith(uri, package)) uri = "model://" + uri.substr(package.size());
+    add(shape, "uri", uri);
+  }
+
+  /// The last that `<gazebo reference="link">` says of an element for the link that a shape was
+  /// written for.
+  const XmlElement* extensionOf(const UrdfShape& shape, const char* name) const {
+    const XmlElement* found = nullptr;
+    forEach(robot_, "gazebo", [&](const XmlElement& extension) {
+      if (attributeOf(extension, "reference") != shape.from) return;
+      if (const XmlElement* const own = extension.FirstChildElement(name)) found = own;
+    });
+    return found;
+  }
+
+  void writeFriction(const UrdfShape& from, XmlElement* collision) {
+    const XmlElement* const along = extensionOf(from, "mu1");
+    const XmlElement* const across = extensionOf(from, "mu2");
+    if (!along && !across) return;
+    XmlElement* const ode = collision->InsertNewChildElement("surface")
+                                ->InsertNewChildElement("friction")
+                                ->InsertNewChildElement("ode");
+    if (along) add(ode, "mu", contentOf(along));
+    if (across) add(ode, "mu2", contentOf(across));
+  }
+
+  void writeColour(const UrdfShape& from, XmlElement* visual) {
+    const XmlElement* material = from.element->FirstChildElement("material");
+    if (!material) return;
+    const std::string name = attributeOf(*material, "name");
+    if (!material->FirstChildElement("color")) {
+      forEach(robot_, "material", [&](const XmlElement& shared) {
+        if (attributeOf(shared, "name") == name) material = &shared;
+      });
+    }
+    const XmlElement* const colour = material->FirstChildElement("color");
+    if (!colour) return;
+    XmlElement* const out = visual->InsertNewChildElement("material");
+    for (const char* kind : {"diffuse", "ambient"}) add(out, kind, attributeOf(*colour, "rgba"));
+  }
+
+  /// What is told in other words in SDF, or not at all.
+  static bool isOfUrdf(const XmlElement& part) {
+    static const std::set<std::string> kNames = {"material",
+                                                 "mu1",
+                                                 "mu2",
+                                                 "kp",
+                                                 "kd",
+                                                 "maxVel",
+                                                 "minDepth",
+                                                 "maxContacts",
+                                                 "laserRetro",
+                                                 "fdir1",
+                                                 "stopCfm",
+                                                 "stopErp",
+                                                 "selfCollide",
+                                                 "turnGravityOff",
+                                                 "dampingFactor",
+                                                 "static",
+                                                 "stopKp",
+                                                 "stopKd",
+                                                 "initialJointPosition",
+                                                 "fudgeFactor",
+                                                 "provideFeedback",
+                                                 "implicitSpringDamper",
+                                                 "springReference",
+                                                 "springStiffness",
+                                                 "preserveFixedJoint",
+                                                 "disableFixedJointLumping"};
+    return kNames.count(part.Name()) > 0;
+  }
+
+  void writeExtension(const UrdfExtension& from, XmlElement* link) {
+    if (flagIn(*from.element, "turnGravityOff", false)) add(link, "gravity", "false");
+    for (const XmlElement* part = from.element->FirstChildElement(); part;
+         part = part->NextSiblingElement()) {
+      if (isOfUrdf(*part)) continue;
+      XmlElement* const copy = copyInto(*part, link);
+      if (!from.is_lumped || !is(*copy, "sensor")) continue;
+      const Pose pose = from.pose * valueOfPose(copy->FirstChildElement("pose"));
+      if (XmlElement* const own = copy->FirstChildElement("pose")) copy->DeleteChild(own);
+      add(copy, "pose", exact(pose.Pos()) + ' ' + exact(pose.Rot().Euler()));
+    }
+  }
+
+  void copyParts(const XmlElement& extension, XmlElement* to) {
+    for (const XmlElement* part = extension.FirstChildElement(); part;
+         part = part->NextSiblingElement()) {
+      if (is(*part, "static") || !isOfUrdf(*part)) copyInto(*part, to);
+    }
+  }
+
+  XmlElement* copyInto(const XmlElement& from, XmlElement* to) {
+    XmlElement* const copy = from.DeepClone(document_.get())->ToElement();
+    to->InsertEndChild(copy);
+    if (is(*copy, "plugin")) renameBodies(copy);
+    return copy;
+  }
+
+  /// A plugin that names a link which was lumped means the one that holds its parts now, and is
+  /// told where the other stands in that.
+  void renameBodies(XmlElement* plugin) {
+    for (const char* name : {"bodyName", "frameName"}) {
+      XmlElement* const body = plugin->FirstChildElement(name);
+      const auto place = body ? tree_.lumped.find(contentOf(body)) : tree_.lumped.end();
+      if (place == tree_.lumped.end()) continue;
+      body->SetText(place->second.link.c_str());
+      addOffset(place->second.pose, plugin);
+    }
+  }
+
+  void addOffset(const Pose& pose, XmlElement* plugin) {
+    const Vector3 rpy = vectorIn(*plugin, "rpyOffset", Vector3::Zero);
+    const Pose own(vectorIn(*plugin, "xyzOffset", Vector3::Zero),
+                   Quaternion(rpy.X(), rpy.Y(), rpy.Z()));
+    const Pose offset = pose * own;
+    constexpr char kDone[] = "ignition::corrected_offsets";  // as Gazebo calls it
+    for (const char* name : {"xyzOffset", "rpyOffset", kDone}) {
+      if (XmlElement* const given = plugin->FirstChildElement(name)) plugin->DeleteChild(given);
+    }
+    add(plugin, "xyzOffset", exact(offset.Pos()));
+    add(plugin, "rpyOffset", exact(offset.Rot().Euler()));
+    add(plugin, kDone, "1");
+  }
+
+  void writeJoint(const UrdfJoint& from) {
+    if (from.type == "floating" || from.type == "planar") return;
+    XmlElement* const joint = model_->InsertNewChildElement("joint");
+    joint->SetAttribute("name", from.name.c_str());
+    const bool is_continuous = from.type == "continuous";
+    joint->SetAttribute("type", is_continuous ? "revolute" : from.type.c_str());
+    const std::string around = from.parent == "world" ? "__model__" : from.parent;
+    addPose(joint, from.pose)->SetAttribute("relative_to", around.c_str());
+    add(joint, "parent", from.parent);
+    add(joint, "child", from.child);
+    if (from.type != "fixed") writeAxis(*from.element, is_continuous, joint);
+  }
+
+  void writeAxis(const XmlElement& from, bool is_continuous, XmlElement* joint) {
+    XmlElement* const axis = joint->InsertNewChildElement("axis");
+    const XmlElement* const given = from.FirstChildElement("axis");
+    add(axis, "xyz", given && given->Attribute("xyz") ? attributeOf(*given, "xyz") : "1 0 0");
+    const XmlElement* const limit = from.FirstChildElement("limit");
+    XmlElement* const limits = axis->InsertNewChildElement("limit");
+    const auto text = [](const XmlElement* element, const char* name,
+                         const std::string& otherwise) {
+      return element && element->Attribute(name) ? attributeOf(*element, name) : otherwise;
+    };
+    add(limits, "lower", is_continuous ? std::string("-") + kNoLimit : text(limit, "lower", "0"));
+    add(limits, "upper", is_continuous ? kNoLimit : text(limit, "upper", "0"));
+    for (const char* most : {"effort", "velocity"}) {
+      if (limit && limit->Attribute(most)) add(limits, most, attributeOf(*limit, most));
+    }
+    const XmlElement* const dynamics = from.FirstChildElement("dynamics");
+    XmlElement* const out = axis->InsertNewChildElement("dynamics");
+    for (const char* name : {"damping", "friction"}) add(out, name, text(dynamics, name, "0"));
+  }
+
+  const XmlElement& robot_;
+  const UrdfTree tree_;
+  std::unique_ptr<XmlDocument> document_ = std::make_unique<XmlDocument>();
+  XmlElement* model_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf) {
+  return Writer(*urdf.RootElement()).run();
+}
+
+}  // namespace kiva

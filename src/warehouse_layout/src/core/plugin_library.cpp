@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "warehouse_layout/plugin_library.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+namespace warehouse {
+namespace {
+
+std::string withoutNamespace(const std::string& name) {
+  const std::size_t end = name.rfind("::");
+  return end == std::string::npos ? name : name.substr(end + 2);
+}
+
+}  // namespace
+
+PluginLibrary::PluginLibrary(const std::string& path) {
+  void* const library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (!library) throw std::runtime_error(dlerror());
+  using Classes = const PluginClass* (*)();
+  const auto classes = reinterpret_cast<Classes>(dlsym(library, kPluginClassesSymbol));
+  if (!classes) return;
+  for (const PluginClass* one = classes(); one; one = one->next) classes_.push_back(one);
+  std::reverse(classes_.begin(), classes_.end());
+}
+
+std::string PluginLibrary::contents() const {
+  std::string list;
+  for (const PluginClass* one : classes_) {
+    list += std::string(list.empty() ? "" : ", ") + one->name + " (" + one->interface + ")";
+  }
+  return list;
+}
+
+const PluginClass* PluginLibrary::find(const std::string& name) const {
+  for (const PluginClass* one : classes_) {
+    if (withoutNamespace(one->name) == withoutNamespace(name)) return one;
+  }
+  return nullptr;
+}
+
+}  // namespace warehouse
