@@ -78,7 +78,9 @@ class Network:
 
 
 class Adam:
-    def __init__(self, parameters: Sequence[np.ndarray]) -> None:
+    """Adam (Kingma and Ba, 2015) with clipped slopes; changes the parameters in place."""
+
+    def __init__(self, parameters: list[np.ndarray]) -> None:
         self.parameters, self.steps = parameters, 0
         self.mean = [np.zeros_like(p) for p in parameters]
         self.square = [np.zeros_like(p) for p in parameters]

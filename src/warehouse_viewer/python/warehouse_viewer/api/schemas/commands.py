@@ -51,6 +51,8 @@ Command = Mov | MovX | MovY | Rot | LiftCommand
 
 
 class WalkingSpeed(Number):
+    """A walking speed [m/s]."""
+
     ge, le = 0.01, 1.6
 
 
@@ -65,10 +67,14 @@ class NewWalk(Body):
 
 
 class Walker(BaseModel):
+    """A person who walks."""
+
     name: str
 
 
 class Event(BaseModel):
+    """An event in the world."""
+
     id: int
     time: float = Field(description="[s], simulated")
     kind: str
@@ -81,6 +87,8 @@ class Event(BaseModel):
 
 
 class Events(BaseModel):
+    """Events, the oldest first."""
+
     events: list[Event]
 
 

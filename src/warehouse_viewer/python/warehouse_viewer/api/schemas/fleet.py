@@ -28,6 +28,8 @@ class NewTransport(Body):
     priority: UInt8 = Field(0, description="transports of higher priority are assigned first")
 
     class Config(Body.Config):
+        """Asks for a station, or for both coordinates."""
+
         schema_extra = {
             "oneOf": [
                 {
@@ -50,14 +52,20 @@ class NewTransport(Body):
 
 
 class NewMode(Body):
+    """Sets how a robot is commanded."""
+
     mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
 
 
 class TransportNumber(BaseModel):
+    """The number of a transport."""
+
     transport_id: int
 
 
 class Transport(BaseModel):
+    """A storage unit's way to a station or a cell, and its state."""
+
     id: int
     state: TransportState = Field(
         description="ARRIVED: the unit waits to be released. STORED, FAILED: it has ended"
@@ -70,11 +78,15 @@ class Transport(BaseModel):
 
 
 class Transports(BaseModel):
+    """Transports, and how many there are in all."""
+
     total: int
     transports: list[Transport]
 
 
 class RobotsByMode(BaseModel):
+    """Numbers of robots by mode."""
+
     automatic: int
     manual: int
     out_of_service: int
@@ -94,6 +106,8 @@ class RobotsByWork(BaseModel):
 
 
 class TransportCounts(BaseModel):
+    """Numbers of transports by state."""
+
     open: int = Field(description="transports without a robot so far")
     under_way: int
     delivered: int

@@ -53,10 +53,14 @@ class Reference(ConstrainedStr):
 
 
 class Moment(Number):
+    """A simulated time [s]."""
+
     ge, le = 0, 4e9
 
 
 class Line(Body):
+    """Pieces of one kind of goods."""
+
     sku: Sku
     quantity: Pieces
 
@@ -71,11 +75,15 @@ class NewOrder(Body):
 
 
 class Accepted(BaseModel):
+    """The number of an order that was accepted."""
+
     order_id: int
     message: str
 
 
 class OrderLine(BaseModel):
+    """A line of an order, and the pieces picked for it so far."""
+
     sku: str
     quantity: int
     picked: int
@@ -96,11 +104,15 @@ class Order(BaseModel):
 
 
 class Orders(BaseModel):
+    """Orders, and how many there are in all."""
+
     total: int
     orders: list[Order]
 
 
 class Place(BaseModel):
+    """A bin on a storage unit: what lies in it, in pieces."""
+
     item: str
     shelf_id: int
     sku: str
@@ -110,12 +122,16 @@ class Place(BaseModel):
 
 
 class Stock(BaseModel):
+    """Bins, how many there are in all, and their pieces."""
+
     total: int
     pieces: int
     places: list[Place]
 
 
 class Pick(BaseModel):
+    """Pieces to be taken out at a station for an order."""
+
     sku: str
     quantity: int
     item: str
@@ -125,6 +141,8 @@ class Pick(BaseModel):
 
 
 class Station(BaseModel):
+    """A picking or replenishment station, and its work."""
+
     name: str
     kind: str
     open: bool
@@ -142,10 +160,14 @@ class Station(BaseModel):
 
 
 class Stations(BaseModel):
+    """All stations."""
+
     stations: list[Station]
 
 
 class SetStation(Body):
+    """Opens or closes a station, and sets its mode."""
+
     open: StrictBool
     mode: Mode = "AUTOMATIC"
 
@@ -171,6 +193,8 @@ class PickReport(Body):
 
 
 class Reported(BaseModel):
+    """Says what a pick's report has led to."""
+
     message: str
     quantity: int = Field(description="pieces taken, put in or written off")
 
@@ -190,6 +214,8 @@ class Throughput(BaseModel):
 
 
 class Notices(BaseModel):
+    """Notices, as text."""
+
     notices: list[str]
 
 
