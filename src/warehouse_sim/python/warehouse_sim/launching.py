@@ -95,7 +95,8 @@ def check_arguments(given: Mapping[str, str], caller: Caller, place: Place) -> N
     texts = launch_arguments.unknown(caller.typed, known) if known is not None else []
     # A launch file of one's own may have arguments of the same names.
     path = caller.launch_file()
-    is_ours = path is not None and path.resolve().is_relative_to((place.worlds.parent / "launch").resolve())
+    launch = (place.worlds.parent / "launch").resolve()
+    is_ours = path is not None and path.resolve().is_relative_to(launch)
     typed = caller.typed if is_ours else {}
     checked = launch_arguments.ARGUMENTS.keys() & (known or ())
     values = {**given, **{name: text for name, text in typed.items() if name in checked}}
