@@ -80,7 +80,7 @@ class Tasks:
             text = f"that was reported as {done.report.outcome.name} already"
             return done.answer if same else Answer(False, text)
         station, refusal = self._station(report.station)
-        if station is None:
+        if refusal or station is None:
             return Answer(False, refusal)
         part, now = self._shift.manual_part_of(station), self._shift.now
         task = part.task(station, report)
