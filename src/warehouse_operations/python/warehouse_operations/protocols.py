@@ -5,7 +5,7 @@ transports.Transports (simulated or real robots) and ideal.IdealFleet both offer
 simulated seconds.
 """
 
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from warehouse_fleet.transports import STORE, Answer, TransportEvent
 
@@ -32,7 +32,7 @@ class Hooks(Protocol):
         seconds: (tasks, robots), until that robot is beneath the unit of that task.
         """
 
-    charging: object  # who is charged when: a policy, see policies.ChargingPolicy
+    charging: Any  # who is charged when: a policy, see policies.ChargingPolicy
 
     def park(self, kiva_id, cell):
         """The cell to which a robot without work goes; None: it waits where it is."""

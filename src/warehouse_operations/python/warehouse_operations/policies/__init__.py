@@ -10,7 +10,7 @@ its constructor takes the options. `view` is a view.View of the shift.
 """
 
 import importlib
-from typing import Protocol
+from typing import Any, Protocol
 
 from warehouse_fleet import charging
 from warehouse_operations.policies import (
@@ -116,6 +116,15 @@ class PolicyError(ValueError):
 
 class Policies:
     """One policy a role of ROLES, as attributes."""
+
+    orders: Any
+    units: Any
+    storage: Any
+    bins: Any
+    replenishment: Any
+    robots: Any
+    idle: Any
+    charging: Any
 
     def __init__(self, chosen=None, source="policies"):
         chosen = {} if chosen is None else chosen
