@@ -3,6 +3,7 @@
 
 import json
 import subprocess
+from typing import get_args
 
 import numpy as np
 from paths import ROOT
@@ -13,6 +14,7 @@ from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
+from warehouse_viewer.api.schemas.pydantic_versions import names_of
 from warehouse_viewer.message_enums import EventKind, Status
 from warehouse_viewer.page import statuses
 
@@ -44,9 +46,9 @@ def test_the_page_has_the_words_of_the_api():
 
 
 def test_the_api_has_the_words_of_the_messages():
-    assert set(RobotsByWork.__fields__) == set(message_names.WORK)
+    assert set(names_of(RobotsByWork)) == set(message_names.WORK)
     assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
-    allowed = Robot.__fields__["activity"].type_.__args__
+    allowed = get_args(Robot.__annotations__["activity"])
     assert set(allowed) == set(catalogue.ACTIVITY.values())
 
 

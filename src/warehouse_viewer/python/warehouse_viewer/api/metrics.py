@@ -11,6 +11,7 @@ from prometheus_client.registry import Collector
 
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.operations import STATES
+from warehouse_viewer.api.schemas.pydantic_versions import names_of
 from warehouse_viewer.page.source import AwayError
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
@@ -110,7 +111,7 @@ class Metrics(Collector):
 
 
 def _fleet(state):
-    names = [*RobotsByWork.__fields__, "manual", "out_of_service"]
+    names = [*names_of(RobotsByWork), "manual", "out_of_service"]
     robots = {name: getattr(state, name) for name in names}
     yield _by_label("robots", "Robots by what they do.", "state", robots)
     yield _gauge("robots_waiting", "That have stood for 10 s or longer.", len(state.waiting_kiva))

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator: transports, modes of robots and its state at a glance."""
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
-from pydantic import BaseModel, Field, root_validator
+from pydantic import BaseModel, Field
 
-from warehouse_viewer.api.schemas.base import Body, Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.base import Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.pydantic_versions import Body, check_all, schema_extra
 
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
@@ -13,7 +15,26 @@ TransportState = Literal[
 ]
 
 
-class NewTransport(Body):
+# Either a station or both coordinates.
+DESTINATION = {
+    "oneOf": [
+        {
+            "required": ["station"],
+            "properties": {"station": {"minLength": 1}},
+            "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
+        },
+        {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
+    ]
+}
+
+
+def _check_destination(values: Mapping[str, Any]) -> None:
+    at = [values["x"], values["y"]]
+    if not (at == [None, None] if values["station"] else None not in at):
+        raise ValueError("either a station or both x and y were expected")
+
+
+class NewTransport(Body, **schema_extra(DESTINATION)):
     """Has a storage unit brought to a station, or to the cell at (x, y), by whichever robot."""
 
     storage_unit: Int32 = Field(description="the number in storage_unit<id>")
@@ -27,28 +48,7 @@ class NewTransport(Body):
     )
     priority: UInt8 = Field(0, description="transports of higher priority are assigned first")
 
-    class Config(Body.Config):
-        """Asks for a station, or for both coordinates."""
-
-        schema_extra = {
-            "oneOf": [
-                {
-                    "required": ["station"],
-                    "properties": {"station": {"minLength": 1}},
-                    "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
-                },
-                {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
-            ]
-        }
-
-    @root_validator(skip_on_failure=True)
-    def _has_one_destination(cls, values):  # noqa: N805 (pydantic's)
-        at = [values["x"], values["y"]]
-        if values["station"] and at == [None, None]:
-            return values
-        if not values["station"] and None not in at:
-            return values
-        raise ValueError("either a station or both x and y were expected")
+    _check = check_all(_check_destination)
 
 
 class NewMode(Body):

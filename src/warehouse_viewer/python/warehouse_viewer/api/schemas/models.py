@@ -5,7 +5,8 @@ from typing import Literal
 
 from pydantic import BaseModel, Field
 
-from warehouse_viewer.api.schemas.base import Body, Number
+from warehouse_viewer.api.schemas.base import Number
+from warehouse_viewer.api.schemas.pydantic_versions import Body
 
 
 class NewRobot(Body):

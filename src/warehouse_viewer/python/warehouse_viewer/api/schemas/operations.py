@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders, stock, stations and figures of a shift."""
 
-import re
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
-from pydantic import (
-    BaseModel,
-    ConstrainedInt,
-    ConstrainedStr,
-    Field,
-    StrictBool,
-)
+from pydantic import BaseModel, Field, StrictBool
 
-from warehouse_viewer.api.schemas.base import INT32, Body, Number, UInt8
+from warehouse_viewer.api.schemas.base import INT32, UInt8
+from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, items, number, text
 
 State = Literal["OPEN", "ASSIGNED", "COMPLETED", "CANCELLED"]
 Mode = Literal["AUTOMATIC", "MANUAL"]
@@ -21,41 +15,18 @@ PickOutcome = Literal["DONE", "SHORT", "DAMAGED"]
 STATES, MODES, OUTCOMES = map(get_args, (State, Mode, PickOutcome))
 
 
-class Sku(ConstrainedStr):
-    """The name of a kind of goods."""
-
-    strict, min_length, max_length = True, 1, 80
-    regex = re.compile(r"^[ -~]+$")
-
-
-class Pieces(ConstrainedInt):
-    """How many pieces, at least one."""
-
-    strict, ge, le = True, 1, INT32
-
-
-class PiecesOrNone(ConstrainedInt):
-    """How many pieces, or 0."""
-
-    strict, ge, le = True, 0, INT32
-
-
-class OrderNumber(ConstrainedInt):
-    """An order's number, or 0."""
-
-    strict, ge, le = True, 0, 2**53
-
-
-class Reference(ConstrainedStr):
-    """What the orderer calls an order."""
-
-    strict, max_length, regex = True, 200, re.compile(r"^[ -~]*$")
-
-
-class Moment(Number):
-    """A simulated time [s]."""
-
-    ge, le = 0, 4e9
+if TYPE_CHECKING:
+    Sku = str
+    Reference = str
+    Pieces = int
+    PiecesOrNone = int
+    OrderNumber = int
+    Moment = float
+else:
+    Sku, Reference = text(r"^[ -~]+$", 80, least=1), text(r"^[ -~]*$", 200)
+    Pieces, PiecesOrNone = integer(1, INT32), integer(0, INT32)
+    OrderNumber = integer(0, 2**53)  # 0: none
+    Moment = number(0, 4e9)  # a simulated time [s]
 
 
 class Line(Body):
@@ -68,10 +39,10 @@ class Line(Body):
 class NewOrder(Body):
     """An order; `due` in simulated time, 0 = none."""
 
-    reference: Reference = Reference()
-    lines: list[Line] = Field(min_items=1, max_items=100)
+    reference: Reference = ""
+    lines: list[Line] = Field(**items(1, 100))
     due: Moment = Field(0.0, description="[s], simulated time")
-    priority: UInt8 = UInt8(0)
+    priority: UInt8 = 0
 
 
 class Accepted(BaseModel):
@@ -186,7 +157,7 @@ class PickReport(Body):
     """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
     bin is empty; DAMAGED: so many are."""
 
-    order_id: OrderNumber = OrderNumber(0)
+    order_id: OrderNumber = 0
     item: Sku
     quantity: PiecesOrNone
     outcome: PickOutcome = "DONE"

@@ -1,19 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a whole, and how simulated time passes in it."""
 
-from pydantic import BaseModel, ConstrainedInt, Field, StrictBool
+from typing import TYPE_CHECKING
 
-from warehouse_viewer.api.schemas.base import Body, Int32, Label, Name, Number
+from pydantic import BaseModel, Field, StrictBool
+
+from warehouse_viewer.api.schemas.base import Int32, Label, Name
+from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, number
+
+if TYPE_CHECKING:
+    Steps = int
+    Factor = float
+    Seconds = float
+else:
+    Steps = integer(1, 100000)  # of the physics
+    Factor = number(0, 1000)  # simulated seconds a wall second
+    Seconds = number(0.001, 1e6)  # simulated
 
 
 class NewWarehouse(Body):
     """Counts of 0 everywhere with a preset's name mean that preset."""
 
     name: Name = Field(description="a preset (empty, small, medium, large, huge), or any name")
-    id: Int32 = Int32(0)
-    robots: Int32 = Int32(0)
-    items: Int32 = Int32(0)
-    shelves: Int32 = Int32(0)
+    id: Int32 = 0
+    robots: Int32 = 0
+    items: Int32 = 0
+    shelves: Int32 = 0
 
 
 class Counts(BaseModel):
@@ -46,24 +58,6 @@ class Warehouse(BaseModel):
     target_factor: float = Field(description="simulated seconds a wall second, 0 = full speed")
     step_size: float = Field(description="of the physics [s]")
     lacks: dict[str, str] = Field(description="what can't be done with this engine, and why")
-
-
-class Factor(Number):
-    """Simulated seconds a wall second."""
-
-    ge, le = 0, 1000
-
-
-class Seconds(Number):
-    """A simulated duration [s]."""
-
-    ge, le = 0.001, 1e6
-
-
-class Steps(ConstrainedInt):
-    """Steps of the physics."""
-
-    strict, ge, le = True, 1, 100000
 
 
 class Reset(Body):
