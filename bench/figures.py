@@ -214,6 +214,9 @@ def _start(found, scale):
         ),
         scale.time("import kiva_plugin_cpp", found["import_s"], "s", "<= 0.15"),
         scale.time("import kiva_plugin_cpp: CPU time", found["import_cpu_s"], "CPU s"),
+        scale.time("World.create, 10,000 robots", found["create_s"], "s", "<= 5"),
+        scale.time("World.create, 10,000 robots: CPU time", found["create_cpu_s"], "CPU s"),
+        Figure("World.create, 10,000 robots: memory", found["create_gb"], "GB", "<= 1.5"),
     ]
 
 

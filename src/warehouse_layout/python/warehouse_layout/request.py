@@ -39,7 +39,7 @@ PRESETS = {
 }
 
 # Larger ones were never tried; the floor would be wider than a real warehouse.
-LIMITS = {"robots": 5000, "shelves": 20000, "items": 100000}
+LIMITS = {"robots": 10000, "shelves": 40000, "items": 100000}
 MAX_BELTS = 60
 
 

@@ -138,7 +138,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
             raise gymnasium.error.ResetNeeded(f"environment {ended} has ended and was not reset")
         if begins.all():
             rewards = np.zeros((self.num_envs, self.options.robots), np.float32)
-            happened = {}
+            happened: dict[str, Any] = {}
         else:
             rewards, happened = self._in.step(chosen)
         if begins.any():

@@ -4,7 +4,8 @@
 from typing import TYPE_CHECKING, Any
 
 from warehouse_operations.inventory import Bin, Reason
-from warehouse_operations.orders import Line, Order, OrderEventKind
+from warehouse_operations.message_enums import OrderEventKind
+from warehouse_operations.orders import Line, Order
 from warehouse_operations.stations import Visit
 
 if TYPE_CHECKING:

@@ -2,13 +2,15 @@
 """The reports of people at stations in mode MANUAL."""
 
 from collections import deque
+from typing import cast
 
 from warehouse_operations.inventory import Bin, Reason
-from warehouse_operations.orders import Bundle, Line, OrderEventKind
+from warehouse_operations.message_enums import OrderEventKind, Outcome
+from warehouse_operations.orders import Bundle, Line
 from warehouse_operations.picking import Picking
 from warehouse_operations.replenishing import Replenishing
 from warehouse_operations.stations import Pick, Visit, WorkStation
-from warehouse_operations.tasks import Answer, Outcome, Report
+from warehouse_operations.tasks import Answer, Report
 
 
 class ManualPicking:
@@ -21,9 +23,9 @@ class ManualPicking:
         """Takes pieces of a SKU as picked. Returns success and the fault."""
         visit, picks = self._asked(station, sku)
         asked = sum(pick.quantity for pick in picks)
-        if not 0 < quantity <= asked:
+        if not (visit and 0 < quantity <= asked):
             return False, f"{asked} of {sku} are asked for at {station.name} now"
-        for pick in picks if visit else ():
+        for pick in picks:
             pieces = min(quantity, pick.quantity)
             if pieces:
                 self._picking.take(visit, pick, pieces)
@@ -41,7 +43,7 @@ class ManualPicking:
             return False, f"none of {sku} is asked for at {station.name} now"
         one = picks[0].bin
         if not 0 < lacking <= one.quantity:
-            return False, f"{one.quantity} of {sku} are in {one.item} by the books"
+            return False, f"{one.quantity} of {sku} are in stock in {one.item}"
         self._write_off(visit, one, lacking, reason)
         return True, ""
 
@@ -76,7 +78,8 @@ class ManualPicking:
 
     def report(self, station: WorkStation, pick: Pick, report: Report) -> Answer:
         """Carries out a Report of a Pick."""
-        visit, one, sku = station.here, pick.bin, pick.line.sku
+        # The pick is of the unit at the station: task() found it there.
+        visit, one, sku = cast(Visit, station.here), pick.bin, pick.line.sku
         if report.outcome == Outcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
                 return Answer(False, f"{pick.quantity} of {sku} were expected at most")
@@ -87,7 +90,7 @@ class ManualPicking:
         is_empty = report.outcome == Outcome.SHORT and not report.quantity
         lacking = one.quantity if is_empty else report.quantity
         if not 0 < lacking <= one.quantity:
-            return Answer(False, f"{one.quantity} of {sku} are in {one.item} by the books")
+            return Answer(False, f"{one.quantity} of {sku} are in stock in {one.item}")
         reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
         lines = self._write_off(visit, one, lacking, reason)
         undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
@@ -186,7 +189,8 @@ class ManualReplenishing:
 
     def report(self, station: WorkStation, bundle: Bundle, report: Report) -> Answer:
         """Carries out a Report of a Bundle."""
-        visit, there = station.here, bundle.quantity
+        # The bundle is for the unit at the station: task() found it there.
+        visit, there = cast(Visit, station.here), bundle.quantity
         if report.outcome == Outcome.DONE:
             if report.quantity != there:
                 return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")

@@ -14,7 +14,8 @@ from warehouse_operations import kpis
 from warehouse_operations.floor_heat import FloorHeat
 from warehouse_operations.inventory import Bin
 from warehouse_operations.kpis import Tally
-from warehouse_operations.orders import Order, OrderEventKind
+from warehouse_operations.message_enums import OrderEventKind
+from warehouse_operations.orders import Order
 from warehouse_operations.stations import Visit, WorkStation
 
 if TYPE_CHECKING:

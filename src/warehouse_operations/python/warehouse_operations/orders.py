@@ -4,28 +4,9 @@
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from enum import IntEnum
 from typing import Any
 
-
-class OrderState(IntEnum):
-    """The state of an order."""
-
-    OPEN = 0  # no station has it
-    ASSIGNED = 1
-    COMPLETED = 2
-    CANCELLED = 3
-
-
-class OrderEventKind(IntEnum):
-    """The kind of an event in the life of an order."""
-
-    RECEIVED = 0
-    ASSIGNED = 1
-    PICKED = 2
-    COMPLETED = 3
-    CANCELLED = 4
-    SHORT = 5
+from warehouse_operations.message_enums import OrderState
 
 
 class Line:

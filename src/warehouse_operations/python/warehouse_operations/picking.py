@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from warehouse_operations.inventory import Bin
-from warehouse_operations.orders import Line, Order, OrderEventKind, OrderState
-from warehouse_operations.stations import Mode, Pick, Visit, WorkStation
+from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
+from warehouse_operations.orders import Line, Order
+from warehouse_operations.stations import Pick, Visit, WorkStation
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift

@@ -8,7 +8,7 @@ from sqlalchemy import and_, exists, func, or_, select
 from sqlalchemy.engine import Engine
 
 from warehouse_operations import schema
-from warehouse_operations.orders import OrderState
+from warehouse_operations.message_enums import OrderState
 
 MOST_ROWS = 10_000  # in an answer
 LARGEST = 2**63 - 1  # the largest number that a query may hold

@@ -7,8 +7,9 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from warehouse_operations.inventory import Bin
+from warehouse_operations.message_enums import Mode
 from warehouse_operations.orders import Bundle
-from warehouse_operations.stations import Mode, Visit, WorkStation
+from warehouse_operations.stations import Visit, WorkStation
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift

@@ -102,7 +102,7 @@ class Page {
   showPace(gap) {
     this.connection.slowTo(gap / 1000);
     $('pace').hidden = gap < NOTABLE;
-    $('pace').textContent = `${Math.round(1000 / gap)} frames/s: this machine draws in software`;
+    $('pace').textContent = `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`;
   }
 
   /** Keeps what is looked at in the middle of what the panels leave free. */

@@ -16,7 +16,7 @@ from warehouse_layout.world_file import insertable
 STATIONED = [name for name, counts in PRESETS.items() if counts.belts]
 REQUESTS = {name: resolve(name) for name in STATIONED} | {
     f"{robots} robots, {shelves} units": resolve("", robots=robots, shelves=shelves)
-    for robots, shelves in ((0, 1), (1, 0), (3, 40), (130, 7), (5000, 20000))
+    for robots, shelves in ((0, 1), (1, 0), (3, 40), (130, 7), (10000, 40000))
 }
 ARRAYS = ("passable", "storage", "parking", "lane", "exits")
 

@@ -13,6 +13,7 @@ from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
+from warehouse_viewer.message_enums import EventKind, Status
 from warehouse_viewer.page import statuses
 
 WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
@@ -34,7 +35,7 @@ def test_the_page_has_the_words_of_the_api():
     assert [one.upper() for one in told["ACTIVITY"]] == list(catalogue.ACTIVITY.values())
     assert list(catalogue.ACTIVITY) == list(range(len(catalogue.ACTIVITY)))
     assert len(told["STATE"]) == len(message_names.STATE)
-    assert told["FAILURE"] == list(message_names.FAILURES)
+    assert told["FAILURE"] == list(message_names.FAILURES.values())
     assert told["WORK"] == list(message_names.WORK)
     assert list(told["MODE"]) == list(message_names.MODE.values())
     assert [mode.replace(" ", "_").upper() for mode in told["MODE"].values()] == list(told["MODE"])
@@ -55,7 +56,5 @@ def test_a_robot_that_carries_is_not_idle():
     )
     assert statuses.shown_status(fleet).tolist() == [IDLE, IDLE, BUSY]
     assert statuses.activity(fleet).tolist() == [IDLE, statuses.HOLDING, BUSY]
-    blocked = FleetState(
-        kiva_id=[1], status=[IDLE], shelf_id=[6], last_end=[statuses.ENDED_BLOCKED]
-    )
-    assert np.array_equal(statuses.activity(blocked), [statuses.BLOCKED])
+    blocked = FleetState(kiva_id=[1], status=[IDLE], shelf_id=[6], last_end=[EventKind.BLOCKED])
+    assert np.array_equal(statuses.activity(blocked), [Status.BLOCKED])

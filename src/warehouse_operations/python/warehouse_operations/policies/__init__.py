@@ -10,8 +10,8 @@ protocol of its role; its constructor takes the options. `view` is a view.View o
 """
 
 import importlib
-import os
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -184,7 +184,7 @@ class Policies:
             setattr(self, role, _make(role, what, source))
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> "Policies":
+    def read(cls, path: str | Path) -> "Policies":
         """Returns the policies of a YAML file. Raises PolicyError."""
         return cls(read_yaml(path, PolicyError), str(path))
 

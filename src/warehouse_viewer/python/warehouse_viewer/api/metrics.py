@@ -88,8 +88,8 @@ class Metrics(Collector):
     def _of_shift(self):
         yield _by_label("orders", "Orders that are kept.", "state", self._orders())
         if kpis := self._shift["kpis"]:
-            yield from (_counter(*named, getattr(kpis, f)) for *named, f in SHIFT_COUNTERS)
-            yield from (_gauge(*named, getattr(kpis, f)) for *named, f in SHIFT_GAUGES)
+            yield from (_counter(name, text, getattr(kpis, f)) for name, text, f in SHIFT_COUNTERS)
+            yield from (_gauge(name, text, getattr(kpis, f)) for name, text, f in SHIFT_GAUGES)
             turnover = {p: getattr(kpis.order_turnover_s, n) for n, p in PERCENTILES.items()}
             text = "From an order's arrival to its completion."
             yield _by_label("order_turnover_seconds", text, "percentile", turnover)
@@ -119,8 +119,8 @@ def _fleet(state):
     plans = {"50": state.plan_p50 / 1000, "99": state.plan_p99 / 1000}
     yield _by_label("plan_seconds", "Computing time of a plan.", "percentile", plans)
     yield _gauge("alarms", "Alarms of the coordinator.", len(state.alarms))
-    yield from (_counter(*named, getattr(state, field)) for *named, field in FLEET_COUNTERS)
-    yield from (_gauge(*named, getattr(state, field)) for *named, field in FLEET_GAUGES)
+    yield from (_counter(name, text, getattr(state, field)) for name, text, field in FLEET_COUNTERS)
+    yield from (_gauge(name, text, getattr(state, field)) for name, text, field in FLEET_GAUGES)
 
 
 def _stations(stations):

@@ -62,13 +62,17 @@ class Number(ConstrainedFloat):
         return value
 
 
-# No docstring: subclasses without one would show it in the API's description.
 class Body(BaseModel):
+    """A request's body: refuses keys that it does not know."""
+
     class Config:
+        """Refuses unknown keys."""
+
         extra = Extra.forbid
 
     @classmethod
     def validate(cls, value: Any) -> Any:
+        """Returns the body of a dictionary; pydantic.ValidationError if it is wrong."""
         # pydantic would take a list of pairs, an empty one too.
         if isinstance(value, list):
             raise DictError
@@ -76,8 +80,12 @@ class Body(BaseModel):
 
 
 class Problem(BaseModel):
-    detail: str = Field(description="the reason, for a person")
+    """Says why a request was refused."""
+
+    detail: str = Field(description="the reason, as a sentence")
 
 
 class Done(BaseModel):
+    """Says what was done."""
+
     message: str

@@ -53,10 +53,14 @@ class Reference(ConstrainedStr):
 
 
 class Moment(Number):
+    """A simulated time [s]."""
+
     ge, le = 0, 4e9
 
 
 class Line(Body):
+    """Pieces of one kind of goods."""
+
     sku: Sku
     quantity: Pieces
 
@@ -71,11 +75,15 @@ class NewOrder(Body):
 
 
 class Accepted(BaseModel):
+    """The number of an order that was accepted."""
+
     order_id: int
     message: str
 
 
 class OrderLine(BaseModel):
+    """A line of an order, and the pieces picked for it so far."""
+
     sku: str
     quantity: int
     picked: int
@@ -96,11 +104,15 @@ class Order(BaseModel):
 
 
 class Orders(BaseModel):
+    """Orders, and how many there are in all."""
+
     total: int
     orders: list[Order]
 
 
 class Place(BaseModel):
+    """A bin on a storage unit: what lies in it, in pieces."""
+
     item: str
     shelf_id: int
     sku: str
@@ -110,23 +122,27 @@ class Place(BaseModel):
 
 
 class Stock(BaseModel):
+    """Bins, how many there are in all, and their pieces."""
+
     total: int
     pieces: int
     places: list[Place]
 
 
 class Pick(BaseModel):
+    """Pieces to be taken out at a station for an order."""
+
     sku: str
     quantity: int
     item: str
     order_id: int
     reference: str
-    sequence: int = Field(
-        description="another one for each thing to be done, and what is left of it"
-    )
+    sequence: int = Field(description="number of the task; a partly done task gets a new number")
 
 
 class Station(BaseModel):
+    """A picking or replenishment station, and its work."""
+
     name: str
     kind: str
     open: bool
@@ -138,14 +154,20 @@ class Station(BaseModel):
     picks: list[Pick]
     pieces: int
     busy_fraction: float
-    waiting: float = Field(description="for so long a person has been waited for [s]; 0: none is")
+    waiting: float = Field(
+        description="time that the station has waited for a person [s]; 0: it does not wait"
+    )
 
 
 class Stations(BaseModel):
+    """All stations."""
+
     stations: list[Station]
 
 
 class SetStation(Body):
+    """Opens or closes a station, and sets its mode."""
+
     open: StrictBool
     mode: Mode = "AUTOMATIC"
 
@@ -171,6 +193,8 @@ class PickReport(Body):
 
 
 class Reported(BaseModel):
+    """Says what a pick's report has led to."""
+
     message: str
     quantity: int = Field(description="pieces taken, put in or written off")
 
@@ -179,25 +203,29 @@ class Throughput(BaseModel):
     """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
     whole multiples of their length; the last one goes on."""
 
-    interval: float = Field(description="[s], simulated")
-    begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")
-    end: float = Field(description="up to which the last one goes so far [s]")
+    interval: float = Field(description="duration of an interval [s], simulated")
+    begin: float = Field(
+        description="begin of the first interval [s], simulated; the shift's begin if that is later"
+    )
+    end: float = Field(description="end of the last interval so far [s]")
     items_picked: list[int]
     pieces_stored: list[int]
     orders_completed: list[int]
 
 
 class Notices(BaseModel):
+    """Notices, as text."""
+
     notices: list[str]
 
 
 class Heat(BaseModel):
     """Where robots drive and wait, by cell, row after row from the smallest y on."""
 
-    seconds: float = Field(description="that it covers, an hour at most")
-    x: float = Field(description="[m] of the first cell's centre")
+    seconds: float = Field(description="time that the map covers [s], an hour at most")
+    x: float = Field(description="x of the first cell's centre [m]")
     y: float
-    spacing: float = Field(description="[m] of the cells")
+    spacing: float = Field(description="spacing of the cells [m]")
     width: int = Field(description="cells in a row")
     traffic: list[float] = Field(description="robots that came into the cell")
     waiting: list[float] = Field(description="[s] that robots waited there for their way")

@@ -17,6 +17,8 @@ class NewWarehouse(Body):
 
 
 class Counts(BaseModel):
+    """Numbers of models by kind."""
+
     robots: int
     shelves: int
     items: int
@@ -30,6 +32,8 @@ class Sizes(BaseModel):
 
 
 class Warehouse(BaseModel):
+    """The warehouse, its size and how time passes in it."""
+
     name: str
     id: int
     robots: int
@@ -45,10 +49,14 @@ class Warehouse(BaseModel):
 
 
 class Factor(Number):
+    """Simulated seconds a wall second."""
+
     ge, le = 0, 1000
 
 
 class Seconds(Number):
+    """A simulated duration [s]."""
+
     ge, le = 0.001, 1e6
 
 
@@ -59,20 +67,30 @@ class Steps(ConstrainedInt):
 
 
 class Reset(Body):
+    """Puts all models back to where they came."""
+
     time_too: StrictBool = Field(True, description="false: models alone go back to where they came")
 
 
 class Step(Body):
+    """Advances a paused world by so many steps."""
+
     steps: Steps = Field(1, description="of the physics")
 
 
 class Speed(Body):
+    """Sets how fast simulated time passes."""
+
     factor: Factor = Field(description="simulated seconds a wall second; 0: as fast as it goes")
 
 
 class Checkpoint(Body):
+    """The name of a checkpoint."""
+
     name: Label
 
 
 class Undo(Body):
+    """Goes back in simulated time."""
+
     seconds: Seconds = Field(description="[s], simulated")
