@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a shift begins: with new stock, or with what a database has kept."""
+"""Opens a shift: with new stock, or with the stock and orders that a database holds."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any

@@ -39,7 +39,7 @@ STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 class OperationsNode:
     """Runs a shift and serves it.
 
-    database: a URL, or the path of an SQLite file. orders: as of open_shift. Raises what
+    database: a URL, or the path of an SQLite file. orders: see open_shift. Raises what
     open_shift raises, and rospy.ROSInterruptException where ROS shuts down meanwhile.
     """
 
