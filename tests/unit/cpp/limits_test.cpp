@@ -173,8 +173,7 @@ TEST(Limits, EndMeshFilesThatNestTooDeep) {
   std::string text = "<COLLADA><library_visual_scenes><visual_scene>";
   for (int i = 0; i < 100'000; ++i) text += "<node>";
   models.write("deep.dae", text);
-  EXPECT_PRED2(contains, warningsOf(mesh(models.path("deep.dae")), {}),
-               kTooDeep);
+  EXPECT_PRED2(contains, warningsOf(mesh(models.path("deep.dae")), {}), kTooDeep);
 }
 
 /// It took 82 s: each of its triangles was noted in a million cells.
