@@ -32,7 +32,7 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
     metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
 
     def __init__(self, render_mode: str | None = None, **options: Any) -> None:
-        self._set_up(render_mode, options)
+        self._set_up_one(render_mode, options)
         self.observation_space = _joint_space(self.fields, self.options.robots)
         self.action_space = joint_action_space(self.options)
 
