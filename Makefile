@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel test-debian build packages deps bench wheel lint format install clean
+.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel test-debian build packages deps bench wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -87,6 +87,9 @@ wheel: build  ## the world and its environments for Python without ROS, into dis
 
 lint: deps  ## check format and style
 	@scripts/lint
+
+tidy: build  ## look for mistakes in the C++ by clang-tidy; a quarter of an hour
+	@scripts/tidy $(ARGS)
 
 format: deps  ## repair format and style
 	@scripts/lint --fix
