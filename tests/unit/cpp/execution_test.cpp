@@ -80,7 +80,7 @@ class ExecutionTest : public testing::Test {
       report.reached = static_cast<std::uint32_t>(robot.reached);
       report.left = static_cast<std::uint32_t>(robot.left);
     }
-    execution_.observe(now_, reports_);
+    execution_.update(now_, reports_);
   }
 
   /// Plans all robots along these ways, in which each begins where it is.

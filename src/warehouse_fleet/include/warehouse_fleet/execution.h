@@ -49,7 +49,7 @@ class Execution {
 
   /// Updates all robots by what they report at `time` [s]; frees the cells that they have left. If
   /// their number changes, or at the first call, all begins from where they are.
-  void observe(double time, const std::vector<Report>& reports);
+  void update(double time, const std::vector<Report>& reports);
 
   /// Sets which robots are busy and loaded, if that has changed since the reports. An element a
   /// robot.

@@ -109,7 +109,7 @@ class Traffic:
         self.time = time
         robots.update_health(reports)
         execution.set_broken(robots.broken)
-        execution.observe(
+        execution.update(
             time,
             reports["x"],
             reports["y"],

@@ -53,7 +53,7 @@ class Epibt : public Planner {
   void plan(const Fleet& fleet, const Budget& budget, Plan& plan) override;
 
  private:
-  void observe(const Fleet& fleet);
+  void updateFleet(const Fleet& fleet);
   void wish(const Fleet& fleet);
   void inherit(const Fleet& fleet);
   void resume(const std::vector<Path>& rests);
@@ -101,7 +101,7 @@ void Epibt::start(const Floor& floor, const Rules& rules, std::uint64_t seed) {
 void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
   const double deadline = threadSeconds() + budget.seconds;
   check(*floor_, fleet);
-  observe(fleet);
+  updateFleet(fleet);
   closures_->update(fleet);
   wish(fleet);
   way_->direct(fleet, *candidates_, wishes_);
@@ -119,7 +119,7 @@ void Epibt::plan(const Fleet& fleet, const Budget& budget, Plan& plan) {
 }
 
 /// Learns from what has become of the last plan.
-void Epibt::observe(const Fleet& fleet) {
+void Epibt::updateFleet(const Fleet& fleet) {
   if (fleet.size() < static_cast<int>(memory_.size())) {
     memory_.clear();
     waiting_.clear();

@@ -26,7 +26,7 @@ Execution::Execution(const Floor& floor, const Motion& motion)
       holders_(floor),
       order_(floor.size()) {}
 
-void Execution::observe(double time, const std::vector<Report>& reports) {
+void Execution::update(double time, const std::vector<Report>& reports) {
   const double elapsed = std::max(0.0, time - now_);
   now_ = time;
   if (reports.size() != courses_.size()) {

@@ -30,7 +30,7 @@ const T* column(const Array<T>& array, py::ssize_t robots, const char* name) {
                         " elements; one a robot, " + std::to_string(robots) + ", was expected");
 }
 
-void observe(Run& run, double time, const Numbers& x, const Numbers& y, const Numbers& yaw,
+void update(Run& run, double time, const Numbers& x, const Numbers& y, const Numbers& yaw,
              const Numbers& vx, const Numbers& vy, const Bytes& status, const Bytes& state,
              const Counts& path_id, const Counts& reached, const Counts& left,
              const Bytes& controlled, const Bytes& busy, const Bytes& loaded) {
@@ -55,7 +55,7 @@ void observe(Run& run, double time, const Numbers& x, const Numbers& y, const Nu
   fill(controlled, "controlled", &Report::is_controlled);
   fill(busy, "busy", &Report::is_busy);
   fill(loaded, "loaded", &Report::is_loaded);
-  run.execution.observe(time, reports);
+  run.execution.update(time, reports);
 }
 
 template <typename T>
@@ -94,18 +94,18 @@ void bindExecution(py::module_& module) {
   const Motion usual;
   py::class_<Run>(module, "Execution", R"(Drives a fleet by plans, cell by cell.
 
-Cells are indices into the floor, robots indices into the arrays of observe(); -1 stands for no cell
+Cells are indices into the floor, robots indices into the arrays of update(); -1 stands for no cell
 and for no robot. IndexError for a robot that does not exist.)")
       .def(py::init(&make), py::arg("floor"), py::arg("origin") = std::pair(0.0, 0.0),
            py::arg("spacing") = usual.spacing, py::arg("speed") = usual.speed,
            py::arg("acceleration") = usual.acceleration, py::arg("quarter") = usual.quarter,
            py::arg("latency") = usual.latency,
-           R"(Prepares the drive of a fleet that observe() brings in.
+           R"(Prepares the drive of a fleet that update() brings in.
 
 floor: the cells that robots drive on. origin: the centre of cell 0 in world [m]. spacing: between
 centres of cells [m]. speed [m/s], acceleration [m/s²]: the robots' limits. quarter: duration of a
 quarter turn [s]. latency: from a report until a command that it causes has reached the robot [s].)")
-      .def("observe", &observe, py::arg("time"), py::arg("x"), py::arg("y"), py::arg("yaw"),
+      .def("update", &update, py::arg("time"), py::arg("x"), py::arg("y"), py::arg("yaw"),
            py::arg("vx"), py::arg("vy"), py::arg("status"), py::arg("state"), py::arg("path_id"),
            py::arg("reached"), py::arg("left"), py::arg("controlled"), py::arg("busy"),
            py::arg("loaded"),

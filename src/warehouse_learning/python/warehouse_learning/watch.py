@@ -22,7 +22,7 @@ def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
     """Plays an episode on the page; returns how many units were delivered."""
 
     def moved(events: Any) -> None:
-        page.tell(events)
+        page.show_events(events)
         page.moved()
 
     warehouses.on_moved = moved

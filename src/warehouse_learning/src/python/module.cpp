@@ -131,7 +131,7 @@ class Task {
   }
 
   using Worlds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
-  void see(const Worlds& which, const py::object& x, const py::object& y, const py::object& yaw,
+  void update(const Worlds& which, const py::object& x, const py::object& y, const py::object& yaw,
            const py::object& status, const py::object& shelf_id) {
     const auto xs = byRobot<double>("x", x), ys = byRobot<double>("y", y);
     const auto yaws = byRobot<double>("yaw", yaw);
@@ -175,7 +175,7 @@ class Task {
   }
 
   /// (refused, collided, [warehouse with collisions])
-  py::tuple hear(const py::object& done, const py::object& counts) const {
+  py::tuple takeEvents(const py::object& done, const py::object& counts) const {
     const auto told = byRobot<bool>("done", done);
     const auto events = checked<std::uint32_t>(
         "counts", counts, {state_.warehouses(), state_.robots(), kiva::Event::kKinds});
@@ -318,23 +318,23 @@ void defineTask(py::module_& m) {
            py::arg("radius"), py::arg("reserve"),
            "kiva_id, shelf_id: of each warehouse's robots and units. radius: of the neighbourhood "
            "[cells], at most the floor's rim. reserve: as of warehouse_learning.Options.");
-  task.def("see", &Task::see, py::arg("which"), py::arg("x"), py::arg("y"), py::arg("yaw"),
+  task.def("update", &Task::update, py::arg("which"), py::arg("x"), py::arg("y"), py::arg("yaw"),
            py::arg("status"), py::arg("shelf_id"),
            "Takes in where the robots of warehouses `which`, (k,), are and what they carry.");
   task.def("begin_episode", &Task::beginEpisode, py::arg("warehouse"), py::arg("unit_cell"),
            py::arg("requested"),
-           "After see(): units stand in those cells, (units,) int32; requested, (units,) bool.");
+           "After update(): units stand in those cells, (units,) int32; requested, (units,) bool.");
   task.def("place_units", &Task::placeUnits, py::arg("warehouse"), py::arg("unit_cell"),
            "Units stand in those cells, (units,) int32; -1 = carried.");
   task.def("possible", &Task::possible, "(warehouses, robots, 5) bool: what each may choose now.");
   task.def("begin", &Task::begin, py::arg("actions"),
            "Robots begin what they may of actions, int8. (done, world, commands): who does as "
            "told, bool, and what is to be posted, (k,) int32 and COMMAND.");
-  task.def("hear", &Task::hear, py::arg("done"), py::arg("counts"),
-           "After see(): who was refused, and who has collided, by begin()'s `done` and by "
+  task.def("take_events", &Task::takeEvents, py::arg("done"), py::arg("counts"),
+           "After update(): who was refused, and who has collided, by begin()'s `done` and by "
            "Worlds.counts. (refused, collided, hit): bool, and a list of warehouses.");
   task.def("settle", &Task::settle,
-           "After see(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
+           "After update(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
            "(warehouse, robot) that stand at a station with a load.");
   task.def("deliver", &Task::deliver, py::arg("warehouse"), py::arg("robot"), py::arg("next"),
            "What the robot carries is delivered, and unit `next` is requested in its place.");

@@ -70,7 +70,7 @@ export class OrderList {
   /** Asks for what is in sight after so many milliseconds, and not before an answer has come. */
   soon(delay) {
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.look(), delay);
+    this.timer = setTimeout(() => this.fetchOrders(), delay);
   }
 
   /** The server is there, perhaps again: what changed meanwhile was not told. */
@@ -89,7 +89,7 @@ export class OrderList {
     return !this.filter && !this.text;
   }
 
-  async look() {
+  async fetchOrders() {
     if (this.isLooking) {
       this.isStale = true;
       return;
