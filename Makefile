@@ -88,7 +88,7 @@ wheel: build  ## the world and its environments for Python without ROS, into dis
 lint: deps  ## check format and style
 	@scripts/lint
 
-tidy: build  ## look for mistakes in the C++ by clang-tidy; a quarter of an hour
+tidy: build  ## look for mistakes in the C++ by clang-tidy; some minutes
 	@scripts/tidy $(ARGS)
 
 format: deps  ## repair format and style

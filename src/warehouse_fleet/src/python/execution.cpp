@@ -31,9 +31,9 @@ const T* column(const Array<T>& array, py::ssize_t robots, const char* name) {
 }
 
 void update(Run& run, double time, const Numbers& x, const Numbers& y, const Numbers& yaw,
-             const Numbers& vx, const Numbers& vy, const Bytes& status, const Bytes& state,
-             const Counts& path_id, const Counts& reached, const Counts& left,
-             const Bytes& controlled, const Bytes& busy, const Bytes& loaded) {
+            const Numbers& vx, const Numbers& vy, const Bytes& status, const Bytes& state,
+            const Counts& path_id, const Counts& reached, const Counts& left,
+            const Bytes& controlled, const Bytes& busy, const Bytes& loaded) {
   std::vector<Report> reports(x.size());
   const auto fill = [&](const auto& array, const char* name, auto member) {
     const auto* data = column(array, x.size(), name);
@@ -81,9 +81,9 @@ auto ofAll(Question question) {
   };
 }
 
-std::unique_ptr<Run> make(std::shared_ptr<Floor> floor, const std::pair<double, double>& origin,
-                          double spacing, double speed, double acceleration, double quarter,
-                          double latency) {
+std::unique_ptr<Run> make(const std::shared_ptr<Floor>& floor,
+                          const std::pair<double, double>& origin, double spacing, double speed,
+                          double acceleration, double quarter, double latency) {
   const Motion motion{origin.first, origin.second, spacing, speed, acceleration, quarter, latency};
   return std::make_unique<Run>(Run{floor, Execution(*floor, motion)});
 }

@@ -132,7 +132,7 @@ class Task {
 
   using Worlds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
   void update(const Worlds& which, const py::object& x, const py::object& y, const py::object& yaw,
-           const py::object& status, const py::object& shelf_id) {
+              const py::object& status, const py::object& shelf_id) {
     const auto xs = byRobot<double>("x", x), ys = byRobot<double>("y", y);
     const auto yaws = byRobot<double>("yaw", yaw);
     const auto statuses = byRobot<std::uint8_t>("status", status);
@@ -333,9 +333,10 @@ void defineTask(py::module_& m) {
   task.def("take_events", &Task::takeEvents, py::arg("done"), py::arg("counts"),
            "After update(): who was refused, and who has collided, by begin()'s `done` and by "
            "Worlds.counts. (refused, collided, hit): bool, and a list of warehouses.");
-  task.def("settle", &Task::settle,
-           "After update(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
-           "(warehouse, robot) that stand at a station with a load.");
+  task.def(
+      "settle", &Task::settle,
+      "After update(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
+      "(warehouse, robot) that stand at a station with a load.");
   task.def("deliver", &Task::deliver, py::arg("warehouse"), py::arg("robot"), py::arg("next"),
            "What the robot carries is delivered, and unit `next` is requested in its place.");
   task.def("renew_goals", &Task::renewGoals, "Finds goals for those that have none.");
