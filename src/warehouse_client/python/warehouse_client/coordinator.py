@@ -3,7 +3,7 @@
 
 import threading
 from types import ModuleType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from warehouse_msgs.msg import CoordinatorState, TransportEvent
 from warehouse_msgs.srv import CancelTransport, ReleaseTransport, Transport
@@ -61,7 +61,7 @@ class Coordinator:
         """Cancels a transport. Returns success and the fault."""
         return self._call(self._cancel, transport_id)
 
-    def _call(self, service, transport_id):
+    def _call(self, service: Any, transport_id: int) -> tuple[bool, str]:
         try:
             answer = service(transport_id)
         except self._ros.ServiceException as error:
@@ -74,9 +74,9 @@ class Coordinator:
             events, self._events = self._events, []
         return events
 
-    def _on_event(self, event):
+    def _on_event(self, event: Any) -> None:
         with self._lock:
             self._events.append(event)
 
-    def _on_state(self, state):
+    def _on_state(self, state: Any) -> None:
         self.state = state

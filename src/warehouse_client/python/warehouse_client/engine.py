@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The running world as its services offer it: models come and go, physics pauses."""
 
+from typing import Any
+
 from geometry_msgs.msg import Pose
 from nav_msgs.srv import GetMap
 from std_srvs.srv import Empty
@@ -27,21 +29,22 @@ class Engine:
     `ros` is rospy, or what stands in for it in a test.
     """
 
-    def __init__(self, ros):
-        self._ros, self._proxies = ros, {}
+    def __init__(self, ros: Any) -> None:
+        self._ros = ros
+        self._proxies: dict[str, Any] = {}
 
-    def __enter__(self):
+    def __enter__(self) -> "Engine":
         try:
             self._ros.wait_for_service("/gazebo/spawn_sdf_model", WAIT)
         except self._ros.ROSException as error:
             raise EngineError(f"the world does not answer: {error}") from error
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         for proxy in self._proxies.values():
             proxy.close()
 
-    def _call(self, service, kind, *args):
+    def _call(self, service: str, kind: Any, *args: Any) -> Any:
         if service not in self._proxies:
             name = service if service.startswith("/") else f"/gazebo/{service}"
             self._proxies[service] = self._ros.ServiceProxy(name, kind, persistent=True)
@@ -50,22 +53,23 @@ class Engine:
         except self._ros.ServiceException as error:
             raise EngineError(f"{service}: {error}") from error
 
-    def names(self):
-        """All models that stand in the world."""
+    def names(self) -> list[str]:
+        """Returns the names of all models in the world."""
         return self._call("get_world_properties", GetWorldProperties).model_names
 
-    def pose(self, name):
-        """(x, y, yaw) of a model in world [m, rad]. Raises EngineError."""
+    def pose(self, name: str) -> tuple[float, float, float]:
+        """Returns (x, y, yaw) of a model in world [m, rad]. Raises EngineError."""
         answer = self._call("get_model_state", GetModelState, name, "world")
         if not answer.success:
             raise EngineError(f"{name}: {answer.status_message}")
         return tuple(poses.planar_of([answer.pose])[0])
 
-    def map(self):
-        """nav_msgs/OccupancyGrid of the floor, one cell a grid point: what others' models take."""
+    def map(self) -> Any:
+        """Returns the nav_msgs/OccupancyGrid of the floor, a cell a grid point: what other models
+        take."""
         return self._call("/warehouse/map", GetMap).map
 
-    def spawn(self, xml, name=""):
+    def spawn(self, xml: str, name: str = "") -> None:
         """Adds all models of an SDF text, or none. Raises EngineError.
 
         They keep the names that the text gives them; one alone goes by `name`, which may be left
@@ -75,18 +79,20 @@ class Engine:
         if not answer.success:
             raise EngineError(answer.status_message)
 
-    def delete(self, name):
-        """Takes a model away. Raises EngineError."""
+    def delete(self, name: str) -> None:
+        """Deletes a model. Raises EngineError."""
         answer = self._call("delete_model", DeleteModel, name)
         if not answer.success:
             raise EngineError(f"{name}: {answer.status_message}")
 
-    def is_paused(self):
-        """Whether physics stands still."""
+    def is_paused(self) -> bool:
+        """Returns whether physics is paused."""
         return self._call("get_physics_properties", GetPhysicsProperties).pause
 
-    def pause(self):
+    def pause(self) -> None:
+        """Pauses physics."""
         self._call("pause_physics", Empty)
 
-    def resume(self):
+    def resume(self) -> None:
+        """Resumes physics."""
         self._call("unpause_physics", Empty)

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stations and storage places as messages, told by the world's scenery and its map."""
 
+from typing import Any
+
 from nav_msgs.srv import GetMap
 
 from warehouse_layout.floor_plan import FloorError, FloorPlan
 from warehouse_msgs.msg import Station
 
 
-def station_messages(plan):
-    """Station messages of a FloorPlan."""
+def station_messages(plan: FloorPlan) -> list[Station]:
+    """Returns the Station messages of a FloorPlan."""
     return [
         Station(
             name=station.name,
@@ -27,12 +29,14 @@ class FloorReader:
     `stations` are Station messages, `places` are the x and the y of storage places [m].
     """
 
-    def __init__(self, ros):
+    def __init__(self, ros: Any) -> None:
         self._ros = ros
-        self._scenery, self._told = None, None
-        self.stations, self.places = [], ([], [])
+        self._scenery: Any = None
+        self._told: str | None = None
+        self.stations: list[Station] = []
+        self.places: Any = ([], [])
 
-    def take(self, scenery):
+    def take(self, scenery: Any) -> bool:
         """Reads the floor again if a Scenery (or None) has other things. Returns whether it did."""
         if scenery is None or same_things(scenery, self._scenery):
             return False
@@ -48,21 +52,21 @@ class FloorReader:
         self._take(plan)
         return True
 
-    def _take(self, plan):
-        """A FloorPlan; None where there is no floor."""
+    def _take(self, plan: FloorPlan | None) -> None:
+        """Takes over a FloorPlan; None without a floor."""
         self.stations = station_messages(plan) if plan else []
         self.places = plan.point_of(plan.storage.ravel().nonzero()[0]) if plan else ([], [])
         for reason in plan.without_lane if plan else ():
             self._tell(reason)
 
-    def _tell(self, text):
+    def _tell(self, text: str) -> None:
         if text != self._told:
             self._ros.logwarn(text)
         self._told = text
 
 
-def same_things(a, b):
-    """Whether two sceneries tell of the same models on the same floor, wherever they are now."""
+def same_things(a: Any, b: Any) -> bool:
+    """Returns whether two sceneries have the same models on the same floor, moved or not."""
     if a is b or a is None or b is None:
         return a is b
     floors = list(a.floor) == list(b.floor) and a.grid_spacing == b.grid_spacing

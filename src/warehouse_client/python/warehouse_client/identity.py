@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the warehouse is called: the parameters /warehouse/name and /warehouse/id."""
 
+from typing import Any
+
 NAME, NUMBER = "/warehouse/name", "/warehouse/id"
 INT32 = 2**31
 
 
-def read(ros):
-    """(name, id) of the warehouse that stands; ("", 0) of one without a name.
+def read(ros: Any) -> tuple[str, int]:
+    """Returns (name, id) of the warehouse that stands; ("", 0) for one without a name.
 
     Any node may set parameters: one of another type is warned of once and read as none.
     """
@@ -18,6 +20,7 @@ def read(ros):
     return str(name), number if is_id else 0
 
 
-def write(ros, name, number):
+def write(ros: Any, name: str, number: int) -> None:
+    """Sets the name and the id of the warehouse that stands."""
     ros.set_param(NAME, name)
     ros.set_param(NUMBER, number)

@@ -2,6 +2,8 @@
 """Between ROS's threads and a node's one worker: what came last, and what is asked for."""
 
 import threading
+from collections.abc import Callable
+from typing import Any
 
 
 class LatestMessages:
@@ -10,31 +12,31 @@ class LatestMessages:
     `ros` is rospy, or what stands in for it in a test.
     """
 
-    def __init__(self, ros, **topics):
-        """`topics` maps a name to (topic, message type)."""
+    def __init__(self, ros: Any, **topics: Any) -> None:
+        """Subscribes; `topics` maps a name to (topic, message type)."""
         self._fresh, self._lock = threading.Event(), threading.Lock()
         self._messages = dict.fromkeys(topics)
         for name, (topic, kind) in topics.items():
             ros.Subscriber(topic, kind, self._keep, callback_args=name, queue_size=1)
 
-    def _keep(self, message, name):
+    def _keep(self, message: Any, name: str) -> None:
         with self._lock:
             self._messages[name] = message
         self._fresh.set()
 
-    def wait(self, timeout):
-        """Until something new came, at most `timeout` wall seconds. True if it did."""
+    def wait(self, timeout: float) -> bool:
+        """Waits for a new message, at most `timeout` wall seconds. Returns whether one came."""
         came = self._fresh.wait(timeout)
         self._fresh.clear()
         return came
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Any:
         with self._lock:
             return self._messages[name]
 
     @property
-    def units_and_objects(self):
-        """(WarehouseObjects, UnitStates) if both are there and fit each other, else None.
+    def units_and_objects(self) -> tuple[Any, Any] | None:
+        """Returns (WarehouseObjects, UnitStates) of the same revision; None without both.
 
         Between the two messages of one change they don't; the second is on its way.
         """
@@ -51,28 +53,36 @@ class LazyPublisher:
     that a newcomer needs, `news()` returns that.
     """
 
-    def __init__(self, ros, topic, kind, make, news=None):
+    def __init__(
+        self,
+        ros: Any,
+        topic: str,
+        kind: Any,
+        make: Callable[[], Any],
+        news: Callable[[], Any] | None = None,
+    ) -> None:
         self._make, self._news, self._lock = make, news or make, threading.Lock()
-        self._publisher = None
+        self._publisher: Any = None
         self._publisher = ros.Publisher(
             topic, kind, subscriber_listener=self, latch=True, queue_size=1
         )
         # A subscriber that connected within the line above found no publisher yet.
         self.publish()
 
-    def publish(self):
+    def publish(self) -> None:
+        """Publishes the news if there is a subscriber."""
         if self._publisher.get_num_connections():
             self._send(self._news)
 
-    def peer_subscribe(self, _topic, _publish, _publish_to_newcomer):
+    def peer_subscribe(self, _topic: str, _publish: Any, _publish_to_newcomer: Any) -> None:
         """Called by rospy, just before it sends what is latched."""
         if self._publisher:
             self._send(self._make)
 
-    def peer_unsubscribe(self, _topic, _connections):
+    def peer_unsubscribe(self, _topic: str, _connections: Any) -> None:
         """Called by rospy."""
 
-    def _send(self, make):
+    def _send(self, make: Callable[[], Any]) -> None:
         with self._lock:
             message = make()
             if message is not None:

@@ -4,12 +4,14 @@
 The pages show the same words: web/js/words.js, which a test compares with these.
 """
 
+from typing import Any
+
 from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
 from warehouse_msgs.srv import FailRequest, SetRobotModeRequest, TransportRequest
 
 
-def _constants(kind, prefix=""):
-    """{value: name} of a message type's constants that begin so, without the beginning."""
+def _constants(kind: Any, prefix: str = "") -> dict[int, str]:
+    """Returns {value: name} of a message type's constants with that prefix, without the prefix."""
     named = {n: v for n, v in vars(kind).items() if n.isupper() and isinstance(v, int)}
     return {v: n.removeprefix(prefix) for n, v in named.items() if n.startswith(prefix)}
 
@@ -34,6 +36,6 @@ FAILURES = {
 }
 
 
-def failures_of(bits):
-    """What is broken in a robot, as words."""
+def failures_of(bits: int) -> list[str]:
+    """Returns the names of a robot's failures."""
     return [name for bit, name in FAILURES.items() if bits >> bit & 1]

@@ -2,12 +2,13 @@
 """How a node begins."""
 
 import sys
+from typing import Any
 
 import rospy
 
 
-def begin(name, **options):
-    """rospy.init_node; ends in one line where ROS shuts down meanwhile."""
+def begin(name: str, **options: Any) -> None:
+    """Calls rospy.init_node; ends in one line if ROS shuts down meanwhile."""
     try:
         rospy.init_node(name, **options)
     except rospy.ROSInitException as error:

@@ -5,6 +5,7 @@ import math
 from itertools import count
 
 from warehouse_client import survey
+from warehouse_client.engine import Engine
 from warehouse_layout import models
 from warehouse_layout.cells import Cells
 from warehouse_layout.request import LIMITS, RequestError
@@ -17,8 +18,8 @@ class PlaceError(ValueError):
     """Why no robot can stand there."""
 
 
-def add_robot(engine, x, y, heading):
-    """Puts one on a free grid point (x, y) [m], turned by quarters [rad]; returns its number.
+def add_robot(engine: Engine, x: float, y: float, heading: float) -> int:
+    """Adds a robot on a free grid point (x, y) [m], turned by quarters [rad]; returns its number.
 
     It gets the lowest free one. Raises PlaceError, EngineError.
     """
@@ -36,22 +37,22 @@ def add_robot(engine, x, y, heading):
     return number
 
 
-def _grid_point(x, y):
+def _grid_point(x: float, y: float) -> tuple[int, int]:
     point = round(x), round(y)
     if max(abs(x - point[0]), abs(y - point[1])) > OFF:
         raise PlaceError(f"({x:g}, {y:g}) is off the grid")
     return point
 
 
-def _cells(engine):
+def _cells(engine: Engine) -> Cells:
     try:
         return Cells.of_map(engine.map())
     except RequestError as error:
         raise PlaceError(str(error)) from error
 
 
-def _check_free(point, found, cells):
-    """Beneath a storage unit is free: a robot drives there as well."""
+def _check_free(point: tuple[int, int], found: survey.Survey, cells: Cells) -> None:
+    """Raises PlaceError if a grid point is taken; a storage unit takes none."""
     i, j = point[0] - cells.x, point[1] - cells.y
     if not (0 <= i < cells.taken.shape[0] and 0 <= j < cells.taken.shape[1]):
         raise PlaceError(f"{point} is outside the floor")

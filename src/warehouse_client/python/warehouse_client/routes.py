@@ -3,7 +3,10 @@
 
 import heapq
 import math
+from collections.abc import Iterable, Sequence
+from typing import Any
 
+Point = tuple[int, int]
 STEPS = ((1, 0), (0, 1), (-1, 0), (0, -1))
 
 # Stopping, a quarter turn and setting off again take about as long as two cells at full speed.
@@ -20,45 +23,50 @@ class Grid:
     `floor` is a rectangle min_x … max_y [m]; `blocked` holds grid points (x, y), whole metres.
     """
 
-    def __init__(self, floor, blocked=()):
+    def __init__(self, floor: Any, blocked: Iterable[Point] = ()) -> None:
         self.x = range(math.ceil(floor.min_x), math.floor(floor.max_x) + 1)
         self.y = range(math.ceil(floor.min_y), math.floor(floor.max_y) + 1)
         self.blocked = {point(p) for p in blocked}
 
-    def free(self, p):
+    def free(self, p: Point) -> bool:
+        """Returns whether a robot may stand on a grid point."""
         return p[0] in self.x and p[1] in self.y and p not in self.blocked
 
-    def neighbours(self, p):
-        """Free grid points one step away."""
+    def neighbours(self, p: Point) -> list[Point]:
+        """Returns the free grid points one step away."""
         around = ((p[0] + dx, p[1] + dy) for dx, dy in STEPS)
         return [q for q in around if self.free(q)]
 
 
-def point(p):
-    """The grid point (int, int) nearest to a position (x, y, …) [m]."""
+def point(p: Sequence[float]) -> Point:
+    """Returns the grid point nearest to a position (x, y, …) [m]."""
     return round(p[0]), round(p[1])
 
 
-def covered(x, y, yaw, length, width):
-    """Grid points whose cells a rectangle reaches into: centre [m], heading [rad], extents [m]."""
+def covered(x: float, y: float, yaw: float, length: float, width: float) -> list[Point]:
+    """Returns the grid points whose cells a rectangle reaches into: centre [m], heading [rad],
+    extents [m]."""
     c, s = abs(math.cos(yaw)), abs(math.sin(yaw))
     reach_x = (length * c + width * s) / 2 + 0.5 - 1e-9
     reach_y = (length * s + width * c) / 2 + 0.5 - 1e-9
     return [(i, j) for i in _between(x, reach_x) for j in _between(y, reach_y)]
 
 
-def _between(centre, reach):
+def _between(centre: float, reach: float) -> range:
     return range(math.ceil(centre - reach), math.floor(centre + reach) + 1)
 
 
-def route(grid, start, goal, heading=None):
-    """Grid points from start to goal, both included: short, with few turns.
+def route(
+    grid: Grid, start: Sequence[float], goal: Sequence[float], heading: Point | None = None
+) -> list[Point]:
+    """Returns the grid points from start to goal, both included: short, with few turns.
 
     `heading` is the step (dx, dy) the robot faces at the start. Dijkstra (1959) over points and
     headings. The start may be blocked, for there the robot stands. Raises NoRouteError.
     """
     start, goal = point(start), point(goal)
-    queue, came_from = [(0.0, start, heading, None)], {}
+    queue: list[Any] = [(0.0, start, heading, None)]
+    came_from: dict[Any, Any] = {}
     while queue:
         cost, here, step, before = heapq.heappop(queue)
         if (here, step) in came_from:
@@ -73,7 +81,7 @@ def route(grid, start, goal, heading=None):
     raise NoRouteError(f"no way from {start} to {goal}")
 
 
-def _walk_back(came_from, node):
+def _walk_back(came_from: dict[Any, Any], node: Any) -> list[Point]:
     points = []
     while node:
         points.append(node[0])
@@ -81,18 +89,18 @@ def _walk_back(came_from, node):
     return points[::-1]
 
 
-def corners(points):
-    """The points where a route turns, and its end."""
+def corners(points: Sequence[Point]) -> list[Point]:
+    """Returns the points where a route turns, and its end."""
     turns = [
         b
         for a, b, c in zip(points, points[1:], points[2:])
         if (b[0] - a[0], b[1] - a[1]) != (c[0] - b[0], c[1] - b[1])
     ]
-    return turns + points[-1:] if len(points) > 1 else []
+    return [*turns, points[-1]] if len(points) > 1 else []
 
 
-def goals(points):
-    """The fewest `/mov` goals that follow a route: each goes along x first, then along y."""
+def goals(points: Sequence[Point]) -> list[Point]:
+    """Returns the fewest `/mov` goals of a route: each goes along x first, then along y."""
     ends = corners(points)
     kept, here = [], points[0]
     for end, after in zip(ends, ends[1:] + [None]):
@@ -103,12 +111,12 @@ def goals(points):
     return kept
 
 
-def elbow(start, goal):
-    """The grid points a single `/mov` passes from start to goal, both included."""
+def elbow(start: Point, goal: Point) -> list[Point]:
+    """Returns the grid points that a single `/mov` passes from start to goal, both included."""
     (x0, y0), (x1, y1) = point(start), point(goal)
     along_x = [(x, y0) for x in _count(x0, x1)]
     return along_x + [(x1, y) for y in _count(y0, y1)][1:]
 
 
-def _count(a, b):
+def _count(a: int, b: int) -> range:
     return range(a, b + 1) if b >= a else range(a, b - 1, -1)

@@ -5,6 +5,7 @@
 """
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
@@ -22,13 +23,14 @@ class Tracked:
     carrier: np.ndarray = field(default_factory=lambda: np.zeros(0, int))  # kiva id, 0 = none
     unit: list = field(default_factory=list)  # name of the unit it lies on, or ""
 
-    def message(self, i):
+    def message(self, i: int) -> TrackedObject:
+        """Returns the message of object i."""
         carrier = f"kiva{self.carrier[i]}" if self.carrier[i] else ""
         return TrackedObject(self.names[i], message(self.pose[i]), self.unit[i], carrier)
 
 
-def message(row):
-    """geometry_msgs/Pose of a row of poses."""
+def message(row: np.ndarray) -> Pose:
+    """Returns the geometry_msgs/Pose of a row of poses."""
     x, y, z, qx, qy, qz, qw = row.tolist()
     return Pose(Point(x, y, z), Quaternion(qx, qy, qz, qw))
 
@@ -36,11 +38,11 @@ def message(row):
 class StorageUnits:
     """The storage units of one WarehouseObjects message."""
 
-    def __init__(self, objects):
+    def __init__(self, objects: Any) -> None:
         self._names, self._unit = objects.storage_units, [""] * len(objects.storage_units)
 
-    def at(self, states):
-        """As Tracked, by a UnitStates message."""
+    def at(self, states: Any) -> Tracked:
+        """Returns the units as Tracked, by a UnitStates message."""
         carrier = np.array(states.carrier, int)
         return Tracked(self._names, poses.rows(states.pose), carrier, self._unit)
 
@@ -51,7 +53,7 @@ class Items:
     Asked again, it computes only what lies on units that have moved.
     """
 
-    def __init__(self, objects):
+    def __init__(self, objects: Any) -> None:
         self._names = objects.items
         self._unit = np.array(objects.item_unit, int)
         self._lies = np.flatnonzero(self._unit >= 0)
@@ -60,8 +62,8 @@ class Items:
         self._pose = self._inner.copy()  # in world, of those on units
         self._unit_pose = np.full((len(objects.storage_units), 7), np.nan)  # by which they are
 
-    def at(self, states):
-        """As Tracked, by a UnitStates message."""
+    def at(self, states: Any) -> Tracked:
+        """Returns the items as Tracked, by a UnitStates message."""
         unit_pose = poses.rows(states.pose)
         went = (unit_pose != self._unit_pose).any(axis=1)
         rows = self._lies[went[self._unit[self._lies]]]
@@ -73,18 +75,18 @@ class Items:
         return Tracked(self._names, pose, carrier, self._units)
 
 
-def storage_units(objects, states):
-    """The storage units as Tracked."""
+def storage_units(objects: Any, states: Any) -> Tracked:
+    """Returns the storage units as Tracked."""
     return StorageUnits(objects).at(states)
 
 
-def items(objects, states):
-    """The items as Tracked."""
+def items(objects: Any, states: Any) -> Tracked:
+    """Returns the items as Tracked."""
     return Items(objects).at(states)
 
 
-def moved(old, new):
-    """Which of the new objects stand elsewhere than they did, or were not there: (n,) booleans."""
+def moved(old: Tracked, new: Tracked) -> np.ndarray:
+    """Returns which of the new objects stand elsewhere than before, or are new: (n,) bool."""
     if old.names == new.names:
         return (old.pose != new.pose).any(axis=1)
     row = {name: i for i, name in enumerate(old.names)}
@@ -95,8 +97,8 @@ def moved(old, new):
     return out
 
 
-def changed(old, new):
-    """Like moved, but true for all if other objects are there, and where the carrier is another."""
+def changed(old: Tracked, new: Tracked) -> np.ndarray:
+    """Returns the same, with a new carrier as a move; all True if other objects are there."""
     if old.names != new.names or old.unit != new.unit:
         return np.ones(len(new.names), bool)
     return (old.pose != new.pose).any(axis=1) | (old.carrier != new.carrier)

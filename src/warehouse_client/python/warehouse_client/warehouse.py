@@ -3,15 +3,13 @@
 
 from collections.abc import Callable, Iterator
 from types import ModuleType
-from typing import TypeVar
+from typing import Any
 
 from nav_msgs.srv import GetMap
 
 from warehouse_client.unit_messages import unit_ids, unit_poses
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_msgs.msg import FleetState, People, Scenery, UnitStates, WarehouseObjects
-
-_Message = TypeVar("_Message")
 
 
 class Warehouse:
@@ -28,10 +26,11 @@ class Warehouse:
         on_fleet: Callable[[FleetState | None, FleetState], object] | None = None,
     ) -> None:
         self._ros, self._call = ros, on_fleet
-        self.fleet: FleetState | None = None
-        self.objects: WarehouseObjects | None = None
-        self.units: UnitStates | None = None
-        self.scenery: Scenery | None = None
+        # Messages have no types; each is None before the first.
+        self.fleet: Any = None
+        self.objects: Any = None
+        self.units: Any = None
+        self.scenery: Any = None
         self.people = People()
         for topic, kind, name in (
             ("objects", WarehouseObjects, "objects"),
@@ -42,10 +41,10 @@ class Warehouse:
             ros.Subscriber(f"/warehouse/{topic}", kind, self._keep, name, queue_size=1)
         ros.Subscriber("/warehouse/fleet", FleetState, self._on_fleet, queue_size=10)
 
-    def _keep(self, message, name):
+    def _keep(self, message: Any, name: str) -> None:
         setattr(self, name, message)
 
-    def _on_fleet(self, message):
+    def _on_fleet(self, message: Any) -> None:
         before, self.fleet = self.fleet, message
         if self._call:
             self._call(before, message)
@@ -103,7 +102,7 @@ class Warehouse:
         objects = _known(self.objects)
         return [objects.items[item] for item in objects.fallen_item]
 
-    def _cells(self, plan):
+    def _cells(self, plan: FloorPlan) -> list[int]:
         x, y, _ = unit_poses(_known(self.units))
         return plan.cell_of(x, y).tolist()
 
@@ -116,7 +115,7 @@ class Warehouse:
         return zip(objects.items, unit_of)
 
 
-def _known(message: _Message | None) -> _Message:
+def _known(message: Any) -> Any:
     if message is None:
         raise ValueError("no message has come yet")
     return message

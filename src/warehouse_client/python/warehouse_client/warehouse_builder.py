@@ -2,9 +2,12 @@
 """Puts a warehouse in place of the one that stands."""
 
 import time
+from collections.abc import Callable, Sequence
+from typing import Any
 
-from warehouse_client.engine import EngineError
+from warehouse_client.engine import Engine, EngineError
 from warehouse_layout import models
+from warehouse_layout.layout import Layout
 
 PROGRESS_EVERY = 3.0  # [s, wall]
 
@@ -20,12 +23,17 @@ class UndoneError(EngineError):
 class WarehouseBuilder:
     """`engine` is an engine.Engine; `report(text)` tells a person how far it is."""
 
-    def __init__(self, engine, report, clock=time.monotonic):
+    def __init__(
+        self,
+        engine: Engine,
+        report: Callable[[str], object],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._engine, self._report, self._clock = engine, report, clock
         self._next_report = clock() + PROGRESS_EVERY
 
-    def replace(self, layout):
-        """All of the layout, or nothing but its floor.
+    def replace(self, layout: Layout) -> None:
+        """Replaces the warehouse by all of the layout, or by its floor alone if that fails.
 
         Raises UndoneError, and EngineError where the world does not answer any more.
         Best while physics is paused: what is half-built shall not begin to move.
@@ -38,8 +46,8 @@ class WarehouseBuilder:
             self.clear(floor=False)
             raise UndoneError(f"{error}; the half-made warehouse was taken away") from error
 
-    def clear(self, floor=True):
-        """Takes away the models of any warehouse; those with other names stay."""
+    def clear(self, floor: bool = True) -> None:
+        """Deletes the models of any warehouse; those with other names stay."""
         for kind in (*models.KINDS, models.MARKINGS):
             # Asked for again each time: items go with the storage unit on which they lie.
             names = self._engine.names()
@@ -47,18 +55,18 @@ class WarehouseBuilder:
         if floor and models.FLOOR in self._engine.names():
             self._engine.delete(models.FLOOR)
 
-    def _spawn(self, parts):
+    def _spawn(self, parts: Sequence[Any]) -> None:
         for i in range(0, len(parts), BATCH):
             batch = parts[i : i + BATCH]
             self._progress("built", i, parts)
             self._engine.spawn(models.document(batch), batch[0].name)
 
-    def _delete(self, names):
+    def _delete(self, names: Sequence[str]) -> None:
         for i, name in enumerate(names):
             self._progress("taken away", i, names)
             self._engine.delete(name)
 
-    def _progress(self, what, done, all_):
+    def _progress(self, what: str, done: int, all_: Sequence[Any]) -> None:
         if self._clock() >= self._next_report:
             self._report(f"{what} {done} of {len(all_)} models")
             self._next_report = self._clock() + PROGRESS_EVERY
