@@ -2,6 +2,8 @@
 """What an order may be: bounds that keep one order, or a flood of them, from stopping a shift."""
 
 import math
+from collections.abc import Sequence
+from typing import Any
 
 MOST_LINES = 1_000  # of one order
 MOST_WAITING = 100_000  # lines of all orders that no station has yet
@@ -9,8 +11,8 @@ REFERENCE_LENGTH = 200  # characters, as the database has room for
 LAST_MOMENT = 1e10  # orders are due before it [s]: some 300 years
 
 
-def fault_of_lines(lines, skus, capacity):
-    """Why an order of these (sku, pieces) can't be, in a sentence; empty if it can.
+def fault_of_lines(lines: Sequence[tuple[str, int]], skus: Any, capacity: float) -> str:
+    """Returns why an order of these (sku, pieces) is not accepted, as a sentence; empty if it is.
 
     skus: those that the warehouse deals in. capacity: pieces that all of its bins can hold.
     """
@@ -26,15 +28,15 @@ def fault_of_lines(lines, skus, capacity):
     return fault_of_pieces(sum(pieces for _, pieces in lines), capacity)
 
 
-def fault_of_pieces(pieces, capacity):
-    """Likewise of an order of so many pieces."""
+def fault_of_pieces(pieces: int, capacity: float) -> str:
+    """Returns why an order of that many pieces is not accepted; empty if it is."""
     if pieces > capacity:
         return f"an order of {pieces} pieces; all bins of the warehouse together hold {capacity}"
     return ""
 
 
-def fault_of_head(reference, due=0.0, priority=0):
-    """Likewise of what else there is to an order."""
+def fault_of_head(reference: str, due: float = 0.0, priority: int = 0) -> str:
+    """Returns why the head of an order is not accepted; empty if it is."""
     if len(reference) > REFERENCE_LENGTH:
         return (
             f"the reference has {len(reference)} characters; {REFERENCE_LENGTH} or fewer were "
@@ -49,7 +51,7 @@ def fault_of_head(reference, due=0.0, priority=0):
     return ""
 
 
-def shown(text, most=80):
-    """A text from outside, as a message can have it."""
+def shown(text: str, most: int = 80) -> str:
+    """Returns a text from outside as a message can have it."""
     text = text if len(text) <= most else f"{text[:most]}…"
     return text if text.isprintable() else ascii(text)[1:-1]

@@ -6,6 +6,9 @@ room. Standing in a street for others is part of the drive: that is what traffic
 """
 
 import collections
+from typing import Any
+
+import numpy as np
 
 from warehouse_fleet.transports import Step
 
@@ -24,13 +27,13 @@ OF_STEP = {
 class ActivityLog:
     """Robot-seconds by activity of a fleet that Transports drives."""
 
-    def __init__(self, robots):
+    def __init__(self, robots: int) -> None:
         self.robots = robots
         self.seconds = dict.fromkeys(ACTIVITIES, 0.0)
 
-    def observe(self, elapsed, transports, standing):
-        """Takes in what all robots do for `elapsed` seconds; standing: (n,) bool by robot."""
-        doing = collections.Counter()
+    def observe(self, elapsed: float, transports: Any, standing: np.ndarray) -> None:
+        """Adds what all robots do for `elapsed` seconds; standing: (n,) bool by robot."""
+        doing: collections.Counter[str] = collections.Counter()
         for one in transports.assigned():
             queues = one.step == Step.BRINGING and standing[one.robot] and transports.in_lane(one)
             doing["queue" if queues else OF_STEP[one.step]] += 1

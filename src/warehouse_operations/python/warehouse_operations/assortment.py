@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a warehouse deals in: SKUs, how often each is asked for, and the stock at first."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,14 +22,20 @@ class Assortment:
     popularity: np.ndarray
 
     @classmethod
-    def draw(cls, count, rng):
+    def draw(cls, count: int, rng: np.random.Generator) -> "Assortment":
         """Gamma(1) distributed weights: the top fifth of many SKUs takes about 52 to 58 %."""
         weights = rng.gamma(1.0, size=count)
         return cls(tuple(f"sku-{i}" for i in range(1, count + 1)), weights / weights.sum())
 
 
-def stocked(items, rng, skus=None, capacity=CAPACITY, level=INITIAL_LEVEL):
-    """An Assortment, and Bins with pieces of it: (assortment, [(bin, pieces)]).
+def stocked(
+    items: Sequence[tuple[str, int]],
+    rng: np.random.Generator,
+    skus: int | None = None,
+    capacity: int = CAPACITY,
+    level: float = INITIAL_LEVEL,
+) -> tuple["Assortment", list[tuple[Bin, int]]]:
+    """Returns an Assortment and Bins with pieces of it: (assortment, [(bin, pieces)]).
 
     items: (name, unit) of each bin. Each SKU has a bin; the others are shared out by popularity.
     """

@@ -3,14 +3,22 @@
 
 import re
 import tempfile
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from warehouse_fleet.kinematics import Kinematics
 
-def world_of(site, seed=1, realism=""):
-    """A kiva_plugin_cpp.World of a Site, and the Site as it stands there: (world, site).
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
+    from warehouse_operations.site import Site
+
+
+def world_of(site: "Site", seed: int = 1, realism: str = "") -> "tuple[World, Site]":
+    """Returns a kiva_plugin_cpp.World of a Site, and the Site as it stands there.
 
     Cell (0, 0) is at the origin of world. Robots have the Site's kinematics and face +x.
     """
@@ -20,7 +28,7 @@ def world_of(site, seed=1, realism=""):
     plan = replace(site.plan, origin=(0.0, 0.0))
     (height, width), spacing = plan.shape, plan.spacing
 
-    def points(cells):
+    def points(cells: Mapping[int, int]) -> np.ndarray:
         return np.column_stack(plan.point_of(np.array(list(cells.values()), int)))
 
     low = -spacing / 2
@@ -46,7 +54,7 @@ def world_of(site, seed=1, realism=""):
     return world, replace(site, plan=plan)
 
 
-def _set_kinematics(path, kinematics):
+def _set_kinematics(path: Path, kinematics: Kinematics) -> None:
     text = _with(
         path.read_text(encoding="utf-8"),
         speed=kinematics.speed,
@@ -57,8 +65,9 @@ def _set_kinematics(path, kinematics):
     path.write_text(text, encoding="utf-8")
 
 
-def _with(text, **values):
-    """An SDF text whose elements of these names, each but once there, have other values."""
+def _with(text: str, **values: float) -> str:
+    """Returns an SDF text with other values in elements of these names, each of which is there
+    once."""
     for name, value in values.items():
         text, count = re.subn(rf"<{name}>[^<]*</{name}>", f"<{name}>{value!r}</{name}>", text)
         if count != 1:

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether a database balances: every piece exists once, nothing was done twice or half."""
 
+from typing import Any
+
 from sqlalchemy import text
+from sqlalchemy.engine import Engine
 
 # Each finds rows that must not be; the columns go into the sentence.
 RULES = (
@@ -70,8 +73,8 @@ RULES = (
 )
 
 
-def faults(engine, most=20):
-    """Sentences about what does not balance, at most so many a rule; an empty list is good."""
+def faults(engine: Engine, most: int = 20) -> list[str]:
+    """Returns sentences about what does not balance, at most so many a rule; none is good."""
     found = []
     with engine.connect() as connection:
         for sentence, query in RULES:
@@ -80,8 +83,8 @@ def faults(engine, most=20):
     return found
 
 
-def summary(engine):
-    """What there is: pieces, reserved, bins, moves, orders by state, visits."""
+def summary(engine: Engine) -> dict[str, Any]:
+    """Returns the numbers of pieces, reservations, bins, moves, orders by state and visits."""
     queries = {
         "pieces": "SELECT COALESCE(SUM(quantity), 0) FROM bin",
         "reserved": "SELECT COALESCE(SUM(reserved), 0) FROM bin",

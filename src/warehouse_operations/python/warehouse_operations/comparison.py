@@ -2,10 +2,14 @@
 """Runs of several configurations side by side: means, confidence intervals, differences."""
 
 import json
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy import stats
+
+from warehouse_operations.runs import Run
 
 CONFIDENCE = 0.95
 
@@ -19,13 +23,14 @@ class Estimate:
     count: int
 
     @classmethod
-    def of(cls, values):
-        values = np.asarray(values, float)
+    def of(cls, values: Sequence[float]) -> "Estimate":
+        """Returns the mean of values with its confidence interval."""
+        sample = np.asarray(values, float)
         half = float("nan")
-        if len(values) > 1:
-            factor = stats.t.ppf((1 + CONFIDENCE) / 2, len(values) - 1)
-            half = float(factor * values.std(ddof=1) / np.sqrt(len(values)))
-        return cls(float(values.mean()), half, len(values))
+        if len(sample) > 1:
+            factor = stats.t.ppf((1 + CONFIDENCE) / 2, len(sample) - 1)
+            half = float(factor * sample.std(ddof=1) / np.sqrt(len(sample)))
+        return cls(float(sample.mean()), half, len(sample))
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,8 @@ class Difference:
     paired: bool
 
     @property
-    def significant(self):
+    def significant(self) -> bool:
+        """Whether the difference is significant at the level of CONFIDENCE."""
         return self.p_value < 1 - CONFIDENCE
 
 
@@ -52,24 +58,25 @@ class Group:
     label: str
     runs: tuple
 
-    def values(self, kpi):
-        """One figure of each run, by seed."""
+    def values(self, kpi: str) -> dict[int, float]:
+        """Returns one figure of each run, by seed."""
         return {run.seed: value_of(run.kpis, kpi) for run in self.runs}
 
-    def estimate(self, kpi):
+    def estimate(self, kpi: str) -> Estimate:
+        """Returns the Estimate of one figure."""
         return Estimate.of(list(self.values(kpi).values()))
 
 
-def value_of(kpis, name):
-    """A figure; "order_turnover_s.median" is one of several."""
+def value_of(kpis: Any, name: str) -> float:
+    """Returns a figure by its name; "order_turnover_s.median" is one of several."""
     for part in name.split("."):
         kpis = kpis[part]
     return float(kpis)
 
 
-def grouped(runs):
-    """The Groups of runs, in the order in which they come; labels say in what they differ."""
-    by_config = {}
+def grouped(runs: Iterable[Run]) -> list[Group]:
+    """Returns the Groups of runs, in their order; labels say how they differ."""
+    by_config: dict[str, list[Run]] = {}
     for run in runs:
         by_config.setdefault(json.dumps(run.config, sort_keys=True), []).append(run)
     flat = [_flat(members[0].config) for members in by_config.values()]
@@ -81,8 +88,8 @@ def grouped(runs):
     return result
 
 
-def difference(first, second, kpi):
-    """The Difference between two Groups; None where too few runs tell."""
+def difference(first: Group, second: Group, kpi: str) -> Difference | None:
+    """Returns the Difference between two Groups; None if there are too few runs."""
     a, b = first.values(kpi), second.values(kpi)
     common = sorted(a.keys() & b.keys())
     base = np.mean(list(a.values()))
@@ -102,8 +109,8 @@ def difference(first, second, kpi):
     return Difference(estimate, float(relative), float(p_value), paired)
 
 
-def _flat(config, before=""):
-    result = {}
+def _flat(config: dict[str, Any], before: str = "") -> dict[str, Any]:
+    result: dict[str, Any] = {}
     for key, value in config.items():
         if isinstance(value, dict) and "name" not in value:
             result |= _flat(value, f"{before}{key}.")
@@ -112,11 +119,11 @@ def _flat(config, before=""):
     return result
 
 
-def _all_keys(flat):
+def _all_keys(flat: Iterable[dict[str, Any]]) -> list[str]:
     return list(dict.fromkeys(key for one in flat for key in one))
 
 
-def _word(key, value):
+def _word(key: str, value: Any) -> str:
     name = key.rpartition(".")[2]
     if name == "physics":
         return "physics" if value else "ideal robots"

@@ -8,6 +8,7 @@ and in order. The thread writes as many of them in one transaction as are there.
 import contextlib
 import queue
 import threading
+from collections.abc import Iterator
 
 from warehouse_operations.engines import (
     DatabaseError,
@@ -29,30 +30,31 @@ class Database:
     """Takes Rows from any thread and writes them in order on its own; no other program may, for as
     long. url: see engines.url_of. Raises DatabaseError."""
 
-    def __init__(self, url):
+    def __init__(self, url: str) -> None:
         self.url, self.engine = shown(url), make_engine(url)
         self._lock = contextlib.ExitStack()
         with self._lock as unless_ready:
             unless_ready.enter_context(lock(self.engine, url))
             prepare(self.engine, url)
             self._lock = unless_ready.pop_all()
-        self._queue = queue.Queue(WAITING)
-        self._error = None
+        self._queue: queue.Queue[Rows | None] = queue.Queue(WAITING)
+        self._error: Exception | None = None
         self._thread = threading.Thread(target=self._write, name="database", daemon=True)
         self._thread.start()
 
-    def put(self, rows):
-        """Rows that belong together; raises DatabaseError if earlier ones could not be written."""
+    def put(self, rows: Rows) -> None:
+        """Queues Rows that belong together; raises DatabaseError if earlier ones could not be
+        written."""
         self._check()
         self._queue.put(rows)
 
-    def flush(self):
+    def flush(self) -> None:
         """Waits until everything that was put is in the database; raises DatabaseError."""
         self._queue.join()
         self._check()
 
-    def close(self):
-        """Flushes and ends; raises DatabaseError."""
+    def close(self) -> None:
+        """Flushes and closes; raises DatabaseError."""
         if self._thread.is_alive():
             self._queue.put(None)
             self._thread.join()
@@ -60,13 +62,13 @@ class Database:
         self.engine.dispose()
         self._check()
 
-    def _check(self):
+    def _check(self) -> None:
         if self._error:
             raise DatabaseError(f"{self.url}: {reason(self._error)}") from self._error
 
     @contextlib.contextmanager
-    def reading(self):
-        """Raises DatabaseError where what it holds can't be understood."""
+    def reading(self) -> Iterator[None]:
+        """Raises DatabaseError if what the database holds can't be understood."""
         try:
             yield
         except DatabaseError:
@@ -77,7 +79,7 @@ class Database:
                 "database, or with a copy of this one from before"
             ) from error
 
-    def _write(self):
+    def _write(self) -> None:
         ended = False
         while not ended:
             taken = [self._queue.get()]

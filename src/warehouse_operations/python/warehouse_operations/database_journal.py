@@ -2,20 +2,39 @@
 """The journal that keeps a shift in a database."""
 
 import json
+from collections.abc import Iterable
 from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import func, select, update
 
 from warehouse_operations import schema
+from warehouse_operations.inventory import Bin, Reason
 from warehouse_operations.journal import Journal
-from warehouse_operations.message_enums import OrderState
+from warehouse_operations.message_enums import OrderEventKind, OrderState
+from warehouse_operations.orders import Line, Order
 from warehouse_operations.rows import Rows
+from warehouse_operations.stations import Visit
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift import Shift
+    from warehouse_operations.stored import Stored
 
 
 class DatabaseJournal(Journal):
     """Keeps a shift in a Database."""
 
-    def __init__(self, database, *, seed, orders, policies, site, layout, now=0.0):
+    def __init__(
+        self,
+        database: Any,
+        *,
+        seed: int,
+        orders: str,
+        policies: dict[str, Any],
+        site: str,
+        layout: Any,
+        now: float = 0.0,
+    ) -> None:
         self._database, self._rows = database, Rows()
         with database.engine.connect() as connection:
             self._next = {
@@ -33,7 +52,7 @@ class DatabaseJournal(Journal):
             self._units = set(connection.execute(select(schema.unit.c.id)).scalars())
         self.run_id = self._id(schema.run)
         self._first_visit = self._next[schema.visit] - 1
-        self._assignments = {}
+        self._assignments: dict[int, int] = {}
         self._rows.insert(
             schema.run,
             self.run_id,
@@ -49,15 +68,15 @@ class DatabaseJournal(Journal):
             kpis=None,
         )
 
-    def begin(self, shift):
-        """Writes down a new warehouse: its SKUs, units and bins, still empty."""
+    def begin(self, shift: "Shift") -> None:
+        """Writes a new warehouse: its SKUs, units and bins, still empty."""
         shares = zip(shift.assortment.skus, shift.assortment.popularity)
         for number, (sku, share) in enumerate(shares, 1):
             self._rows.insert(schema.sku, sku, number=number, popularity=float(share))
         self.take_in(shift.inventory.bins.values())
 
-    def take_in(self, bins, moved=()):
-        """Writes down bins that are new, still empty, and those that are on another unit now."""
+    def take_in(self, bins: Iterable[Bin], moved: Iterable[Bin] = ()) -> None:
+        """Writes bins that are new, still empty, and those that are on another unit now."""
         for unit in dict.fromkeys(one.unit for one in (*bins, *moved)):
             if unit not in self._units:
                 self._units.add(unit)
@@ -77,12 +96,12 @@ class DatabaseJournal(Journal):
         for one in moved:
             self._rows.update(schema.bin_, one.bin_id, unit=one.unit)
 
-    def gone(self, bins):
-        """Bins that are not in the warehouse any more, and were written off."""
+    def gone(self, bins: Iterable[Bin]) -> None:
+        """Writes bins that are no longer in the warehouse, and were written off."""
         for one in bins:
             self._rows.update(schema.bin_, one.bin_id, capacity=0)
 
-    def resume(self, stored):
+    def resume(self, stored: "Stored") -> None:
         """What an earlier run left under way has ended: its visits, assignments and promises. The
         orders of a Stored warehouse are this run's from now on, and so are their times."""
         with self._database.engine.begin() as connection:
@@ -119,7 +138,17 @@ class DatabaseJournal(Journal):
                 )
             rows.write(connection)
 
-    def move(self, now, one, quantity, reason, line, station, visit):
+    def move(
+        self,
+        now: float,
+        one: Bin,
+        quantity: int,
+        reason: Reason,
+        line: Line | None,
+        station: str,
+        visit: Visit | None,
+    ) -> None:
+        """Writes pieces that went into a Bin, or out of it if negative."""
         self._rows.insert(
             schema.move,
             self._id(schema.move),
@@ -136,7 +165,8 @@ class DatabaseJournal(Journal):
         if visit:
             self.visit(visit, pieces=visit.pieces + abs(quantity))
 
-    def order(self, order):
+    def order(self, order: Order) -> None:
+        """Writes a new Order, or the new state of a known one."""
         values = {
             "state": int(order.state),
             "station": order.station,
@@ -165,10 +195,12 @@ class DatabaseJournal(Journal):
                 picked=line.picked,
             )
 
-    def line(self, line):
+    def line(self, line: Line) -> None:
+        """Writes how many pieces of an order's Line are picked."""
         self._rows.update(schema.order_line, (line.order.order_id, line.number), picked=line.picked)
 
-    def assigned(self, order):
+    def assigned(self, order: Order) -> None:
+        """Writes the assignment of an Order to its station."""
         key = self._assignments[order.order_id] = self._id(schema.assignment)
         self._rows.insert(
             schema.assignment,
@@ -181,11 +213,13 @@ class DatabaseJournal(Journal):
         )
         self.order(order)
 
-    def unassigned(self, order, now):
+    def unassigned(self, order: Order, now: float) -> None:
+        """Writes that a station gave an Order back unfinished."""
         self._rows.update(schema.assignment, self._assignments.pop(order.order_id), ended=now)
         self.order(order)
 
-    def visit(self, visit, pieces=None):
+    def visit(self, visit: Visit, pieces: int | None = None) -> None:
+        """Writes a new Visit, or the new state of a known one."""
         key = visit.visit_id + self._first_visit
         values = {
             "lifted": visit.lifted,
@@ -210,10 +244,22 @@ class DatabaseJournal(Journal):
             **values,
         )
 
-    def unit(self, unit, in_service):
+    def unit(self, unit: int, in_service: bool) -> None:
+        """Writes that a storage unit goes out of service, or returns to it."""
         self._rows.update(schema.unit, unit, in_service=int(in_service))
 
-    def event(self, now, kind, order_id, sku, quantity, station, unit, text):
+    def event(
+        self,
+        now: float,
+        kind: OrderEventKind,
+        order_id: int,
+        sku: str,
+        quantity: int,
+        station: str,
+        unit: int,
+        text: str,
+    ) -> None:
+        """Writes an event of an order."""
         self._rows.insert(
             schema.event,
             self._id(schema.event),
@@ -228,13 +274,14 @@ class DatabaseJournal(Journal):
             text=text,
         )
 
-    def heat(self, slot, began, maps):
-        """A part of the FloorHeat, in place of what was in that slot; `maps` as bytes."""
+    def heat(self, slot: int, began: float, maps: bytes) -> None:
+        """Writes a part of the FloorHeat, in place of the one in that slot."""
         put = self._rows.update if slot in self._heat_slots else self._rows.insert
         self._heat_slots.add(slot)
         put(schema.heat, slot, run=self.run_id, began_s=began, maps=maps)
 
-    def commit(self, shift):
+    def commit(self, shift: "Shift") -> None:
+        """Passes everything since the last call to the database, to be written together."""
         changed = shift.inventory.changed
         for one in sorted(changed, key=lambda one: one.bin_id):
             self._rows.update(
@@ -246,20 +293,20 @@ class DatabaseJournal(Journal):
             self._database.put(self._rows)
             self._rows = Rows()
 
-    def flush(self):
+    def flush(self) -> None:
         """Waits until everything that was committed is in the database."""
         self._database.flush()
 
-    def end(self, shift, figures):
-        """The run is over; its figures are kept with it."""
+    def end(self, shift: "Shift", figures: dict[str, Any]) -> None:
+        """Writes the end of the run, with its figures."""
         self._rows.update(schema.run, self.run_id, ended=_now(), kpis=json.dumps(figures))
         self.commit(shift)
 
-    def _id(self, table):
+    def _id(self, table: Any) -> int:
         key = self._next[table]
         self._next[table] = key + 1
         return key
 
 
-def _now():
+def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="milliseconds")

@@ -2,11 +2,16 @@
 """Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
 order_file), or `none`."""
 
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
 import numpy as np
 
 from warehouse_operations.acceptance import MOST_WAITING
+from warehouse_operations.assortment import Assortment
 from warehouse_operations.inventory import ROOMY
 from warehouse_operations.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.orders import Backlog
 
 FILL = 200  # orders that wait at any time
 POISSON = 160.0  # orders a picking station and hour
@@ -22,11 +27,11 @@ AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, unti
 class Customers:
     """Draws orders from an assortment; the same generator state gives the same orders."""
 
-    def __init__(self, assortment, rng):
+    def __init__(self, assortment: Assortment, rng: np.random.Generator) -> None:
         self.assortment, self._rng = assortment, rng
 
-    def order(self, now, in_stock):
-        """A Wanted of SKUs that in_stock(sku) has pieces of; None if there are none."""
+    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+        """Draws an order of SKUs that in_stock(sku) has pieces of; None if there are none."""
         rng = self._rng
         count = int(rng.choice(LINES, p=LINE_SHARES / LINE_SHARES.sum()))
         lines = {}
@@ -43,7 +48,7 @@ class Customers:
         due = DUE_SOON if rng.random() < DUE_SOON_SHARE else DUE_LATER
         return Wanted(tuple(lines.items()), now, now + due)
 
-    def _draw(self):
+    def _draw(self) -> int:
         if not hasattr(self, "_sums"):
             self._sums = np.cumsum(self.assortment.popularity)
         at = np.searchsorted(self._sums, self._rng.random() * self._sums[-1], side="right")
@@ -53,15 +58,16 @@ class Customers:
 class Fill:
     """So many orders wait at any time."""
 
-    def __init__(self, customers, waiting=FILL):
+    def __init__(self, customers: Customers, waiting: int = FILL) -> None:
         self.customers, self.waiting = customers, waiting
         self.bundles_per_hour = 0.0
 
-    def next_time(self):
+    def next_time(self) -> float:
+        """Returns inf: orders come when others leave the backlog."""
         return float("inf")
 
-    def due(self, now, backlog, in_stock):
-        """The orders that come now."""
+    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+        """Yields the orders that come now."""
         for _ in range(self.waiting - len(backlog)):
             wanted = self.customers.order(now, in_stock)
             if wanted is None:
@@ -72,23 +78,32 @@ class Fill:
 class Poisson:
     """Orders come by chance, so many an hour on the average; bundles likewise."""
 
-    def __init__(self, customers, per_hour, bundles_per_hour, rng, now=0.0):
+    def __init__(
+        self,
+        customers: Customers,
+        per_hour: float,
+        bundles_per_hour: float,
+        rng: np.random.Generator,
+        now: float = 0.0,
+    ) -> None:
         self.customers, self.per_hour, self._rng = customers, per_hour, rng
         self.bundles_per_hour = bundles_per_hour
         self._next = now
         self._wait()
 
-    def next_time(self):
+    def next_time(self) -> float:
+        """Returns when the next order comes [s]."""
         return self._next
 
-    def due(self, now, backlog, in_stock):
+    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+        """Yields the orders that come now."""
         while self._next <= now:
             wanted = self.customers.order(self._next, in_stock)
             self._wait()
             if wanted:
                 yield wanted
 
-    def _wait(self):
+    def _wait(self) -> None:
         self._next += self._rng.exponential(3600.0 / self.per_hour)
 
 
@@ -98,14 +113,16 @@ class FromFile:
 
     bundles_per_hour = 0.0
 
-    def __init__(self, wanted):
+    def __init__(self, wanted: Iterable[Wanted]) -> None:
         self._wanted = sorted(wanted, key=lambda one: one.at)[::-1]
         self._more_at = 0.0
 
-    def next_time(self):
+    def next_time(self) -> float:
+        """Returns when the next order comes [s]; inf after the last."""
         return max(self._wanted[-1].at, self._more_at) if self._wanted else float("inf")
 
-    def due(self, now, backlog, in_stock):
+    def due(self, now: float, backlog: Backlog, in_stock: Callable[[str], int]) -> Iterator[Wanted]:
+        """Yields the orders that come now."""
         for _ in range(AT_ONCE):
             if self.next_time() > now:
                 return
@@ -115,8 +132,16 @@ class FromFile:
         self._more_at = now + PAUSE
 
 
-def make_demand(text, assortment, stations, rng, now=0.0, capacity=float("inf")):
-    """What the orders' text of operations.launch and simulate means; raises DemandError.
+def make_demand(
+    text: str,
+    assortment: Any,
+    stations: tuple[int, int],
+    rng: np.random.Generator,
+    now: float = 0.0,
+    capacity: float = float("inf"),
+) -> Any:
+    """Returns the demand that an orders text of operations.launch or simulate means; raises
+    DemandError.
 
     assortment: None: any SKU may be asked for. stations: (picking, replenishing), how many. now:
     when it begins [s]. capacity: pieces that all bins can hold.
@@ -137,7 +162,7 @@ def make_demand(text, assortment, stations, rng, now=0.0, capacity=float("inf"))
     )
 
 
-def _number(text, value, default, most, whole=False):
+def _number(text: str, value: str, default: float, most: float, whole: bool = False) -> float:
     if not value:
         return default
     try:

@@ -3,9 +3,10 @@
 
 import contextlib
 from pathlib import Path
+from typing import Any
 
 from sqlalchemy import create_engine, event, select, text
-from sqlalchemy.engine import make_url
+from sqlalchemy.engine import Engine, make_url
 from sqlalchemy.exc import SQLAlchemyError
 
 from warehouse_operations import schema
@@ -19,20 +20,20 @@ class DatabaseError(Exception):
     """The database can't be opened or written; the text says why."""
 
 
-def url_of(text):
-    """A URL as it is; anything else is the path of an SQLite file."""
+def url_of(text: Any) -> str:
+    """Returns a URL as it is; anything else is the path of an SQLite file."""
     return text if "://" in str(text) else f"sqlite:///{text}"
 
 
-def shown(text):
-    """The same as a message may have it: without a password."""
+def shown(text: Any) -> str:
+    """Returns the same without a password, for messages."""
     with contextlib.suppress(SQLAlchemyError):
         return make_url(text).render_as_string() if "://" in str(text) else str(text)
     return "the database"
 
 
-def open_engine(text, makes=True):
-    """An engine on a database, its tables ready; raises DatabaseError.
+def open_engine(text: Any, makes: bool = True) -> Engine:
+    """Opens a database, its tables ready; raises DatabaseError.
 
     makes: whether a database without tables gets them.
     """
@@ -41,8 +42,8 @@ def open_engine(text, makes=True):
     return engine
 
 
-def make_engine(text):
-    """An engine that has not looked at its database yet; raises DatabaseError."""
+def make_engine(text: Any) -> Engine:
+    """Returns an engine that has not read its database yet; raises DatabaseError."""
     try:
         url = make_url(url_of(text))
     except (SQLAlchemyError, ValueError) as error:
@@ -50,7 +51,9 @@ def make_engine(text):
         raise DatabaseError(f"{kind}://…: is no URL of a database") from error
     try:
         is_file = url.get_backend_name() == "sqlite"
-        options = {} if is_file else {"connect_args": {"application_name": holder()[:63]}}
+        options: dict[str, Any] = (
+            {} if is_file else {"connect_args": {"application_name": holder()[:63]}}
+        )
         engine = create_engine(url, future=True, **options)
     except (SQLAlchemyError, ImportError, KeyError, ValueError) as error:
         raise DatabaseError(f"{shown(text)}: {reason(error)}") from error
@@ -59,8 +62,8 @@ def make_engine(text):
     return engine
 
 
-def prepare(engine, text, makes=True):
-    """Looks whether the database is whole, and makes its tables ready; raises DatabaseError."""
+def prepare(engine: Engine, text: Any, makes: bool = True) -> None:
+    """Checks that the database is whole, and creates its tables; raises DatabaseError."""
     path = path_of(engine)
     try:
         if path:
@@ -73,21 +76,21 @@ def prepare(engine, text, makes=True):
         raise DatabaseError(f"{shown(text)}: {reason(error)}") from error
 
 
-def path_of(engine):
-    """The file of an SQLite database; None of another one, or one in memory."""
+def path_of(engine: Engine) -> Path | None:
+    """Returns the file of an SQLite database; None for another one, or one in memory."""
     name = engine.url.database
     if engine.dialect.name != "sqlite" or not name or name.startswith((":memory:", "file:")):
         return None
     return Path(name)
 
 
-def reason(error):
-    """Why, in one line and without what SQLAlchemy adds to it."""
+def reason(error: BaseException) -> str:
+    """Returns the cause in one line, without what SQLAlchemy adds."""
     text = str(getattr(error, "orig", None) or getattr(error, "strerror", None) or error)
     return " ".join(text.split()) or type(error).__name__
 
 
-def _sqlite(connection, _record):
+def _sqlite(connection: Any, _record: Any) -> None:
     cursor = connection.cursor()
     cursor.execute("PRAGMA journal_mode=WAL")
     cursor.execute("PRAGMA synchronous=NORMAL")  # nothing is lost when a program is killed
@@ -96,7 +99,7 @@ def _sqlite(connection, _record):
     cursor.close()
 
 
-def _check_file(path):
+def _check_file(path: Path) -> None:
     if path.is_dir():
         raise schema.SchemaError("is a folder; the path of an SQLite file was expected")
     if path.exists():
@@ -106,15 +109,15 @@ def _check_file(path):
             raise schema.SchemaError("is no SQLite database; another file was expected")
 
 
-def _check_pages(connection):
+def _check_pages(connection: Any) -> None:
     found = connection.execute(text("PRAGMA quick_check(1)")).scalar()
     if found != "ok":
         told = " ".join(str(found).replace("*", "").split())
         raise schema.SchemaError(f"is damaged ({told}); go on with another one, or with a copy")
 
 
-def lock(engine, text):
-    """A context in which no other program may write the database; raises DatabaseError."""
+def lock(engine: Engine, text: Any) -> contextlib.AbstractContextManager[Any]:
+    """Returns a context in which no other program may write the database; raises DatabaseError."""
     try:
         if path := path_of(engine):
             return FileLock(path)
@@ -131,8 +134,9 @@ def lock(engine, text):
     return contextlib.nullcontext()
 
 
-def _server_lock(engine, name):
-    """An advisory lock: the server drops it as soon as this process, or the way to it, is gone."""
+def _server_lock(engine: Engine, name: str) -> contextlib.AbstractContextManager[Any]:
+    """Takes an advisory lock: the server drops it as soon as this process, or the connection, is
+    gone."""
     connection = engine.connect().execution_options(isolation_level="AUTOCOMMIT")
     in_schema = connection.execute(
         text("SELECT oid::int FROM pg_namespace WHERE nspname = current_schema()")

@@ -2,8 +2,11 @@
 """Where on the floor robots drive and where they wait, over the last hour."""
 
 import zlib
+from collections.abc import Iterable, Iterator
 
 import numpy as np
+
+from warehouse_layout.floor_plan import FloorPlan
 
 WINDOW, SLICES = 3600.0, 12  # what is older than the window is forgotten a slice at a time [s]
 TRAFFIC, WAITING = range(2)
@@ -13,14 +16,14 @@ GAP = 1.0  # reports further apart tell no more of the time between than that [s
 class FloorHeat:
     """Counts on the cells of a FloorPlan."""
 
-    def __init__(self, plan, now):
+    def __init__(self, plan: FloorPlan, now: float) -> None:
         self._plan, self._began = plan, now
         self._slices = np.zeros((SLICES, 2, plan.passable.size), np.float32)
         self._slice = self._slice_of(now)
         self._cells, self._time = None, now
 
-    def update(self, now, x, y, waits):
-        """Takes in where all robots are [m], and which of them wait (bool), at a time [s]."""
+    def update(self, now: float, x: np.ndarray, y: np.ndarray, waits: np.ndarray) -> None:
+        """Counts where all robots are [m], and which of them wait (bool), at a time [s]."""
         self._turn(now)
         counts = self._slices[self._slice % SLICES]
         cells = self._plan.cell_of(x, y)
@@ -30,7 +33,7 @@ class FloorHeat:
             np.add.at(counts[TRAFFIC], cells[inside & (cells != self._cells)], 1)
         self._cells, self._time = cells, now
 
-    def kept(self, slices=1):
+    def kept(self, slices: int = 1) -> Iterator[tuple[int, float, bytes]]:
         """The last slices, to be kept for restore(): each (slot, when it began [s], bytes). Later
         ones of a slot take its place."""
         for number in range(self._slice + 1 - slices, self._slice + 1):
@@ -38,8 +41,8 @@ class FloorHeat:
             packed = zlib.compress(self._slices[slot].tobytes(), level=1)
             yield slot, max(number * (WINDOW / SLICES), self._began), packed
 
-    def restore(self, kept):
-        """Goes on with what was kept: pairs (when it began [s], bytes), if it is of this floor."""
+    def restore(self, kept: Iterable[tuple[float, bytes]]) -> None:
+        """Goes on from what was kept: pairs (begin [s], bytes), if it is of this floor."""
         for began, packed in kept:
             counts = np.frombuffer(zlib.decompress(packed), np.float32)
             number = self._slice_of(began)
@@ -48,16 +51,16 @@ class FloorHeat:
             self._slices[number % SLICES] += counts.reshape(self._slices[0].shape)
             self._began = min(self._began, began)
 
-    def seconds(self, now):
-        """That the maps cover."""
+    def seconds(self, now: float) -> float:
+        """Returns the duration that the maps cover [s]."""
         oldest = (self._slice_of(now) + 1 - SLICES) * (WINDOW / SLICES)
         return now - max(self._began, oldest)
 
-    def maps(self):
-        """(traffic, waiting), each an array by cell: robots that came in; robot-seconds."""
+    def maps(self) -> np.ndarray:
+        """Returns (traffic, waiting), each an array by cell: robots that came in; robot-seconds."""
         return self._slices.sum(axis=0)
 
-    def _turn(self, now):
+    def _turn(self, now: float) -> None:
         """Empties the slices whose time begins again."""
         current = self._slice_of(now)
         for number in range(self._slice + 1, min(current, self._slice + SLICES) + 1):
@@ -65,5 +68,5 @@ class FloorHeat:
         self._slice = current
 
     @staticmethod
-    def _slice_of(now):
+    def _slice_of(now: float) -> int:
         return int(now // (WINDOW / SLICES))

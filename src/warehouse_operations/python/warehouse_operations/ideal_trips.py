@@ -2,8 +2,9 @@
 """The trips of ideal robots: to the unit, lift, to the station, queue, service, back, lower."""
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -110,10 +111,10 @@ class Trips:
             total[robot.activity] += self.time - robot.since
         return total
 
-    def _schedule(self, delay, act, argument):
+    def _schedule(self, delay: float, act: Callable[[Any], object], argument: Any) -> None:
         self.queue.schedule(self.time + delay, act, argument)
 
-    def _add_event(self, kind, transport):
+    def _add_event(self, kind: Kind, transport: Transport) -> None:
         self.events.append(
             TransportEvent(
                 self.time,
@@ -126,11 +127,11 @@ class Trips:
             )
         )
 
-    def _begin(self, robot, activity):
+    def _begin(self, robot: Robot, activity: str) -> None:
         self.seconds[robot.activity] += self.time - robot.since
         robot.activity, robot.since = activity, self.time
 
-    def _match(self):
+    def _match(self) -> None:
         """Gives robots without work the transports that wait."""
         if not self.waiting or not self._idle:
             return
@@ -145,7 +146,7 @@ class Trips:
         for task, robot in self.hooks.match_robots(tasks, [r.kiva_id for r in robots], seconds):
             self._assign(waiting[task], robots[robot], seconds[task, robot], metres[task, robot])
 
-    def _assign(self, transport, robot, seconds, metres):
+    def _assign(self, transport: Transport, robot: Robot, seconds: float, metres: float) -> None:
         del self.waiting[transport.transport_id], self._idle[robot.kiva_id]
         transport.robot = robot
         self.distance_m += metres
@@ -153,7 +154,7 @@ class Trips:
         self._begin(robot, "to unit")
         self._schedule(seconds, self._reach_unit, transport)
 
-    def _reach_unit(self, transport):
+    def _reach_unit(self, transport: Transport) -> None:
         transport.driver.cell = self.floor.units[transport.shelf_id]
         if transport.cancelled:
             self._free_robot(transport)
@@ -161,7 +162,7 @@ class Trips:
         self._begin(transport.driver, "lift")
         self._schedule(self.kinematics.lift, self._lift, transport)
 
-    def _lift(self, transport):
+    def _lift(self, transport: Transport) -> None:
         home = self.floor.units.pop(transport.shelf_id)
         self.floor.clear(home)
         self._add_event(Kind.LIFTED, transport)
@@ -171,7 +172,7 @@ class Trips:
         self.ways[transport.cell, home, False] += 1
         self._schedule(table.seconds[home], self._reach_end, transport)
 
-    def _reach_end(self, transport):
+    def _reach_end(self, transport: Transport) -> None:
         transport.driver.cell = transport.cell
         if transport.cancelled:
             self._store(transport)
@@ -182,7 +183,7 @@ class Trips:
         else:
             self._arrive(transport)
 
-    def _serve_next(self, lane, moving_up):
+    def _serve_next(self, lane: Lane, moving_up: float) -> None:
         """Moves the first in the lane to the service cell as soon as that has been left."""
         if lane.serving or not lane.queue:
             return
@@ -190,7 +191,7 @@ class Trips:
         delay = max(lane.free_from - self.time, 0.0) + moving_up
         self._schedule(delay, self._arrive, lane.serving)
 
-    def _arrive(self, transport):
+    def _arrive(self, transport: Transport) -> None:
         if transport.cancelled:
             self._leave(transport)
             self._store(transport)
@@ -215,7 +216,7 @@ class Trips:
         else:
             self._store(transport)
 
-    def _leave(self, transport):
+    def _leave(self, transport: Transport) -> None:
         """Frees the service cell for when the robot with its unit has left it."""
         lane = transport.lane
         if lane and lane.serving is transport:
@@ -224,7 +225,7 @@ class Trips:
             lane.free_from = self.time + self.kinematics.leaving(spacing)
             self._serve_next(lane, float(self.kinematics.run(spacing)))
 
-    def _store(self, transport):
+    def _store(self, transport: Transport) -> None:
         """Sends a unit to a free place that the policy chooses."""
         start = transport.driver.cell
         table = self.travel.loaded_from(start)
@@ -240,19 +241,19 @@ class Trips:
         self.ways[start, place, True] += 1
         self._schedule(table.seconds[place], self._lower, (transport, place))
 
-    def _lower(self, argument):
+    def _lower(self, argument: Any) -> None:
         transport, place = argument
         transport.driver.cell = place
         self._begin(transport.driver, "lift")
         self._schedule(self.kinematics.lift, self._drop, argument)
 
-    def _drop(self, argument):
+    def _drop(self, argument: Any) -> None:
         transport, place = argument
         self.floor.units[transport.shelf_id] = place
         self._add_event(Kind.STORED, transport)
         self._free_robot(transport)
 
-    def _free_robot(self, transport):
+    def _free_robot(self, transport: Transport) -> None:
         robot = transport.driver
         self._end(transport)
         self._begin(robot, "idle")
@@ -263,11 +264,11 @@ class Trips:
             self.distance_m += float(metres[0, 0])
             robot.cell, robot.parked = int(to), self.time + float(seconds[0, 0])
 
-    def _end(self, transport):
+    def _end(self, transport: Transport) -> None:
         del self.open[transport.transport_id]
         self.floor.busy.discard(transport.shelf_id)
 
 
-def _task(one):
+def _task(one: Transport) -> Task:
     name, inbound = (one.lane.name, one.lane.inbound) if one.lane else ("", 0)
     return Task(one.transport_id, one.shelf_id, name, one.priority, inbound)

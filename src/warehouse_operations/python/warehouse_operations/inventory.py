@@ -6,13 +6,15 @@ sum of its moves. Reserved pieces are promised to a pick; expected ones are on t
 """
 
 from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Iterable
 from enum import StrEnum
+from typing import Any
 
 ROOMY = 12  # pieces, of the largest bundle
 
 
 class Reason(StrEnum):
-    """Of a move."""
+    """Why a move was made."""
 
     INITIAL = "initial"
     PICK = "pick"
@@ -40,45 +42,48 @@ class Bin:
         *("quantity", "reserved", "expected", "fallen"),
     )
 
-    def __init__(self, bin_id, item, unit, capacity, sku=""):
+    def __init__(self, bin_id: int, item: str, unit: int, capacity: int, sku: str = "") -> None:
         self.bin_id, self.item, self.unit = bin_id, item, unit
         self.capacity, self.sku = capacity, sku
         self.quantity = self.reserved = self.expected = 0
-        self.fallen = None
+        self.fallen: int | None = None
 
     @property
-    def available(self):
+    def available(self) -> int:
         """Pieces promised to no order."""
         return self.quantity - self.reserved
 
     @property
-    def room(self):
+    def room(self) -> int:
         """Pieces that can be put in beside those that are expected."""
         return 0 if self.fallen is not None else self.capacity - self.quantity - self.expected
 
     @property
-    def empty(self):
+    def empty(self) -> bool:
         """Whether another SKU may move in."""
         return not self.quantity and not self.expected and self.fallen is None
 
 
 class Inventory:
-    """The bins, by unit and by SKU. on_move(bin, quantity, reason, context) hears of each move."""
+    """The bins, by unit and by SKU. Calls on_move(bin, quantity, reason, context) for each move."""
 
-    def __init__(self, bins, on_move=None):
+    def __init__(self, bins: Collection[Bin], on_move: Callable[..., object] | None = None) -> None:
         self.bins = {one.bin_id: one for one in bins}
-        self.of_unit, self._of_sku = defaultdict(list), defaultdict(dict)
+        self.of_unit: dict[int, list[Bin]] = defaultdict(list)
+        self._of_sku: dict[str, dict[int, Bin]] = defaultdict(dict)
         self.capacity = self.total = self.expected = 0
-        self.empty = {}  # bins without anything, by id
+        self.empty: dict[int, Bin] = {}  # bins without anything, by id
         self._kept_for = Counter(one.sku for one in bins)  # bins by the SKU they have or had last
-        self._heirs = {}  # SKUs without a bin, by the bin that is theirs once it is empty
-        self.roomy = defaultdict(int)  # bins with room for a bundle of any size, by SKU
-        self._roomy = set()
-        self._available = defaultdict(int)
-        self._incoming = defaultdict(int)
-        self.blocked = set()  # units out of service
+        # SKUs without a bin, by the bin that is theirs once it is empty.
+        self._heirs: dict[int, str] = {}
+        # Bins with room for a bundle of any size, by SKU.
+        self.roomy: dict[str, int] = defaultdict(int)
+        self._roomy: set[int] = set()
+        self._available: dict[str, int] = defaultdict(int)
+        self._incoming: dict[str, int] = defaultdict(int)
+        self.blocked: set[int] = set()  # units out of service
         self._on_move = on_move or (lambda *_: None)
-        self.changed = set()  # bins whose figures are not written down yet
+        self.changed: set[Bin] = set()  # bins whose figures are not written down yet
         for one in bins:
             self.of_unit[one.unit].append(one)
             self.capacity += one.capacity
@@ -88,24 +93,24 @@ class Inventory:
             self._measure(one)
 
     @property
-    def level(self):
+    def level(self) -> float:
         """Pieces over room for pieces."""
         return self.total / self.capacity if self.capacity else 0.0
 
-    def available(self, sku):
-        """Pieces of a SKU promised to no order, units out of service included."""
+    def available(self, sku: str) -> int:
+        """Returns the pieces of a SKU promised to no order, units out of service included."""
         return self._available.get(sku, 0)
 
-    def incoming(self, sku):
-        """Pieces of a SKU for which a bin is kept free."""
+    def incoming(self, sku: str) -> int:
+        """Returns the pieces of a SKU for which room in a bin is kept."""
         return self._incoming.get(sku, 0)
 
-    def with_sku(self, sku):
-        """The bins in which pieces of a SKU lie."""
+    def with_sku(self, sku: str) -> Collection[Bin]:
+        """Returns the bins in which pieces of a SKU lie."""
         return self._of_sku[sku].values()
 
-    def takes(self, one, sku, quantity):
-        """Whether so many of a SKU can be put into a bin.
+    def takes(self, one: Bin, sku: str, quantity: int) -> bool:
+        """Returns whether so many pieces of a SKU can be put into a bin.
 
         The last bin of a SKU is kept for it: else it could never be refilled.
         """
@@ -114,7 +119,7 @@ class Inventory:
         may_move_in = one.empty and self._kept_for[one.sku] > 1
         return one.room >= quantity and (one.sku == sku or may_move_in)
 
-    def move(self, one, sku, quantity, reason, **context):
+    def move(self, one: Bin, sku: str, quantity: int, reason: Reason, **context: Any) -> None:
         """Puts pieces into a bin, or takes them out; raises StockError."""
         if quantity > 0 and one.quantity and one.sku != sku:
             raise StockError(f"{one.item} holds {one.sku}, {sku} can't be put in")
@@ -132,8 +137,8 @@ class Inventory:
         self.changed.add(one)
         self._on_move(one, quantity, reason, context)
 
-    def reserve(self, one, quantity):
-        """Promises pieces of a bin, or with a negative number takes the promise back."""
+    def reserve(self, one: Bin, quantity: int) -> None:
+        """Promises pieces of a bin; a negative number takes the promise back."""
         if not 0 <= one.reserved + quantity <= one.quantity:
             raise StockError(
                 f"{one.reserved} + {quantity} reserved of {one.quantity} in {one.item}"
@@ -142,47 +147,47 @@ class Inventory:
         self._available[one.sku] -= quantity
         self.changed.add(one)
 
-    def pick(self, one, quantity, **context):
+    def pick(self, one: Bin, quantity: int, **context: Any) -> None:
         """Takes reserved pieces out."""
         self.reserve(one, -quantity)
         self.move(one, one.sku, -quantity, Reason.PICK, **context)
 
-    def expect(self, one, sku, quantity):
+    def expect(self, one: Bin, sku: str, quantity: int) -> None:
         """Keeps room in a bin for pieces on their way."""
         if not self.takes(one, sku, quantity):
             raise StockError(f"{one.item} does not take {quantity} of {sku}")
         self._rename(one, sku)
         self._expect(one, sku, quantity)
 
-    def unexpect(self, one, sku, quantity):
-        """They do not come."""
+    def unexpect(self, one: Bin, sku: str, quantity: int) -> None:
+        """Frees the room kept for pieces that will not come."""
         self._expect(one, sku, -quantity)
 
-    def put(self, one, sku, quantity, **context):
-        """Expected pieces are there."""
+    def put(self, one: Bin, sku: str, quantity: int, **context: Any) -> None:
+        """Puts expected pieces into a bin."""
         self._expect(one, sku, -quantity)
         self.move(one, sku, quantity, Reason.PUT, **context)
 
-    def fall(self, one):
-        """A bin lies on the floor; nothing of it is promised or expected any more."""
+    def fall(self, one: Bin) -> None:
+        """Takes a bin that lies on the floor out of stock; its promises and expectations end."""
         pieces, one.fallen = one.quantity, one.quantity
         if pieces:
             self.move(one, one.sku, -pieces, Reason.FELL)
         self._measure(one)
 
-    def pick_up(self, one):
-        """It is back on its unit."""
+    def pick_up(self, one: Bin) -> None:
+        """Puts a bin back into stock, on its unit."""
         pieces, one.fallen = one.fallen, None
         if pieces:
             self.move(one, one.sku, pieces, Reason.PICKED_UP)
         self._measure(one)
 
-    def house(self, skus):
-        """Those that have lost all their bins get one each of a SKU that has more: the emptiest,
+    def house(self, skus: Iterable[str]) -> None:
+        """Gives each SKU that has lost all its bins a bin of a SKU with several: the emptiest,
         which is not refilled before it is empty."""
         for sku in (one for one in skus if not self._kept_for[one]):
-            bins = (b for b in self.bins.values() if b.bin_id not in self._heirs)
-            bins = [one for one in bins if self._kept_for[one.sku] > 1 and one.fallen is None]
+            free = (b for b in self.bins.values() if b.bin_id not in self._heirs)
+            bins = [one for one in free if self._kept_for[one.sku] > 1 and one.fallen is None]
             if not bins:
                 return
             one = min(bins, key=lambda one: (one.quantity + one.expected, one.bin_id))
@@ -193,8 +198,8 @@ class Inventory:
                 self._keep_for(one, sku)
                 self._heirs[one.bin_id] = sku
 
-    def write_off(self, one):
-        """A bin is gone with its pieces, of which nothing is promised or expected any more."""
+    def write_off(self, one: Bin) -> None:
+        """Removes a bin with its pieces, of which none are promised or expected any more."""
         if one.fallen is not None:
             self.pick_up(one)
         if one.quantity:
@@ -210,20 +215,20 @@ class Inventory:
         if not self.of_unit[one.unit]:
             del self.of_unit[one.unit]
 
-    def _expect(self, one, sku, quantity):
+    def _expect(self, one: Bin, sku: str, quantity: int) -> None:
         one.expected += quantity
         self.expected += quantity
         self._incoming[sku] += quantity
         self._measure(one)
 
-    def _index(self, one):
+    def _index(self, one: Bin) -> None:
         if one.quantity:
             self._of_sku[one.sku][one.bin_id] = one
         else:
             self._of_sku[one.sku].pop(one.bin_id, None)
 
-    def _rename(self, one, sku):
-        """Another SKU moves into an empty bin."""
+    def _rename(self, one: Bin, sku: str) -> None:
+        """Assigns another SKU to an empty bin."""
         if one.sku != sku and one.bin_id in self._roomy:
             self._roomy.discard(one.bin_id)
             self.roomy[one.sku] -= 1
@@ -231,11 +236,11 @@ class Inventory:
             self._keep_for(one, sku)
         one.sku = sku
 
-    def _keep_for(self, one, sku):
+    def _keep_for(self, one: Bin, sku: str) -> None:
         self._kept_for[one.sku] -= 1
         self._kept_for[sku] += 1
 
-    def _measure(self, one):
+    def _measure(self, one: Bin) -> None:
         if one.empty:
             self.empty[one.bin_id] = one
         else:

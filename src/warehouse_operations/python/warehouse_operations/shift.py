@@ -55,7 +55,7 @@ class Shift:
         self,
         transports: Requests,
         assortment: Assortment,
-        bins: Iterable[Bin],
+        bins: Collection[Bin],
         *,
         floor: Whereabouts,
         policies: "Policies",

@@ -143,11 +143,11 @@ def _simulate(
         ops.run(seconds=description.seconds, progress=progress)
         if progress:
             progress.end(ops)
-        engine = ops.database.engine
+        kept: Any = ops.database
         ops.shift.journal.commit(ops.shift)
-        ops.database.flush()
-        with ops.database.reading():
-            faults = check.faults(engine)
+        kept.flush()
+        with kept.reading():
+            faults = check.faults(kept.engine)
         run = runs.write(folder, ops, description.config, description.seed)
         stuck = ops.fleet.stuck
     report.write(folder / runs.REPORT, [run])

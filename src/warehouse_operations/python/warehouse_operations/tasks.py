@@ -4,7 +4,7 @@
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from warehouse_operations.message_enums import Mode, Outcome
 from warehouse_operations.stations import WorkStation
@@ -74,7 +74,8 @@ class Tasks:
         station, refusal = self._station(report.station)
         if refusal or station is None:
             return Answer(False, refusal)
-        part, now = self._shift.manual_part_of(station), self._shift.now
+        part: Any = self._shift.manual_part_of(station)
+        now = self._shift.now
         task = part.task(station, report)
         if task is None:
             return Answer(False, f"that is no longer asked for; {part.asks(station)}")
