@@ -16,7 +16,7 @@ bool isFrame(const XmlElement& element) {
 const XmlElement* partOf(const XmlElement& scope, const std::string& name) {
   for (const XmlElement* part = scope.FirstChildElement(); part;
        part = part->NextSiblingElement()) {
-    if (isFrame(*part) && attributeOf(*part, "name") == name) return part;
+    if (hasName(*part, name) && isFrame(*part)) return part;
   }
   return nullptr;
 }

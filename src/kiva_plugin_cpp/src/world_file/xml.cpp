@@ -11,6 +11,8 @@
 namespace kiva {
 namespace {
 
+constexpr char kBlanks[] = " \t\r\n";
+
 /// tinyxml2's printer forgets where things were.
 class LinePrinter : public tinyxml2::XMLPrinter {
  public:
@@ -65,7 +67,7 @@ const XmlElement* elementAround(const XmlElement& element) {
 bool beginsFile(const XmlElement& element, const XmlElement& around) {
   const Source* const own = sourceOf(element);
   const Source* const other = sourceOf(around);
-  return own && (!other || own->file != other->file);
+  return own && !own->file.empty() && (!other || own->file != other->file);
 }
 
 /// `model 'm', link 'l', inertial/mass`
@@ -139,11 +141,22 @@ void failAt(const XmlElement& element, const std::string& message) {
   throw SdfError(noteAt(element, message));
 }
 
-bool is(const XmlElement& element, const char* name) { return element.Name() == std::string(name); }
+bool is(const XmlElement& element, const char* name) {
+  return std::strcmp(element.Name(), name) == 0;
+}
 
 std::string attributeOf(const XmlElement& element, const char* name) {
   const char* const value = element.Attribute(name);
   return value ? trimmed(value) : "";
+}
+
+bool hasName(const XmlElement& element, const std::string& name) {
+  const char* begin = element.Attribute("name");
+  if (!begin) return name.empty();
+  begin += std::strspn(begin, kBlanks);
+  const char* end = begin + std::strlen(begin);
+  while (end > begin && std::strchr(kBlanks, end[-1])) --end;
+  return name.compare(0, std::string::npos, begin, static_cast<std::size_t>(end - begin)) == 0;
 }
 
 std::string contentOf(const XmlElement* element) {
@@ -156,7 +169,6 @@ std::string contentOf(const XmlElement* element) {
 }
 
 std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r\n";
   const auto first = text.find_first_not_of(kBlanks);
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);

@@ -46,6 +46,8 @@ bool is(const XmlElement& element, const char* name);
 
 /// Returns an attribute without the blanks around it; empty if there is none.
 std::string attributeOf(const XmlElement& element, const char* name);
+/// Returns whether that is an element's name; copies nothing, for searches through many.
+bool hasName(const XmlElement& element, const std::string& name);
 /// Returns the text in an element, without the blanks around it; empty for null.
 std::string contentOf(const XmlElement* element);
 std::string trimmed(const std::string& text);
