@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -ec
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel build packages deps bench wheel lint format install clean
+.PHONY: help configured dev run demo operate test test-long test-api test-sanitizers test-install test-wheel test-debian build packages deps bench wheel lint tidy format install clean
 
 # Debian's ROS runs on Debian's tools: neither pyenv nor another workspace may come between.
 export PATH := /usr/sbin:/usr/bin:/sbin:/bin
@@ -13,6 +13,7 @@ unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV CMAKE_PREFIX_PATH ROS_PACKAGE_PATH MA
 JOBS ?= $(shell nproc)
 PREFIX ?= install
 SEEDS ?= 20
+RELEASE ?= trixie
 BUILD = cmake --build build -j$(JOBS)
 # If make is killed, what it started still ends. roslaunch asks for distutils, in whose place it would
 # get all of setuptools, half of its time to start.
@@ -54,6 +55,9 @@ test-api: build  ## let schemathesis look for wrong answers of the HTTP API
 test-sanitizers: deps  ## feed damaged worlds to a build with sanitizers; half an hour
 	@scripts/test-sanitizers
 
+test-debian:  ## every test on a bare Debian of another release; make test-debian RELEASE=trixie
+	@scripts/test-debian $(RELEASE)
+
 test-install: build  ## install into a folder of its own, and use it from there
 	@scripts/test-install
 
@@ -83,6 +87,9 @@ wheel: build  ## the world and its environments for Python without ROS, into dis
 
 lint: deps  ## check format and style
 	@scripts/lint
+
+tidy: build  ## look for mistakes in the C++ by clang-tidy; some minutes
+	@scripts/tidy $(ARGS)
 
 format: deps  ## repair format and style
 	@scripts/lint --fix

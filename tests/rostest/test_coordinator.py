@@ -237,7 +237,7 @@ class Fleet(unittest.TestCase):
         self.assertLessEqual(state.delivered, 1)
         # Who has asked the first one for something is told, and no number comes twice.
         lost = lambda messages: {  # noqa: E731
-            e.transport_id for e in messages if e.text == "the coordinator began again"
+            e.transport_id for e in messages if e.text == "the coordinator was restarted"
         }
         seen = self.transports.wait_for(lambda messages: lost(messages) >= set(asked), PATIENCE)
         numbers = [e.transport_id for e in seen if e.kind == TransportEvent.RECEIVED]

@@ -85,7 +85,7 @@ class FleetPage(PageTest):
         self.page.read(f"page.select('{robot}')")
         self.page.until("document.getElementById('facts').textContent.includes('pick1')")
         self.page.until("page.overlays.goal.visible")
-        limit = "/at [0-9.]+ m.s² at most/.test(document.getElementById('facts').textContent)"
+        limit = "/[0-9.]+ m.s² at most/.test(document.getElementById('facts').textContent)"
         self.page.until(limit)  # that it keeps for its load
         self.wait_for(transport, "ARRIVED")
         self.page.until(

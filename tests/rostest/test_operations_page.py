@@ -67,7 +67,7 @@ class OperationsPage(WorkPageTest):
         self.press("pick2", 1)
         self.press("pick1", 2)
         self.page.until("document.querySelector('[data-station=pick2]').classList.contains('shut')")
-        self.page.until(f"{HAND}.textContent === 'By itself'")
+        self.page.until(f"{HAND}.textContent === 'Automatic'")
         number = submit("page-2", "sku-4", 3)
         self.click(CARD.format("pick1", "a"))
         self.wait_for(f"{TASK} === 'Take 3 × sku-4' && {LIT}")

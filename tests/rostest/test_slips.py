@@ -99,7 +99,7 @@ class SlipsTest(WorkPageTest):
         """Nor does a tap confirm what was drawn only a moment ago."""
         self.press("pick1", 2)
         self.press("pick1", 1)  # at once: neither undoes the other
-        self.page.until(f"{HAND}.textContent === 'By itself'")
+        self.page.until(f"{HAND}.textContent === 'Automatic'")
         numbers = [submit(f"tap-{i}", "sku-4", 1) for i in range(3)]
         self.page.read("(location.hash = '#pick1')")
         self.wait_for(
@@ -160,16 +160,14 @@ class SlipsTest(WorkPageTest):
         unit = next(p["shelf_id"] for p in ask("/stock?sku=sku-4")[1]["places"])
         wait_until(lambda: pieces("sku-4") != stock, f"it is written off {pick} {unit}")
         self.click("#told .undo")
-        self.page.until(
-            "document.getElementById('told').textContent.includes('in the books again')"
-        )
+        self.page.until("document.getElementById('told').textContent.includes('back in stock')")
         wait_until(lambda: pieces("sku-4") == stock, "it is back")
 
     def test_5_a_station_that_waits_for_a_person_says_so(self):
         card = "document.querySelector('[data-station=pick1]').textContent"
-        self.wait_for(f"{card}.includes('waits for a person, 1 min')")
+        self.wait_for(f"{card}.includes('has waited for a person for 1 min')")
         alarms = "document.getElementById('alarms')"
-        self.page.until(f"{alarms}.textContent.includes('pick1 waits for a person, 1 min')")
+        self.page.until(f"{alarms}.textContent.includes('pick1 has waited for a person for 1 min')")
         self.press("pick1", 2)
         self.page.until("document.getElementById('alarms').hidden")
         self.page.until(f"!{card}.includes('person')")

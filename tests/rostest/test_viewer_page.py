@@ -208,7 +208,7 @@ class ViewerPage(PageTest):
         self.page.read("page.select('kiva3')")
         self.page.type("q")
         self.page.until(
-            "document.getElementById('answer').textContent.includes('time stands still')"
+            "document.getElementById('answer').textContent.includes('simulation is paused')"
         )
         self.page.click_on("pause")
         self.page.until("document.getElementById('answer').dataset.kind === 'done'")

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -68,8 +69,9 @@ class Writer {
   void writeLine(const std::string& word, std::string line) {
     const std::string above = fs::path(kTop).parent_path().string() + ",";
     for (const auto& [folder, name] : {std::pair{kTop, "TOP"}, {above, "ABOVE,"}}) {
-      for (std::size_t at; (at = line.find(folder)) != std::string::npos;) {
-        line.replace(at, folder.size(), name);
+      for (std::size_t at = 0; (at = line.find(folder, at)) != std::string::npos; ++at) {
+        const bool begins_path = at == 0 || !std::isalnum(static_cast<unsigned char>(line[at - 1]));
+        if (begins_path) line.replace(at, folder.size(), name);
       }
     }
     out_ << word << ' ' << line << '\n';

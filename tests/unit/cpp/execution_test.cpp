@@ -17,8 +17,6 @@
 namespace fleet {
 namespace {
 
-constexpr std::uint8_t kIdle = 0, kBusy = 1;
-constexpr std::uint8_t kDriving = 1, kWaiting = 6;
 constexpr double kTick = 0.1, kSpeed = 1.5;  // [s], [m/s]: these robots reach it at once
 
 /// One that follows paths as the engine does, cell after cell at one speed.
@@ -74,13 +72,15 @@ class ExecutionTest : public testing::Test {
       report.x = robot.x;
       report.y = robot.y;
       report.yaw = robot.yaw;
-      report.status = robot.is_active ? kBusy : kIdle;
-      report.state = !robot.is_active ? kIdle : isWaiting(robot) ? kWaiting : kDriving;
+      report.status = robot.is_active ? RobotStatus::kBusy : RobotStatus::kIdle;
+      report.state = !robot.is_active   ? RobotState::kIdle
+                     : isWaiting(robot) ? RobotState::kWaiting
+                                        : RobotState::kMovingX;
       report.path_id = robot.id;
       report.reached = static_cast<std::uint32_t>(robot.reached);
       report.left = static_cast<std::uint32_t>(robot.left);
     }
-    execution_.observe(now_, reports_);
+    execution_.update(now_, reports_);
   }
 
   /// Plans all robots along these ways, in which each begins where it is.

@@ -66,7 +66,9 @@ TEST(RayCast, AgreesWithLevelRaysAmongManyModels) {
     const double met = cast(w.world, {0, 0, 0.4}, {std::cos(yaw), std::sin(yaw), 0});
     const double level = w.world.rayCast({0, 0, 0.4}, yaw, 20);
     EXPECT_EQ(std::isfinite(met), std::isfinite(level)) << ray;
-    if (std::isfinite(level)) EXPECT_NEAR(met, level, 1e-6) << ray;
+    if (std::isfinite(level)) {
+      EXPECT_NEAR(met, level, 1e-6) << ray;
+    }
   }
 }
 

@@ -27,7 +27,7 @@ test('an axis has a few round numbers', () => {
 
 test('a station that a person leaves alone says so, by the minute', () => {
   assert.equal(waitingOf({ waiting: 59 }), '');
-  assert.equal(waitingOf({ waiting: 1219 }), 'waits for a person, 20 min');
+  assert.equal(waitingOf({ waiting: 1219 }), 'has waited for a person for 20 min');
 });
 
 test('an order is late past its due time, until it is complete, and for ever if it was then', () => {

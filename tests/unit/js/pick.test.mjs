@@ -68,7 +68,7 @@ function above(height) {
   camera.lookAt(0, 0, 0);
   camera.updateProjectionMatrix();
   const view = new View();
-  view.look(camera, 1000);
+  view.update(camera, 1000);
   return { view, camera };
 }
 
@@ -77,9 +77,9 @@ test('a view tells how large a thing is seen, and whether', () => {
   assert.ok(Math.abs(view.scaleAt(0, 0, 0, 1) - 50) < 1e-6);
   assert.equal(view.scaleAt(12, 0, 0, 1), 0);
   assert.ok(view.scaleAt(10.5, 0, 0, 1) > 0);
-  assert.equal(view.look(camera, 1000), false);
+  assert.equal(view.update(camera, 1000), false);
   camera.position.x = 1;
-  assert.equal(view.look(camera, 1000), true);
+  assert.equal(view.update(camera, 1000), true);
 });
 
 test('of a crowd the near are drawn in detail, the far as boxes, and those out of sight not', () => {

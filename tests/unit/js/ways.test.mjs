@@ -68,7 +68,7 @@ test('the panel counts what is there', () => {
   }));
   assert.equal(facts.robots, '18 automatic, 2 manual');
   assert.equal(facts['at work'], '3 fetching');
-  assert.equal(facts.done, '40 delivered, 35 stored, 2 failed');
-  assert.equal(facts.planning, '1.0 ms, p99 3.5 ms');
-  assert.equal(facts['so far'], 'nothing');
+  assert.equal(facts.completed, '40 delivered, 35 stored, 2 failed');
+  assert.equal(facts['planning time'], 'median 1.0 ms, p99 3.5 ms');
+  assert.equal(facts.incidents, 'nothing');
 });

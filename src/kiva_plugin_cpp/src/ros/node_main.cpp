@@ -79,7 +79,7 @@ void announce(const kiva::World& world, const Settings& settings, double rtf) {
   ROS_INFO("World '%s' from %s: %d robots, %zu storage units, %zu items; steps of %g s, %s",
            world.name().c_str(), settings.world_file.c_str(), world.fleet().size(),
            world.storageUnits().size(), world.items().size(), world.stepSize(),
-           rtf > 0 ? ("real-time factor " + std::to_string(rtf)).c_str() : "as fast as it goes");
+           rtf > 0 ? ("real-time factor " + std::to_string(rtf)).c_str() : "as fast as possible");
   const kiva::Floor& floor = world.floor();
   if (floor.min_x < floor.max_x) return;
   ROS_WARN(

@@ -195,7 +195,7 @@ Settings readSettings(const ros::NodeHandle& node) {
   const Paths theirs = kiva::environmentModelPaths();
   out.model_paths = joined(ours, theirs);
   out.world_model_paths = joined(joined(theirs, kiva::modelPathsAround(out.world_file)), ours);
-  out.rtf = optionalNumber(node, "rtf", 0, "a factor above 0, or 0 (as fast as it goes),");
+  out.rtf = optionalNumber(node, "rtf", 0, "a factor above 0, or 0 (as fast as possible),");
   const std::string whole = "a whole number, 0 or more,";
   out.world.seed = static_cast<std::uint64_t>(wholeNumber(node, "seed", 1, 9e15, whole));
   out.world.drive = drive(node, "drive");

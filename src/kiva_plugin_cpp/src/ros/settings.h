@@ -22,7 +22,8 @@ namespace kiva_ros {
 ///                            GAZEBO_MODEL_PATH lists, those that packages export to Gazebo,
 ///                            those of GAZEBO_RESOURCE_PATH and those around a world file are
 ///                            searched before them for a world, after them for requests
-///   ~rtf                     simulated seconds a wall second; 0: as fast as it goes; not set: what
+///   ~rtf                     simulated seconds a wall second; 0: as fast as possible; not set:
+///   what
 ///                            the world file says
 ///   ~seed                    of everything random, default 1
 ///   ~drive                   traction or jointed; empty (default): what the robots' files say

@@ -5,7 +5,7 @@ The pages show the same words: web/js/words.js, which a test compares with these
 """
 
 from warehouse_msgs.msg import Event, KivaStatus, TransportEvent
-from warehouse_msgs.srv import SetRobotModeRequest, TransportRequest
+from warehouse_msgs.srv import FailRequest, SetRobotModeRequest, TransportRequest
 
 
 def _constants(kind, prefix=""):
@@ -23,10 +23,17 @@ THEN = _constants(TransportRequest)
 WORK = ("fetching", "ready", "lifting", "bringing", "waiting", "storing", "dropping", "idle")
 
 
-# Bits of FleetState.failures.
-FAILURES = ("battery empty", "drive", "lift stuck", "laser blind", "radio lost", "wheels slip")
+# By bit of FleetState.failures: an empty battery, then the kinds of Fail.
+FAILURES = {
+    0: "battery empty",
+    FailRequest.MOTOR: "drive",
+    FailRequest.LIFT_STUCK: "lift stuck",
+    FailRequest.LASER_BLIND: "laser blind",
+    FailRequest.RADIO_LOST: "radio lost",
+    FailRequest.WHEEL_SLIPS: "wheels slip",
+}
 
 
 def failures_of(bits):
     """What is broken in a robot, as words."""
-    return [name for bit, name in enumerate(FAILURES) if bits >> bit & 1]
+    return [name for bit, name in FAILURES.items() if bits >> bit & 1]

@@ -17,6 +17,7 @@
 #include "warehouse_fleet/cell_holders.h"
 #include "warehouse_fleet/course.h"
 #include "warehouse_fleet/fleet.h"
+#include "warehouse_fleet/message_enums.h"
 #include "warehouse_fleet/motion.h"
 #include "warehouse_fleet/passing_order.h"
 
@@ -26,7 +27,8 @@ namespace fleet {
 struct Report {
   double x = 0, y = 0, yaw = 0;  ///< [m, rad]
   double vx = 0, vy = 0;         ///< [m/s]
-  std::uint8_t status = 0, state = 0;
+  RobotStatus status = RobotStatus::kIdle;
+  RobotState state = RobotState::kIdle;
   std::uint32_t path_id = 0, reached = 0, left = 0;
   bool is_controlled = false;  ///< or drives by itself, is broken, …: an obstacle
   bool is_busy = false;        ///< with something else than driving: it is not sent on
@@ -47,7 +49,7 @@ class Execution {
 
   /// Updates all robots by what they report at `time` [s]; frees the cells that they have left. If
   /// their number changes, or at the first call, all begins from where they are.
-  void observe(double time, const std::vector<Report>& reports);
+  void update(double time, const std::vector<Report>& reports);
 
   /// Sets which robots are busy and loaded, if that has changed since the reports. An element a
   /// robot.

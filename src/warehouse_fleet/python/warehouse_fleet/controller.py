@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.people import NO_PEOPLE
-from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.takeover import Handover, Takeover
 from warehouse_fleet.towing import Towing, TowOrder
 from warehouse_fleet.towing import order as tow_order
@@ -163,7 +164,7 @@ class FleetController:
         if robot == NOWHERE:
             raise ValueError(f"there is no kiva{kiva_id}")
         if self.robots.gone[robot]:
-            raise ValueError(f"kiva{kiva_id} is gone")
+            raise ValueError(f"kiva{kiva_id} was removed from the world")
         return robot
 
     def tow(self, kiva_id: int) -> TowOrder:

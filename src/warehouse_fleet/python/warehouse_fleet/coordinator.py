@@ -15,8 +15,9 @@ from warehouse_fleet.coordinator_messages import (
 )
 from warehouse_fleet.coordinator_services import CoordinatorServices, check_mode
 from warehouse_fleet.event_publisher import EventPublisher
+from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import Mode, reports_of
+from warehouse_fleet.robot_table import reports_of
 from warehouse_fleet.warehouse_watch import WarehouseWatch, is_same_floor, request_map
 from warehouse_layout import FloorError
 from warehouse_layout.floor_plan import FloorPlan

@@ -9,7 +9,8 @@ import rospy
 
 from warehouse_fleet.controller import FleetController
 from warehouse_fleet.failures import names_of
-from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.traffic import Releases
 from warehouse_fleet.transport_book import Step, TransportEvent
 from warehouse_fleet.waiting import DOES, Waiting

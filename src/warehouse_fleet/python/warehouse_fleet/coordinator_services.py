@@ -9,7 +9,7 @@ import rospy
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import SetModelState
 from warehouse_fleet.fleet_driver import square
-from warehouse_fleet.robot_table import Mode
+from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.towing import TowOrder
 from warehouse_fleet.traffic import STAYS
 from warehouse_fleet.transport_book import Answer

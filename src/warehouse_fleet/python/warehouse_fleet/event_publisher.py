@@ -46,7 +46,7 @@ class EventPublisher:
         are connected."""
         if not self._abandoned or not self._is_connected():
             return
-        text = "the coordinator began again"
+        text = "the coordinator was restarted"
         for entry in self._abandoned:
             failed = TransportEvent(time, entry.number, Kind.FAILED, 0, *entry[1:], text)
             self.publish(failed, ())

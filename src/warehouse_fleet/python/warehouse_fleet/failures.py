@@ -8,21 +8,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-# Bits of FleetState.failures: an empty battery, then the kinds of warehouse_msgs/Fail.
-EMPTY, MOTOR, LIFT_STUCK, LASER_BLIND, RADIO_LOST, WHEEL_SLIPS = range(6)
-NAMES = {
+from warehouse_fleet.message_enums import EventKind, FailureKind
+
+# Bits of FleetState.failures are the kinds of failures, and this one.
+EMPTY = 0
+NAMES: dict[int, str] = {
     EMPTY: "battery empty",
-    MOTOR: "drive without torque",
-    LIFT_STUCK: "lift stuck",
-    LASER_BLIND: "laser blind",
-    RADIO_LOST: "radio lost",
-    WHEEL_SLIPS: "wheels slip",
+    FailureKind.MOTOR: "drive without torque",
+    FailureKind.LIFT_STUCK: "lift stuck",
+    FailureKind.LASER_BLIND: "laser blind",
+    FailureKind.RADIO_LOST: "radio lost",
+    FailureKind.WHEEL_SLIPS: "wheels slip",
 }
-MISHAPS = {9: "lost their way", 12: "lost their load, which tipped"}  # by Event.kind
+MISHAPS = {EventKind.LOST: "lost their way", EventKind.TIPPED: "lost their load, which tipped"}
 # Masks of failures: the robot can't drive or can't be sent orders, can't lift, does no work.
 # A robot whose wheels slip works, slowly.
-STANDS = 1 << EMPTY | 1 << MOTOR | 1 << LASER_BLIND | 1 << RADIO_LOST
-LIFTS_NOT = 1 << LIFT_STUCK
+STANDS = (
+    1 << EMPTY | 1 << FailureKind.MOTOR | 1 << FailureKind.LASER_BLIND | 1 << FailureKind.RADIO_LOST
+)
+LIFTS_NOT = 1 << FailureKind.LIFT_STUCK
 DOWN = STANDS | LIFTS_NOT
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from warehouse_fleet.controller import Decision, FleetController, Observation
 from warehouse_fleet.failures import FailureLog, heard
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_fleet.message_enums import EventKind
 from warehouse_fleet.people import PeopleLog, people_in
 from warehouse_fleet.robot_table import reports_of
 from warehouse_fleet.towing import TowOrder
@@ -20,7 +21,6 @@ from warehouse_fleet.unit_map import UnitPoses
 from warehouse_layout.floor_plan import FloorPlan
 
 UPDATE = 0.1  # between two ticks [s]
-REFUSED, COLLISION, FELL, PICKED_UP = 1, 6, 13, 14  # EventKind
 
 
 def square(yaw: float) -> float:
@@ -134,10 +134,10 @@ class FleetDriver:
             self.events.append(events)
         kinds = events["kind"]
         self.failures.note(kinds)
-        if np.isin(kinds, (FELL, PICKED_UP)).any():
+        if np.isin(kinds, (EventKind.FELL, EventKind.PICKED_UP)).any():
             self.fallen = self.world.fallen_items["item_id"]
-        self.collisions += int(np.count_nonzero(kinds == COLLISION))
-        refused = events[kinds == REFUSED]
+        self.collisions += int(np.count_nonzero(kinds == EventKind.COLLISION))
+        refused = events[kinds == EventKind.REFUSED]
         self.refusals += [f"{event['model']}: {event['text']}" for event in refused]
         return [event["model"] for event in refused]
 

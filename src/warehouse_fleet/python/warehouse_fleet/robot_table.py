@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What robots report, and what is known of each: arrays with one element for each robot."""
 
-from enum import IntEnum
 from typing import Any
 
 import numpy as np
 
 from warehouse_fleet.failures import LIFTS_NOT, STANDS
+from warehouse_fleet.message_enums import Mode
 
 NOWHERE = -1
-IDLE = 0  # KivaStatus.STATUS_IDLE
 
 # A report, as FleetState has it: metres and radians in the frame world, batteries 0…1.
 REPORT = np.dtype(
@@ -31,14 +30,6 @@ REPORT = np.dtype(
         ("mode", np.uint8),
     ]
 )
-
-
-class Mode(IntEnum):
-    """Which side commands a robot, as in SetRobotMode."""
-
-    AUTOMATIC = 0
-    MANUAL = 1
-    OUT_OF_SERVICE = 2
 
 
 def reports_of(fleet: Any) -> np.ndarray:

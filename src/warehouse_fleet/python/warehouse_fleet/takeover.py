@@ -3,12 +3,11 @@
 
 import numpy as np
 
-from warehouse_fleet.robot_table import IDLE
+from warehouse_fleet.message_enums import State, Status
 from warehouse_fleet.traffic import Traffic
 
 IN_TRANSIT = 2.0  # for which a message may still be on its way to a robot [s]
 LONGEST = 30.0  # after which a takeover ends whatever a robot is still doing [s]
-WAITING = 6  # KivaStatus.STATE_WAITING: the robot stands at the end of what was released to it
 
 
 class Takeover:
@@ -26,7 +25,7 @@ class Takeover:
 
     def _drive(self, reports: np.ndarray) -> np.ndarray:
         robots = self._traffic.robots
-        under_way = (reports["path_id"] != 0) & (reports["status"] != IDLE)
+        under_way = (reports["path_id"] != 0) & (reports["status"] != Status.IDLE)
         return under_way & robots.automatic & ~robots.broken
 
 
@@ -49,9 +48,9 @@ class Handover:
         """Returns the robots that wait on a path at that time [s], which is to be cancelled."""
         found = []
         for robot, since in list(self._idle_since.items()):
-            if reports["status"][robot] != IDLE:
+            if reports["status"][robot] != Status.IDLE:
                 self._idle_since[robot] = None
-                if reports["state"][robot] == WAITING:
+                if reports["state"][robot] == State.WAITING:
                     found.append(robot)
             elif since is None:
                 self._idle_since[robot] = time

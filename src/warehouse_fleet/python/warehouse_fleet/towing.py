@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from warehouse_fleet.failures import EMPTY
-from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transports import Transports
 
 
@@ -29,7 +30,7 @@ def order(transports: Transports, kiva_id: int) -> TowOrder:
         raise ValueError(f"kiva{kiva_id} is not broken")
     cell = transports.nearest(int(robots.cell[robot]), _free_refuges(transports, robot))
     if cell == NOWHERE:
-        raise ValueError("there is no place for it")
+        raise ValueError(f"there is no free cell to tow kiva{kiva_id} to")
     x, y = transports.plan.point_of(cell)
     return TowOrder(kiva_id, float(x), float(y))
 

@@ -15,9 +15,10 @@ import numpy as np
 
 from warehouse_fleet import Execution
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_fleet.message_enums import Mode, Status
 from warehouse_fleet.people import zone_around
 from warehouse_fleet.plan_loop import PlanLoop
-from warehouse_fleet.robot_table import IDLE, NOWHERE, Mode, RobotTable
+from warehouse_fleet.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.watchdog import Watchdog
 from warehouse_layout.floor_plan import FloorPlan, is_taken
 
@@ -108,7 +109,7 @@ class Traffic:
         self.time = time
         robots.update_health(reports)
         execution.set_broken(robots.broken)
-        execution.observe(
+        execution.update(
             time,
             reports["x"],
             reports["y"],
@@ -141,14 +142,14 @@ class Traffic:
 
     def inherited(self, reports: np.ndarray) -> np.ndarray:
         """Returns (n,) bool: robots that have been on paths since before this began."""
-        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != IDLE)
+        return ~self._settled & (reports["path_id"] != 0) & (reports["status"] != Status.IDLE)
 
     def _find_foreign(self, reports: np.ndarray) -> None:
         """Sets robots MANUAL that were idle and are busy with a person's command."""
         robots = self.robots
         foreign = self._execution.foreign() & self._settled & robots.automatic
         if not self.takes_over:
-            self._settled |= reports["status"] == IDLE
+            self._settled |= reports["status"] == Status.IDLE
         self._foreign = np.where(foreign, self._foreign + 1, 0).astype(np.uint8)
         robots.mode[self._foreign >= FOREIGN] = Mode.MANUAL
 

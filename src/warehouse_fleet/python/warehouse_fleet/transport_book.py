@@ -7,22 +7,11 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
+from warehouse_fleet.message_enums import Then, TransportEventKind
 from warehouse_fleet.robot_table import NOWHERE
 
-STORE, STAY = 0, 1  # what becomes of the unit afterwards
-
-
-class Kind(IntEnum):
-    """What happened to a transport."""
-
-    RECEIVED = 0
-    ASSIGNED = 1
-    LIFTED = 2
-    ARRIVED = 3
-    RELEASED = 4
-    STORED = 5
-    FAILED = 6
-    CANCELLED = 7
+STORE, STAY = Then.STORE, Then.STAY  # what becomes of the unit afterwards
+Kind = TransportEventKind
 
 
 ENDS = frozenset((Kind.STORED, Kind.FAILED))

@@ -98,7 +98,7 @@ class Transports:
         if shelf_id not in self.units.cell_of:
             return Answer(0, False, f"there is no storage unit {shelf_id}")
         if not self.units.is_in_reach(self.units.cell_of[shelf_id]):
-            return Answer(0, False, f"no robot can come to storage unit {shelf_id} and back")
+            return Answer(0, False, f"no robot can reach storage unit {shelf_id} and return")
         if shelf_id in self.book.of_unit:
             number = self.book.of_unit[shelf_id].number
             return Answer(0, False, f"storage unit {shelf_id} has transport {number} already")
@@ -116,7 +116,7 @@ class Transports:
     def _destination(self, shelf_id: int, station: str, x: float | None, y: float | None) -> int:
         if station:
             if station in self.left_out:
-                raise ValueError(f"no robot can come to station {station} and back")
+                raise ValueError(f"no robot can reach station {station} and return")
             if station not in self.stations:
                 raise ValueError(f"there is no station {station!r}")
             if not self.is_open[station]:
@@ -233,7 +233,7 @@ class Transports:
         self.units.update(cells, stamp, lifted)
         for transport in self:
             if transport.shelf not in self.units.cell_of:
-                self.fail(transport, f"storage unit {transport.shelf} is gone")
+                self.fail(transport, f"storage unit {transport.shelf} was removed from the world")
         recover.store_abandoned(self)
         self.close_streets()
 

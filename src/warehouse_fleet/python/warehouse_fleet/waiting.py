@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robot_table import NOWHERE, Mode
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transport_book import Step, Transport
 
 if TYPE_CHECKING:
@@ -72,7 +73,8 @@ class Waiting:
     def for_people(self) -> list[str]:
         """Returns a sentence for each station that waits for a person to confirm, and how long."""
         return [
-            f"{station} waits for a person, {_lasting(self._traffic.time - transport.since)}"
+            f"{station} has waited for a person for "
+            f"{_lasting(self._traffic.time - transport.since)}"
             for robot, transport in sorted(self._of_robot.items())
             if (station := self._served_at(robot)) in self._by_hand
             and self._traffic.time - transport.since > WAITS_LONG
@@ -98,7 +100,7 @@ class Waiting:
                 return "for people on the floor"
             if self._robots.broken[robot]:
                 return "until it is repaired"
-            return "until its way is free"
+            return "until its route is free"
         behind = f"behind kiva{self._robots.kiva_ids[ahead]}"
         if station:
             return f"in the queue of {station} {behind}"
@@ -109,7 +111,7 @@ class Waiting:
         return (
             behind
             if last == ahead
-            else f"{behind}, in a row that kiva{self._robots.kiva_ids[last]} heads"
+            else f"{behind}, in a queue behind kiva{self._robots.kiva_ids[last]}"
         )
 
 

@@ -107,7 +107,7 @@ class WarehouseWatch:
         try:
             return occupancy_of(request_map())
         except rospy.ServiceException as error:
-            rospy.logwarn(f"the floor can't be looked at: {error}")
+            rospy.logwarn(f"no map of the floor: {error}")
             return None
 
 

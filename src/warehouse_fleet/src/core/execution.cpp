@@ -26,7 +26,7 @@ Execution::Execution(const Floor& floor, const Motion& motion)
       holders_(floor),
       order_(floor.size()) {}
 
-void Execution::observe(double time, const std::vector<Report>& reports) {
+void Execution::update(double time, const std::vector<Report>& reports) {
   const double elapsed = std::max(0.0, time - now_);
   now_ = time;
   if (reports.size() != courses_.size()) {
@@ -72,7 +72,7 @@ void Execution::setWork(const std::vector<std::uint8_t>& busy,
 void Execution::admit(int robot) {
   Course& course = courses_[robot];
   const Report& report = reports_[robot];
-  if (report.status != kStatusIdle) return;
+  if (report.status != RobotStatus::kIdle) return;
   Cell at = frame_.cellAt(report.x, report.y);
   if (at == kNowhere || !floor_.isPassable(at)) {
     if (course.recovery.since < 0) course.recovery.since = now_;
@@ -91,7 +91,7 @@ bool Execution::isOver(int robot) const {
   const Course& course = courses_[robot];
   const Report& report = reports_[robot];
   if (!course.isActive()) return true;
-  if (report.status != kStatusIdle && report.path_id == course.id) return false;
+  if (report.status != RobotStatus::kIdle && report.path_id == course.id) return false;
   return course.isAccepted() || now_ - course.sent > kSettled;
 }
 
@@ -125,7 +125,7 @@ void Execution::follow(int robot) {
     return;
   }
   const bool is_reported = report.path_id == course.id;
-  if (report.status == kStatusIdle) {
+  if (report.status == RobotStatus::kIdle) {
     // A refused release may have been sent twice; the duplicate can still be accepted. A robot
     // whose reports are lost may have accepted it already.
     const bool is_settled = now_ - course.sent > kSettled && !isBroken(robot);
@@ -136,7 +136,7 @@ void Execution::follow(int robot) {
   if (!is_reported) return;
   course.accept();
   pass(robot, static_cast<int>(report.reached), static_cast<int>(report.left));
-  if (report.state == kStateBlocked) {
+  if (report.state == RobotState::kBlocked) {
     if (course.blocked_since < 0) {
       course.blocked_since = now_;
       ++blocked_;
@@ -205,7 +205,8 @@ void Execution::finish(int robot) {
 void Execution::measure(int robot, double elapsed) {
   Course& course = courses_[robot];
   if (!course.isMember()) return;
-  const bool is_still = speedOf(robot) < kStandstill && reports_[robot].state != kStateRotating;
+  const bool is_still =
+      speedOf(robot) < kStandstill && reports_[robot].state != RobotState::kRotating;
   if (!course.travels || !is_still) course.still_since = now_;
   if (!is_still || course.reached == course.points()) course.moved = now_;
   if (!course.travels) return;
@@ -241,9 +242,10 @@ Journey Execution::takeJourney(int robot) {
 bool Execution::isForeign(int robot) const {
   const Course& course = courses_.at(robot);
   const Report& report = reports_[robot];
-  if (report.status == kStatusIdle) return false;
+  if (report.status == RobotStatus::kIdle) return false;
   // A robot that lifts, or is served, does not drive.
-  if (report.is_busy && report.state != kStateMovingX && report.state != kStateMovingY)
+  if (report.is_busy && report.state != RobotState::kMovingX &&
+      report.state != RobotState::kMovingY)
     return false;
   // A late copy of a path that was given up is its own still.
   if (!course.isActive()) return report.path_id == 0 || report.path_id != course.id;

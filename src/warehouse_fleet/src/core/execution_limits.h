@@ -3,14 +3,7 @@
 // Numbers and distances that the parts of Execution share.
 #pragma once
 
-#include <cstdint>
-
 namespace fleet {
-
-// KivaStatus.
-constexpr std::uint8_t kStatusIdle = 0;
-constexpr std::uint8_t kStateMovingX = 1, kStateMovingY = 2;
-constexpr std::uint8_t kStateRotating = 3, kStateBlocked = 5, kStateWaiting = 6;
 
 constexpr double kCentred = 0.02;                // from a grid point [m]
 constexpr double kStandstill = 0.01;             // [m/s]

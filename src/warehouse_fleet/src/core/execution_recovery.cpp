@@ -39,7 +39,7 @@ void Execution::occupy(int robot) {
 /// back.
 void Execution::keepAround(int robot) {
   Course& course = courses_[robot];
-  const bool rests = !course.isActive() && reports_[robot].status == kStatusIdle;
+  const bool rests = !course.isActive() && reports_[robot].status == RobotStatus::kIdle;
   if (isBack(robot)) {
     course.is_astray = false;
     course.recovery = {};

@@ -52,7 +52,7 @@ void Execution::extend(int robot) {
   } else if (is_new) {
     send(robot, course.isAccepted() ? before : 0);
   } else if (course.isActive() && now_ - course.sent > kUnanswered) {
-    const bool is_waiting = course.isAccepted() && reports_[robot].state == kStateWaiting &&
+    const bool is_waiting = course.isAccepted() && reports_[robot].state == RobotState::kWaiting &&
                             course.reached < course.points();
     if (is_waiting) send(robot, course.reached);
     if (isAtEnd(robot)) releaseUpTo(robot, course.points());
@@ -64,7 +64,7 @@ void Execution::extend(int robot) {
 bool Execution::isAtEnd(int robot) const {
   const Course& course = courses_[robot];
   return course.isAccepted() && !course.travels && course.plan.empty() &&
-         reports_[robot].state == kStateWaiting && course.reached == course.points();
+         reports_[robot].state == RobotState::kWaiting && course.reached == course.points();
 }
 
 bool Execution::mayHave(int robot, Cell cell) {
@@ -168,7 +168,7 @@ void Execution::withdraw(int robot) {
   Course& course = courses_[robot];
   const int keep =
       std::min<int>(course.cells.size(), course.reached + (isCentred(robot, kCentred) ? 0 : 1));
-  const bool is_blocked = reports_[robot].state == kStateBlocked;
+  const bool is_blocked = reports_[robot].state == RobotState::kBlocked;
   if (is_blocked && keep < course.points()) {
     holders_.close(course.cells[keep], now_ + kClosedFor);
   }

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "arrays.h"
@@ -29,14 +30,17 @@ const T* column(const Array<T>& array, py::ssize_t robots, const char* name) {
                         " elements; one a robot, " + std::to_string(robots) + ", was expected");
 }
 
-void observe(Run& run, double time, const Numbers& x, const Numbers& y, const Numbers& yaw,
-             const Numbers& vx, const Numbers& vy, const Bytes& status, const Bytes& state,
-             const Counts& path_id, const Counts& reached, const Counts& left,
-             const Bytes& controlled, const Bytes& busy, const Bytes& loaded) {
+void update(Run& run, double time, const Numbers& x, const Numbers& y, const Numbers& yaw,
+            const Numbers& vx, const Numbers& vy, const Bytes& status, const Bytes& state,
+            const Counts& path_id, const Counts& reached, const Counts& left,
+            const Bytes& controlled, const Bytes& busy, const Bytes& loaded) {
   std::vector<Report> reports(x.size());
   const auto fill = [&](const auto& array, const char* name, auto member) {
     const auto* data = column(array, x.size(), name);
-    for (std::size_t i = 0; i < reports.size(); ++i) reports[i].*member = data[i];
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      auto& value = reports[i].*member;
+      value = static_cast<std::decay_t<decltype(value)>>(data[i]);
+    }
   };
   fill(x, "x", &Report::x);
   fill(y, "y", &Report::y);
@@ -51,7 +55,7 @@ void observe(Run& run, double time, const Numbers& x, const Numbers& y, const Nu
   fill(controlled, "controlled", &Report::is_controlled);
   fill(busy, "busy", &Report::is_busy);
   fill(loaded, "loaded", &Report::is_loaded);
-  run.execution.observe(time, reports);
+  run.execution.update(time, reports);
 }
 
 template <typename T>
@@ -77,9 +81,9 @@ auto ofAll(Question question) {
   };
 }
 
-std::unique_ptr<Run> make(std::shared_ptr<Floor> floor, const std::pair<double, double>& origin,
-                          double spacing, double speed, double acceleration, double quarter,
-                          double latency) {
+std::unique_ptr<Run> make(const std::shared_ptr<Floor>& floor,
+                          const std::pair<double, double>& origin, double spacing, double speed,
+                          double acceleration, double quarter, double latency) {
   const Motion motion{origin.first, origin.second, spacing, speed, acceleration, quarter, latency};
   return std::make_unique<Run>(Run{floor, Execution(*floor, motion)});
 }
@@ -88,26 +92,46 @@ std::unique_ptr<Run> make(std::shared_ptr<Floor> floor, const std::pair<double, 
 
 void bindExecution(py::module_& module) {
   const Motion usual;
-  py::class_<Run>(module, "Execution")
+  py::class_<Run>(module, "Execution", R"(Drives a fleet by plans, cell by cell.
+
+Cells are indices into the floor, robots indices into the arrays of update(); -1 stands for no cell
+and for no robot. IndexError for a robot that does not exist.)")
       .def(py::init(&make), py::arg("floor"), py::arg("origin") = std::pair(0.0, 0.0),
            py::arg("spacing") = usual.spacing, py::arg("speed") = usual.speed,
            py::arg("acceleration") = usual.acceleration, py::arg("quarter") = usual.quarter,
-           py::arg("latency") = usual.latency)
-      .def("observe", &observe, py::arg("time"), py::arg("x"), py::arg("y"), py::arg("yaw"),
+           py::arg("latency") = usual.latency,
+           R"(Prepares the drive of a fleet that update() brings in.
+
+floor: the cells that robots drive on. origin: the centre of cell 0 in world [m]. spacing: between
+centres of cells [m]. speed [m/s], acceleration [m/s²]: the robots' limits. quarter: duration of a
+quarter turn [s]. latency: from a report until a command that it causes has reached the robot [s].)")
+      .def("update", &update, py::arg("time"), py::arg("x"), py::arg("y"), py::arg("yaw"),
            py::arg("vx"), py::arg("vy"), py::arg("status"), py::arg("state"), py::arg("path_id"),
            py::arg("reached"), py::arg("left"), py::arg("controlled"), py::arg("busy"),
-           py::arg("loaded"))
+           py::arg("loaded"),
+           R"(Updates all robots by their reports, and frees the cells that they left.
+
+time [s]. All others are arrays (n,), an element for each robot, named as in FleetState: x, y [m],
+yaw [rad] and vx, vy [m/s] in the frame world; status, state (KivaStatus); path_id, reached, left.
+controlled: the fleet commands the robot, else it is an obstacle. busy: it does something other than
+driving, and is not sent on. loaded: it carries a unit. Starts from the robots' places at the first
+call and whenever n changes. ValueError if the arrays differ in length.)")
       .def(
           "set_work",
           [](Run& run, const Bytes& busy, const Bytes& loaded) {
             run.execution.setWork({busy.data(), busy.data() + busy.size()},
                                   {loaded.data(), loaded.data() + loaded.size()});
           },
-          py::arg("busy"), py::arg("loaded"))
-      .def("set_broken",
-           [](Run& run, const Bytes& broken) {
-             run.execution.setBroken({broken.data(), broken.data() + broken.size()});
-           })
+          py::arg("busy"), py::arg("loaded"),
+          "Sets which robots are busy and loaded, (n,) bool each, where that changed since the "
+          "reports.")
+      .def(
+          "set_broken",
+          [](Run& run, const Bytes& broken) {
+            run.execution.setBroken({broken.data(), broken.data() + broken.size()});
+          },
+          py::arg("broken"),
+          "Sets which robots are broken, (n,) bool: others are routed around them at once.")
       .def(
           "fleet",
           [](Run& run, const Array<Cell>& goal, const Array<Cell>& home, int horizon) {
@@ -115,39 +139,95 @@ void bindExecution(py::module_& module) {
             const std::vector<Cell> homes(home.data(), home.data() + home.size());
             return run.execution.fleet(goals, homes, horizon);
           },
-          py::arg("goal"), py::arg("home"), py::arg("horizon"))
-      .def("adopt", [](Run& run, const Bytes& actions) { run.execution.adopt(makePlan(actions)); })
-      .def("release", &release)
-      .def("refused", [](Run& run, int robot) { run.execution.refused(robot); })
-      .def("close", [](Run& run, Cell cell, double until) { run.execution.close(cell, until); })
-      .def("recall", [](Run& run, Cell cell) { run.execution.recall(cell); })
-      .def("set_units",
-           [](Run& run, const Array<Cell>& cells) {
-             run.execution.setUnits({cells.data(), cells.data() + cells.size()});
-           })
-      .def("set_zone",
-           [](Run& run, const Array<Cell>& cells) {
-             run.execution.setZone({cells.data(), cells.data() + cells.size()});
-           })
-      .def_property_readonly("closing", [](const Run& run) { return run.execution.isClosing(); })
-      .def("closed", [](const Run& run) { return array(run.execution.closed()); })
-      .def("cell", ofAll<Cell>(&Execution::cellOf))
-      .def("stands", ofAll<bool>(&Execution::stands))
-      .def("waits_for", ofAll<int>(&Execution::waitsFor))
-      .def("foreign", ofAll<bool>(&Execution::isForeign))
-      .def("stalled", ofAll<bool>(&Execution::isStalled))
-      .def("astray", ofAll<bool>(&Execution::isAstray))
-      .def("lost", ofAll<bool>(&Execution::isLost))
-      .def("still_since", ofAll<double>(&Execution::stillSince))
-      .def("holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); })
-      .def("released", [](const Run& run, int robot) { return run.execution.released(robot); })
-      .def("planned", [](const Run& run, int robot) { return run.execution.planned(robot); })
-      .def("take_journey",
-           [](Run& run, int robot) {
-             const Journey journey = run.execution.takeJourney(robot);
-             return py::make_tuple(journey.driven, journey.planned, journey.cells);
-           })
-      .def_property_readonly("blocked", [](const Run& run) { return run.execution.blocked(); });
+          py::arg("goal"), py::arg("home"), py::arg("horizon"),
+          R"(Returns the Fleet for the planner: where robots are, and what is committed already.
+
+goal, home: (n,) int32 cells. horizon: ticks. Robots that are not controlled are closed cells.)")
+      .def(
+          "adopt", [](Run& run, const Bytes& actions) { run.execution.adopt(makePlan(actions)); },
+          py::arg("actions"),
+          R"(Has robots drive by a plan for the Fleet that fleet() returned last.
+
+actions: (n, horizon) uint8 of Action. A robot that was released other cells since then keeps to
+them until the next plan.)")
+      .def("release", &release,
+           R"(Releases to each robot the cells that it needs in order not to brake.
+
+Returns (robot, path_id, first, points, cells, released), the arrays of FleetFollow: robot (k,) int32
+indices; path_id, first, points, released (k,) uint32; cells (sum of points,) int32, robot after
+robot.)")
+      .def(
+          "refused", [](Run& run, int robot) { run.execution.refused(robot); }, py::arg("robot"),
+          "Notes that a robot refused the path that it was sent; the path is given up.")
+      .def(
+          "close", [](Run& run, Cell cell, double until) { run.execution.close(cell, until); },
+          py::arg("cell"), py::arg("until"), "Closes a cell until a time [s].")
+      .def(
+          "recall", [](Run& run, Cell cell) { run.execution.recall(cell); }, py::arg("cell"),
+          "Stops the robot to which a cell was released before that cell, if it still can stop.")
+      .def(
+          "set_units",
+          [](Run& run, const Array<Cell>& cells) {
+            run.execution.setUnits({cells.data(), cells.data() + cells.size()});
+          },
+          py::arg("cells"),
+          "Sets the cells of aisles in which units stand, (m,) int32: loaded robots can't pass.")
+      .def(
+          "set_zone",
+          [](Run& run, const Array<Cell>& cells) {
+            run.execution.setZone({cells.data(), cells.data() + cells.size()});
+          },
+          py::arg("cells"),
+          "Closes the cells (m,) int32 around people, and opens those of the call before; a robot "
+          "inside goes on with what was released to it.")
+      .def_property_readonly(
+          "closing", [](const Run& run) { return run.execution.isClosing(); },
+          "Whether a cell is closed by close(), or for an obstacle that a robot "
+          "found there.")
+      .def(
+          "closed", [](const Run& run) { return array(run.execution.closed()); },
+          "Returns the cells closed now, (m,) int32, with those of robots that are not controlled.")
+      .def("cell", ofAll<Cell>(&Execution::cellOf),
+           "Returns the cell of each robot, (n,) int32; -1 beyond the floor.")
+      .def("stands", ofAll<bool>(&Execution::stands),
+           "Returns which robots stand in the middle of a cell with nothing released beyond it, "
+           "(n,) bool.")
+      .def("waits_for", ofAll<int>(&Execution::waitsFor),
+           "Returns the robot that each robot with a plan waits for, (n,) int32; -1 for none.")
+      .def("foreign", ofAll<bool>(&Execution::isForeign),
+           "Returns which robots are busy with a command that is not the fleet's, (n,) bool.")
+      .def("stalled", ofAll<bool>(&Execution::isStalled),
+           "Returns which robots are broken, or do not drive although they may, (n,) bool.")
+      .def("astray", ofAll<bool>(&Execution::isAstray),
+           "Returns which robots were pushed off the middle of their cells, (n,) bool.")
+      .def("lost", ofAll<bool>(&Execution::isLost),
+           "Returns which robots gave up finding back to a cell, (n,) bool.")
+      .def("still_since", ofAll<double>(&Execution::stillSince),
+           "Returns since when each robot has stood although it has somewhere to go, (n,) float64 "
+           "[s]; the time of the last report for all others.")
+      .def(
+          "holder", [](const Run& run, Cell cell) { return run.execution.holder(cell); },
+          py::arg("cell"), "Returns the robot that holds a cell, -1 for none.")
+      .def(
+          "released", [](const Run& run, int robot) { return run.execution.released(robot); },
+          py::arg("robot"), "Returns the cells ahead that a robot holds, the nearest first.")
+      .def(
+          "planned", [](const Run& run, int robot) { return run.execution.planned(robot); },
+          py::arg("robot"), "Returns the cells planned for a robot beyond those released.")
+      .def(
+          "take_journey",
+          [](Run& run, int robot) {
+            const Journey journey = run.execution.takeJourney(robot);
+            return py::make_tuple(journey.driven, journey.planned, journey.cells);
+          },
+          py::arg("robot"),
+          R"(Returns (driven, planned, cells) of the journeys that a robot made since the last call.
+
+driven: their duration [s]. planned: that of the plan, with the waits that the plan had [s]. cells:
+how many cells the robot passed.)")
+      .def_property_readonly(
+          "blocked", [](const Run& run) { return run.execution.blocked(); },
+          "How often a robot was BLOCKED before a cell that it held.");
 }
 
 }  // namespace fleet::python

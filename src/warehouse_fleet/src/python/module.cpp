@@ -73,51 +73,84 @@ py::array plan(Started& started, const Fleet& fleet, double seconds, int attempt
 }
 
 void bindFleet(py::module_& module) {
-  py::class_<Fleet> fleet(module, "Fleet");
+  py::class_<Fleet> fleet(module, "Fleet", R"(The fleet at a planning step.
+
+The properties are views of the arrays that were given, empty for what was left out.)");
   fleet.def(py::init(&makeFleet), py::arg("cell"), py::arg("heading"), py::arg("goal"),
             py::arg("loaded") = py::none(), py::arg("home") = py::none(),
             py::arg("stopped") = py::none(), py::arg("committed") = py::none(),
-            py::arg("closed") = py::none(), py::arg("tight") = py::none());
-  fleet.def("__len__", &Fleet::size);
-  const auto field = [&](const char* name, auto member) {
-    fleet.def_property_readonly(name, [member](const py::object& self) {
-      return view(self.cast<const Fleet&>().*member, self);
-    });
+            py::arg("closed") = py::none(), py::arg("tight") = py::none(),
+            R"(Copies what the planner is to see of n robots.
+
+cell: (n,) int32. heading: (n,) uint8, quarter turns from +x towards +y. goal: (n,) int32 cells, -1:
+none, the robot waits where it blocks no other. loaded: (n,) bool, the robot drives on the aisles;
+default: none does. home: (n,) int32, a storage place that the robot may enter loaded; default: none.
+stopped: (n,) bool, the robot stays whatever it is told; default: none. committed: (n, ticks) uint8,
+the next actions that each robot can no longer take back, in order, 255 from where it is free;
+default: all are free. closed: cells that no robot may enter now. tight: cells where a load may pass
+but has no room to turn. ValueError if committed has another shape.)");
+  fleet.def("__len__", &Fleet::size, "Returns the number of robots.");
+  const auto field = [&](const char* name, auto member, const char* doc) {
+    fleet.def_property_readonly(
+        name,
+        [member](const py::object& self) { return view(self.cast<const Fleet&>().*member, self); },
+        doc);
   };
-  field("cell", &Fleet::cell);
-  field("heading", &Fleet::heading);
-  field("goal", &Fleet::goal);
-  field("loaded", &Fleet::loaded);
-  field("home", &Fleet::home);
-  field("stopped", &Fleet::stopped);
-  field("closed", &Fleet::closed);
-  field("tight", &Fleet::tight);
-  fleet.def_property_readonly("committed", [](const py::object& self) {
-    const auto& fleet = self.cast<const Fleet&>();
-    return view(fleet.committed, self, {fleet.size(), fleet.committed_ticks});
-  });
+  field("cell", &Fleet::cell, "The cell of each robot, (n,) int32.");
+  field("heading", &Fleet::heading,
+        "The heading of each robot, (n,) uint8: quarter turns from +x towards +y.");
+  field("goal", &Fleet::goal, "The goal of each robot, (n,) int32 cells, -1: none.");
+  field("loaded", &Fleet::loaded, "Whether each robot carries a unit, (n,) uint8, or (0,).");
+  field("home", &Fleet::home,
+        "The storage place that each robot may enter loaded, (n,) int32, -1: none; or (0,).");
+  field("stopped", &Fleet::stopped, "Whether each robot stays where it is, (n,) uint8, or (0,).");
+  field("closed", &Fleet::closed, "The cells that no robot may enter, (m,) int32.");
+  field("tight", &Fleet::tight, "The cells where loads have no room to turn, (m,) int32.");
+  fleet.def_property_readonly(
+      "committed",
+      [](const py::object& self) {
+        const auto& fleet = self.cast<const Fleet&>();
+        return view(fleet.committed, self, {fleet.size(), fleet.committed_ticks});
+      },
+      "The actions that robots can no longer take back, (n, ticks) uint8; 255: free from there "
+      "on.");
   fleet.def(
       "check",
       [](const Fleet& fleet, const Floor& floor, const std::vector<std::string>& names) {
         check(floor, fleet, names);
       },
-      py::arg("floor"), py::arg("names") = std::vector<std::string>());
+      py::arg("floor"), py::arg("names") = std::vector<std::string>(),
+      R"(Checks that the fleet can stand on a floor.
+
+Raises FloorError where a robot stands in a wall, two stand in one cell, a goal is off the floor or
+arrays differ in length. names: of the robots, for the message; default "robot <index>".)");
 }
 
 void bindRules(py::module_& module) {
-  py::class_<Rules>(module, "Rules")
+  py::class_<Rules>(module, "Rules", "What robots may do in the same tick.")
       .def(py::init([](bool following, bool rings, bool turning) {
              return Rules{following, rings, turning};
            }),
-           py::arg("following") = true, py::arg("rings") = false, py::arg("turning") = false)
-      .def_readonly("following", &Rules::following)
-      .def_readonly("rings", &Rules::rings)
-      .def_readonly("turning", &Rules::turning);
+           py::arg("following") = true, py::arg("rings") = false, py::arg("turning") = false,
+           "Sets the rules; each argument is the property of its name.")
+      .def_readonly("following", &Rules::following,
+                    "Whether a robot may enter a cell in the tick in which another leaves it; else "
+                    "the cell must have been left a tick before.")
+      .def_readonly("rings", &Rules::rings,
+                    "Whether robots that follow each other in a ring may all move in one tick.")
+      .def_readonly("turning", &Rules::turning,
+                    "Whether two loaded robots side by side may turn in one tick.");
 }
 
 void bindValidator(py::module_& module) {
-  py::class_<Violation> violation(module, "Violation");
-  py::enum_<Violation::Kind>(violation, "Kind")
+  py::class_<Violation> violation(module, "Violation",
+                                  "A conflict in a plan, or a step that its robot can not do.");
+  py::enum_<Violation::Kind>(violation, "Kind", R"(What is wrong with a plan.
+
+WALL: a robot drives where its deck has no edge, or into a closed cell. VERTEX: two robots are in one
+cell. SWAP: two exchange cells. RING: several move around in a ring. FOLLOWING: a robot enters a cell
+in the tick in which another leaves it. TURNING: two loaded robots side by side turn. COMMITMENT: a
+robot does not do what it is committed to. STOPPED: a robot that is stopped moves.)")
       .value("WALL", Violation::Kind::kWall)
       .value("VERTEX", Violation::Kind::kVertex)
       .value("SWAP", Violation::Kind::kSwap)
@@ -126,21 +159,26 @@ void bindValidator(py::module_& module) {
       .value("TURNING", Violation::Kind::kTurning)
       .value("COMMITMENT", Violation::Kind::kCommitment)
       .value("STOPPED", Violation::Kind::kStopped);
-  violation.def_readonly("kind", &Violation::kind)
-      .def_readonly("tick", &Violation::tick)
-      .def_readonly("robots", &Violation::robots)
-      .def_readonly("cell", &Violation::cell)
+  violation.def_readonly("kind", &Violation::kind, "The rule that is broken.")
+      .def_readonly("tick", &Violation::tick, "The tick of the action, 0 for the first.")
+      .def_readonly("robots", &Violation::robots, "The indices of the robots involved.")
+      .def_readonly("cell", &Violation::cell, "The cell where it happens.")
       .def("describe",
            py::overload_cast<const Violation&, const Floor&, const std::vector<std::string>&>(
                &describe),
-           py::arg("floor"), py::arg("names") = std::vector<std::string>());
+           py::arg("floor"), py::arg("names") = std::vector<std::string>(),
+           "Returns a sentence about the violation; names: of the robots, default \"robot "
+           "<index>\".");
   module.def(
       "validate",
       [](const Floor& floor, const Fleet& fleet, const Array<std::uint8_t>& actions,
          const Rules& rules,
          int ticks) { return validate(floor, fleet, makePlan(actions), rules, ticks); },
       py::arg("floor"), py::arg("fleet"), py::arg("actions"), py::arg("rules"),
-      py::arg("ticks") = -1);
+      py::arg("ticks") = -1, R"(Returns all Violations in the first ticks of a plan.
+
+fleet: as it stands, without conflicts. actions: (n, horizon) uint8 of Action. ticks: -1 for the whole
+plan. Raises FloorError if the plan is not one action for each robot and tick.)");
 }
 
 std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& rules,
@@ -175,10 +213,22 @@ std::unique_ptr<Started> startEpibt(std::shared_ptr<Floor> floor, const Rules& r
 }
 
 void bindPlanners(py::module_& module) {
-  py::class_<Started>(module, "Planner")
-      .def("plan", &plan, py::arg("fleet"), py::arg("seconds") = 0.0, py::arg("attempts") = -1);
+  py::class_<Started>(module, "Planner", "A planner on the floor that it was started for.")
+      .def("plan", &plan, py::arg("fleet"), py::arg("seconds") = 0.0, py::arg("attempts") = -1,
+           R"(Returns what all robots do next, (n, horizon) uint8 of Action.
+
+The plan has no conflicts and keeps to what is committed; it is asked for again a tick later. seconds:
+computing time of the calling thread for the step [s]; 0: what the first plan needs. attempts: to
+improve the plan, -1: as many as seconds allow. Equal steps give equal plans with seconds=0 and a
+number of attempts. Other threads of Python run meanwhile. FloorError without a plan.)");
   module.def("epibt", &startEpibt, py::arg("floor"), py::arg("rules") = Rules(),
-             py::arg("seed") = 1);
+             py::arg("seed") = 1, R"(Returns the planner of this package, started on a floor.
+
+It plans by priority inheritance with backtracking over operations of several ticks (EPIBT). Options
+by keyword, as in EpibtOptions (epibt.h): depth (ticks of an operation, 1 to 5), horizon (ticks of a
+plan, up to 7; 0: depth), turn_ticks, revisits, pushes, exchanges, patience [ticks], goals_are_stops,
+table_bytes, table_work, renewal_work, renewal_age [ticks], against, crowd, resting, at_lanes,
+memory [ticks]. TypeError for another option.)");
   module.def(
       "load_planner",
       [](const std::string& path, const std::string& class_name, std::shared_ptr<Floor> floor,
@@ -187,7 +237,10 @@ void bindPlanners(py::module_& module) {
                                          seed);
       },
       py::arg("path"), py::arg("class_name"), py::arg("floor"), py::arg("rules") = Rules(),
-      py::arg("seed") = 1);
+      py::arg("seed") = 1, R"(Returns a planner of a user's library, started on a floor.
+
+path: of the shared library. class_name: of the fleet::Planner that it registers. RuntimeError says
+what is missing.)");
 }
 
 }  // namespace

@@ -134,7 +134,8 @@ class FloorPlan:
                 marks += floor_markings.read(world.visuals(name), world.pose(name), name)
             elif name.startswith(CONVEYOR):
                 belts[name] = world.pose(name)[:2]
-        return cls.of_parts(*world.occupancy(), marks, belts)
+        x, y, spacing, cells = world.occupancy()
+        return cls.of_parts(x, y, spacing, cells, marks, belts)
 
     @classmethod
     def of_messages(cls, grid: OccupancyGrid, scenery: Scenery) -> "FloorPlan":

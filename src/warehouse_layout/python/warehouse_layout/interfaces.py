@@ -45,5 +45,5 @@ class World(Protocol):
     def pose(self, name: str) -> np.ndarray:
         """Returns x y z [m] qx qy qz qw of a model in the world, (7,)."""
 
-    def occupancy(self) -> tuple[float, float, float, np.ndarray]:
+    def occupancy(self) -> tuple[Any, ...]:
         """Returns x, y [m] of cell (0, 0), the spacing [m] and the cells' values, (h, w) uint8."""

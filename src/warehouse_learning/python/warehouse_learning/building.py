@@ -26,14 +26,22 @@ def build(n: int, options: Options, threads: int = 0) -> tuple[Worlds, Any]:
     return Worlds.of([first, *others], threads), checkpoint
 
 
+def _part(element: ElementTree.Element, tag: str) -> ElementTree.Element:
+    """The first child of that tag. Raises ValueError."""
+    found = element.find(tag)
+    if found is None:
+        raise ValueError(f"<{element.tag}> has no <{tag}>")
+    return found
+
+
 def _write_kiva(folder, options):
     """The Kiva of worlds/models with another lift, another acceleration, and maybe no laser."""
     own = worlds_folder() / "models" / "kiva"
     document = ElementTree.parse(own / "model.sdf")
-    model = document.getroot().find("model")
+    model = _part(document.getroot(), "model")
     plugins = {plugin.get("name"): plugin for plugin in model.findall("plugin")}
-    plugins["motion"].find("acceleration").text = repr(float(options.acceleration))
-    plugins["lift"].find("time").text = repr(float(options.lift_time))
+    _part(plugins["motion"], "acceleration").text = repr(float(options.acceleration))
+    _part(plugins["lift"], "time").text = repr(float(options.lift_time))
     if not options.lasers:
         model.remove(plugins["laser"])
     (folder / "kiva").mkdir()

@@ -51,7 +51,8 @@ class Grid:
 
     def locate(self, x: Any, y: Any, yaw: Any) -> tuple[np.ndarray, np.ndarray]:
         """Returns (cells, headings), int32 and int8, nearest to places in world [m, rad]."""
-        return self.native.locate(x, y, yaw)
+        cells, headings = self.native.locate(x, y, yaw)
+        return cells, headings
 
     def cell_of(self, x: Any, y: Any) -> np.ndarray:
         """Returns the cells around places in world [m]."""

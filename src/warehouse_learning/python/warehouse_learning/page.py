@@ -56,7 +56,7 @@ class Page:
             self.show()
         self._pace.wait(self._world.time)
 
-    def tell(self, events: Iterable[Event]) -> None:
+    def show_events(self, events: Iterable[Event]) -> None:
         """Adds events to the page's log: (time [s], kind, model, other, text, command) each, as
         World.events() returns them."""
         for time, kind, model, other, text, command in events:

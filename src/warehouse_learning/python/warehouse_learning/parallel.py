@@ -26,7 +26,7 @@ class KivaParallelEnv(OneWarehouse, ParallelEnv):
     """
 
     def __init__(self, render_mode: str | None = None, **options: Any) -> None:
-        self._set_up(render_mode, options)
+        self._set_up_one(render_mode, options)
         self.metadata = {
             "name": "kiva_warehouse_v0",
             "render_modes": RENDER_MODES,

@@ -78,7 +78,9 @@ class Network:
 
 
 class Adam:
-    def __init__(self, parameters: Sequence[np.ndarray]) -> None:
+    """Adam (Kingma and Ba, 2015) with clipped slopes; changes the parameters in place."""
+
+    def __init__(self, parameters: list[np.ndarray]) -> None:
         self.parameters, self.steps = parameters, 0
         self.mean = [np.zeros_like(p) for p in parameters]
         self.square = [np.zeros_like(p) for p in parameters]
@@ -235,10 +237,18 @@ def main() -> None:
     """Trains with several seeds, and prints and draws the curves."""
     parser = argparse.ArgumentParser("python3 -m warehouse_learning.ppo", description=__doc__)
     parser.add_argument("--size", default="tiny")
-    parser.add_argument("--decisions", type=int, default=600_000, help="of all robots (600,000)")
-    parser.add_argument("--seeds", type=int, default=1, help="so many trainings, from seed 0")
-    parser.add_argument("--jobs", type=int, default=1, help="trainings at once (1)")
-    parser.add_argument("--out", default="", help="the learning curves as PNG, and as JSON beside")
+    parser.add_argument(
+        "--decisions", type=int, default=600_000, help="steps of all robots together (600,000)"
+    )
+    parser.add_argument(
+        "--seeds", type=int, default=1, help="number of trainings, with seeds from 0"
+    )
+    parser.add_argument("--jobs", type=int, default=1, help="trainings in parallel (1)")
+    parser.add_argument(
+        "--out",
+        default="",
+        help="PNG file for the learning curves; a JSON file is written beside it",
+    )
     wanted = parser.parse_args()
     options = Options.of({"size": wanted.size, "max_cycles": 200, "rewards": REWARDS})
     settings = Settings(threads=0 if wanted.jobs == 1 else 1)

@@ -32,7 +32,7 @@ class KivaRobotsEnv(OneWarehouse, gymnasium.Env):
     metadata = {"render_modes": RENDER_MODES, "render_fps": FRAMES}
 
     def __init__(self, render_mode: str | None = None, **options: Any) -> None:
-        self._set_up(render_mode, options)
+        self._set_up_one(render_mode, options)
         self.observation_space = _joint_space(self.fields, self.options.robots)
         self.action_space = joint_action_space(self.options)
 
@@ -138,7 +138,7 @@ class KivaRobotsVectorEnv(Stage, VectorEnv):
             raise gymnasium.error.ResetNeeded(f"environment {ended} has ended and was not reset")
         if begins.all():
             rewards = np.zeros((self.num_envs, self.options.robots), np.float32)
-            happened = {}
+            happened: dict[str, Any] = {}
         else:
             rewards, happened = self._in.step(chosen)
         if begins.any():

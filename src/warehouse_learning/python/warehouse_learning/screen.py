@@ -55,7 +55,7 @@ class Screen:
         """Brings events and the moved world to the page, and keeps its pace, if there is a page."""
         if self.is_watched:
             page = self._shown()
-            page.tell(events)
+            page.show_events(events)
             page.moved()
 
     def stepped(self) -> None:

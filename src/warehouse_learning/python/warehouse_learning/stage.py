@@ -58,8 +58,8 @@ class Stage:
 class OneWarehouse(Stage):
     """Of one warehouse: its episode can be saved."""
 
-    def _set_up(self, render_mode, options):
-        super()._set_up(1, render_mode, options, threads=1)
+    def _set_up_one(self, render_mode, options):
+        self._set_up(1, render_mode, options, threads=1)
         self._seed, self._actions = None, []
 
     def _begin(self, seed):

@@ -229,12 +229,12 @@ class Warehouses:
 
     def _see(self, which):
         """Takes in where robots of worlds `which` are and what they carry."""
-        self.task.see(which, *self._robots)
+        self.task.update(which, *self._robots)
         self._masks = None
 
     def _happened(self, done, counts):
         """{name: (n, robots) bool} in the last decision, by who did what it was told."""
-        refused, collided, hit = self.task.hear(done, counts)
+        refused, collided, hit = self.task.take_events(done, counts)
         for w in hit:
             self._look_at_units(w)
         lifted, dropped, stored, arrived = self.task.settle()

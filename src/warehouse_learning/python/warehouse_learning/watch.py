@@ -22,7 +22,7 @@ def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
     """Plays an episode on the page; returns how many units were delivered."""
 
     def moved(events: Any) -> None:
-        page.tell(events)
+        page.show_events(events)
         page.moved()
 
     warehouses.on_moved = moved
@@ -35,8 +35,8 @@ def play(page: Page, warehouses: Warehouses, actions: np.ndarray) -> int:
 def main() -> None:
     """Plays the episode of the command line."""
     parser = argparse.ArgumentParser("python3 -m warehouse_learning.watch", description=__doc__)
-    parser.add_argument("file", help="an episode, as save_episode() writes it")
-    speed = "simulated seconds a wall second, 0: as fast as it goes (5); the page can change it"
+    parser.add_argument("file", help="episode written by save_episode()")
+    speed = "simulated seconds a wall second, 0: as fast as possible (5); the page can change it"
     parser.add_argument("--speed", type=float, default=SPEED, help=speed)
     wanted = parser.parse_args()
     try:

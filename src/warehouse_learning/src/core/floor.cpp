@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace learning {
 namespace {
@@ -17,17 +19,28 @@ int nearest(double way, int cells) {
 
 }  // namespace
 
-int Floor::longest() const { return std::max(width, height) - 2 * rim; }
+Floor::Floor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
+             std::vector<int> stations)
+    : layout::Floor(description),
+      rim_(rim),
+      raster_(raster),
+      stations_(std::move(stations)),
+      is_station_(size()) {
+  for (const int cell : stations_) is_station_[cell] = 1;
+}
+
+int Floor::longest() const { return std::max(width(), height()) - 2 * rim_; }
 
 int Floor::step(int heading) const {
-  const int steps[] = {1, width, -1, -width};
+  const int steps[] = {1, width(), -1, -width()};
   return steps[heading & 3];
 }
 
-int Floor::inside(int cell) const { return std::clamp(cell, 0, cells() - 1); }
+int Floor::inside(int cell) const { return std::clamp(cell, 0, size() - 1); }
 
 int Floor::cellOf(double to_x, double to_y) const {
-  return nearest((to_y - y) / spacing, height) * width + nearest((to_x - x) / spacing, width);
+  return nearest((to_y - raster_.y) / raster_.spacing, height()) * width() +
+         nearest((to_x - raster_.x) / raster_.spacing, width());
 }
 
 int headingOf(double yaw) {

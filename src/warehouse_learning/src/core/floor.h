@@ -1,34 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The floor as cells: row * width + column, of a floor with a rim of cells that no robot can enter,
-// so that every neighbourhood lies inside. Headings count quarter turns from +x towards +y.
+// The floor that robots learn on: that of warehouse_layout, inside a rim of cells that no robot can
+// enter, so that every neighbourhood lies on it; and where it is in the world.
 #pragma once
 
-#include <cstdint>
 #include <vector>
+
+#include "warehouse_layout/floor.h"
+#include "warehouse_layout/layout_check.h"
 
 namespace learning {
 
-struct Floor {
-  int width = 0, height = 0;  ///< [cells], the rim included
-  int rim = 0;                ///< [cells] around it
-  double x = 0, y = 0;        ///< Of the centre of cell 0, in world [m].
-  double spacing = 1;         ///< Edge of a cell [m].
-  // By cell.
-  std::vector<std::uint8_t> passable, storage, station;
-  std::vector<int> stations;  ///< Cells at which units are delivered.
+using layout::Deck;
+using layout::kHeadings;
+using layout::kNowhere;
 
-  int cells() const { return width * height; }
-  int row(int cell) const { return cell / width; }
-  int column(int cell) const { return cell % width; }
+class Floor : public layout::Floor {
+ public:
+  /// The description includes the rim, so many cells wide; `stations` are cells at which units are
+  /// delivered. Throws layout::FloorError as layout::Floor does.
+  Floor(const layout::FloorDescription& description, int rim, const layout::Raster& raster,
+        std::vector<int> stations);
+
+  int rim() const { return rim_; }                    ///< [cells] around it
+  double spacing() const { return raster_.spacing; }  ///< Edge of a cell [m].
+  const std::vector<int>& stations() const { return stations_; }
+  bool isStation(int cell) const { return is_station_[cell]; }
+
   /// The longer edge without the rim [cells].
   int longest() const;
-  /// What to add to a cell for the next one in that direction.
+  /// What to add to a cell for the next one in that direction, wherever that lies.
   int step(int heading) const;
-  /// A robot may have been pushed into the rim: some of what is around it lies outside.
+  /// The cell itself, or the nearest number of one: a robot may have been pushed into the rim, and
+  /// some of what is around it lies outside.
   int inside(int cell) const;
   /// The cell nearest to a place in world [m]; of one beyond the floor, at its edge.
   int cellOf(double to_x, double to_y) const;
+
+ private:
+  int rim_;
+  layout::Raster raster_;
+  std::vector<int> stations_;
+  std::vector<char> is_station_;  // by cell
 };
 
 /// The quarter turns that are nearest to `yaw` [rad], 0 to 3.

@@ -11,8 +11,8 @@ Goals::Goals(const Floor& floor, const State& state)
       way_(state.warehouses(), state.robots(), nullptr),
       aim_(state.warehouses(), state.robots(), kNone),
       news_(state.warehouses(), 1) {
-  for (int cell = 0; cell < floor.cells(); ++cell) {
-    if (floor.storage[cell]) places_.push_back(cell);
+  for (int cell = 0; cell < floor.size(); ++cell) {
+    if (floor.isStorage(cell)) places_.push_back(cell);
   }
 }
 
@@ -63,7 +63,7 @@ void Goals::find(int w, int robot) {
   if (load == kNone) {
     findUnit(w, robot);
   } else if (state_.requested[w][load]) {
-    choose(w, robot, floor_.stations, Deck::kLoaded);
+    choose(w, robot, floor_.stations(), Deck::kAisles);
   } else {
     findPlace(w, robot);
   }
@@ -77,7 +77,7 @@ void Goals::findUnit(int w, int robot) {
     units.push_back(unit);
     cells.push_back(cell);
   }
-  const int chosen = choose(w, robot, cells, Deck::kUnloaded);
+  const int chosen = choose(w, robot, cells, Deck::kUnder);
   if (chosen != kNone) aim_[w][robot] = units[chosen];
 }
 
@@ -86,7 +86,7 @@ void Goals::findPlace(int w, int robot) {
   for (const int place : places_) {
     if (state_.unit_at[w][place] == kNone && !isAnothersAim(w, place, true)) free.push_back(place);
   }
-  const int chosen = choose(w, robot, free, Deck::kLoaded);
+  const int chosen = choose(w, robot, free, Deck::kAisles);
   if (chosen != kNone) aim_[w][robot] = free[chosen];
 }
 

@@ -31,10 +31,10 @@ float* oneHot(float* out, int which, int of) {
 }  // namespace
 
 Observer::Observer(const Floor& floor, const State& state, const Goals& goals, int radius)
-    : floor_(floor), state_(state), goals_(goals), still_(floor.cells()) {
-  for (int cell = 0; cell < floor.cells(); ++cell) {
-    still_[cell] = (floor.passable[cell] ? 0 : kBlocked) | (floor.storage[cell] ? kStorage : 0) |
-                   (floor.station[cell] ? kStation : 0);
+    : floor_(floor), state_(state), goals_(goals), still_(floor.size()) {
+  for (int cell = 0; cell < floor.size(); ++cell) {
+    still_[cell] = (floor.isPassable(cell) ? 0 : kBlocked) |
+                   (floor.isStorage(cell) ? kStorage : 0) | (floor.isStation(cell) ? kStation : 0);
   }
   for (std::size_t bits = 0; bits < layers_.size(); ++bits) {
     for (int layer = 0; layer < kLayers; ++layer) {
@@ -76,9 +76,9 @@ void Observer::lookAt(int w) {
 /// position 2, heading 4, load 3, busy 1
 float* Observer::own(float* row, int w, int robot) const {
   const int cell = state_.cell[w][robot], load = state_.load[w][robot];
-  const int rim = floor_.rim;
-  *row++ = share(floor_.column(cell) - rim, floor_.width - 2 * rim);
-  *row++ = share(floor_.row(cell) - rim, floor_.height - 2 * rim);
+  const int rim = floor_.rim();
+  *row++ = share(floor_.x(cell) - rim, floor_.width() - 2 * rim);
+  *row++ = share(floor_.y(cell) - rim, floor_.height() - 2 * rim);
   row = oneHot(row, state_.heading[w][robot], 4);
   row = oneHot(row, load == kNone ? 0 : state_.requested[w][load] ? 1 : 2, 3);
   *row++ = state_.busy[w][robot] ? 1 : 0;
@@ -91,8 +91,8 @@ float* Observer::goal(float* row, int w, int robot) const {
   const int cell = state_.cell[w][robot], heading = state_.heading[w][robot];
   const int goal = goals_.cell(w, robot);
   const double edge = floor_.longest();
-  const double dx = (floor_.column(goal) - floor_.column(cell)) / edge;
-  const double dy = (floor_.row(goal) - floor_.row(cell)) / edge;
+  const double dx = (floor_.x(goal) - floor_.x(cell)) / edge;
+  const double dy = (floor_.y(goal) - floor_.y(cell)) / edge;
   const int c = kCos[heading], s = kSin[heading];
   *row++ = static_cast<float>(std::clamp(c * dx + s * dy, -1.0, 1.0));
   *row++ = static_cast<float>(std::clamp(c * dy - s * dx, -1.0, 1.0));

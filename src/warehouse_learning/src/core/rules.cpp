@@ -20,8 +20,8 @@ Rules::Rules(const Floor& floor, State* state, Goals* goals, bool reserve)
       goals_(*goals),
       reserve_(reserve),
       load_before_(state->warehouses(), state->robots(), kNone),
-      held_(floor.cells()),
-      rank_(floor.cells(), kNobody) {}
+      held_(floor.size()),
+      rank_(floor.size(), kNobody) {}
 
 void Rules::possible(bool* out) {
   for (int w = 0; w < state_.warehouses(); ++w) {
@@ -60,7 +60,7 @@ Outcome Rules::settle() {
     for (int robot = 0; robot < state_.robots(); ++robot) {
       const int load = state_.load[w][robot];
       if (load != load_before_[w][robot]) changeLoad(w, robot, &outcome);
-      const bool is_there = floor_.station[state_.cell[w][robot]] != 0;
+      const bool is_there = floor_.isStation(state_.cell[w][robot]);
       if (is_there && load != kNone && !state_.busy[w][robot])
         outcome.arrived.push_back({w, robot});
     }
@@ -74,13 +74,13 @@ int Rules::ahead(int w, int robot) const {
 
 bool Rules::mayLift(int w, int robot) const {
   const int cell = state_.cell[w][robot];
-  return state_.load[w][robot] == kNone ? state_.unit_at[w][cell] != kNone : floor_.storage[cell];
+  return state_.load[w][robot] == kNone ? state_.unit_at[w][cell] != kNone : floor_.isStorage(cell);
 }
 
 bool Rules::isOpen(int w, int robot) const {
   const int cell = ahead(w, robot);
   const bool fits = state_.load[w][robot] == kNone || state_.unit_at[w][cell] == kNone;
-  return floor_.passable[cell] && !held_[cell] && fits;
+  return floor_.isPassable(cell) && !held_[cell] && fits;
 }
 
 int Rules::unitFor(int w, int robot) const {

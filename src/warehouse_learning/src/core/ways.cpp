@@ -4,7 +4,7 @@
 namespace learning {
 
 Ways::Ways(const Floor& floor) : floor_(floor) {
-  for (auto& goals : to_) goals.resize(floor.cells());
+  for (auto& goals : to_) goals.resize(floor.size());
 }
 
 const Way& Ways::to(int goal, Deck deck) {
@@ -15,15 +15,15 @@ const Way& Ways::to(int goal, Deck deck) {
 
 /// Wave by wave from the goal. One may begin in any passable cell.
 Way Ways::measure(int goal, Deck deck) const {
-  Way way(floor_.cells(), kFar);
+  Way way(floor_.size(), kFar);
   way[goal] = 0;
   std::vector<int> wave{goal};
   for (std::size_t k = 0; k < wave.size(); ++k) {
-    for (int heading = 0; heading < 4; ++heading) {
-      const int next = floor_.inside(wave[k] + floor_.step(heading));
-      if (!floor_.passable[next] || way[next] != kFar) continue;
+    for (int heading = 0; heading < kHeadings; ++heading) {
+      const int next = floor_.beside(wave[k], heading);
+      if (next == kNowhere || !floor_.isPassable(next) || way[next] != kFar) continue;
       way[next] = static_cast<std::int16_t>(way[wave[k]] + 1);
-      if (deck == Deck::kUnloaded || !floor_.storage[next]) wave.push_back(next);
+      if (deck == Deck::kUnder || !floor_.isStorage(next)) wave.push_back(next);
     }
   }
   return way;

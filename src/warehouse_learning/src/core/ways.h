@@ -11,8 +11,6 @@
 
 namespace learning {
 
-enum class Deck { kUnloaded, kLoaded };
-
 /// How many cells it is to a goal, from each cell.
 using Way = std::vector<std::int16_t>;
 constexpr std::int16_t kFar = std::numeric_limits<std::int16_t>::max();  ///< No way leads there.

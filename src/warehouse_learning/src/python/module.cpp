@@ -40,21 +40,17 @@ std::shared_ptr<Floor> makeFloor(int width, int height, int rim, std::array<doub
   if (rim < 0 || width <= 2 * rim || height <= 2 * rim) {
     throw py::value_error("floor: expected cells within a rim");
   }
-  auto floor = std::make_shared<Floor>();
-  floor->width = width;
-  floor->height = height;
-  floor->rim = rim;
-  floor->x = origin[0];
-  floor->y = origin[1];
-  floor->spacing = spacing;
-  const auto open = checked<bool>("passable", passable, {floor->cells()});
-  const auto places = checked<bool>("storage", storage, {floor->cells()});
-  floor->passable.assign(open.data(), open.data() + open.size());
-  floor->storage.assign(places.data(), places.data() + places.size());
-  floor->station.resize(floor->cells());
-  floor->stations = stations;
-  for (const int cell : stations) floor->station[within("stations", cell, 0, floor->cells())] = 1;
-  return floor;
+  const int cells = width * height;
+  const auto open = checked<bool>("passable", passable, {cells});
+  const auto places = checked<bool>("storage", storage, {cells});
+  for (const int cell : stations) within("stations", cell, 0, cells);
+  layout::FloorDescription description;
+  description.width = width;
+  description.height = height;
+  description.passable.assign(open.data(), open.data() + open.size());
+  description.storage.assign(places.data(), places.data() + places.size());
+  return std::make_shared<Floor>(description, rim, layout::Raster{origin[0], origin[1], spacing},
+                                 stations);
 }
 
 using Places = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -93,10 +89,10 @@ class Task {
        std::vector<std::int32_t> shelf_id, int radius, bool reserve)
       : floor_(std::move(floor)),
         state_(within("warehouses", warehouses, 1, 1 << 24), static_cast<int>(kiva_id.size()),
-               static_cast<int>(shelf_id.size()), floor_->cells()),
+               static_cast<int>(shelf_id.size()), floor_->size()),
         goals_(*floor_, state_),
         rules_(*floor_, &state_, &goals_, reserve),
-        observer_(*floor_, state_, goals_, within("radius", radius, 0, floor_->rim + 1)),
+        observer_(*floor_, state_, goals_, within("radius", radius, 0, floor_->rim() + 1)),
         possible_(state_.warehouses(), state_.robots() * kActions),
         kiva_id_(std::move(kiva_id)),
         shelf_id_(std::move(shelf_id)),
@@ -123,7 +119,7 @@ class Task {
     within("warehouse", w, 0, state_.warehouses());
     const auto cells = checked<std::int32_t>("unit_cell", unit_cell, {state_.units()});
     for (int unit = 0; unit < state_.units(); ++unit) {
-      within("unit_cell", cells.at(unit), kNone, floor_->cells());
+      within("unit_cell", cells.at(unit), kNone, floor_->size());
     }
     std::copy_n(cells.data(), state_.units(), state_.unit_cell[w]);
     state_.unit_at.fill(w, kNone);
@@ -135,8 +131,8 @@ class Task {
   }
 
   using Worlds = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
-  void see(const Worlds& which, const py::object& x, const py::object& y, const py::object& yaw,
-           const py::object& status, const py::object& shelf_id) {
+  void update(const Worlds& which, const py::object& x, const py::object& y, const py::object& yaw,
+              const py::object& status, const py::object& shelf_id) {
     const auto xs = byRobot<double>("x", x), ys = byRobot<double>("y", y);
     const auto yaws = byRobot<double>("yaw", yaw);
     const auto statuses = byRobot<std::uint8_t>("status", status);
@@ -179,7 +175,7 @@ class Task {
   }
 
   /// (refused, collided, [warehouse with collisions])
-  py::tuple hear(const py::object& done, const py::object& counts) const {
+  py::tuple takeEvents(const py::object& done, const py::object& counts) const {
     const auto told = byRobot<bool>("done", done);
     const auto events = checked<std::uint32_t>(
         "counts", counts, {state_.warehouses(), state_.robots(), kiva::Event::kKinds});
@@ -270,7 +266,7 @@ class Task {
     out.kiva_id = kiva_id_[order.robot];
     if (order.action == kForward) {
       const int heading = state_.heading[order.warehouse][order.robot];
-      const double way = heading < 2 ? floor_->spacing : -floor_->spacing;
+      const double way = heading < 2 ? floor_->spacing() : -floor_->spacing();
       const bool along_x = heading % 2 == 0;
       out.kind = along_x ? kiva::Command::Kind::kMoveX : kiva::Command::Kind::kMoveY;
       (along_x ? out.x : out.y) = way;
@@ -322,24 +318,25 @@ void defineTask(py::module_& m) {
            py::arg("radius"), py::arg("reserve"),
            "kiva_id, shelf_id: of each warehouse's robots and units. radius: of the neighbourhood "
            "[cells], at most the floor's rim. reserve: as of warehouse_learning.Options.");
-  task.def("see", &Task::see, py::arg("which"), py::arg("x"), py::arg("y"), py::arg("yaw"),
+  task.def("update", &Task::update, py::arg("which"), py::arg("x"), py::arg("y"), py::arg("yaw"),
            py::arg("status"), py::arg("shelf_id"),
            "Takes in where the robots of warehouses `which`, (k,), are and what they carry.");
   task.def("begin_episode", &Task::beginEpisode, py::arg("warehouse"), py::arg("unit_cell"),
            py::arg("requested"),
-           "After see(): units stand in those cells, (units,) int32; requested, (units,) bool.");
+           "After update(): units stand in those cells, (units,) int32; requested, (units,) bool.");
   task.def("place_units", &Task::placeUnits, py::arg("warehouse"), py::arg("unit_cell"),
            "Units stand in those cells, (units,) int32; -1 = carried.");
   task.def("possible", &Task::possible, "(warehouses, robots, 5) bool: what each may choose now.");
   task.def("begin", &Task::begin, py::arg("actions"),
            "Robots begin what they may of actions, int8. (done, world, commands): who does as "
            "told, bool, and what is to be posted, (k,) int32 and COMMAND.");
-  task.def("hear", &Task::hear, py::arg("done"), py::arg("counts"),
-           "After see(): who was refused, and who has collided, by begin()'s `done` and by "
+  task.def("take_events", &Task::takeEvents, py::arg("done"), py::arg("counts"),
+           "After update(): who was refused, and who has collided, by begin()'s `done` and by "
            "Worlds.counts. (refused, collided, hit): bool, and a list of warehouses.");
-  task.def("settle", &Task::settle,
-           "After see(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
-           "(warehouse, robot) that stand at a station with a load.");
+  task.def(
+      "settle", &Task::settle,
+      "After update(): what came of it. (lifted, dropped, stored, arrived): bool, and a list of "
+      "(warehouse, robot) that stand at a station with a load.");
   task.def("deliver", &Task::deliver, py::arg("warehouse"), py::arg("robot"), py::arg("next"),
            "What the robot carries is delivered, and unit `next` is requested in its place.");
   task.def("renew_goals", &Task::renewGoals, "Finds goals for those that have none.");

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks what operations.launch is given before anything starts: each function returns its argument
-as the shift takes it, files by their whole path, or raises one of simulation.ERRORS."""
+"""Checks the arguments of operations.launch before anything starts: each function returns its
+argument as the shift takes it, files by their whole path, or raises one of simulation.ERRORS.
+Relative paths start at `folder`."""
 
 from pathlib import Path
 
@@ -12,22 +13,23 @@ from warehouse_operations.engines import DatabaseError, lock, make_engine, path_
 from warehouse_operations.policies import Policies
 
 
-def orders(text):
-    """Whether a file's SKUs are there, only the shift can tell."""
-    text = _whole_path(text) if text.endswith(".csv") else text
+def orders(text: str, folder: Path) -> str:
+    """Checks orders; only the shift can tell whether the SKUs of a file are in stock."""
+    text = _whole_path(text, folder) if text.endswith(".csv") else text
     make_demand(text, None, (1, 1), np.random.default_rng(1))
     return text
 
 
-def policies(text):
-    text = _whole_path(text)
+def policies(text: str, folder: Path) -> str:
+    """Checks a YAML file of policies."""
+    text = _whole_path(text, folder)
     Policies.read(text)
     return text
 
 
-def database(text):
-    """One that is not there yet is not made."""
-    text = text if "://" in text else _whole_path(text)
+def database(text: str, folder: Path) -> str:
+    """Checks a database's URL or file; does not create one that is missing."""
+    text = text if "://" in text else _whole_path(text, folder)
     engine = make_engine(text)
     path = path_of(engine)
     if path and not path.parent.is_dir():
@@ -44,5 +46,5 @@ def database(text):
     return text
 
 
-def _whole_path(text):
-    return str(Path(text).expanduser().absolute())
+def _whole_path(text: str, folder: Path) -> str:
+    return str(folder / Path(text).expanduser())

@@ -8,7 +8,7 @@ from sqlalchemy import func, select, update
 
 from warehouse_operations import schema
 from warehouse_operations.journal import Journal
-from warehouse_operations.orders import OrderState
+from warehouse_operations.message_enums import OrderState
 from warehouse_operations.rows import Rows
 
 

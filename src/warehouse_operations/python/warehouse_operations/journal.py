@@ -1,36 +1,74 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a shift writes down; this one writes nothing. database.DatabaseJournal keeps it."""
+"""The interface by which a shift records what it does; database_journal keeps the records."""
+
+from typing import TYPE_CHECKING, Any
+
+from warehouse_operations.inventory import Bin, Reason
+from warehouse_operations.message_enums import OrderEventKind
+from warehouse_operations.orders import Line, Order
+from warehouse_operations.stations import Visit
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift import Shift
 
 
 class Journal:
-    """Hears of everything that changes; commit() ends what belongs together."""
+    """Receives every change of a shift and keeps none; times are simulated [s].
 
-    def move(self, now, one, quantity, reason, line, station, visit):
-        """Stock went into or out of a Bin."""
+    The changes between two calls of commit() belong together.
+    """
 
-    def order(self, order):
-        """An Order is new, or its state has changed."""
+    def move(
+        self,
+        now: float,
+        one: Bin,
+        quantity: int,
+        reason: Reason,
+        line: Line | None,
+        station: str,
+        visit: Visit | None,
+    ) -> None:
+        """Records pieces that went into a Bin, or out of it where quantity is negative."""
 
-    def line(self, line):
-        """Pieces of an order's Line were picked."""
+    def order(self, order: Order) -> None:
+        """Records a new Order, or the new state of a known one."""
 
-    def assigned(self, order):
-        """A station has taken an Order on."""
+    def line(self, line: Line) -> None:
+        """Records how many pieces of an order's Line are picked."""
 
-    def unassigned(self, order, now):
-        """A station has given it back."""
+    def assigned(self, order: Order) -> None:
+        """Records the assignment of an Order to its station."""
 
-    def visit(self, visit):
-        """A Visit is new, or has come further."""
+    def unassigned(self, order: Order, now: float) -> None:
+        """Records that a station gave an Order back unfinished."""
 
-    def unit(self, unit, in_service):
-        """A storage unit goes out of service, or comes back."""
+    def visit(self, visit: Visit) -> None:
+        """Records a new Visit, or the new state of a known one."""
 
-    def event(self, now, kind, order_id, sku, quantity, station, unit, text):
-        """Something happened to an order."""
+    def unit(self, unit: int, in_service: bool) -> None:
+        """Records that a storage unit goes out of service, or returns to it."""
 
-    def commit(self, shift):
-        """All that was told since the last call is one consistent state."""
+    def event(
+        self,
+        now: float,
+        kind: OrderEventKind,
+        order_id: int,
+        sku: str,
+        quantity: int,
+        station: str,
+        unit: int,
+        text: str,
+    ) -> None:
+        """Records an event of an order."""
 
-    def flush(self):
+    def heat(self, slot: int, began: float, maps: bytes) -> None:
+        """Records a part of the FloorHeat, in place of the one in that slot."""
+
+    def commit(self, shift: "Shift") -> None:
+        """Marks everything recorded since the last call as one consistent state."""
+
+    def flush(self) -> None:
         """Waits until everything that was committed is kept."""
+
+    def end(self, shift: "Shift", figures: dict[str, Any]) -> None:
+        """Records the end of the run, with the figures of kpis.json."""

@@ -3,51 +3,71 @@
 
 import math
 from collections import defaultdict
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from warehouse_fleet.kinematics import Kinematics
+from warehouse_operations.orders import Bundle, Line, Order
+from warehouse_operations.settings import Settings
+from warehouse_operations.stations import Visit
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift import Shift
 
 INTERVAL = 60.0  # of the series [s]
 
 
 class Tally:
-    """Counts what happens in a shift."""
+    """Counts what happens in a shift; times are simulated [s]."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.items_picked = self.lines_picked = self.orders_completed = 0
         self.bundles_stored = self.pieces_stored = self.late_orders = 0
         self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
-        self.turnover_s, self.throughput_s = [], []
-        self.picked_in, self.stored_in = defaultdict(int), defaultdict(int)  # by INTERVAL
-        self.completed_in = defaultdict(int)
+        self.turnover_s: list[float] = []
+        self.throughput_s: list[float] = []
+        self.picked_in: dict[int, int] = defaultdict(int)  # by INTERVAL
+        self.stored_in: dict[int, int] = defaultdict(int)
+        self.completed_in: dict[int, int] = defaultdict(int)
 
-    def picked(self, now, pieces, line):
+    def picked(self, now: float, pieces: int, line: Line) -> None:
+        """Counts pieces that were picked for an order line."""
         self.items_picked += pieces
         self.lines_picked += not line.open
         self.picked_in[int(now // INTERVAL)] += pieces
 
-    def stored(self, now, bundle):
+    def stored(self, now: float, bundle: Bundle) -> None:
+        """Counts a bundle that was put into its bin."""
         self.bundles_stored += 1
         self.pieces_stored += bundle.quantity
         self.stored_in[int(now // INTERVAL)] += bundle.quantity
 
-    def completed(self, order):
+    def completed(self, order: Order) -> None:
+        """Counts an order that is complete."""
         self.orders_completed += 1
         self.late_orders += bool(order.due) and order.completed > order.due
         self.turnover_s.append(order.completed - order.created)
         self.throughput_s.append(order.completed - order.assigned)
         self.completed_in[int(order.completed // INTERVAL)] += 1
 
-    def visited(self, visit):
+    def visited(self, visit: Visit) -> None:
+        """Counts a visit that is over, if its unit reached the station."""
         if visit.arrived is not None:
             self.trips += 1
             self.pick_visits += visit.station.kind == "PICK"
 
 
-def upper_bound(pile_on, settings, kinematics, spacing=1.0):
-    """Pieces an hour that a picking station can reach at most with so many pieces a unit.
+def upper_bound(
+    pile_on: float, settings: Settings, kinematics: Kinematics, spacing: float = 1.0
+) -> float:
+    """Returns the most pieces an hour that a picking station can reach.
 
-    p * 3600 / (max(in + turn + out + pick - transfer, 0) + p * transfer): while the last piece of a
-    unit is handled on, the next unit may already come.
+    pile_on: pieces p picked from each unit. spacing: of the cells [m].
+
+    The formula is p * 3600 / (max(in + turn + out + pick - transfer, 0) + p * transfer):
+    the next unit may come while the last piece of a unit is still being handled.
     """
     cell = 2 * math.sqrt(spacing / kinematics.acceleration)
     top = kinematics.speed**2 / kinematics.acceleration
@@ -58,8 +78,12 @@ def upper_bound(pile_on, settings, kinematics, spacing=1.0):
     return pieces * 3600 / (max(change, 0.0) + pieces * settings.piece_s)
 
 
-def of_shift(shift, fleet, kinematics, wall_s):
-    """What kpis.json holds, as a dict."""
+def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) -> dict[str, Any]:
+    """Returns the content of kpis.json.
+
+    fleet: an IdealFleet, a WorldFleet, or what has the same figures. wall_s: how long the shift
+    took to simulate [s].
+    """
     tally, elapsed = shift.tally, shift.now - shift.began
     hours = max(elapsed, 1e-9) / 3600
     picking, replenishing = shift.picking.stations, shift.replenishing.stations
@@ -106,10 +130,10 @@ def of_shift(shift, fleet, kinematics, wall_s):
     } | (shift.fallen.figures() | _of_troubles(fleet, tally.items_picked))
 
 
-def _of_troubles(fleet, items_picked):
-    """What failures, charging and people cost; nothing where there were none."""
+def _of_troubles(fleet: Any, items_picked: int) -> dict[str, Any]:
+    """Returns what failures, charging and people cost; empty where there were none."""
     log = getattr(fleet, "failures", None)
-    figures = log.figures() if log else {}
+    figures: dict[str, Any] = log.figures() if log else {}
     figures |= getattr(fleet, "energy", {})
     if "availability" in figures:
         down = 1 - figures["availability"]
@@ -121,19 +145,19 @@ def _of_troubles(fleet, items_picked):
     return figures
 
 
-def _lost(items_picked, away):
-    """As many pieces as robots that were `away` for that part of their time would have picked at
-    the pace of those at work."""
+def _lost(items_picked: int, away: float) -> float:
+    """Returns how many pieces robots would have picked in the part of their time that they were
+    `away`, at the pace of the rest of it."""
     return items_picked * away / max(1 - away, 1e-9)
 
 
-def quantiles(values):
-    """p25, median, p75 and p95; 0 of nothing."""
+def quantiles(values: Sequence[float]) -> dict[str, float]:
+    """Returns p25, median, p75 and p95 of values; zeros where there are none."""
     names = ("p25", "median", "p75", "p95")
     return dict(zip(names, np.percentile(values or [0.0], (25, 50, 75, 95)).tolist()))
 
 
-def _planning(milliseconds):
+def _planning(milliseconds: Sequence[float]) -> dict[str, float]:
     values = np.asarray(milliseconds if len(milliseconds) else [0.0])
     median, late = np.percentile(values, (50, 99))
     return {"p50": float(median), "p99": float(late), "max": float(values.max())}

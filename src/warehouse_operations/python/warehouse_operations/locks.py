@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Who works on a file or a folder: one program at a time, until it ends, however it ends."""
+"""Locks by which one program at a time works on a file or folder, until its process ends."""
 
 import contextlib
 import fcntl
@@ -9,32 +9,33 @@ import sys
 import weakref
 from datetime import datetime
 from pathlib import Path
+from typing import TextIO
 
 SUFFIX = ".lock"
-_HELD: weakref.WeakSet = weakref.WeakSet()
+_HELD: "weakref.WeakSet[FileLock]" = weakref.WeakSet()
 
 
 class InUseError(Exception):
-    """Another program works on it; the text says which, where and since when."""
+    """Raised where another program holds the lock; says which one, where and since when."""
 
 
 class FileLock:
-    """Held for as long as this process lives or until release(); raises InUseError, OSError.
+    """Locks a file or folder until release() or the end of this process.
 
-    It is the kernel's lock (flock) on a file of its own; that file alone, without a lock on it,
-    means nothing. path: what is locked; the lock file is beside it, or in it if it is a folder.
+    path: what is locked; the lock file is beside it, or in it if it is a folder. The kernel holds
+    the lock (flock): a lock file that is left behind locks nothing. Raises InUseError, OSError.
     """
 
-    def __init__(self, path):
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         path = Path(os.path.realpath(path))
         self._path = path / SUFFIX if path.is_dir() else path.with_name(path.name + SUFFIX)
-        self._file = None
+        self._file: TextIO | None = None
         while not self._file:
             self._file = self._taken(path)
         _HELD.add(self)
 
-    def _taken(self, path):
-        """The lock file, or None if its holder has just removed it."""
+    def _taken(self, path: Path) -> TextIO | None:
+        """Returns the locked file, or None if its holder has just removed it."""
         file = self._path.open("a+", encoding="utf-8", errors="replace")
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -54,32 +55,32 @@ class FileLock:
             raise
         return file
 
-    def _is_there(self, file):
+    def _is_there(self, file: TextIO) -> bool:
         with contextlib.suppress(FileNotFoundError):
             return os.path.samestat(os.fstat(file.fileno()), self._path.stat())
         return False
 
-    def release(self):
-        """Lets others work on it."""
+    def release(self) -> None:
+        """Removes the lock, so that other programs can work on the path."""
         if self._file:
             self._path.unlink(missing_ok=True)
             self._file.close()
             self._file = None
 
-    def leave_to_parent(self):
-        """In a process that was forked: it holds nothing, and keeps nothing held."""
+    def leave_to_parent(self) -> None:
+        """Lets go of the lock in a forked process; the parent still holds it."""
         if self._file:
             self._file.close()
             self._file = None
 
-    def __enter__(self):
+    def __enter__(self) -> "FileLock":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.release()
 
 
-def _forked():
+def _forked() -> None:
     for one in list(_HELD):
         one.leave_to_parent()
 
@@ -87,7 +88,7 @@ def _forked():
 os.register_at_fork(after_in_child=_forked)
 
 
-def holder():
-    """This process, as others are told of it."""
+def holder() -> str:
+    """Returns the name, id and host of this process, for the messages of other programs."""
     program = Path(sys.argv[0] or "python").name
     return f"{program} (process {os.getpid()} on {socket.gethostname()})"

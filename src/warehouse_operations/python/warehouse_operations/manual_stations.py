@@ -2,23 +2,28 @@
 """The reports of people at stations in mode MANUAL."""
 
 from collections import deque
+from typing import cast
 
-from warehouse_operations.inventory import Reason
-from warehouse_operations.orders import OrderEventKind
-from warehouse_operations.tasks import Answer, Outcome
+from warehouse_operations.inventory import Bin, Reason
+from warehouse_operations.message_enums import OrderEventKind, Outcome
+from warehouse_operations.orders import Bundle, Line
+from warehouse_operations.picking import Picking
+from warehouse_operations.replenishing import Replenishing
+from warehouse_operations.stations import Pick, Visit, WorkStation
+from warehouse_operations.tasks import Answer, Report
 
 
 class ManualPicking:
-    """Takes what people report at picking stations."""
+    """Carries out the reports of people at picking stations."""
 
-    def __init__(self, picking):
+    def __init__(self, picking: Picking) -> None:
         self._picking, self._shift = picking, picking.shift
 
-    def confirm(self, station, sku, quantity):
-        """A picker has taken so many pieces; returns success and why not."""
+    def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
+        """Takes pieces of a SKU as picked. Returns success and the fault."""
         visit, picks = self._asked(station, sku)
         asked = sum(pick.quantity for pick in picks)
-        if not 0 < quantity <= asked:
+        if not (visit and 0 < quantity <= asked):
             return False, f"{asked} of {sku} are asked for at {station.name} now"
         for pick in picks:
             pieces = min(quantity, pick.quantity)
@@ -29,19 +34,21 @@ class ManualPicking:
         self._picking.leave_if_done(station)
         return True, ""
 
-    def short(self, station, sku, lacking, reason=Reason.SHORT):
-        """So many pieces that the books say are there are not, or are damaged."""
+    def short(
+        self, station: WorkStation, sku: str, lacking: int, reason: Reason = Reason.SHORT
+    ) -> tuple[bool, str]:
+        """Writes off pieces that are missing or damaged. Returns success and the fault."""
         visit, picks = self._asked(station, sku)
-        if not picks:
+        if not visit or not picks:
             return False, f"none of {sku} is asked for at {station.name} now"
         one = picks[0].bin
         if not 0 < lacking <= one.quantity:
-            return False, f"{one.quantity} of {sku} are in {one.item} by the books"
+            return False, f"{one.quantity} of {sku} are in stock in {one.item}"
         self._write_off(visit, one, lacking, reason)
         return True, ""
 
-    def _write_off(self, visit, one, lacking, reason):
-        """Pieces of a bin go out of the books; returns the lines that were to be served from it."""
+    def _write_off(self, visit: Visit, one: Bin, lacking: int, reason: Reason) -> list[Line]:
+        """Writes off pieces of a bin; returns the lines that were to be served from it."""
         station, sku = visit.station, one.sku
         lines = [line for _, line in self._picking.drop_bin(one)]
         self._shift.inventory.move(one, sku, -lacking, reason, station=station)
@@ -52,16 +59,16 @@ class ManualPicking:
         self._picking.leave_if_done(station)
         return lines
 
-    def task(self, station, report):
-        """The Pick of the unit that is there which a tasks.Report names, or None."""
+    def task(self, station: WorkStation, report: Report) -> Pick | None:
+        """Returns the Pick that a Report names, from the unit at the station, or None."""
         visit = station.here
         named = report.order_id, report.item, report.sequence
         picks = visit.picks if visit else ()
         is_it = lambda p: (p.line.order.order_id, p.bin.item, p.sequence) == named  # noqa: E731
         return next(filter(is_it, picks), None)
 
-    def asks(self, station):
-        """What a person is asked for now."""
+    def asks(self, station: WorkStation) -> str:
+        """Returns a sentence about what a person is asked to do now."""
         visit = station.here
         if not visit or not visit.picks:
             return f"{station.name} asks for nothing now"
@@ -69,9 +76,10 @@ class ManualPicking:
         what = f"{pick.quantity} of {pick.line.sku} in {pick.bin.item}"
         return f"{station.name} asks for {what} for {pick.line.order.reference} now"
 
-    def report(self, station, pick, report):
-        """Carries out what a person says of a Pick; returns a tasks.Answer."""
-        visit, one, sku = station.here, pick.bin, pick.line.sku
+    def report(self, station: WorkStation, pick: Pick, report: Report) -> Answer:
+        """Carries out a Report of a Pick."""
+        # The pick is of the unit at the station: task() found it there.
+        visit, one, sku = cast(Visit, station.here), pick.bin, pick.line.sku
         if report.outcome == Outcome.DONE:
             if not 0 < report.quantity <= pick.quantity:
                 return Answer(False, f"{pick.quantity} of {sku} were expected at most")
@@ -82,15 +90,20 @@ class ManualPicking:
         is_empty = report.outcome == Outcome.SHORT and not report.quantity
         lacking = one.quantity if is_empty else report.quantity
         if not 0 < lacking <= one.quantity:
-            return Answer(False, f"{one.quantity} of {sku} are in {one.item} by the books")
+            return Answer(False, f"{one.quantity} of {sku} are in stock in {one.item}")
         reason = Reason.SHORT if report.outcome == Outcome.SHORT else Reason.DAMAGED
         lines = self._write_off(visit, one, lacking, reason)
         undo = lambda: self._put_back(station, one, (sku, lacking), lines)  # noqa: E731
         return Answer(True, f"{lacking} of {sku} in {one.item} are written off", lacking, undo)
 
-    def _put_back(self, station, one, pieces, lines):
-        """What was written off is in its bin after all, and serves the same lines if the unit is
-        still there. Returns why that can't be, or ""."""
+    def _put_back(
+        self, station: WorkStation, one: Bin, pieces: tuple[str, int], lines: list[Line]
+    ) -> str:
+        """Puts (SKU, pieces) that were written off back into their bin.
+
+        They serve the same lines again if the unit is still there. Returns why the bin can't take
+        them, or "".
+        """
         sku, quantity = pieces
         if one.room < quantity or not (one.empty or one.sku == sku):
             return f"{one.item} has no room for {quantity} of {sku} any more"
@@ -106,46 +119,51 @@ class ManualPicking:
             self._picking.on_unit_free(one.unit)
         return ""
 
-    def _take_from_others(self, station, line):
-        """Units on their way need not serve a line; those with nothing else to do need not come."""
+    def _take_from_others(self, station: WorkStation, line: Line) -> None:
+        """Drops a line's picks from units on their way; cancels visits without other picks."""
         for visit in [visit for visit in station.coming if not visit.here]:
             for pick in [pick for pick in visit.picks if pick.line is line]:
                 self._picking.drop(visit, pick)
                 if not visit.picks:
                     self._shift.visits.cancel(visit)
 
-    def _asked(self, station, sku):
+    def _asked(self, station: WorkStation, sku: str) -> tuple[Visit | None, list[Pick]]:
         visit = station.here
         return visit, [pick for pick in visit.picks if pick.line.sku == sku] if visit else []
 
 
 class ManualReplenishing:
-    """Takes what people report at replenishing stations."""
+    """Carries out the reports of people at replenishing stations."""
 
-    def __init__(self, replenishing):
+    def __init__(self, replenishing: Replenishing) -> None:
         self._replenishing, self._shift = replenishing, replenishing.shift
 
-    def confirm(self, station, sku, quantity):
-        """A person has put in the bundle of a SKU; returns success and why not."""
+    def confirm(self, station: WorkStation, sku: str, quantity: int) -> tuple[bool, str]:
+        """Takes the bundle of a SKU as put in. Returns success and the fault."""
         visit, bundle = self._asked(station, sku)
-        if not bundle or bundle.quantity != quantity:
+        if not visit or not bundle or bundle.quantity != quantity:
             asked = f"{bundle.quantity} of {sku}" if bundle else f"none of {sku}"
             return False, f"{asked} are to be put in at {station.name} now"
         self._replenishing.put(visit, bundle)
         self._replenishing.leave_if_done(station)
         return True, ""
 
-    def short(self, station, sku, lacking, _reason):
-        """So many pieces of a bundle did not come, or are damaged: they were never in the stock."""
+    def short(
+        self, station: WorkStation, sku: str, lacking: int, _reason: Reason
+    ) -> tuple[bool, str]:
+        """Leaves out pieces of a bundle that are missing or damaged: they were never in the stock.
+
+        Returns success and the fault.
+        """
         visit, bundle = self._asked(station, sku)
         there = bundle.quantity if bundle else 0
-        if not 0 < lacking <= there:
+        if not (visit and bundle and 0 < lacking <= there):
             return False, f"{there} of {sku} are to be put in at {station.name} now"
         self._shorten(visit, bundle, lacking)
         return True, ""
 
-    def _shorten(self, visit, bundle, lacking):
-        """So many pieces of a bundle stay out."""
+    def _shorten(self, visit: Visit, bundle: Bundle, lacking: int) -> None:
+        """Takes pieces out of a bundle before it is put in."""
         self._shift.inventory.unexpect(bundle.bin, bundle.sku, lacking)
         bundle.quantity -= lacking
         bundle.sequence = self._shift.tasks.number()  # what is left is another task
@@ -153,14 +171,14 @@ class ManualReplenishing:
             visit.puts.remove(bundle)
         self._replenishing.leave_if_done(visit.station)
 
-    def task(self, station, report):
-        """The Bundle for the unit that is there which a tasks.Report names, or None."""
+    def task(self, station: WorkStation, report: Report) -> Bundle | None:
+        """Returns the Bundle that a Report names, for the unit at the station, or None."""
         visit, named = station.here, (0, report.item, report.sequence)
         puts = visit.puts if visit and not report.order_id else ()
         return next((b for b in puts if (0, b.bin.item, b.sequence) == named), None)
 
-    def asks(self, station):
-        """What a person is asked for now."""
+    def asks(self, station: WorkStation) -> str:
+        """Returns a sentence about what a person is asked to do now."""
         visit = station.here
         if not visit or not visit.puts:
             return f"{station.name} asks for nothing now"
@@ -169,9 +187,10 @@ class ManualReplenishing:
             f"{station.name} asks for {bundle.quantity} of {bundle.sku} into {bundle.bin.item} now"
         )
 
-    def report(self, station, bundle, report):
-        """Carries out what a person says of a Bundle; returns a tasks.Answer."""
-        visit, there = station.here, bundle.quantity
+    def report(self, station: WorkStation, bundle: Bundle, report: Report) -> Answer:
+        """Carries out a Report of a Bundle."""
+        # The bundle is for the unit at the station: task() found it there.
+        visit, there = cast(Visit, station.here), bundle.quantity
         if report.outcome == Outcome.DONE:
             if report.quantity != there:
                 return Answer(False, f"a bundle of {there} of {bundle.sku} goes in whole")
@@ -185,8 +204,8 @@ class ManualReplenishing:
         undo = lambda: self._lengthen(visit, bundle, lacking)  # noqa: E731
         return Answer(True, f"{lacking} of {bundle.sku} are not put in", lacking, undo)
 
-    def _lengthen(self, visit, bundle, pieces):
-        """Pieces that stayed out are put in after all: with their bundle, or as another one."""
+    def _lengthen(self, visit: Visit, bundle: Bundle, pieces: int) -> str:
+        """Adds pieces that were left out to their bundle again, or orders them as another one."""
         is_there = visit.here and (bundle in visit.puts or not bundle.quantity)
         if is_there and self._shift.inventory.takes(bundle.bin, bundle.sku, pieces):
             self._shift.inventory.expect(bundle.bin, bundle.sku, pieces)
@@ -198,6 +217,6 @@ class ManualReplenishing:
             self._replenishing.order(bundle.sku, pieces)
         return ""
 
-    def _asked(self, station, sku):
+    def _asked(self, station: WorkStation, sku: str) -> tuple[Visit | None, Bundle | None]:
         visit = station.here
         return visit, next((b for b in visit.puts if b.sku == sku), None) if visit else None

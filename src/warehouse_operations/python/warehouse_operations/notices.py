@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a person is to know of a shift and nothing else tells: what it could not take, and why."""
+"""Notices for people about a shift: what it could not take, and why."""
 
 import logging
+from collections.abc import Callable, Iterator
 
 MOST = 20
 LOG = logging.getLogger(__name__)
 
 
 class Notices:
-    """The last MOST different sentences, the newest last; on_change() is called after a change."""
+    """Keeps the last MOST different sentences, the newest last; on_change() follows each change."""
 
-    def __init__(self, on_change=None):
-        self._counts = {}
+    def __init__(self, on_change: Callable[[], object] | None = None) -> None:
+        self._counts: dict[str, int] = {}
         self.on_change = on_change
 
-    def __iter__(self):
-        """Sentences; those that were told more than once say how often."""
+    def __iter__(self) -> Iterator[str]:
+        """Yields the sentences, with a count where one was added more than once."""
         for text, count in self._counts.items():
             yield text if count == 1 else f"{text} ({count} times)"
 
-    def add(self, text):
+    def add(self, text: str) -> None:
+        """Adds a sentence, or counts it again; logs a new one as a warning."""
         if text not in self._counts:
             LOG.warning(text)
         self._counts[text] = self._counts.pop(text, 0) + 1
@@ -27,11 +29,11 @@ class Notices:
             del self._counts[next(iter(self._counts))]
         self._tell()
 
-    def drop(self, text):
-        """It does not hold any more."""
+    def drop(self, text: str) -> None:
+        """Removes a sentence that is no longer true."""
         if self._counts.pop(text, None):
             self._tell()
 
-    def _tell(self):
+    def _tell(self) -> None:
         if self.on_change:
             self.on_change()

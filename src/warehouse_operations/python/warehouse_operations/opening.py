@@ -1,44 +1,57 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a shift begins: with new stock, or with what a database has kept."""
+"""Opens a shift: with new stock, or with the stock and orders that a database holds."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from warehouse_operations.assortment import stocked
 from warehouse_operations.demand import make_demand
 from warehouse_operations.policies import Policies
+from warehouse_operations.protocols import Requests
 from warehouse_operations.returning import changes, layout_of
+from warehouse_operations.settings import Settings
 from warehouse_operations.shift import Shift
+from warehouse_operations.site import Site
+from warehouse_operations.travel import Travel
 from warehouse_operations.whereabouts import Whereabouts
+
+if TYPE_CHECKING:
+    from warehouse_operations.database import Database
+    from warehouse_operations.database_journal import DatabaseJournal
+    from warehouse_operations.stored import Stored
 
 
 def open_shift(
-    site,
-    transports,
+    site: Site,
+    transports: Requests,
     *,
-    orders="fill",
-    seed=1,
-    policies=None,
-    database=None,
-    settings=None,
-    travel=None,
-    now=0.0,
-):
-    """A Shift in a Site over transports.
+    orders: str = "fill",
+    seed: int = 1,
+    policies: Policies | Mapping[str, Any] | None = None,
+    database: "Database | None" = None,
+    settings: Settings | None = None,
+    travel: Travel | None = None,
+    now: float = 0.0,
+) -> Shift:
+    """Returns a new Shift at a Site, over transports.
 
-    database: a Database whose warehouse the shift goes on with, or in
-    which it begins one; None: nothing is kept. now: simulated time [s]. Raises SiteError,
-    DemandError, PolicyError, DatabaseError.
+    orders: see demand.make_demand. policies: the chosen ones by role. database: holds the
+    warehouse that the shift goes on with, or gets a new one; None: nothing is kept. now: simulated
+    time [s]. Raises SiteError, DemandError, PolicyError, DatabaseError.
     """
-    journal = stored = None
+    journal: DatabaseJournal | None = None
+    stored: Stored | None = None
     if not isinstance(policies, Policies):
         policies = Policies(policies)
     if database:
+        from warehouse_operations import database_journal
         from warehouse_operations import stored as keeping
-        from warehouse_operations.database_journal import DatabaseJournal
 
         with database.reading():
             stored = keeping.read(database.engine, now)
-            journal = DatabaseJournal(
+            journal = database_journal.DatabaseJournal(
                 database,
                 seed=seed,
                 orders=str(orders),
@@ -51,7 +64,7 @@ def open_shift(
     runs = () if journal is None else (journal.run_id,)
     chance = np.random.SeedSequence(seed if runs in ((), (1,)) else (seed, *runs))
     stock_rng, demand_rng, policy_rng = (np.random.default_rng(one) for one in chance.spawn(3))
-    if stored:
+    if stored and database:
         changed = changes(site, stored, database.url)
         assortment = stored.assortment
         stock = [(one, 0) for one in (*stored.bins, *changed.new)]
@@ -73,7 +86,7 @@ def open_shift(
         rng=policy_rng,
         now=now,
     )
-    if stored:
+    if stored and database and journal:
         with database.reading():
             journal.resume(stored)
         journal.take_in(changed.new, changed.moved)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Orders, stock, stations and figures of a shift as messages."""
+"""Converts orders, stock, stations and figures of a shift to messages."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,8 @@ from warehouse_operations import kpis
 from warehouse_operations.floor_heat import FloorHeat
 from warehouse_operations.inventory import Bin
 from warehouse_operations.kpis import Tally
-from warehouse_operations.orders import Order, OrderEventKind
+from warehouse_operations.message_enums import OrderEventKind
+from warehouse_operations.orders import Order
 from warehouse_operations.stations import Visit, WorkStation
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def stored_order_status(row: Any, lines: Sequence[Any]) -> msg.OrderStatus:
     return _order_status(row, row.id, lines)
 
 
-def _order_status(order, order_id, lines):
+def _order_status(order: Any, order_id: int, lines: Sequence[Any]) -> msg.OrderStatus:
     return msg.OrderStatus(
         order_id=order_id,
         reference=order.reference,
@@ -81,14 +82,14 @@ def stock_place(one: Bin) -> msg.StockPlace:
     return msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
 
 
-def station_states(stations: Sequence[WorkStation], now: float, began: float) -> msg.StationStates:
+def station_states(stations: Iterable[WorkStation], now: float, began: float) -> msg.StationStates:
     """Returns the StationStates at `now` of a shift that began at `began` [s]."""
     elapsed = max(now - began, 1e-9)
     states = [_station_state(one, now, elapsed) for one in stations]
     return msg.StationStates(header=header(now), stations=states)
 
 
-def _station_state(station, now, elapsed):
+def _station_state(station: WorkStation, now: float, elapsed: float) -> msg.StationState:
     here = station.here
     return msg.StationState(
         name=station.name,

@@ -4,47 +4,50 @@
 import contextlib
 import math
 import time as clock
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
 
 from warehouse_operations import kpis
 from warehouse_operations.ideal import IdealFleet
 from warehouse_operations.opening import open_shift
 from warehouse_operations.policies import Policies
+from warehouse_operations.settings import Settings
 from warehouse_operations.site import Site
 
-CYCLE = 0.1  # for so long a world is stepped before the shift is asked again [s]
+if TYPE_CHECKING:
+    from warehouse_operations.database import Database
+    from warehouse_operations.world_fleet import WorldFleet
+
+CYCLE = 0.1  # a world is stepped for this long before the shift is asked again [s]
 ROUNDING = 1e-6  # [s]
 
 
 class Operations:
-    """Orders, stock and fleet of one shift.
+    """Runs one shift with its orders, stock and fleet.
 
-    world: a kiva_plugin_cpp.World. site: what stands in it, if it can't tell that itself; without
-    world, or with physics False, robots are ideal. orders: fill, fill:N,
-    poisson:PER_HOUR, FILE.csv or none. policies: a Policies, a mapping, or the path of a YAML file.
-    database: a URL, or the path of an SQLite file, in which everything is kept; what one has kept
-    goes on. The same seed gives the same shift, to the last event. Raises as open_shift does.
+    world: a kiva_plugin_cpp.World; without one, or with physics False, robots are ideal. site: the
+    warehouse; None: the world's own. orders: fill, fill:N, poisson:PER_HOUR, FILE.csv or none.
+    policies: a Policies, a mapping, or the path of a YAML file. database: a URL, or the path of an
+    SQLite file, in which everything is kept; a shift that it holds goes on. The same seed gives
+    the same shift, to the last event. Raises what open_shift raises.
     """
 
     def __init__(
         self,
-        world=None,
-        orders="fill",
-        seed=1,
-        policies=None,
-        database=None,
-        physics=True,
-        settings=None,
-        site=None,
-    ):
+        world: Any = None,
+        orders: str = "fill",
+        seed: int = 1,
+        policies: Policies | Mapping[str, Any] | str | None = None,
+        database: str | None = None,
+        physics: bool = True,
+        settings: Settings | None = None,
+        site: Site | None = None,
+    ) -> None:
         self.site = site or Site.of_world(world)
         if not isinstance(policies, Policies):
             policies = Policies.read(policies) if isinstance(policies, str) else Policies(policies)
         self.fleet = self._fleet(world, physics, seed)
-        self.database = None
-        if database:
-            from warehouse_operations.database import Database
-
-            self.database = Database(database)
+        self.database = _opened(database) if database else None
         with contextlib.ExitStack() as unless_open:
             if self.database:
                 unless_open.callback(self.database.close)
@@ -62,7 +65,7 @@ class Operations:
         self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
 
-    def _fleet(self, world, physics, seed):
+    def _fleet(self, world: Any, physics: bool, seed: int) -> "IdealFleet | WorldFleet":
         if physics and world is not None:
             from warehouse_operations.world_fleet import WorldFleet
 
@@ -71,24 +74,32 @@ class Operations:
         return IdealFleet(site.plan, site.robots, site.units, kinematics=site.kinematics)
 
     @property
-    def time(self):
-        """Simulated seconds."""
+    def time(self) -> float:
+        """The simulated time [s]."""
         return self.shift.now
 
     @property
-    def ideal(self):
+    def ideal(self) -> bool:
         """Whether robots are ideal instead of simulated."""
         return isinstance(self.fleet, IdealFleet)
 
-    def run(self, hours=0.0, minutes=0.0, seconds=0.0, progress=None):
-        """Goes on for so long.
+    def run(
+        self,
+        hours: float = 0.0,
+        minutes: float = 0.0,
+        seconds: float = 0.0,
+        progress: "Callable[[Operations], bool | None] | None" = None,
+    ) -> None:
+        """Goes on for the given time.
 
         progress(self) is called now and then; it may return True to stop.
         """
         self.step_until(self.time + hours * 3600 + minutes * 60 + seconds, progress)
 
-    def step_until(self, end, progress=None):
-        """Goes on to a time of the shift [s]; progress as of run()."""
+    def step_until(
+        self, end: float, progress: "Callable[[Operations], bool | None] | None" = None
+    ) -> None:
+        """Goes on to a time of the shift [s]; see run() for progress."""
         cycle = math.inf if self.ideal else CYCLE
         began, count = clock.monotonic(), 0
         if not self.time:
@@ -98,28 +109,37 @@ class Operations:
             self.fleet.step_until(until)
             now = self.fleet.time
             self.shift.fallen.update(self.fleet.fallen_items)
-            # A world counts steps: what differs by rounding alone is the same time.
+            # A world counts steps: times that differ by rounding alone are the same.
             self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
             count += 1
             if progress and count % 256 == 0 and progress(self):
                 break
         self.wall_s += clock.monotonic() - began
 
-    def kpis(self):
-        """The figures up to now, as kpis.json has them."""
+    def kpis(self) -> dict[str, Any]:
+        """Returns the figures up to now, in the form of kpis.json."""
         return kpis.of_shift(self.shift, self.fleet, self.site.kinematics, self.wall_s)
 
-    def close(self):
-        """Ends the fleet, and writes what is left to the database with the run's figures; raises
-        DatabaseError."""
+    def close(self) -> None:
+        """Writes what is left and the run's figures to the database, and ends the fleet.
+
+        Raises DatabaseError.
+        """
         if self.database:
             self.shift.journal.end(self.shift, self.kpis())
             self.database.close()
             self.database = None
         self.fleet.close()
 
-    def __enter__(self):
+    def __enter__(self) -> "Operations":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _opened(url: str) -> "Database":
+    """Returns a Database; its libraries are needed for nothing else."""
+    from warehouse_operations import database
+
+    return database.Database(url)

@@ -39,7 +39,7 @@ STATIONS_PERIOD, KPIS_PERIOD = 1.0, 10.0  # [s], simulated
 class OperationsNode:
     """Runs a shift and serves it.
 
-    database: a URL, or the path of an SQLite file. orders: as of open_shift. Raises what
+    database: a URL, or the path of an SQLite file. orders: see open_shift. Raises what
     open_shift raises, and rospy.ROSInterruptException where ROS shuts down meanwhile.
     """
 
@@ -58,7 +58,7 @@ class OperationsNode:
         self._orders = _queued("order_changes", msg.OrderStatuses)
         self._stock = _queued("stock_changes", msg.StockPlaces)
         self._events = _queued("order_events", msg.OrderEvent)
-        self._chosen = {"orders": orders, "policies": policies, "seed": seed}
+        self._chosen: dict[str, Any] = {"orders": orders, "policies": policies, "seed": seed}
         self._wait_for_warehouse()
         self._database = Database(database)
         self._begin()
@@ -76,7 +76,7 @@ class OperationsNode:
         """The engine of the database."""
         return self._database.engine
 
-    def _begin(self):
+    def _begin(self) -> None:
         """Begins a shift that goes on with what the database has."""
         now = rospy.get_time()
         self._timeline = self._warehouse.timeline
@@ -95,7 +95,10 @@ class OperationsNode:
         self._shift.tasks.number_from(time_ns() // 10**6)
         self._shift.notices.on_change = self._publish_notices
         self._publish_notices()
-        self._changes = self._shift.journal = ChangeJournal(self._shift.journal)
+        # It passes on what it does not define itself, which its type does not say.
+        changes: Any = ChangeJournal(self._shift.journal)
+        self._changes = self._shift.journal = changes
+        self._floor_heat = heat
         self._log.begin(heat)
         self._keep_heat(SLICES)  # by the times of this run
         self._began = clock()
@@ -105,7 +108,7 @@ class OperationsNode:
             f"{len(self._shift.orders)} orders to go on with"
         )
 
-    def _read_site(self):
+    def _read_site(self) -> Site:
         plan, _ = served_part(self._warehouse.plan())
         return Site(
             plan,
@@ -115,11 +118,11 @@ class OperationsNode:
             rospy.get_param("/warehouse/name", ""),
         )
 
-    def _open_shift(self, now):
-        """Returns a Shift; without the orders of a file that this warehouse can't take."""
+    def _open_shift(self, now: float) -> Shift:
+        """Returns a Shift; without orders where they come from a file with faults."""
 
-        def begin(orders):
-            chosen = self._chosen | {"orders": orders}
+        def begin(orders: str) -> Shift:
+            chosen: dict[str, Any] = self._chosen | {"orders": orders}
             return open_shift(
                 self._site, self._transports, database=self._database, now=now, **chosen
             )
@@ -146,7 +149,7 @@ class OperationsNode:
                     self._step(now)
             _sleep_a_cycle()
 
-    def _begin_again(self, now):
+    def _begin_again(self, now: float) -> None:
         """Begins another shift after the world was reset, restored or undone.
 
         Stock and orders are as they are, transports are not.
@@ -163,7 +166,7 @@ class OperationsNode:
             self._shift.journal.end(self._shift, self._figures())
             self._database.close()
 
-    def _wait_for_warehouse(self):
+    def _wait_for_warehouse(self) -> None:
         while not (
             self._warehouse.is_known_at(rospy.get_time())
             and self._is_coordinated()
@@ -173,13 +176,13 @@ class OperationsNode:
                 raise rospy.ROSInterruptException("shut down before there was a warehouse")
             _sleep_a_cycle()
 
-    def _is_coordinated(self):
+    def _is_coordinated(self) -> bool:
         state = self._coordinator.state
         if state is None or not len(state.station):
             return False
         return state.timeline == self._warehouse.timeline
 
-    def _step(self, now):
+    def _step(self, now: float) -> None:
         if now >= self._next_stations:
             self._shift.floor.cells = self._warehouse.standing_units(self._site.plan)
             if self._warehouse.is_known:
@@ -204,14 +207,14 @@ class OperationsNode:
         shift.journal.flush()
         return answer
 
-    def _on_fleet(self, before, message):
+    def _on_fleet(self, before: msg.FleetState | None, message: msg.FleetState) -> None:
         self._log.update(before, message, self._warehouse.people)
 
-    def _keep_heat(self, slices):
-        for kept in self._log.heat.kept(slices):
+    def _keep_heat(self, slices: int) -> None:
+        for kept in self._floor_heat.kept(slices):
             self._shift.journal.heat(*kept)
 
-    def _figures(self):
+    def _figures(self) -> dict[str, Any]:
         state, wall = self._coordinator.state, clock() - self._began
         return operation_messages.figures(self._shift, self._site, state, self._log, wall)
 
@@ -228,16 +231,16 @@ class OperationsNode:
                 operation_messages.station_states(shift.stations, shift.now, shift.began)
             )
 
-    def _publish_order_event(self, *event):
+    def _publish_order_event(self, *event: Any) -> None:
         self._events.publish(operation_messages.order_event(self._shift.now, *event))
 
-    def _publish_notices(self):
+    def _publish_notices(self) -> None:
         for text in set(self._shift.notices) - self._warned:
             rospy.logwarn(text)
         self._warned = set(self._shift.notices)
         self._notices.publish(msg.Notices(header(self._shift.now), list(self._shift.notices)))
 
-    def _publish_changes(self, now):
+    def _publish_changes(self, now: float) -> None:
         """Publishes orders and bins as they are now, if they have changed."""
         orders = [operation_messages.order_status(one) for one in self._changes.take_orders()]
         if orders:
@@ -246,8 +249,8 @@ class OperationsNode:
         if places:
             self._stock.publish(msg.StockPlaces(header(now), places))
 
-    def _publish_figures(self, now):
-        shift, plan, heat = self._shift, self._site.plan, self._log.heat
+    def _publish_figures(self, now: float) -> None:
+        shift, plan, heat = self._shift, self._site.plan, self._floor_heat
         self._kpis.publish(operation_messages.kpis_message(shift, self._figures(), now))
         self._throughput.publish(operation_messages.throughput(shift.tally, self._before, now))
         self._heat.publish(operation_messages.heat_map(heat, plan, now))
@@ -260,15 +263,15 @@ def publish_end(error: Exception) -> None:
     sleep(FAREWELL)
 
 
-def _sleep_a_cycle():
+def _sleep_a_cycle() -> None:
     # Time may go back meanwhile; the callers look at the time themselves.
     with contextlib.suppress(rospy.ROSTimeMovedBackwardsException):
         rospy.sleep(CYCLE)
 
 
-def _publisher(topic, kind):
+def _publisher(topic: str, kind: type) -> rospy.Publisher:
     return rospy.Publisher(f"/warehouse/{topic}", kind, latch=True, queue_size=1)
 
 
-def _queued(topic, kind):
+def _queued(topic: str, kind: type) -> rospy.Publisher:
     return rospy.Publisher(f"/warehouse/{topic}", kind, queue_size=10000)

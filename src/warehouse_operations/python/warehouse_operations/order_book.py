@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from warehouse_operations import acceptance
-from warehouse_operations.orders import Backlog, Order, OrderEventKind, OrderState
+from warehouse_operations.message_enums import OrderEventKind, OrderState
+from warehouse_operations.orders import Backlog, Order
 
 if TYPE_CHECKING:
     from warehouse_operations.shift import Shift
@@ -53,11 +54,11 @@ class OrderBook:
         lacking = [s for s, n in merged.items() if n > self.unpromised(s)]
         for sku in lacking:
             self.publish_event(
-                order, OrderEventKind.SHORT, sku, merged[sku], text="waits for new stock"
+                order, OrderEventKind.SHORT, sku, merged[sku], text="waits for replenishment"
             )
         self.backlog.add(order)
         self._shift.picking.on_backlog_change()
-        return order, f"waits for new stock of {', '.join(lacking)}" if lacking else ""
+        return order, f"waits for replenishment of {', '.join(lacking)}" if lacking else ""
 
     def unpromised(self, sku: str) -> int:
         """Returns how many available pieces of a SKU the backlog does not ask for."""

@@ -15,9 +15,12 @@ commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without
 import codecs
 import csv
 import io
+import os
 from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from warehouse_operations import acceptance
 from warehouse_operations.acceptance import shown
@@ -30,27 +33,32 @@ SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')"
 
 
 class DemandError(ValueError):
-    """What was asked for can't be had: the text names what, or the file and line."""
+    """Raised for orders that can't be taken; names what is wrong, or the file and line."""
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """An order before it is one."""
+    """An order to be submitted at a time of the shift; times are [s]."""
 
-    lines: tuple  # of (sku, pieces)
+    lines: tuple[tuple[str, int], ...]  # of (sku, pieces)
     at: float = 0.0
     due: float = 0.0
     priority: int = 0
     reference: str = ""
 
 
-def read_csv(path, skus=None, capacity=float("inf")):
-    """The Wanted of a file; raises DemandError that names each wrong row's line.
+def read_csv(
+    path: str | os.PathLike[str],
+    skus: Collection[str] | None = None,
+    capacity: float = float("inf"),
+) -> list[Wanted]:
+    """Returns the orders of a file. Raises DemandError, which names the line of each wrong row.
 
-    skus: those that are known; None: any. capacity: pieces that all bins of the warehouse can hold.
+    skus: the known SKUs; None: any. capacity: pieces that all bins of the warehouse can hold.
     """
     text = _text(path)
-    reader, wrong = _reader(path, text), []
+    reader = _reader(path, text)
+    wrong: list[str] = []
     orders = _Orders(skus, capacity)
     try:
         for count, row in enumerate(reader):
@@ -69,7 +77,7 @@ def read_csv(path, skus=None, capacity=float("inf")):
     return orders.wanted()
 
 
-def _text(path):
+def _text(path: str | os.PathLike[str]) -> str:
     path = Path(path)
     try:
         if path.exists() and not path.is_file():
@@ -96,11 +104,11 @@ class _Rows(csv.DictReader):
     decimal_comma = False  # 1,5 is one and a half
 
 
-def _reader(path, text):
-    """The rows, by names of columns; raises DemandError if one is lacking."""
+def _reader(path: str | os.PathLike[str], text: str) -> _Rows:
+    """Returns a reader of the rows, by names of columns. Raises DemandError if one is missing."""
     first = text.partition("\n")[0].lower()
 
-    def known(separator):
+    def known(separator: str) -> list[str]:
         return [c for c in (*NEEDED, *OPTIONAL) if c in _names(first.split(separator))]
 
     separator = max(SEPARATORS, key=lambda one: (len(known(one)), first.count(one)))
@@ -120,19 +128,20 @@ def _reader(path, text):
     return rows
 
 
-def _names(fields):
+def _names(fields: Iterable[str]) -> list[str]:
     return [field.strip().strip('"').lower() for field in fields]
 
 
 class _Orders:
-    """What rows come to, by reference."""
+    """Collects rows to orders, by reference."""
 
-    def __init__(self, skus, capacity):
+    def __init__(self, skus: Collection[str] | None, capacity: float) -> None:
         self._skus, self._capacity = skus, capacity
-        self._rows, self._pieces = {}, Counter()
+        self._rows: dict[str, tuple[dict[str, int], tuple[float, float, int]]] = {}
+        self._pieces: Counter[str] = Counter()
 
-    def add(self, row, decimal_comma):
-        """Takes a row in; raises ValueError."""
+    def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
+        """Adds a row. Raises ValueError, which says what is wrong with it."""
         if None in row:
             raise ValueError("there are more fields than columns")
         row = {name: (text or "").strip() for name, text in row.items()}
@@ -163,14 +172,17 @@ class _Orders:
         if fault := acceptance.fault_of_pieces(self._pieces[reference], self._capacity):
             raise ValueError(f"{reference}: {fault}")
 
-    def wanted(self):
+    def wanted(self) -> list[Wanted]:
+        """Returns the orders, in the order of their first rows."""
         return [
             Wanted(tuple(lines.items()), *rest, reference)
             for reference, (lines, rest) in self._rows.items()
         ]
 
 
-def _field(row, name, kind, least, most):
+def _field(
+    row: Mapping[str, str], name: str, kind: Callable[[Any], Any], least: float, most: float
+) -> Any:
     text = row.get(name, "")
     if not text and name != "quantity":
         return kind(0)

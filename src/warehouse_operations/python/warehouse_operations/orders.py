@@ -2,50 +2,50 @@
 """Orders of customers, and the bundles of pieces that come to refill the stock."""
 
 from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from enum import IntEnum
+from typing import Any
 
-
-class OrderState(IntEnum):
-    OPEN = 0  # no station has it
-    ASSIGNED = 1
-    COMPLETED = 2
-    CANCELLED = 3
-
-
-class OrderEventKind(IntEnum):
-    RECEIVED = 0
-    ASSIGNED = 1
-    PICKED = 2
-    COMPLETED = 3
-    CANCELLED = 4
-    SHORT = 5
+from warehouse_operations.message_enums import OrderState
 
 
 class Line:
-    """So many pieces of a SKU; `allotted` of them are reserved on a unit that comes."""
+    """A number of pieces of one SKU; `allotted` of them are reserved on units on their way."""
 
     __slots__ = ("order", "number", "sku", "quantity", "picked", "allotted")
 
-    def __init__(self, order, number, sku, quantity, picked=0):
+    def __init__(
+        self, order: "Order", number: int, sku: str, quantity: int, picked: int = 0
+    ) -> None:
         self.order, self.number, self.sku, self.quantity = order, number, sku, quantity
         self.picked, self.allotted = picked, 0
 
     @property
-    def open(self):
-        """Pieces not picked yet."""
+    def open(self) -> int:
+        """The number of pieces not picked yet."""
         return self.quantity - self.picked
 
     @property
-    def missing(self):
-        """Pieces for which no unit is on its way."""
+    def missing(self) -> int:
+        """The number of pieces for which no unit is on its way."""
         return self.quantity - self.picked - self.allotted
 
 
 class Order:
-    """What a customer wants; times are simulated seconds, due 0: at any time."""
+    """The order of a customer; times are simulated [s]. due 0: no due time.
 
-    def __init__(self, order_id, lines, created, due=0.0, priority=0, reference=""):
+    lines: (SKU, pieces) of each line.
+    """
+
+    def __init__(
+        self,
+        order_id: int,
+        lines: Iterable[tuple[str, int]],
+        created: float,
+        due: float = 0.0,
+        priority: int = 0,
+        reference: str = "",
+    ) -> None:
         self.order_id, self.reference = order_id, reference or f"order-{order_id}"
         self.created, self.due, self.priority = created, due, priority
         self.lines = [Line(self, i, sku, n) for i, (sku, n) in enumerate(lines)]
@@ -54,36 +54,38 @@ class Order:
         self.stored = False  # whether a journal has it
 
     @property
-    def urgency(self):
-        """Sorts by priority, then by when it is due, then by age."""
+    def urgency(self) -> tuple[int, float, int]:
+        """A sort key: by priority, then by when it is due, then by age."""
         return -self.priority, self.due or float("inf"), self.order_id
 
     @property
-    def pieces(self):
-        """How many are not picked yet."""
+    def pieces(self) -> int:
+        """The number of pieces not picked yet."""
         return sum(line.open for line in self.lines)
 
     @property
-    def done(self):
+    def done(self) -> bool:
+        """Whether all pieces are picked."""
         return all(not line.open for line in self.lines)
 
 
 class Backlog:
-    """The orders that no station has yet, by age, with the pieces they ask of each SKU."""
+    """The orders that no station has yet, by age, with the pieces they ask for of each SKU."""
 
-    def __init__(self):
-        self.orders = {}
+    def __init__(self) -> None:
+        self.orders: dict[int, Order] = {}  # by id
         self.lines = 0  # of all of them
-        self.demand = defaultdict(int)  # pieces by SKU
-        self._by_sku = defaultdict(dict)
+        self.demand: dict[str, int] = defaultdict(int)  # pieces by SKU
+        self._by_sku: dict[str, dict[int, Order]] = defaultdict(dict)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.orders)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Order]:
         return iter(self.orders.values())
 
-    def add(self, order):
+    def add(self, order: Order) -> None:
+        """Adds an order, with the demand of its open lines."""
         self.orders[order.order_id] = order
         self.lines += len(order.lines)
         for line in order.lines:
@@ -91,7 +93,8 @@ class Backlog:
                 self.demand[line.sku] += line.open
                 self._by_sku[line.sku][order.order_id] = order
 
-    def remove(self, order):
+    def remove(self, order: Order) -> None:
+        """Removes an order and its demand. Raises KeyError."""
         del self.orders[order.order_id]
         self.lines -= len(order.lines)
         for line in order.lines:
@@ -99,18 +102,18 @@ class Backlog:
                 self.demand[line.sku] -= line.open
                 self._by_sku[line.sku].pop(order.order_id, None)
 
-    def with_sku(self, sku):
-        """The orders that ask for it, by age."""
+    def with_sku(self, sku: str) -> Iterable[Order]:
+        """Returns the orders that ask for a SKU, by age."""
         return self._by_sku[sku].values() if sku in self._by_sku else ()
 
 
 @dataclass
 class Bundle:
-    """Pieces of one SKU that come to be stored together."""
+    """Pieces of one SKU that arrive together and are stored in one bin."""
 
     bundle_id: int
     sku: str
     quantity: int
     created: float = 0.0
-    bin: object = field(default=None, repr=False)  # the Bin that it goes to, once chosen
-    sequence: int = 0  # of the task for a person, then
+    bin: Any = field(default=None, repr=False)  # the Bin that it goes to; None: not chosen yet
+    sequence: int = 0  # of the task for a person, once there is a bin

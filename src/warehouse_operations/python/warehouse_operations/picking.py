@@ -1,65 +1,76 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Picking: orders to stations, units for their lines, and piece by piece into the totes."""
+"""Picking: assigns orders to stations, fetches units for their lines, picks piece by piece."""
 
 import math
 from collections import defaultdict
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from warehouse_operations.orders import OrderEventKind, OrderState
-from warehouse_operations.stations import Mode, Pick
+from warehouse_operations.inventory import Bin
+from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
+from warehouse_operations.orders import Line, Order
+from warehouse_operations.stations import Pick, Visit, WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift import Shift
 
 RETRY = 1.0  # after the fleet refused a unit [s]
 LOOK = 1.0  # between two looks of stations with a free slot at orders that have come [s]
-LATER = 0.1  # after which stations choose on that did not come to it [s]
-EFFORT = 200_000  # lines of orders that are looked at in a step, at most: about 0.1 s of work
+LATER = 0.1  # until stations that a step had no effort left for choose orders [s]
+EFFORT = 200_000  # most lines of orders that are looked at in a step: about 0.1 s of work
 
 
 class Picking:
     """The part of a Shift that works at its picking stations."""
 
-    def __init__(self, shift, stations):
+    def __init__(self, shift: "Shift", stations: Sequence[WorkStation]) -> None:
         self.shift, self.stations = shift, stations
-        self._to_assign, self._to_fetch = dict.fromkeys(stations), {}
+        # Stations that may take on an order, that lack units, in the order in which they change.
+        self._to_assign: dict[WorkStation, None] = dict.fromkeys(stations)
+        self._to_fetch: dict[WorkStation, None] = {}
         self._is_to_look, self._next_look = False, -math.inf
-        self._effort, self._put_off = (
-            EFFORT,
-            {},
-        )  # what is left of a step; stations that wait for it
-        self._missing = defaultdict(dict)  # lines without a unit, with their station, by SKU
+        self._effort = EFFORT  # left in this step
+        self._put_off: dict[WorkStation, None] = {}  # stations that wait for more effort
+        # The stations of lines without a unit, by (order, line), by SKU.
+        self._missing: dict[str, dict[tuple[int, int], WorkStation]] = defaultdict(dict)
 
-    # What makes work.
+    # Changes that make work.
 
-    def on_backlog_change(self):
-        """Orders that come one after the other are looked at together: each look costs as much as
-        there are orders and stations."""
+    def on_backlog_change(self) -> None:
+        """Lets stations with a free slot look at the backlog, once in LOOK at most.
+
+        Orders that come one after the other are looked at together: a look costs as much as there
+        are orders and stations.
+        """
         if self.shift.now >= self._next_look:
             self._check_backlog(None)
         elif not self._is_to_look:
             self._is_to_look = True
             self.shift.events.schedule(self._next_look, self._check_backlog)
 
-    def _check_backlog(self, _):
+    def _check_backlog(self, _: None) -> None:
         self._is_to_look, self._next_look = False, self.shift.now + LOOK
         for station in self.stations:
             if station.free_slots and station.is_open:
                 self._to_assign[station] = None
 
-    def on_unit_free(self, unit):
-        """A unit stands in storage: it may hold what stations lack."""
+    def on_unit_free(self, unit: int) -> None:
+        """Lets stations fetch a unit that is back in storage, if it holds what they lack."""
         for one in self.shift.inventory.of_unit[unit]:
             if one.available and one.sku in self._missing:
                 for station in self._missing[one.sku].values():
                     self._to_fetch[station] = None
 
-    def missing(self):
-        """Pieces for which no unit comes, by SKU."""
+    def missing(self) -> dict[str, int]:
+        """Returns the pieces for which no unit comes, by SKU."""
         return {
             sku: sum(station.missing[key].missing for key, station in lines.items())
             for sku, lines in self._missing.items()
             if lines
         }
 
-    def work(self):
-        """Gives out orders and asks for units where something has changed."""
+    def work(self) -> None:
+        """Assigns orders and asks for units where something has changed."""
         while self._to_assign or self._to_fetch:
             for station in sorted(self._to_assign, key=lambda one: -one.free_slots):
                 self._assign(station)
@@ -71,7 +82,7 @@ class Picking:
 
     # Orders.
 
-    def _assign(self, station):
+    def _assign(self, station: WorkStation) -> None:
         while station.is_open and station.free_slots > 0 and len(self.shift.backlog):
             if self._effort <= 0:
                 self._assign_later(station)
@@ -83,16 +94,16 @@ class Picking:
             self.shift.backlog.remove(order)
             self._take_on(station, order)
 
-    def _assign_later(self, station):
+    def _assign_later(self, station: WorkStation) -> None:
         if not self._put_off:
             self.shift.events.schedule(self.shift.now + LATER, self._assign_put_off)
         self._put_off[station] = None
 
-    def _assign_put_off(self, _):
+    def _assign_put_off(self, _: None) -> None:
         self._to_assign.update(self._put_off)
         self._put_off = {}
 
-    def _take_on(self, station, order):
+    def _take_on(self, station: WorkStation, order: Order) -> None:
         order.state, order.station, order.assigned = (
             OrderState.ASSIGNED,
             station.name,
@@ -104,8 +115,8 @@ class Picking:
         for line in order.lines:
             self.allot(station, line)
 
-    def allot(self, station, line):
-        """What units at the station or on their way can serve is reserved for the line."""
+    def allot(self, station: WorkStation, line: Line) -> None:
+        """Reserves for a line what units at its station or on their way there can serve."""
         for visit in station.coming:
             for one in self.shift.inventory.of_unit[visit.unit]:
                 pieces = min(line.missing, one.available) if one.sku == line.sku else 0
@@ -116,13 +127,13 @@ class Picking:
         if here and here.picks:
             self.next_piece(station)
 
-    def _reserve(self, visit, line, one, pieces):
+    def _reserve(self, visit: Visit, line: Line, one: Bin, pieces: int) -> None:
         self.shift.inventory.reserve(one, pieces)
         line.allotted += pieces
         visit.picks.append(Pick(line, one, pieces, self.shift.tasks.number()))
 
-    def _note(self, station, line):
-        """Keeps the lines for which units are to be fetched up to date."""
+    def _note(self, station: WorkStation, line: Line) -> None:
+        """Notes whether units are to be fetched for a line."""
         key = line.order.order_id, line.number
         if line.missing > 0 and line.order.order_id in station.orders:
             station.missing[key] = line
@@ -132,8 +143,8 @@ class Picking:
             del station.missing[key]
             del self._missing[line.sku][key]
 
-    def _return(self, station, order):
-        """An order leaves its station unfinished."""
+    def _return(self, station: WorkStation, order: Order) -> None:
+        """Takes an unfinished order away from its station."""
         del station.orders[order.order_id]
         for visit in station.inbound.values():
             for pick in [pick for pick in visit.picks if pick.line.order is order]:
@@ -144,19 +155,20 @@ class Picking:
         self._to_assign[station] = None
         self.shift.journal.unassigned(order, self.shift.now)
 
-    def drop(self, visit, pick):
+    def drop(self, visit: Visit, pick: Pick) -> None:
+        """Removes a pick from its visit and gives its pieces back."""
         visit.picks.remove(pick)
         pick.line.allotted -= pick.quantity
         self.shift.inventory.reserve(pick.bin, -pick.quantity)
 
-    def cancel(self, order):
+    def cancel(self, order: Order) -> None:
         """Takes an order away from the station that has it."""
         station = self.shift.station(order.station)
         self._return(station, order)
         self.leave_if_done(station)
 
-    def drop_visit(self, visit):
-        """The unit does not come, or leaves early: what it was to serve is missing again."""
+    def drop_visit(self, visit: Visit) -> None:
+        """Drops all picks of a visit, whose lines need another unit then."""
         lines = [pick.line for pick in visit.picks]
         for pick in list(visit.picks):
             self.drop(visit, pick)
@@ -164,25 +176,26 @@ class Picking:
             self._note(visit.station, line)
         self._to_fetch[visit.station] = None  # there is room for another one
 
-    def drop_bin(self, one):
-        """Nothing is to be taken out of a bin; returns (visit, line) of what it was to serve."""
+    def drop_bin(self, one: Bin) -> list[tuple[Visit, Line]]:
+        """Drops all picks from a bin; returns the visit and line of each."""
         dropped = [(v, p) for v in self._visits_of(one.unit) for p in v.picks if p.bin is one]
         for visit, pick in dropped:
             self.drop(visit, pick)
         return [(visit, pick.line) for visit, pick in dropped]
 
-    def serve_otherwise(self, dropped):
-        """What drop_bin returned comes out of other bins."""
+    def serve_otherwise(self, dropped: Sequence[tuple[Visit, Line]]) -> None:
+        """Serves the lines that drop_bin returned from other bins."""
         for visit, line in dropped:
             self.allot(visit.station, line)
             self.leave_if_done(visit.station)
 
-    def open(self, station):
+    def open(self, station: WorkStation) -> None:
+        """Starts the work of a station that was opened, or whose mode was set."""
         self.on_backlog_change()
         self.next_piece(station)
 
-    def close(self, station):
-        """Its orders go to others, its units are sent away."""
+    def close(self, station: WorkStation) -> None:
+        """Gives the orders of a station back to the backlog and sends its units away."""
         for visit in list(station.coming):
             self.drop_visit(visit)
             if not visit.here:
@@ -195,7 +208,7 @@ class Picking:
 
     # Units.
 
-    def _fetch(self, station):
+    def _fetch(self, station: WorkStation) -> None:
         limit = self.shift.units_per_station
         while station.is_open and station.missing and len(station.coming) < limit:
             candidates = self._candidates(station)
@@ -209,12 +222,12 @@ class Picking:
             for line in candidates[unit]:
                 self.allot(station, line)
 
-    def _retry(self, station):
+    def _retry(self, station: WorkStation) -> None:
         self._to_fetch[station] = None
 
-    def _candidates(self, station):
-        """What the units that are free could serve: {unit: {line: pieces}}."""
-        result = {}
+    def _candidates(self, station: WorkStation) -> dict[int, dict[Line, int]]:
+        """Returns what each free unit could serve: {unit: {line: pieces}}."""
+        result: dict[int, dict[Line, int]] = {}
         for line in station.missing.values():
             for one in self.shift.inventory.with_sku(line.sku):
                 if one.quantity > one.reserved and one.unit in self.shift.free_units:
@@ -225,13 +238,14 @@ class Picking:
 
     # At the station.
 
-    def on_arrival(self, visit):
+    def on_arrival(self, visit: Visit) -> None:
+        """Starts picking from a unit that has arrived, or lets it leave."""
         self._to_assign[visit.station] = None
         self.next_piece(visit.station)
         self.leave_if_done(visit.station)
 
-    def next_piece(self, station):
-        """Begins with the next piece, if the picker is free and a unit is there."""
+    def next_piece(self, station: WorkStation) -> None:
+        """Starts picking the next piece, if the picker is free and a unit is there."""
         visit = station.here
         if station.at_work or not visit or not visit.picks or station.mode == Mode.MANUAL:
             return
@@ -240,22 +254,22 @@ class Picking:
         self.shift.events.schedule(now + station.pick_seconds, self._taken, (station, visit))
         self.shift.events.schedule(now + station.seconds_a_piece, self._in_tote, (station, now))
 
-    def _taken(self, argument):
-        """A piece is out of its bin: the unit may leave if it was the last."""
+    def _taken(self, argument: tuple[WorkStation, Visit]) -> None:
+        """Takes a piece out of its bin; the unit may leave if it was the last."""
         station, visit = argument
         if visit.here and visit.picks:  # else the order was cancelled meanwhile
             self.take(visit, visit.picks[0], 1)
             self.leave_if_done(station)
 
-    def _in_tote(self, argument):
+    def _in_tote(self, argument: tuple[WorkStation, float]) -> None:
         station, began = argument
         station.at_work = False
         station.busy_s += self.shift.now - began
         self.complete(station)
         self.next_piece(station)
 
-    def take(self, visit, pick, pieces):
-        """So many pieces of a pick leave the stock."""
+    def take(self, visit: Visit, pick: Pick, pieces: int) -> None:
+        """Takes pieces of a pick out of the stock."""
         line, station = pick.line, visit.station
         self.shift.inventory.pick(pick.bin, pieces, line=line, station=station, visit=visit)
         pick.quantity -= pieces
@@ -273,15 +287,16 @@ class Picking:
             line.order, OrderEventKind.PICKED, line.sku, pieces, station.name, visit.unit
         )
 
-    def complete(self, station):
+    def complete(self, station: WorkStation) -> None:
+        """Completes the orders of a station that have all their pieces."""
         for order in [order for order in station.orders.values() if order.done]:
             del station.orders[order.order_id]
             order.state, order.completed = OrderState.COMPLETED, self.shift.now
             self.shift.order_book.end(order, OrderEventKind.COMPLETED, station=station.name)
             self._to_assign[station] = None
 
-    def leave_if_done(self, station):
-        """A unit with nothing left to pick goes, unless an order that it serves can be taken on."""
+    def leave_if_done(self, station: WorkStation) -> None:
+        """Releases a unit with nothing left to pick, unless it serves an order taken on now."""
         visit = station.here
         if not visit or visit.picks:
             return
@@ -290,5 +305,5 @@ class Picking:
             self.shift.visits.release(visit)
             self._to_assign[station] = self._to_fetch[station] = None
 
-    def _visits_of(self, unit):
+    def _visits_of(self, unit: int) -> list[Visit]:
         return [v for s in self.stations for v in s.inbound.values() if v.unit == unit]

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The report's pictures, as SVG that stands inside a page."""
+"""The report's pictures, as SVG to be put inside a page."""
 
 import io
 import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import count
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+
+from warehouse_operations.comparison import Group
 
 COLOURS = ("#2f6f9f", "#c96a2b", "#4f8f4f", "#9a4f8f", "#8a7a3a", "#5a5a5a")
 ACTIVITY_COLOURS = {
@@ -19,14 +23,16 @@ ACTIVITY_COLOURS = {
     "back": "#9a9ac9",
     "idle": "#d8d8d8",
 }
-BLOCKS = 12  # of the shift, at most: shorter ones show little but chance
+BLOCKS = 12  # most parts of a shift: shorter ones show little but chance
 _ids = count()
 mpl.rcParams.update({"font.size": 9, "svg.hashsalt": "report", "svg.fonttype": "none"})
 
 
-def throughput(groups):
-    """Pieces an hour over the whole shift: means over BLOCKS parts of it, and with several runs the
-    least and the most of them."""
+def throughput(groups: Sequence[Group]) -> str:
+    """Returns a picture of the pieces an hour over the shift, as means over BLOCKS parts of it.
+
+    A band reaches from the least to the most where there are several runs.
+    """
     figure, axes = _figure(7.5, 2.8)
     bounds = [group.estimate("item_upper_bound_per_hour").mean for group in groups]
     top, end = max(bounds), 0.0
@@ -46,8 +52,8 @@ def throughput(groups):
     return _svg(figure, axes, len(groups) > 1)
 
 
-def _in_blocks(group):
-    """(runs, blocks) pieces an hour, and (blocks + 1,) where blocks begin and end [min]."""
+def _in_blocks(group: Group) -> tuple[np.ndarray, np.ndarray]:
+    """Returns pieces an hour, (runs, blocks), and the bounds of blocks [min], (blocks + 1,)."""
     rows = [run.data["intervals"]["picked"] for run in group.runs]
     interval = group.runs[0].data["intervals"]["seconds"]
     length = min(map(len, rows))
@@ -59,8 +65,8 @@ def _in_blocks(group):
     return pieces / lengths * 3600 / interval, np.append(begins, length) * interval / 60
 
 
-def stations(group):
-    """How busy each station is, of one group's first run."""
+def stations(group: Group) -> str:
+    """Returns a picture of how busy each station is, in the first run of a group."""
     rows = group.runs[0].data["stations"]
     figure, axes = _figure(7.5, 2.4)
     colours = [COLOURS[0] if row["kind"] == "PICK" else COLOURS[2] for row in rows]
@@ -71,8 +77,8 @@ def stations(group):
     return _svg(figure, axes, False)
 
 
-def turnover(groups):
-    """From an order's arrival to its completion: which share is done within a time."""
+def turnover(groups: Sequence[Group]) -> str:
+    """Returns a picture of the share of orders that are completed within a time of arrival."""
     figure, axes = _figure(3.7, 2.6)
     for colour, group in zip(_colours(), groups):
         minutes = np.sort(np.concatenate([run.data["turnover_s"] for run in group.runs])) / 60
@@ -83,8 +89,8 @@ def turnover(groups):
     return _svg(figure, axes, False)
 
 
-def robots(groups):
-    """Where the time of the robots goes."""
+def robots(groups: Sequence[Group]) -> str:
+    """Returns a picture of the activities that robots spend their time on."""
     figure, axes = _figure(7.5, 0.9 + 0.4 * len(groups))
     for row, group in enumerate(groups):
         totals = _sum([run.data["robots"] for run in group.runs])
@@ -101,8 +107,8 @@ def robots(groups):
     return _svg(figure, axes, False)
 
 
-def heat_map(values, title):
-    """How much of something there is over the floor."""
+def heat_map(values: Any, title: str) -> str:
+    """Returns a picture of values over the floor, (h, w)."""
     values = np.asarray(values, float)
     height, width = values.shape
     figure, axes = _figure(3.7, min(max(3.7 * height / width, 1.5), 5))
@@ -115,9 +121,11 @@ def heat_map(values, title):
     return _svg(figure, axes, False)
 
 
-def comparison(groups, kpi, label):
-    """One figure of all groups, from zero on, with confidence intervals where there are several
-    runs: a difference looks as large as it is."""
+def comparison(groups: Sequence[Group], kpi: str, label: str) -> str:
+    """Returns a picture of one figure of all groups, with confidence intervals of several runs.
+
+    The axis begins at zero: a difference looks as large as it is.
+    """
     figure, axes = _figure(3.7, 0.8 + 0.3 * len(groups))
     found = [group.estimate(kpi) for group in groups]
     half = [0 if np.isnan(one.half) else one.half for one in found]
@@ -132,19 +140,19 @@ def comparison(groups, kpi, label):
     return _svg(figure, axes, False)
 
 
-def _colours():
+def _colours() -> Iterator[str]:
     while True:
         yield from COLOURS
 
 
-def _figure(width, height):
+def _figure(width: float, height: float) -> tuple[Figure, Any]:
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.subplots()
     axes.spines[["top", "right"]].set_visible(False)
     return figure, axes
 
 
-def _svg(figure, axes, legend):
+def _svg(figure: Figure, axes: Any, legend: bool) -> str:
     if legend:
         axes.legend(frameon=False, fontsize=8)
     file = io.StringIO()
@@ -157,13 +165,13 @@ def _svg(figure, axes, legend):
     return re.sub(r'(url\(#|href="#)', rf"\g<1>{prefix}", text)
 
 
-def _thinned(x, y, most=400):
+def _thinned(x: np.ndarray, y: np.ndarray, most: int = 400) -> tuple[np.ndarray, np.ndarray]:
     step = max(1, len(x) // most)
     return x[::step], y[::step]
 
 
-def _sum(dicts):
-    total = {}
+def _sum(dicts: Iterable[Mapping[str, float]]) -> dict[str, float]:
+    total: dict[str, float] = {}
     for one in dicts:
         for key, value in one.items():
             total[key] = total.get(key, 0.0) + value

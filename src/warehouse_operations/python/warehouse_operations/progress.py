@@ -1,37 +1,50 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far a shift has come, on one line of a terminal; a line now and then elsewhere."""
+"""Shows the progress of a shift on one line of a terminal; elsewhere as a line now and then."""
 
 import sys
 import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TextIO
+
+if TYPE_CHECKING:
+    from warehouse_operations.operations import Operations
 
 WIDTH = 30
 
 
 class ProgressBar:
-    """Called with an Operations now and then; shows simulated time, throughput and speed."""
+    """Shows simulated time, throughput and speed; to be called with an Operations now and then.
 
-    def __init__(self, seconds, stream=sys.stderr, clock=time.monotonic):
+    seconds: the whole shift [s]. stopped: set to True, it stops the shift at the next call.
+    """
+
+    def __init__(
+        self,
+        seconds: float,
+        stream: TextIO = sys.stderr,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._seconds, self._stream, self._clock = seconds, stream, clock
         self._period = 0.2 if stream.isatty() else 10.0
         self._began = clock()
         self._next = self._began + self._period
         self.stopped = False
 
-    def __call__(self, ops):
-        """Shows it if it is time; returns whether to stop."""
+    def __call__(self, ops: "Operations") -> bool:
+        """Shows the progress if the period is over. Returns whether to stop."""
         now = self._clock()
         if now >= self._next:
             self._next = now + self._period
             self._show(ops, now - self._began)
         return self.stopped
 
-    def end(self, ops):
-        """Shows how it ended."""
+    def end(self, ops: "Operations") -> None:
+        """Shows the progress at the end of the shift."""
         self._show(ops, self._clock() - self._began)
         if self._stream.isatty():
             self._stream.write("\n")
 
-    def _show(self, ops, wall):
+    def _show(self, ops: "Operations", wall: float) -> None:
         share = min(ops.time / self._seconds, 1.0) if self._seconds else 1.0
         done = round(WIDTH * share)
         hourly = ops.shift.tally.items_picked / max(ops.time, 1e-9) * 3600
@@ -43,6 +56,6 @@ class ProgressBar:
         self._stream.flush()
 
 
-def _hms(seconds):
-    minutes, seconds = divmod(round(seconds), 60)
-    return f"{minutes // 60}:{minutes % 60:02}:{seconds:02}"
+def _hms(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02}:{rest:02}"

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What who asks for transports sees of who drives them, and which decisions it is asked for.
+"""The interface between a shift and a fleet: requests for transports, and decisions by policies.
 
-transports.Transports (simulated or real robots) and ideal.IdealFleet both offer it. Times are
-simulated seconds.
+transports.Transports (simulated or real robots) and ideal.IdealFleet both implement Requests. Times
+are simulated seconds.
 """
 
-from typing import NamedTuple, Protocol
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
 
 from warehouse_fleet.transports import STORE, Answer, TransportEvent
 
@@ -21,37 +24,52 @@ class Task(NamedTuple):
 
 
 class Hooks(Protocol):
-    """What the fleet asks of the policies."""
+    """The decisions that a fleet leaves to policies."""
 
-    def choose_place(self, shelf_id, cells, distances):
-        """The cell, one of `cells`, in which a unit is stored; they are (n,), with metres each."""
+    def choose_place(self, shelf_id: int, cells: np.ndarray, distances: np.ndarray) -> int:
+        """Returns the cell, one of `cells`, in which a unit is stored.
 
-    def match_robots(self, tasks, robots, seconds):
-        """Pairs (index of the task, index of the robot), each at most once.
-
-        seconds: (tasks, robots), until that robot is beneath the unit of that task.
+        cells: (n,). distances: the way to each of them [m], (n,).
         """
 
-    charging: object  # who is charged when: a policy, see policies.ChargingPolicy
+    def match_robots(
+        self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray
+    ) -> Iterable[tuple[int, int]]:
+        """Returns pairs (index of the task, index of the robot), each at most once.
 
-    def park(self, kiva_id, cell):
-        """The cell to which a robot without work goes; None: it waits where it is."""
+        robots: their kiva_ids. seconds: (tasks, robots), until a robot is beneath a task's unit.
+        """
+
+    @property
+    def charging(self) -> Any:
+        """The policy that decides which robots are charged when; see policies.ChargingPolicy."""
+
+    def park(self, kiva_id: int, cell: int) -> int | None:
+        """Returns the cell to which a robot without work goes; None: it waits where it is."""
 
 
 class Requests(Protocol):
-    """What a fleet is asked for. CANCELLED of a unit that is lifted is followed by STORED."""
+    """The requests to a fleet. After CANCELLED of a lifted unit, STORED follows."""
 
-    def submit(self, shelf_id, station="", x=None, y=None, then=STORE, priority=0) -> Answer:
+    def submit(
+        self,
+        shelf_id: int,
+        station: str = "",
+        x: float | None = None,
+        y: float | None = None,
+        then: int = STORE,
+        priority: int = 0,
+    ) -> Answer:
         """Asks for a transport to a station, or to the cell at x, y in world [m]."""
 
-    def release(self, transport_id) -> tuple[bool, str]:
-        """The station is done with the unit."""
+    def release(self, transport_id: int) -> tuple[bool, str]:
+        """Lets a unit leave its station. Returns success and the fault."""
 
-    def cancel(self, transport_id) -> tuple[bool, str]:
-        """Ends a transport; a unit that is lifted is stored."""
+    def cancel(self, transport_id: int) -> tuple[bool, str]:
+        """Cancels a transport; a lifted unit is stored. Returns success and the fault."""
 
-    def set_open(self, station, is_open) -> None:
-        """A closed station gets no more units; those on the way there are cancelled."""
+    def set_open(self, station: str, is_open: bool) -> None:
+        """Opens a station, or closes it: it gets no more units; those on the way are cancelled."""
 
     def take_events(self) -> list[TransportEvent]:
-        """What happened since the last call, in order."""
+        """Returns what happened since the last call, in order."""

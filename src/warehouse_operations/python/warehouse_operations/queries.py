@@ -1,21 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a database is asked by people: orders, and where pieces lie. Rows of the schema's tables."""
+"""Searches of a database for orders and stock; they return rows of the schema's tables."""
+
+from collections.abc import Sequence
+from typing import Any
 
 from sqlalchemy import and_, exists, func, or_, select
+from sqlalchemy.engine import Engine
 
 from warehouse_operations import schema
-from warehouse_operations.orders import OrderState
+from warehouse_operations.message_enums import OrderState
 
 MOST_ROWS = 10_000  # in an answer
-LARGEST = 2**63 - 1  # number that a database can be asked for
+LARGEST = 2**63 - 1  # the largest number that a query may hold
 
 
-def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0, late_at=None):
-    """(how many there are, [(row of orders, rows of its lines)]), the newest first, MOST_ROWS of
-    them at most.
+def find_orders(
+    engine: Engine,
+    order_id: int = 0,
+    search: str = "",
+    state: int | None = None,
+    limit: int = 100,
+    offset: int = 0,
+    late_at: float | None = None,
+) -> tuple[int, list[tuple[Any, list[Any]]]]:
+    """Returns the number of orders found and [(row of orders, rows of its lines)], the newest
+    first, limited to MOST_ROWS.
 
-    search: a part of the reference, or a whole SKU. late_at: those alone that are past their due
-    time at this one [s], or were completed after it.
+    order_id: 0: any. search: a part of the reference, or a whole SKU. late_at: only orders that
+    are past their due time at this simulated time [s], or were completed after their due time.
     """
     if not (0 <= order_id <= LARGEST and search.isprintable()):
         return 0, []
@@ -31,28 +43,31 @@ def find_orders(engine, order_id=0, search="", state=None, limit=100, offset=0, 
         with_sku = exists().where(lines.c.order_id == orders.c.id, lines.c.sku == search)
         query = query.where(or_(orders.c.reference.contains(search, autoescape=True), with_sku))
     with engine.connect() as connection:
-        total = connection.execute(select(func.count()).select_from(query.subquery())).scalar()
+        total: Any = connection.execute(select(func.count()).select_from(query.subquery())).scalar()
         newest = _page(query.order_by(orders.c.id.desc()), limit, offset)
-        rows = connection.execute(newest).all()
+        rows: Sequence[Any] = connection.execute(newest).all()
         of_them = select(lines).where(lines.c.order_id.in_([row.id for row in rows]))
-        by_order = {row.id: [] for row in rows}
-        for line in connection.execute(of_them.order_by(lines.c.order_id, lines.c.number)):
+        by_order: dict[int, list[Any]] = {row.id: [] for row in rows}
+        found: Any = connection.execute(of_them.order_by(lines.c.order_id, lines.c.number))
+        for line in found:
             by_order[line.order_id].append(line)
     return total, [(row, by_order[row.id]) for row in rows]
 
 
-def _page(query, limit, offset):
+def _page(query: Any, limit: int, offset: int) -> Any:
     return query.limit(min(max(limit, 0), MOST_ROWS)).offset(min(max(offset, 0), LARGEST))
 
 
-def _late(order, now):
+def _late(order: Any, now: float) -> Any:
     waits = order.state.in_((int(OrderState.OPEN), int(OrderState.ASSIGNED)))
     return and_(order.due > 0, or_(order.completed > order.due, and_(waits, order.due < now)))
 
 
-def find_stock(engine, sku="", limit=100, offset=0):
-    """(how many bins, pieces in all of them, rows of bin), the fullest first, MOST_ROWS of them at
-    most."""
+def find_stock(
+    engine: Engine, sku: str = "", limit: int = 100, offset: int = 0
+) -> tuple[int, int, list[Any]]:
+    """Returns the number of bins found, the pieces in all of them and their rows, the fullest
+    first, limited to MOST_ROWS. sku: "": any."""
     if not sku.isprintable():
         return 0, 0, []
     bins = schema.bin_

@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Instances (.xinst) and settings (.xsett) of RAWSim-O, read as a Site and a demand.
+"""Reads instances (.xinst) and settings (.xsett) of RAWSim-O as a Site and a demand.
 
 Waypoints become cells: their places are snapped to the rows and columns that they form, whatever
-the spacing. A station's lane is its queue, from the far end to the station's own waypoint, and what
-follows there. Units and robots are numbered
-from 1, in the file's order.
+the spacing. A station's lane is its queue, from the far end to the station's own waypoint, and the
+queue waypoints after it. Units and robots are numbered from 1, in the file's order.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_layout.stations import PICK, REPLENISH, STEPS, Station
-from warehouse_operations.rawsim_grid import Grid, read_waypoints
+from warehouse_operations.rawsim_grid import Grid, Waypoint, read_waypoints
 from warehouse_operations.rawsim_xml import (
     InstanceError,
+    PathName,
     children,
     number_of,
     read_root,
@@ -33,17 +36,17 @@ BIN = 100.0  # capacity of a pod that one bin stands for
 
 @dataclass(frozen=True)
 class ShiftSettings:
-    """What of a settings file matters to a shift; None: as without one."""
+    """The part of a settings file that a shift uses; None: the file does not say."""
 
     orders: str = "fill"
-    policies: dict = field(default_factory=dict)
+    policies: dict[str, Any] = field(default_factory=dict)
     duration_s: float | None = None
     seed: int | None = None
-    level: float | None = None  # of the stock at first
+    level: float | None = None  # of the first stock, over its room
 
 
-def read_instance(path):
-    """The Site of an .xinst file; raises InstanceError."""
+def read_instance(path: PathName) -> Site:
+    """Returns the Site of an .xinst file. Raises InstanceError."""
     root = read_root(path, "Instance")
     _single_tier(path, root)
     waypoints = read_waypoints(path, root)
@@ -74,14 +77,15 @@ def read_instance(path):
     )
 
 
-def read_settings(path):
-    """The ShiftSettings of an .xsett file; raises InstanceError."""
+def read_settings(path: PathName) -> ShiftSettings:
+    """Returns the ShiftSettings of an .xsett file. Raises InstanceError."""
     root = read_root(path, "SettingConfiguration")
     mode = root.findtext(".//OrderMode", "Fill")
     demand = root.find(".//DemandInventoryConfiguration")
     if mode not in ("Fill", "Poisson"):
         raise InstanceError(f"{path}: OrderMode is '{mode}'; Fill or Poisson was expected")
-    orders, options = mode.lower(), {}
+    orders = mode.lower()
+    options: dict[str, Any] = {}
     if demand is not None:
         if mode == "Fill":
             orders = f"fill:{int(text_of(path, demand, 'OrderCount', 200))}"
@@ -100,19 +104,22 @@ def read_settings(path):
     )
 
 
-def _id(path, element):
+def _id(path: PathName, element: Element) -> int:
     return int(number_of(path, element, "ID")) + 1
 
 
-def _single_tier(path, root):
+def _single_tier(path: PathName, root: Element) -> None:
     tiers = {element.get("Tier") for element in root.iter() if element.get("Tier") is not None}
     if len(tiers) > 1:
         raise InstanceError(f"{path}: {len(tiers)} tiers; robots here drive on one floor")
 
 
-def _stations(path, root, waypoints, grid):
-    """The Stations, and what their own times are, by name."""
-    result, overrides = [], {}
+def _stations(
+    path: PathName, root: Element, waypoints: Mapping[str, Waypoint], grid: Grid
+) -> tuple[list[Station], dict[str, dict[str, Any]]]:
+    """Returns the stations, and their own Settings by name."""
+    result: list[Station] = []
+    overrides: dict[str, dict[str, Any]] = {}
     for group, tag, kind in (
         ("OutputStations", "OutputStation", PICK),
         ("InputStations", "InputStation", REPLENISH),
@@ -127,7 +134,7 @@ def _stations(path, root, waypoints, grid):
     return result, overrides
 
 
-def _times(path, element, kind):
+def _times(path: PathName, element: Element, kind: str) -> dict[str, Any]:
     if kind == REPLENISH:
         return {"bundle_s": number_of(path, element, "ItemBundleTransferTime", 10.0)}
     piece = number_of(path, element, "ItemTransferTime", 10.0)
@@ -138,8 +145,10 @@ def _times(path, element, kind):
     }
 
 
-def _lane(path, element, waypoints):
-    """The waypoints of a station's lane in driving order, and the index of the station's own."""
+def _lane(
+    path: PathName, element: Element, waypoints: Mapping[str, Waypoint]
+) -> tuple[list[str], int]:
+    """Returns the waypoints of a station's lane in driving order, and the index of its own one."""
     key = element.tag, element.get("ID")
     own = next((one for one in waypoints.values() if one.station == key), None)
     what = f"{element.tag} {element.get('ID')}"
@@ -166,7 +175,9 @@ def _lane(path, element, waypoints):
         lane.append(after[0])
 
 
-def _plan(path, waypoints, grid, stations):
+def _plan(
+    path: PathName, waypoints: Mapping[str, Waypoint], grid: Grid, stations: Sequence[Station]
+) -> FloorPlan:
     shape = grid.height, grid.width
     passable, storage = np.zeros(shape, bool), np.zeros(shape, bool)
     exits = np.zeros(shape, np.uint8)
@@ -192,7 +203,7 @@ def _plan(path, waypoints, grid, stations):
     )
 
 
-def _kinematics(path, bots):
+def _kinematics(path: PathName, bots: Sequence[Element]) -> Kinematics:
     if not bots:
         raise InstanceError(f"{path}: there is no Bot")
     names = ("MaxVelocity", "MaxAcceleration", "TurnSpeed", "PodTransferTime")
@@ -215,8 +226,10 @@ def _kinematics(path, bots):
     )
 
 
-def _distinct(path, what, elements, cells):
-    first = {}
+def _distinct(
+    path: PathName, what: str, elements: Sequence[Element], cells: Mapping[int, int]
+) -> None:
+    first: dict[int, str | None] = {}
     for element, cell in zip(elements, cells.values()):
         if cell in first:
             raise InstanceError(

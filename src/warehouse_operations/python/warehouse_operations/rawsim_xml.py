@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Elements and numbers of RAWSim-O's XML files, read with faults that name file and element."""
+"""Reads elements and numbers of RAWSim-O's XML files; errors name file and element."""
 
+import os
 import xml.etree.ElementTree as ElementTree
+from typing import overload
+from xml.etree.ElementTree import Element
 
-MOST = 1e9  # of any number in a file
+MOST = 1e9  # the largest number in a file
+PathName = str | os.PathLike[str]
 
 
 class InstanceError(Exception):
-    """A file that can't be used; the text names file, element and what was expected."""
+    """Raised for a file that can't be used; names file, element and what was expected."""
 
 
-def read_root(path, tag):
+def read_root(path: PathName, tag: str) -> Element:
+    """Returns the root of a file, which must have a tag. Raises InstanceError."""
     try:
         root = ElementTree.parse(path).getroot()
     except OSError as error:
@@ -24,16 +29,21 @@ def read_root(path, tag):
     return root
 
 
-def children(root, group, tag):
+def children(root: Element, group: str, tag: str) -> list[Element]:
+    """Returns the elements of a tag in a group."""
     return root.findall(f"{group}/{tag}")
 
 
-def number_of(path, element, name, default=None):
+def number_of(path: PathName, element: Element, name: str, default: float | None = None) -> float:
+    """Returns the number in an attribute; default: of a missing one, None: it must be there.
+
+    Raises InstanceError.
+    """
     text = element.get(name)
     if text is None and default is not None:
         return default
     try:
-        value = float(text)
+        value = float(text)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         value = float("nan")
     if not abs(value) <= MOST:
@@ -42,7 +52,15 @@ def number_of(path, element, name, default=None):
     return value
 
 
-def text_of(path, root, name, default):
+@overload
+def text_of(path: PathName, root: Element, name: str, default: float) -> float: ...
+@overload
+def text_of(path: PathName, root: Element, name: str, default: None) -> float | None: ...
+def text_of(path: PathName, root: Element, name: str, default: float | None) -> float | None:
+    """Returns the number in the text of an element; default: where it is missing.
+
+    Raises InstanceError unless the number is from 0 to MOST.
+    """
     text = root.findtext(name)
     if text is None:
         return default

@@ -1,22 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a sweep's shifts on a Ray cluster, behind the interface of concurrent.futures."""
 
+from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from threading import Thread
+from typing import Any
 
 import ray
 
 
 class RayExecutor(Executor):
-    """A task of Ray for each call; address: "local" starts a cluster on this machine."""
+    """Runs each call as a task of Ray; address: "local" starts a cluster on this machine."""
 
-    def __init__(self, address="local"):
-        options = {"include_dashboard": False} if address == "local" else {"address": address}
+    def __init__(self, address: str = "local") -> None:
+        options: dict[str, Any] = (
+            {"include_dashboard": False} if address == "local" else {"address": address}
+        )
         ray.init(log_to_driver=False, **options)
-        self._threads = []
+        self._threads: list[Thread] = []
 
-    def submit(self, function, /, *args, **kwargs):
-        future = Future()
+    def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Starts function(*args, **kwargs) on the cluster; returns the Future of its result."""
+        future: Future[Any] = Future()
         future.set_running_or_notify_cancel()
         reference = ray.remote(function).remote(*args, **kwargs)
         thread = Thread(target=self._finish, args=(future, reference), daemon=True)
@@ -24,7 +29,8 @@ class RayExecutor(Executor):
         self._threads.append(thread)
         return future
 
-    def shutdown(self, wait=True, *, cancel_futures=False):
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Waits until all calls have ended, whatever the arguments say, and leaves the cluster."""
         # A reference to a result that is dropped after ray.shutdown() ends the process.
         for thread in self._threads:
             thread.join()
@@ -32,7 +38,7 @@ class RayExecutor(Executor):
         ray.shutdown()
 
     @staticmethod
-    def _finish(future, reference):
+    def _finish(future: Future[Any], reference: Any) -> None:
         try:
             future.set_result(ray.get(reference))
         except ray.exceptions.RayTaskError as error:

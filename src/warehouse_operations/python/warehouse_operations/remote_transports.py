@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The coordinator of another node as a shift sees it."""
+"""Transports of the coordinator node, with the interface that a shift uses."""
 
 from collections.abc import Iterable
+from typing import Any
 
 from warehouse_client.coordinator import Coordinator
 from warehouse_fleet.transports import ENDS, STORE, Answer, Kind, TransportEvent
@@ -10,7 +11,7 @@ UNKEPT = 100  # most transports that a run asks for between two writes to the da
 
 
 class RemoteTransports:
-    """The transports of one run, as protocols.Requests."""
+    """Requests the transports of one run; see protocols.Requests."""
 
     def __init__(self, coordinator: Coordinator) -> None:
         self._coordinator = coordinator
@@ -55,7 +56,7 @@ class RemoteTransports:
         self._left.update(number for number in transports if not self.release(number)[0])
         self._last_left = last
 
-    def _release_unknown(self, first):
+    def _release_unknown(self, first: int) -> None:
         """Releases what the earlier run requested and could not write down: all before `first`."""
         if self._last_left is not None:
             self.release_left(range(max(self._last_left + 1, first - UNKEPT), first), None)
@@ -75,7 +76,7 @@ class RemoteTransports:
         return known
 
 
-def _event(message):
+def _event(message: Any) -> TransportEvent:
     return TransportEvent(
         message.header.stamp.to_sec(),
         message.transport_id,

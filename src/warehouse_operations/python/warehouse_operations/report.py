@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""report.html: one page, its pictures inside, about one run or several side by side."""
+"""Writes report.html: one page with its pictures, about one run or several side by side."""
 
 import itertools
+import os
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from warehouse_operations import comparison, plots
-from warehouse_operations.runs import REPORT
+from warehouse_operations.comparison import Estimate, Group
+from warehouse_operations.runs import REPORT, Run
 
-# What of kpis.json the table tells: name, words, unit, factor, digits.
-ROWS = (
+# The figures of kpis.json in the table: name, words, unit, factor, digits.
+ROWS: tuple[tuple[str, str, str, float, int], ...] = (
     ("item_throughput_per_hour", "Pieces picked an hour", "", 1, 0),
     ("item_score", "Of what the stations can at most", "%", 100, 1),
     ("order_throughput_per_hour", "Orders completed an hour", "", 1, 0),
@@ -32,9 +36,9 @@ ROWS = (
     ("executed_over_planned", "Driven time over planned time", "", 1, 3),
     ("real_time_factor", "Faster than real time", "times", 1, 1),
 )
-# Ideal robots have none of it, by definition: no figures to compare.
+# Ideal robots have no traffic: there are no such figures to compare.
 OF_TRAFFIC = {"collisions", "blocked", "watchdog", "plan_ms.p99", "executed_over_planned"}
-TROUBLES = (
+TROUBLES: tuple[tuple[str, str, str, float, int], ...] = (
     ("availability", "Availability: robot hours at work", "%", 100, 2),
     ("mtbf_h", "Robot hours between failures (MTBF)", "h", 1, 1),
     ("mttr_s", "Time to repair, mean (MTTR)", "min", 1 / 60, 1),
@@ -77,8 +81,8 @@ tr:nth-child(even) { background: #f6f6f4 } .big { display: flex; gap: 2.5em; mar
 """
 
 
-def page(runs):
-    """The HTML of the report about Runs."""
+def page(runs: Sequence[Run]) -> str:
+    """Returns the HTML of the report about runs."""
     groups = comparison.grouped(runs)
     first = groups[0]
     parts = [_head(runs, groups), _headline(first) if len(groups) == 1 else _verdicts(groups)]
@@ -107,15 +111,18 @@ def page(runs):
     return "\n".join(parts) + "</body></html>\n"
 
 
-def write(path, runs):
-    """Writes the report about Runs; returns its path."""
+def write(path: str | os.PathLike[str], runs: Sequence[Run]) -> Path:
+    """Writes the report about runs; returns its path."""
     Path(path).write_text(page(runs), encoding="utf-8")
     return Path(path)
 
 
-def default_path(folders):
-    """Where a report about folders goes: into the one, or into a new file of its own in the working
-    directory, for each of several has a report already."""
+def default_path(folders: Sequence[str | os.PathLike[str]]) -> Path:
+    """Returns the path for a report about folders of runs.
+
+    It is in the folder if there is one only. Several have a report each already: their common one
+    is a new file in the working directory.
+    """
     if len(folders) == 1:
         return Path(folders[0], REPORT)
     names = itertools.chain(
@@ -124,8 +131,8 @@ def default_path(folders):
     return next(path for path in map(Path, names) if not path.exists())
 
 
-def table(runs):
-    """The figures as text for a terminal."""
+def table(runs: Sequence[Run]) -> str:
+    """Returns the figures as text for a terminal."""
     groups = comparison.grouped(runs)
     width = max(len(words) for _, words, *_ in ROWS) + 2
     lines = [" " * width + "".join(f"{group.label[:26]:>28}" for group in groups)]
@@ -135,8 +142,8 @@ def table(runs):
     return "\n".join([*lines, *(f"\n{text}" for text in verdicts(groups))])
 
 
-def verdicts(groups):
-    """How much each configuration differs from the first in throughput, in words."""
+def verdicts(groups: Sequence[Group]) -> Iterator[str]:
+    """Yields sentences about how much each configuration differs from the first in throughput."""
     for group in groups[1:]:
         found = comparison.difference(groups[0], group, "item_throughput_per_hour")
         if found is None:
@@ -158,7 +165,7 @@ def verdicts(groups):
         )
 
 
-def _head(runs, groups):
+def _head(runs: Sequence[Run], groups: Sequence[Group]) -> str:
     count = f"{len(runs)} runs, {len(groups)} configurations" if len(runs) > 1 else ""
     return (
         f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
@@ -167,21 +174,21 @@ def _head(runs, groups):
     )
 
 
-def _common(runs):
-    """What holds for all of the runs: words."""
+def _common(runs: Sequence[Run]) -> list[str]:
+    """Returns words for the conditions that all runs share."""
     told = [list(_what(run)) for run in runs]
     return [words for words in told[0] if all(words in one for one in told)]
 
 
-def _what(run):
+def _what(run: Run) -> Iterator[str]:
     yield run.config.get("site", "")
     yield f"{run.kpis['simulated_s'] / 3600:.2g} h"
     yield f"orders {run.config.get('orders', '')}"
     yield "simulated robots" if run.config.get("physics") else "ideal robots"
 
 
-def _headline(group):
-    tell = (
+def _headline(group: Group) -> str:
+    tell: tuple[tuple[str, str, float, int, str], ...] = (
         ("item_throughput_per_hour", "pieces an hour", 1, 0, ""),
         ("item_score", "of the stations' upper bound", 100, 0, " %"),
         ("late_orders_fraction", "orders late", 100, 1, " %"),
@@ -196,11 +203,11 @@ def _headline(group):
     return f'<div class="big">{"".join(cells)}</div>{warning}'
 
 
-def _verdicts(groups):
+def _verdicts(groups: Sequence[Group]) -> str:
     return "".join(f"<p>{escape(text)}</p>" for text in verdicts(groups))
 
 
-def _table(groups):
+def _table(groups: Sequence[Group]) -> str:
     head = "".join(f"<th>{escape(group.label)}</th>" for group in groups)
     rows = []
     for kpi, words, unit, factor, digits in ROWS:
@@ -210,8 +217,8 @@ def _table(groups):
     return f"<table>{header}{''.join(rows)}</table>"
 
 
-def _troubles(group):
-    """What befell the first run's robots and what each of it cost; what it came to in all runs."""
+def _troubles(group: Group) -> str:
+    """Returns tables of the first run's failures and their costs, and of the costs in all runs."""
     cost = [
         f"<tr><td>{words}</td><td>{_number(group.estimate(kpi), factor, digits, unit)}</td></tr>"
         for kpi, words, unit, factor, digits in TROUBLES
@@ -229,8 +236,8 @@ def _troubles(group):
     return f"{table}<table>{''.join(cost)}</table>"
 
 
-def _each_trouble(run):
-    """(words, times, mean time to repair, robot hours, pieces not picked) of each, as text."""
+def _each_trouble(run: Run) -> Iterator[tuple[str, ...]]:
+    """Yields (words, times, mean time to repair, robot hours, pieces not picked) for each kind."""
     all_h = run.data.get("robot_h", 0.0)
     failures = run.data.get("failures") or []
     charging_h = run.kpis.get("charging_fraction", 0.0) * all_h
@@ -246,32 +253,32 @@ def _each_trouble(run):
         yield words, count, "", "", ""
 
 
-def _cell(group, kpi, *shown):
+def _cell(group: Group, kpi: str, *shown: Any) -> str:
     if kpi in OF_TRAFFIC and not group.runs[0].config.get("physics", True):
         return "–"
     return _number(group.estimate(kpi), *shown)
 
 
-def _number(estimate, factor, digits, unit):
+def _number(estimate: Estimate, factor: float, digits: int, unit: str) -> str:
     text = f"{estimate.mean * factor:,.{digits}f}"
     if not np.isnan(estimate.half):
         text += f" ± {estimate.half * factor:,.{digits}f}"
     return f"{text} {unit}".strip()
 
 
-def _maps(run):
+def _maps(run: Run) -> list[str]:
     names = {"traffic": "Loaded robots through a cell", "waiting": "Waiting [robot-seconds]"}
     return [plots.heat_map(run.data[key], name) for key, name in names.items() if run.data[key]]
 
 
-def _several(groups):
+def _several(groups: Iterable[Group]) -> bool:
     return any(len(group.runs) > 1 for group in groups)
 
 
-def _row(pictures):
+def _row(pictures: Iterable[str]) -> str:
     return f'<div class="row">{"".join(f"<div>{one}</div>" for one in pictures)}</div>'
 
 
-def _section(title, content, note=""):
+def _section(title: str, content: str, note: str = "") -> str:
     note = f'<p class="note">{note}</p>' if note else ""
     return f"<h2>{title}</h2>{note}{content}"

@@ -1,28 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a warehouse has lost and gained since a database has seen it."""
+"""Finds the bins that a warehouse lost and gained since a database was written."""
 
 import itertools
 from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from warehouse_operations.assortment import CAPACITY
 from warehouse_operations.inventory import Bin
 
+if TYPE_CHECKING:
+    from warehouse_operations.site import Site
+    from warehouse_operations.stored import Stored
+
 
 class SiteError(ValueError):
-    """The database is of another warehouse."""
+    """Raised for a database of another warehouse."""
 
 
 @dataclass(frozen=True)
 class Changes:
-    """gone: Bins of the database that the warehouse has no more; new: empty Bins that the database
-    does not have yet; moved: those that are on another unit now."""
+    """The differences between the bins of a warehouse and of its database.
 
-    gone: list
-    new: list
-    moved: list
+    gone: bins of the database that the warehouse has no more. new: empty bins that the database
+    does not have yet. moved: bins that are on another unit now.
+    """
 
-    def __str__(self):
+    gone: list[Bin]
+    new: list[Bin]
+    moved: list[Bin]
+
+    def __str__(self) -> str:
         told = []
         if self.gone:
             pieces = sum(one.quantity + (one.fallen or 0) for one in self.gone)
@@ -34,15 +43,18 @@ class Changes:
         return "; ".join(told)
 
 
-def layout_of(site):
-    """What a warehouse is known by again: its stations with their places [m], sorted texts."""
+def layout_of(site: "Site") -> list[str]:
+    """Returns the stations with their places [m], sorted: a warehouse is recognised by them."""
     plan = site.plan
     places = ((one.name, *plan.point_of(int(one.cells[one.service]))) for one in plan.stations)
     return sorted(f"{name} at ({x:.2f}, {y:.2f})" for name, x, y in places)
 
 
-def changes(site, stored, url):
-    """The Changes of a Site since it was Stored; raises SiteError where it is another one."""
+def changes(site: "Site", stored: "Stored", url: str) -> Changes:
+    """Returns what changed at a Site since it was Stored, and moves bins to their units of now.
+
+    Raises SiteError if the database at url is of another warehouse.
+    """
     here, there = dict(site.items), {one.item for one in stored.bins}
     gone = [one for one in stored.bins if one.item not in here]
     moved = [one for one in stored.bins if one.unit != here.get(one.item, one.unit)]
@@ -53,8 +65,10 @@ def changes(site, stored, url):
     return Changes(gone, _new_bins(items, stored, here), moved)
 
 
-def _new_bins(items, stored, here):
-    """Each for the SKU with the fewest bins."""
+def _new_bins(
+    items: Iterable[tuple[str, int]], stored: "Stored", here: Mapping[str, int]
+) -> list[Bin]:
+    """Returns empty bins for items, each kept for the SKU with the fewest bins."""
     count = Counter(one.sku for one in stored.bins if one.item in here)
     rank = {sku: rank for rank, sku in enumerate(stored.assortment.skus)}
     numbers, result = itertools.count(stored.last_bin + 1), []
@@ -66,8 +80,8 @@ def _new_bins(items, stored, here):
     return result
 
 
-def _check(layout, stored, gone, moved, url):
-    """A warehouse may lose stations and units, or gain some, but not most of them at once."""
+def _check(layout: Sequence[str], stored: "Stored", gone: int, moved: int, url: str) -> None:
+    """Raises SiteError if stations differ other than by loss or gain alone, or most bins do."""
     other = f"{url} is of another warehouse"
     if stored.layout is not None and not (
         set(layout) <= set(stored.layout) or set(stored.layout) <= set(layout)
@@ -83,8 +97,8 @@ def _check(layout, stored, gone, moved, url):
         )
 
 
-def _named(bins):
-    """A few of them by name, with a verb."""
+def _named(bins: Sequence[Bin]) -> str:
+    """Returns words for bins with the first units by name, and the verb."""
     units = sorted({one.unit for one in bins})
     names = ", ".join(map(str, units[:5])) + (f" and {len(units) - 5} more" if units[5:] else "")
     which = f"{len(bins)} bins" if len(bins) > 1 else bins[0].item

@@ -2,8 +2,11 @@
 """Rows to be written to the database of a warehouse."""
 
 from collections import defaultdict
+from collections.abc import Sequence
+from typing import Any
 
-from sqlalchemy import bindparam, insert, update
+from sqlalchemy import Table, bindparam, insert, update
+from sqlalchemy.engine import Connection
 
 from warehouse_operations import schema
 
@@ -23,29 +26,37 @@ TABLES = (  # in the order in which rows may refer to each other
 
 
 class Rows:
-    """Rows to be inserted and changes of rows that are there, by table and key."""
+    """Collects rows to be inserted and changes of existing rows, by table and key.
 
-    def __init__(self):
-        self.inserts, self.updates = defaultdict(dict), defaultdict(dict)
+    A key is a value, or a tuple where the primary key has several columns.
+    """
 
-    def __bool__(self):
+    def __init__(self) -> None:
+        self.inserts: dict[Table, dict[Any, dict[str, Any]]] = defaultdict(dict)
+        self.updates: dict[Table, dict[Any, dict[str, Any]]] = defaultdict(dict)
+
+    def __bool__(self) -> bool:
         return bool(self.inserts or self.updates)
 
-    def insert(self, table, key, **values):
+    def insert(self, table: Table, key: Any, **values: Any) -> None:
+        """Adds a row with the values by column."""
         self.inserts[table][key] = values
 
-    def update(self, table, key, **values):
+    def update(self, table: Table, key: Any, **values: Any) -> None:
+        """Changes values by column of a row, whether it is still to be inserted or exists."""
         known = self.inserts[table] if key in self.inserts.get(table, ()) else self.updates[table]
         known.setdefault(key, {}).update(values)
 
-    def merge(self, later):
+    def merge(self, later: "Rows") -> None:
+        """Adds later rows and changes to these."""
         for table, rows in later.inserts.items():
             self.inserts[table].update(rows)
         for table, rows in later.updates.items():
             for key, values in rows.items():
                 self.update(table, key, **values)
 
-    def write(self, connection):
+    def write(self, connection: Connection) -> None:
+        """Writes all rows in the transaction of a connection."""
         for table in TABLES:
             names = [column.name for column in table.primary_key]
             if table in self.inserts:
@@ -54,7 +65,7 @@ class Rows:
                     [_named(names, key) | row for key, row in self.inserts[table].items()],
                 )
             # Those that change the same columns go together.
-            alike = defaultdict(list)
+            alike: dict[tuple[str, ...], list[dict[str, Any]]] = defaultdict(list)
             for key, row in self.updates.get(table, {}).items():
                 alike[tuple(row)].append(
                     {f"key_{n}": v for n, v in _named(names, key).items()} | row
@@ -65,5 +76,5 @@ class Rows:
                 connection.execute(update(table).where(*where).values(values), rows)
 
 
-def _named(names, key):
+def _named(names: Sequence[str], key: Any) -> dict[str, Any]:
     return dict(zip(names, key if isinstance(key, tuple) else (key,)))

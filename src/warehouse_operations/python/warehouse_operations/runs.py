@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a shift leaves in its folder: kpis.json, and run.json with what the report draws.
+"""The files that a shift leaves in its folder: kpis.json, and run.json with data for the report.
 
 run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
 stored, completed: a list each}, stations [{name, kind, busy_fraction, pieces, visits}], turnover_s
@@ -9,39 +9,50 @@ lateness.
 """
 
 import json
+import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from warehouse_operations.kpis import INTERVAL
+from warehouse_operations.stations import WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.operations import Operations
+    from warehouse_operations.shift import Shift
 
 KPIS, RUN, DATABASE, REPORT = "kpis.json", "run.json", "run.db", "report.html"
 
 
 class RunError(Exception):
-    """A folder that holds no run; the text says what is missing."""
+    """Raised for a folder that holds no run; says what is missing."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """One shift that is over."""
+    """A shift that is over, with the content of kpis.json and of run.json."""
 
     folder: Path
-    kpis: dict
-    data: dict
+    kpis: dict[str, Any]
+    data: dict[str, Any]
 
     @property
-    def config(self):
+    def config(self) -> dict[str, Any]:
+        """The configuration of the shift, without its seed."""
         return self.data["config"]
 
     @property
-    def seed(self):
+    def seed(self) -> int:
+        """The seed of the shift."""
         return self.data["seed"]
 
 
-def write(folder, ops, config, seed):
-    """Writes both files of an Operations; returns the Run."""
+def write(
+    folder: str | os.PathLike[str], ops: "Operations", config: dict[str, Any], seed: int
+) -> Run:
+    """Writes both files of a shift; returns the Run."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     run = Run(folder, ops.kpis(), describe(ops, config, seed))
@@ -53,8 +64,8 @@ def write(folder, ops, config, seed):
     return run
 
 
-def read(folder):
-    """The Run of a folder; raises RunError."""
+def read(folder: str | os.PathLike[str]) -> Run:
+    """Returns the Run of a folder. Raises RunError."""
     content = []
     for name in (KPIS, RUN):
         path = Path(folder) / name
@@ -70,8 +81,8 @@ def read(folder):
         raise RunError(f"{folder}: {error} is missing") from error
 
 
-def describe(ops, config, seed):
-    """What run.json holds."""
+def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, Any]:
+    """Returns the content of run.json."""
     shift, tally = ops.shift, ops.shift.tally
     count = int(shift.now // INTERVAL)
     log = getattr(ops.fleet, "failures", None)
@@ -97,7 +108,7 @@ def describe(ops, config, seed):
     }
 
 
-def _station(station, shift):
+def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:
     return {
         "name": station.name,
         "kind": station.kind,
@@ -107,6 +118,6 @@ def _station(station, shift):
     }
 
 
-def _map(fleet, name):
+def _map(fleet: Any, name: str) -> list[list[float]] | None:
     values = getattr(fleet, name, None)
     return np.round(values(), 1).tolist() if values else None

@@ -5,6 +5,9 @@ Times are simulated seconds of the run that a row belongs to. Stock is the sum o
 that sum ready, and the pieces of it that are promised.
 """
 
+from collections.abc import Callable, Mapping
+from typing import Any
+
 from sqlalchemy import (
     CheckConstraint,
     Column,
@@ -24,6 +27,7 @@ from sqlalchemy import (
     text,
     update,
 )
+from sqlalchemy.engine import Connection
 
 VERSION = 3
 metadata = MetaData()
@@ -34,10 +38,10 @@ class SchemaError(Exception):
 
 
 class EmptyError(SchemaError):
-    """It has no tables yet."""
+    """A database without tables."""
 
 
-def _id(**options):
+def _id(**options: Any) -> Column:
     return Column("id", Integer, primary_key=True, autoincrement=False, **options)
 
 
@@ -86,7 +90,7 @@ orders = Table(
     "orders",
     metadata,
     _id(),
-    # Whose times are meant: in which it came, or which went on with it.
+    # The run of its times: in which it came, or which went on with it.
     Column("run", ForeignKey("run.id"), nullable=False),
     Column("reference", String(200), nullable=False, index=True),
     Column("created", Float, nullable=False),
@@ -180,14 +184,19 @@ heat = Table(
 )
 
 # From each older version to the next: a function of a connection.
-MIGRATIONS = {
+MIGRATIONS: dict[int, Callable[[Connection], object]] = {
     1: heat.create,
     2: lambda connection: connection.execute(text("ALTER TABLE run ADD COLUMN layout TEXT")),
 }
 
 
-def prepare(connection, version=VERSION, migrations=None, makes=True):
-    """Makes the tables, or brings those of an older version up to date; raises SchemaError.
+def prepare(
+    connection: Connection,
+    version: int = VERSION,
+    migrations: Mapping[int, Callable[[Connection], object]] | None = None,
+    makes: bool = True,
+) -> None:
+    """Creates the tables, or brings those of an older version up to date; raises SchemaError.
 
     makes: whether a database that has none gets them.
     """
@@ -221,8 +230,8 @@ def prepare(connection, version=VERSION, migrations=None, makes=True):
     _check_tables(connection)
 
 
-def _check_tables(connection):
-    """Raises SchemaError where one is not there, or not whole."""
+def _check_tables(connection: Connection) -> None:
+    """Raises SchemaError if a table or a column is missing."""
     there = inspect(connection)
     names = set(there.get_table_names())
     for table in metadata.sorted_tables:

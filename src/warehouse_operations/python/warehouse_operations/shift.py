@@ -21,6 +21,7 @@ from warehouse_operations.inventory import Bin, Inventory, Reason
 from warehouse_operations.journal import Journal
 from warehouse_operations.kpis import Tally
 from warehouse_operations.manual_stations import ManualPicking, ManualReplenishing
+from warehouse_operations.message_enums import Mode
 from warehouse_operations.notices import Notices
 from warehouse_operations.order_book import Lines, OrderBook
 from warehouse_operations.orders import Order
@@ -28,7 +29,7 @@ from warehouse_operations.picking import Picking
 from warehouse_operations.protocols import Requests
 from warehouse_operations.replenishing import PERIOD, Replenishing
 from warehouse_operations.settings import Settings
-from warehouse_operations.stations import Mode, WorkStation
+from warehouse_operations.stations import WorkStation
 from warehouse_operations.tasks import Tasks
 from warehouse_operations.view import PolicyHooks, View
 from warehouse_operations.visits import Visits

@@ -9,9 +9,10 @@ from sqlalchemy.engine import Engine
 
 from warehouse_msgs import srv
 from warehouse_operations import queries
+from warehouse_operations.message_enums import Outcome
 from warehouse_operations.operation_messages import stock_place, stored_order_status
 from warehouse_operations.shift import Shift
-from warehouse_operations.tasks import Outcome, Report
+from warehouse_operations.tasks import Report
 
 
 class Host(Protocol):
@@ -50,18 +51,18 @@ class ShiftServices:
         ):
             rospy.Service(f"/warehouse/{name}", kind, call)
 
-    def _submit(self, request):
+    def _submit(self, request: Any) -> Any:
         lines = [(line.sku, line.quantity) for line in request.lines]
         fields = lines, request.due.to_sec(), request.priority, request.reference
         order, message = self._host.carry_out(lambda shift: shift.submit(*fields))
         return srv.SubmitOrderResponse(order.order_id if order else 0, bool(order), message)
 
-    def _cancel(self, request):
+    def _cancel(self, request: Any) -> Any:
         return srv.CancelOrderResponse(
             *self._host.carry_out(lambda s: s.cancel_order(request.order_id))
         )
 
-    def _set_station(self, request):
+    def _set_station(self, request: Any) -> Any:
         if request.mode not in (srv.SetStationRequest.AUTOMATIC, srv.SetStationRequest.MANUAL):
             text = f"mode is {request.mode}; 0 (AUTOMATIC) or 1 (MANUAL) was expected"
             return srv.SetStationResponse(False, text)
@@ -70,19 +71,19 @@ class ShiftServices:
             *self._host.carry_out(lambda shift: shift.set_station(*fields))
         )
 
-    def _confirm(self, request):
+    def _confirm(self, request: Any) -> Any:
         fields = request.station, request.sku, request.quantity
         return srv.ConfirmPickResponse(
             *self._host.carry_out(lambda shift: shift.confirm_pick(*fields))
         )
 
-    def _report_short(self, request):
+    def _report_short(self, request: Any) -> Any:
         fields = request.station, request.sku, request.quantity, request.damaged
         return srv.ReportShortResponse(
             *self._host.carry_out(lambda shift: shift.report_short(*fields))
         )
 
-    def _report_pick(self, request):
+    def _report_pick(self, request: Any) -> Any:
         if request.outcome not in Outcome.__members__.values():
             text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
             return srv.ReportPickResponse(False, text, 0)
@@ -92,14 +93,14 @@ class ShiftServices:
         self._host.publish_stations()
         return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)
 
-    def _undo_write_off(self, request):
+    def _undo_write_off(self, request: Any) -> Any:
         done = self._host.carry_out(
             lambda shift: shift.tasks.undo(request.station, request.sequence)
         )
         self._host.publish_stations()
         return srv.UndoWriteOffResponse(*done)
 
-    def _find_orders(self, request):
+    def _find_orders(self, request: Any) -> Any:
         total, found = queries.find_orders(
             self._host.engine,
             request.order_id,
@@ -111,7 +112,7 @@ class ShiftServices:
         )
         return srv.FindOrdersResponse(total, [stored_order_status(*one) for one in found])
 
-    def _find_stock(self, request):
+    def _find_stock(self, request: Any) -> Any:
         total, pieces, found = queries.find_stock(
             self._host.engine, request.sku, request.limit, request.offset
         )

@@ -2,8 +2,10 @@
 """A whole shift from a description to its folder: what simulate and sweep run."""
 
 import contextlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from warehouse_operations import check, report, runs
 from warehouse_operations.building import world_of
@@ -12,9 +14,13 @@ from warehouse_operations.demand import DemandError
 from warehouse_operations.locks import FileLock, InUseError
 from warehouse_operations.operations import Operations
 from warehouse_operations.policies import Policies, PolicyError
+from warehouse_operations.progress import ProgressBar
 from warehouse_operations.rawsim import InstanceError, read_instance, read_settings
 from warehouse_operations.returning import SiteError
 from warehouse_operations.site import Site
+
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
 
 MOST_SEED = 2**63 - 1
 # What a wrong description can raise.
@@ -38,14 +44,14 @@ class Description:
     settings: str = ""  # an .xsett file
     seconds: float = 3600.0
     orders: str = "fill"
-    policies: dict = field(default_factory=dict)
+    policies: dict[str, Any] = field(default_factory=dict)
     seed: int = 1
     physics: bool = True
     realism: str = ""  # of World: a preset or a YAML file
 
     @property
-    def config(self):
-        """What run.json tells of it: all that decides about the outcome but the seed."""
+    def config(self) -> dict[str, Any]:
+        """The part of run.json that, with the seed, decides the outcome."""
         return {
             "site": Path(self.instance).stem if self.instance else self.size,
             "orders": self.orders,
@@ -56,8 +62,8 @@ class Description:
         }
 
 
-def with_settings(description):
-    """The Description with what its settings file says, where that says more than the default."""
+def with_settings(description: Description) -> Description:
+    """Returns the Description completed by its settings file where it has defaults."""
     if not description.settings:
         return description
     told, default = read_settings(description.settings), Description()
@@ -68,8 +74,8 @@ def with_settings(description):
     )
 
 
-def open_operations(description, database=None):
-    """The Operations of a Description; raises one of ERRORS."""
+def open_operations(description: Description, database: str | None = None) -> Operations:
+    """Opens the shift of a Description; raises one of ERRORS."""
     if description.instance:
         site = read_instance(description.instance)
         if description.settings:
@@ -93,22 +99,33 @@ def open_operations(description, database=None):
     )
 
 
-def simulate(description, folder, database=None, progress=None):
-    """Runs a shift and writes its folder; returns the Run and what is wrong with it, sentences.
+def simulate(
+    description: Description,
+    folder: str | Path,
+    database: str | Path | None = None,
+    progress: ProgressBar | None = None,
+) -> tuple[runs.Run, list[str]]:
+    """Runs a shift and writes its folder; returns the Run and its faults, sentences.
 
     database: None: a new one in the folder.
     """
     folder = Path(folder)
-    with contextlib.ExitStack() as held:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            held.enter_context(FileLock(folder))
-        except OSError as error:
-            raise runs.RunError(f"{folder}: {error.strerror}") from error
+    with _locked(folder):
         return _simulate(description, folder, database or _new_database(folder), progress)
 
 
-def _new_database(folder):
+@contextlib.contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(folder)
+    except OSError as error:
+        raise runs.RunError(f"{folder}: {error.strerror}") from error
+    with lock:
+        yield
+
+
+def _new_database(folder: Path) -> Path:
     path = folder / runs.DATABASE
     with FileLock(path):
         for suffix in ("", "-wal", "-shm"):
@@ -116,7 +133,12 @@ def _new_database(folder):
     return path
 
 
-def _simulate(description, folder, database, progress):
+def _simulate(
+    description: Description,
+    folder: Path,
+    database: str | Path,
+    progress: ProgressBar | None,
+) -> tuple[runs.Run, list[str]]:
     with open_operations(description, str(database)) as ops:
         ops.run(seconds=description.seconds, progress=progress)
         if progress:
@@ -136,7 +158,7 @@ def _simulate(description, folder, database, progress):
     return run, faults
 
 
-def _preset(description):
+def _preset(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
     with _told_as_ours():
@@ -146,8 +168,8 @@ def _preset(description):
 
 
 @contextlib.contextmanager
-def _told_as_ours():
-    """An unknown preset, or a file of realism that is wrong, is one of ERRORS."""
+def _told_as_ours() -> Iterator[None]:
+    """Turns errors of an unknown preset, or of a wrong file of realism, into one of ERRORS."""
     try:
         yield
     except (ValueError, FileNotFoundError) as error:

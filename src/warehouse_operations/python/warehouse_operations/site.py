@@ -1,22 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse before a shift: its floor, and who stands where."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.assortment import INITIAL_LEVEL
 from warehouse_operations.settings import Settings
 
+if TYPE_CHECKING:
+    from kiva_plugin_cpp import World
+
 
 @dataclass(frozen=True)
 class Site:
-    """Cells by id of the robots and the storage units; the bins by name, each with its unit."""
+    """A floor with its robots and storage units, cells by id, and its bins, (name, unit)."""
 
     plan: FloorPlan
-    robots: dict
-    units: dict
-    items: list  # of (name, unit)
+    robots: Mapping[int, int]
+    units: Mapping[int, int]
+    items: list[tuple[str, int]]
     name: str = ""
     kinematics: Kinematics = field(default_factory=Kinematics)
     settings: Settings = field(default_factory=Settings)
@@ -24,8 +29,8 @@ class Site:
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
 
     @classmethod
-    def of_world(cls, world, name=""):
-        """That of an in-process kiva_plugin_cpp.World."""
+    def of_world(cls, world: "World", name: str = "") -> "Site":
+        """Returns the site of an in-process kiva_plugin_cpp.World."""
         plan = FloorPlan.of_world(world)
         fleet, units, fallen = world.fleet, world.storage_units, world.fallen_items
         unit_of = {int(i["item_id"]): int(i["shelf_id"]) for i in world.items}

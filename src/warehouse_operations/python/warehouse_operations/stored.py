@@ -3,34 +3,42 @@
 
 import json
 from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from sqlalchemy import func, select
+from sqlalchemy import Table, func, select
+from sqlalchemy.engine import Connection, Engine
 
 from warehouse_operations import schema
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.inventory import Bin, Reason
 from warehouse_operations.kpis import INTERVAL
-from warehouse_operations.orders import Order, OrderState
+from warehouse_operations.message_enums import OrderState
+from warehouse_operations.orders import Order
 
 
 @dataclass(frozen=True)
 class Stored:
-    """Nothing of it is promised or under way: units stand, orders wait."""
+    """A warehouse at rest: nothing is promised or under way, units stand, orders wait."""
 
     assortment: Assortment
-    bins: list
-    former: dict  # ids of bins that are gone, by item
+    bins: list[Bin]
+    former: dict[str, int]  # ids of bins that are gone, by item
     last_bin: int  # the highest id there was
-    orders: list  # those that are not over; their times are those of a run that begins at `now`
+    orders: list[
+        Order
+    ]  # those that are not over; their times are those of a run that begins at `now`
     last_order: int  # the highest id there was
-    blocked: set  # units out of service
-    layout: list | None  # as returning.layout_of told it to the last run; None: an older version's
+    blocked: set[int]  # units out of service
+    layout: (
+        list[Any] | None
+    )  # what returning.layout_of gave the last run; None: of an older version
 
 
-def read(engine, now=0.0):
-    """The Stored of a database; None if no warehouse is in it.
+def read(engine: Engine, now: float = 0.0) -> Stored | None:
+    """Reads the warehouse of a database; None if there is none.
 
     now: the simulated time at which the next run begins [s].
     """
@@ -53,16 +61,16 @@ def read(engine, now=0.0):
         )
 
 
-def _layout(connection):
+def _layout(connection: Connection) -> list[Any] | None:
     run = schema.run.c
     query = select(run.layout).where(run.layout.is_not(None)).order_by(run.id.desc()).limit(1)
     found = connection.execute(query).scalar()
     return None if found is None else json.loads(found)
 
 
-def transports_left(engine):
-    """(ids, last): transports that a run which was killed had open, and the last that is known of
-    it; None if it has asked for none."""
+def transports_left(engine: Engine) -> tuple[set[int], int | None]:
+    """Returns (ids, last): the transports that a killed run left open, and the last one that it is
+    known to have asked for; None if it asked for none."""
     visit = schema.visit.c
     last = select(visit.transport_id).order_by(visit.id.desc()).limit(1)
     with engine.connect() as connection:
@@ -70,12 +78,17 @@ def transports_left(engine):
         return set(connection.execute(still_open).scalars()), connection.execute(last).scalar()
 
 
-def throughput(engine, now, since):
-    """(begin, picked, stored, completed) of the runs before one that begins at `now`: their first
-    moment, and how many in each kpis.INTERVAL from `since` on, by its number, as kpis.Tally counts
-    them. Times are that run's [s]."""
+def throughput(
+    engine: Engine, now: float, since: float
+) -> tuple[float, dict[int, int], dict[int, int], dict[int, int]]:
+    """Returns (begin, picked, stored, completed) of the runs before one that begins at `now`.
+
+    begin: their first moment. The counts are those of kpis.Tally in each kpis.INTERVAL from `since`
+    on, by its number. Times are those of the run that begins [s]."""
     move, order, begin = schema.move.c, schema.orders.c, now
-    counts = [defaultdict(int) for _ in range(3)]
+    picked: dict[int, int] = defaultdict(int)
+    stored: dict[int, int] = defaultdict(int)
+    completed: dict[int, int] = defaultdict(int)
     with engine.connect() as connection:
         later = _shifts(connection, now)
         for run in connection.execute(select(schema.run)):
@@ -94,25 +107,26 @@ def throughput(engine, now, since):
                 .where(order.run == run.id)
                 .where(order.state == int(OrderState.COMPLETED), order.completed >= since - by)
             )
-            for query, count in zip(queries, counts):
+            for query, count in zip(queries, (picked, stored, completed)):
                 for stamp, number in connection.execute(query):
                     count[int((stamp + by) // INTERVAL)] += number
-    return begin, *counts
+    return begin, picked, stored, completed
 
 
-def heat(engine, now):
-    """[(when it began, by the time of a run that begins at `now` [s], the maps as bytes)]: what was
-    kept of the FloorHeat."""
+def heat(engine: Engine, now: float) -> list[tuple[float, bytes]]:
+    """Returns what was kept of the FloorHeat: pairs (begin, maps as bytes).
+
+    begin: in the time of a run that begins at `now` [s]."""
     with engine.connect() as connection:
         later = _shifts(connection, now)
-        rows = connection.execute(select(schema.heat)).all()
+        rows: list[Any] = connection.execute(select(schema.heat)).all()
     kept = [(row.began_s + later[row.run], row.maps) for row in rows]
     return [(began, maps) for began, maps in kept if began >= 0]
 
 
-def _rows(connection, table, query):
-    """Those of a query on a table; raises ValueError for what is not of a column's type, as SQLite
-    lets it be."""
+def _rows(connection: Connection, table: Table, query: Any) -> list[Any]:
+    """Returns the rows of a query on a table. Raises ValueError for a value that is not of its
+    column's type, which SQLite allows."""
     rows = connection.execute(query).all()
     kinds = [(column.name, column.type.python_type, column.nullable) for column in table.c]
     for row in rows:
@@ -124,8 +138,8 @@ def _rows(connection, table, query):
     return rows
 
 
-def _bins(connection, skus):
-    """(bins, former, last) of a Stored."""
+def _bins(connection: Connection, skus: Iterable[str]) -> tuple[list[Bin], dict[str, int], int]:
+    """Returns (bins, former, last) of a Stored."""
     skus = set(skus)
     result, former, last, fallen = [], {}, 0, _fallen(connection)
     for row in _rows(connection, schema.bin_, select(schema.bin_).order_by(schema.bin_.c.id)):
@@ -141,17 +155,18 @@ def _bins(connection, skus):
     return result, former, last
 
 
-def _fallen(connection):
-    """The pieces that lie on the floor with their bins, by bin."""
+def _fallen(connection: Connection) -> dict[int, int]:
+    """Returns the pieces that lie on the floor with their bins, by bin."""
     move = schema.move.c
     pieces = func.sum(move.quantity)
     query = select(move.bin, pieces).where(move.reason.in_((Reason.FELL, Reason.PICKED_UP)))
     return {one: -n for one, n in connection.execute(query.group_by(move.bin).having(pieces < 0))}
 
 
-def _orders(connection, now):
+def _orders(connection: Connection, now: float) -> list[Order]:
     later = _shifts(connection, now)
-    table, lines = schema.orders, {}
+    table = schema.orders
+    lines: dict[int, list[Any]] = {}
     is_open = table.c.state.in_((int(OrderState.OPEN), int(OrderState.ASSIGNED)))
     query = select(schema.order_line).join(table).where(is_open)
     for row in _rows(connection, schema.order_line, query.order_by(schema.order_line.c.number)):
@@ -169,9 +184,11 @@ def _orders(connection, now):
     return result
 
 
-def _shifts(connection, now):
-    """What is added to a time of each run to make it one of a run that begins at `now`: nothing if
-    simulated time has gone on; where it began again, or went back, the next run follows at once."""
+def _shifts(connection: Connection, now: float) -> dict[int, float]:
+    """Returns, by run, what to add to its times to get those of a run that begins at `now` [s].
+
+    Nothing if simulated time went on; if it began again or went back, the next run follows at once.
+    """
     rows = connection.execute(select(schema.run).order_by(schema.run.c.id.desc()))
     result, begins, by = {}, now, 0.0
     for row in rows:

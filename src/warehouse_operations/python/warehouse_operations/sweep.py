@@ -17,9 +17,11 @@ grid:                         # each key is an axis
 import contextlib
 import itertools
 import re
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
+from typing import Any
 
 from warehouse_operations import runs
 from warehouse_operations.locks import FileLock, InUseError
@@ -33,7 +35,7 @@ from warehouse_operations.simulation import (
 )
 from warehouse_operations.yaml_file import read_yaml
 
-KINDS = {
+KINDS: dict[str, tuple[Any, str]] = {
     "out": (str, "the name of a folder"),
     "size": (str, "the name of a preset"),
     "instance": (str, "a file"),
@@ -56,10 +58,10 @@ class Sweep:
     """The shifts of a sweep and the folder of each."""
 
     folder: Path
-    jobs: tuple  # of (Description, Path)
+    jobs: tuple[tuple[Description, Path], ...]
 
-    def done(self):
-        """The Runs that are complete and of this sweep, and the jobs that are left."""
+    def done(self) -> tuple[list[runs.Run], list[tuple[Description, Path]]]:
+        """Returns the complete Runs of this sweep, and the jobs that are left."""
         complete, left = [], []
         for description, folder in self.jobs:
             try:
@@ -73,8 +75,8 @@ class Sweep:
         return complete, left
 
 
-def read(path):
-    """The Sweep of a YAML file; raises SweepError."""
+def read(path: str | Path) -> Sweep:
+    """Reads a sweep from a YAML file; raises SweepError."""
     path = Path(path)
     data = read_yaml(path, SweepError)
     if not isinstance(data, dict):
@@ -94,7 +96,12 @@ def read(path):
     return Sweep(folder, tuple(jobs))
 
 
-def run_all(sweep, processes=None, executor=None, on_done=None):
+def run_all(
+    sweep: Sweep,
+    processes: int | None = None,
+    executor: Executor | None = None,
+    on_done: Callable[[int, int], object] | None = None,
+) -> tuple[list[runs.Run], list[str]]:
     """Runs what is left; returns all Runs and sentences about those that failed.
 
     executor: a concurrent.futures Executor, else processes on this machine. on_done(done, all) is
@@ -105,7 +112,7 @@ def run_all(sweep, processes=None, executor=None, on_done=None):
 
 
 @contextlib.contextmanager
-def _alone(folder):
+def _alone(folder: Path) -> Iterator[None]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with FileLock(folder):
@@ -114,7 +121,9 @@ def _alone(folder):
         raise SweepError(str(error)) from error
 
 
-def _run_all(sweep, executor, on_done):
+def _run_all(
+    sweep: Sweep, executor: Executor, on_done: Callable[[int, int], object] | None
+) -> tuple[list[runs.Run], list[str]]:
     complete, left = sweep.done()
     failures = []
     with executor as pool:
@@ -135,12 +144,12 @@ def _run_all(sweep, executor, on_done):
     return sorted(complete, key=lambda run: order[run.folder]), failures
 
 
-def _one(description, folder):
+def _one(description: Description, folder: Path) -> list[str]:
     _, faults = simulate(description, folder)
     return faults
 
 
-def _check(path, key, value):
+def _check(path: Path, key: str, value: Any) -> None:
     kind, expected = KINDS.get(key, (object, ""))
     is_other = isinstance(value, bool) and kind is not bool and kind is not object
     if (
@@ -151,7 +160,7 @@ def _check(path, key, value):
         raise SweepError(f"{path}: {key} is {value!r}; {expected} was expected")
 
 
-def _points(path, grid):
+def _points(path: Path, grid: Any) -> Iterator[dict[str, Any]]:
     if not isinstance(grid, dict) or not all(isinstance(v, list) and v for v in grid.values()):
         raise SweepError(f"{path}: grid: a list of values for each key was expected")
     for key, values in zip(map(str, grid), grid.values()):
@@ -165,7 +174,7 @@ def _points(path, grid):
         yield dict(zip(grid, values))
 
 
-def _description(path, data, point):
+def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> Description:
     merged = data | {k: v for k, v in point.items() if not k.startswith("policies.")}
     policies = dict(data.get("policies") or {})
     for key, value in point.items():
@@ -185,7 +194,7 @@ def _description(path, data, point):
         raise SweepError(f"{path}: {error}") from error
 
 
-def _seeds(path, seeds):
+def _seeds(path: Path, seeds: Any) -> Iterable[int]:
     counted = isinstance(seeds, int) and 0 < seeds <= MOST_SEEDS
     result = range(1, seeds + 1) if counted else seeds
     if not isinstance(result, (list, range)) or not all(map(_is_seed, result)) or not result:
@@ -196,9 +205,9 @@ def _seeds(path, seeds):
     return list(result)
 
 
-def _is_seed(value):
+def _is_seed(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST_SEED
 
 
-def _word(value):
+def _word(value: Any) -> str:
     return value.get("name", "") if isinstance(value, dict) else str(value)

@@ -2,26 +2,23 @@
 """What a person at a station is asked to do: each thing by a number of its own, done but once."""
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum
+from typing import TYPE_CHECKING
 
-from warehouse_operations.stations import Mode
+from warehouse_operations.message_enums import Mode, Outcome
+from warehouse_operations.stations import WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.shift import Shift
 
 KEPT = 1000  # reports that are known when they come again
 UNDO_WITHIN = 60.0  # after a report [s], simulated: ten seconds of a person where time runs faster
 
 
-class Outcome(IntEnum):
-    """Of a task."""
-
-    DONE = 0
-    SHORT = 1
-    DAMAGED = 2
-
-
 @dataclass(frozen=True)
 class Report:
-    """What a person says of a task, which station, order, item and sequence name."""
+    """A person's report of a task, which station, order, item and sequence name."""
 
     station: str
     order_id: int
@@ -33,12 +30,12 @@ class Report:
 
 @dataclass
 class Answer:
-    """What became of a Report; `undo()` takes a write-off back, and returns why it can't."""
+    """The result of a Report; `undo()` takes a write-off back, and returns why it can't."""
 
     success: bool
     message: str = ""
     quantity: int = 0
-    undo: object = None
+    undo: Callable[[], str] | None = None
 
 
 @dataclass
@@ -52,29 +49,30 @@ class Done:
 
 
 class Tasks:
-    """The part of a Shift that hears from people at its stations."""
+    """Takes the reports of people at a Shift's stations."""
 
-    def __init__(self, shift):
-        self._shift, self._done = shift, {}
+    def __init__(self, shift: "Shift") -> None:
+        self._shift = shift
+        self._done: dict[int, Done] = {}
         self._numbers = itertools.count(1)
 
-    def number_from(self, first):
-        """Numbers tasks from `first` on: none is that of a task of an earlier run."""
+    def number_from(self, first: int) -> None:
+        """Numbers tasks from `first` on, above the numbers of earlier runs."""
         self._numbers = itertools.count(first)
 
-    def number(self):
-        """That of a new task, or of what is left of one."""
+    def number(self) -> int:
+        """Returns the number of a new task, or of the rest of one."""
         return next(self._numbers)
 
-    def report(self, report):
-        """Carries out a Report; returns an Answer. One that comes again changes nothing."""
+    def report(self, report: Report) -> Answer:
+        """Carries out a Report; a repeated one gets the same answer and changes nothing."""
         done = self._done.get(report.sequence)
         if done:
             same = done.report == report
             text = f"that was reported as {done.report.outcome.name} already"
             return done.answer if same else Answer(False, text)
         station, refusal = self._station(report.station)
-        if refusal:
+        if refusal or station is None:
             return Answer(False, refusal)
         part, now = self._shift.manual_part_of(station), self._shift.now
         task = part.task(station, report)
@@ -86,8 +84,8 @@ class Tasks:
             self._keep(Done(report, answer, now))
         return answer
 
-    def undo(self, station, sequence):
-        """Takes back what was written off; returns success and why not."""
+    def undo(self, station: str, sequence: int) -> tuple[bool, str]:
+        """Takes a write-off back; returns success and why not."""
         done = self._done.get(sequence)
         if not done or done.report.station != station or not done.answer.undo:
             return False, f"nothing was written off at {station} under {sequence}"
@@ -99,13 +97,13 @@ class Tasks:
         done.undone = not refusal
         return done.undone, refusal
 
-    def _station(self, name):
+    def _station(self, name: str) -> tuple[WorkStation | None, str]:
         station = self._shift.find_station(name)
         if not station:
             return None, f"there is no station '{name}'"
         return station, "" if station.mode == Mode.MANUAL else f"{name} works by itself"
 
-    def _keep(self, done):
+    def _keep(self, done: Done) -> None:
         self._done[done.report.sequence] = done
         if len(self._done) > KEPT:
             del self._done[next(iter(self._done))]

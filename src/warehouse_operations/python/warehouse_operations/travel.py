@@ -11,19 +11,24 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
+from warehouse_fleet.kinematics import Kinematics
+from warehouse_layout.floor_plan import FloorPlan
+
 HEADINGS = 4
 TABLES = 400  # kept at most, the least recently used is dropped
 
 
 class Table:
-    """From one cell to all others, or back: time [s] and length [m] by cell; inf: no way."""
+    """Routes from one cell to all others, or back: time [s] and length [m] by cell; or inf."""
 
-    def __init__(self, seconds, metres, cells, heading):
+    def __init__(
+        self, seconds: np.ndarray, metres: np.ndarray, cells: np.ndarray, heading: np.ndarray
+    ) -> None:
         self.seconds, self.metres = seconds, metres
         self._cells, self._heading = cells, heading
 
-    def cells(self, cell):
-        """The cells on the way between the table's own cell and another one, both included."""
+    def cells(self, cell: int) -> list[int]:
+        """Returns the cells of the route between the table's own cell and another, with both."""
         node, way = cell * HEADINGS + self._heading[cell], [cell]
         while (node := self._cells[node]) >= 0:
             if node // HEADINGS != way[-1]:
@@ -32,9 +37,9 @@ class Table:
 
 
 class Travel:
-    """Times and lengths of ways on a FloorPlan."""
+    """Times and lengths of routes on a FloorPlan."""
 
-    def __init__(self, plan, kinematics):
+    def __init__(self, plan: FloorPlan, kinematics: Kinematics) -> None:
         self.plan, self.kinematics = plan, kinematics
         self.width = plan.passable.shape[1]
         self._keep_out = np.asarray(plan.storage | plan.parking, bool).ravel()
@@ -43,20 +48,20 @@ class Travel:
         self._forward = _graph(plan, kinematics, edges, ~self._keep_out[edges[0]])
         self._backward = _graph(plan, kinematics, edges, ~self._keep_out[edges[2]]).T.tocsr()
         self._edges = edges
-        self._tables = OrderedDict()
+        self._tables: OrderedDict[tuple[int, bool], Table] = OrderedDict()
 
-    def loaded_from(self, cell):
-        """The Table of ways of a loaded robot from a cell to all others."""
+    def loaded_from(self, cell: int) -> Table:
+        """Returns the routes of a loaded robot from a cell to all others."""
         return self._table(int(cell), True)
 
-    def loaded_to(self, cell):
-        """The Table of ways of a loaded robot to a cell from all others."""
+    def loaded_to(self, cell: int) -> Table:
+        """Returns the routes of a loaded robot to a cell from all others."""
         return self._table(int(cell), False)
 
-    def unloaded(self, cells, to):
-        """Time [s] and length [m] for robots without a load, which drive beneath the units.
+    def unloaded(self, cells: np.ndarray, to: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns time [s] and length [m] for robots without a load, which drive under the units.
 
-        cells (n,) and to (m,): arrays of shape (n, m).
+        cells: (n,); to: (m,); both results: (n, m).
         """
         cells, to = np.asarray(cells)[:, None], np.asarray(to)[None, :]
         dx = np.abs(cells % self.width - to % self.width) * self.plan.spacing
@@ -65,7 +70,7 @@ class Travel:
         run = self.kinematics.run
         return run(dx) + run(dy) + turns * self.kinematics.quarter_turn, dx + dy
 
-    def _table(self, cell, forward):
+    def _table(self, cell: int, forward: bool) -> Table:
         key = cell, forward
         if key in self._tables:
             self._tables.move_to_end(key)
@@ -75,8 +80,8 @@ class Travel:
             self._tables.popitem(last=False)
         return table
 
-    def _graph_of(self, cell, forward):
-        """All ways from a cell, or to it; out of its own storage place too, or into it."""
+    def _graph_of(self, cell: int, forward: bool) -> csr_matrix:
+        """Returns all routes from or to a cell; also out of its own storage place, or into it."""
         graph = self._forward if forward else self._backward
         if not self._keep_out[cell]:
             return graph
@@ -84,7 +89,7 @@ class Travel:
         between = _graph(self.plan, self.kinematics, self._edges, own, turns=False)
         return graph + (between if forward else between.T.tocsr())
 
-    def _search(self, cell, graph):
+    def _search(self, cell: int, graph: csr_matrix) -> Table:
         start = cell * HEADINGS + np.arange(HEADINGS)
         seconds, before, _ = dijkstra(graph, indices=start, min_only=True, return_predecessors=True)
         metres = _lengths(before, self.plan.spacing)
@@ -96,8 +101,8 @@ class Travel:
         return Table(seconds, metres[nodes], before, heading)
 
 
-def _edges(plan, keep_out):
-    """Cells, headings and next cells of all steps that a loaded robot may ever make."""
+def _edges(plan: FloorPlan, keep_out: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns cells, headings and next cells of all steps that a loaded robot may ever make."""
     following = np.asarray(plan.floor().edges(False)).reshape(-1, HEADINGS)
     lane = np.asarray(plan.lane, bool).ravel()
     cells, headings = np.nonzero(following >= 0)
@@ -106,8 +111,14 @@ def _edges(plan, keep_out):
     return cells[allowed], headings[allowed], to[allowed]
 
 
-def _graph(plan, kinematics, edges, chosen, turns=True):
-    """Steps between (cell, heading) with their time [s], and turns on the spot."""
+def _graph(
+    plan: FloorPlan,
+    kinematics: Kinematics,
+    edges: tuple[np.ndarray, ...],
+    chosen: np.ndarray,
+    turns: bool = True,
+) -> csr_matrix:
+    """Returns steps between (cell, heading) with their time [s], and turns on the spot."""
     cells, headings, to = (values[chosen] for values in edges)
     count = plan.passable.size * HEADINGS
     rows, columns = [cells * HEADINGS + headings], [to * HEADINGS + headings]
@@ -122,12 +133,12 @@ def _graph(plan, kinematics, edges, chosen, turns=True):
     return csr_matrix((weights, (rows, columns)), (count, count))
 
 
-def _turned(node, quarters):
+def _turned(node: np.ndarray, quarters: int) -> np.ndarray:
     return node // HEADINGS * HEADINGS + (node + quarters) % HEADINGS
 
 
-def _lengths(before, spacing):
-    """Metres along a tree of predecessors, by pointer doubling."""
+def _lengths(before: np.ndarray, spacing: float) -> np.ndarray:
+    """Returns the metres along a tree of predecessors, by pointer doubling."""
     pointer = np.where(before < 0, np.arange(len(before)), before)
     length = np.where(pointer // HEADINGS == np.arange(len(before)) // HEADINGS, 0.0, spacing)
     while True:

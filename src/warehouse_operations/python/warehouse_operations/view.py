@@ -2,8 +2,8 @@
 """The state of a shift as its policies see it."""
 
 from collections import defaultdict
-from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -62,7 +62,7 @@ class View:
 
     @property
     def bundles(self) -> Mapping[int, Bundle]:
-        """The Bundles at the door, without a place yet, by id."""
+        """The Bundles that wait for a place, by id."""
         return self._shift.replenishing.bundles
 
     @property
@@ -176,23 +176,25 @@ class PolicyHooks:
     def __init__(self, shift: "Shift") -> None:
         self._shift = shift
 
-    def choose_place(self, shelf_id, cells, distances):
+    def choose_place(self, shelf_id: int, cells: np.ndarray, distances: np.ndarray) -> int:
         """Returns the cell in which a unit is stored, and notes it as the unit's place."""
         shift = self._shift
         cell = int(shift.policies.storage.choose(shelf_id, cells, distances, shift.view))
         shift.floor.cells[shelf_id] = cell
         return cell
 
-    def match_robots(self, tasks, robots, seconds):
+    def match_robots(
+        self, tasks: Sequence[Any], robots: Sequence[int], seconds: np.ndarray
+    ) -> Iterable[tuple[int, int]]:
         """Returns pairs (index of the task, index of the robot)."""
         return self._shift.policies.robots.match(tasks, robots, seconds, self._shift.view)
 
-    def park(self, kiva_id, cell):
-        """Returns the cell to which a robot without work goes; None: it waits where it is."""
+    def park(self, kiva_id: int, cell: int) -> int | None:
+        """Returns the cell to which a robot without work goes; None if it waits where it is."""
         return self._shift.policies.idle.park(kiva_id, cell, self._shift.view)
 
     @property
-    def charging(self):
+    def charging(self) -> Any:
         """The charging policy."""
         return self._shift.policies.charging
 

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where units stand and how far it is from there: what of the floor a shift's policies see."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.travel import Travel
 
 
@@ -13,33 +16,40 @@ class Whereabouts:
     cells: where each stored unit stands now; those that are carried are not in it.
     """
 
-    def __init__(self, plan, robots, units, travel=None):
+    def __init__(
+        self,
+        plan: FloorPlan,
+        robots: Mapping[int, int],
+        units: Mapping[int, int],
+        travel: Travel | None = None,
+    ) -> None:
         self.plan, self.robots, self.units = plan, dict(robots), dict(units)
         self.cells = dict(units)
         self._travel = travel or Travel(plan, Kinematics())
         self._service = {one.name: int(one.cells[one.service]) for one in plan.stations}
         self._picking = [one.name for one in plan.stations if one.kind == "PICK"]
-        self._place_rank = None
+        self._place_rank: np.ndarray | None = None
 
-    def seconds_to(self, station, unit):
-        """From where a unit stands to a station's service cell [s]; inf while it is carried."""
+    def seconds_to(self, station: str, unit: int) -> float:
+        """Returns the time [s] from a unit's place to a station's service cell; inf while it is
+        carried."""
         cell = self.cells.get(unit)
         table = self._travel.loaded_to(self._service[station])
         return float(table.seconds[cell]) if cell is not None else float("inf")
 
-    def apart(self, cell, cells):
-        """Metres along the axes."""
+    def apart(self, cell: int, cells: np.ndarray) -> np.ndarray:
+        """Returns the metres along the axes between a cell and others, (n,)."""
         width, cells = self.plan.passable.shape[1], np.asarray(cells)
         dx, dy = cells % width - cell % width, cells // width - cell // width
         return (np.abs(dx) + np.abs(dy)) * self.plan.spacing
 
-    def place_rank(self, cells):
-        """0 for the storage places nearest to a picking station, 1 for the farthest."""
+    def place_rank(self, cells: np.ndarray) -> np.ndarray:
+        """Returns ranks of storage places, (n,): 0 nearest to a picking station, 1 farthest."""
         if self._place_rank is None:
             self._place_rank = self._rank()
         return self._place_rank[np.asarray(cells)]
 
-    def _rank(self):
+    def _rank(self) -> np.ndarray:
         places = np.flatnonzero(self.plan.storage)
         seconds = np.full(len(places), np.inf)
         for name in self._picking:

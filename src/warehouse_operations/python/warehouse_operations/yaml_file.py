@@ -2,12 +2,13 @@
 """Reads YAML files; what is wrong with one is one sentence with file and line."""
 
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 
-def read_yaml(path, error):
-    """What the file holds; raises `error`, a class, with a sentence."""
+def read_yaml(path: str | Path, error: type[Exception]) -> Any:
+    """Returns the content of a YAML file; raises `error` with a sentence."""
     try:
         return yaml.safe_load(Path(path).read_text(encoding="utf-8"))
     except OSError as why:
@@ -17,6 +18,6 @@ def read_yaml(path, error):
         line = f":{mark.line + 1}" if mark else ""
         said = getattr(why, "problem", None) or getattr(why, "reason", None) or why
         raise error(f"{path}{line}: {said}; YAML was expected") from why
-    # A date that there is not, or what is no text, among others.
+    # An impossible date, or a file that is not text, among others.
     except (ValueError, OverflowError, RecursionError) as why:
         raise error(f"{path}: {why}; YAML was expected") from why

@@ -90,7 +90,7 @@ class Teller:
 
 def _counted(row):
     """How many of each kind, as "4 robots, 24 storage units"."""
-    nouns = (_NOUNS.get(kind_and_number(event.model)[0], "other model") for event in row)
+    nouns = (_NOUNS.get(kind_and_number(event.model)[0] or "", "other model") for event in row)
     counts = Counter(nouns)
     order = [*_NOUNS.values(), "other model"]
     found = ((counts[noun], noun) for noun in order if counts[noun])

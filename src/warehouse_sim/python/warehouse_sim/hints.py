@@ -41,7 +41,7 @@ def _nearest(robots, units):
     for kiva in sorted(robots):
         x, y = point(robots[kiva])
         far = {number: abs(x - ux) + abs(y - uy) for number, (ux, uy) in units.items()}
-        yield from ((kiva, unit) for unit in sorted(far, key=far.get)[:NEAREST])
+        yield from ((kiva, unit) for unit in sorted(far, key=far.__getitem__)[:NEAREST])
 
 
 def _carry(kiva, unit, at, back):

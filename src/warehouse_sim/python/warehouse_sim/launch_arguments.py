@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the launch files' arguments may be: a table from argument to check.
 
-A check takes the text that was given, and the Place from which; it returns what was expected
+A Check takes the text that was given, and the Place from which; it returns what was expected
 instead, or "" where the text is right.
 """
 
@@ -9,6 +9,7 @@ import math
 import os
 import re
 import socket
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -29,14 +30,22 @@ class Place:
     worlds: Path
 
 
-def faults(values, place):
-    """Sentences, one for each of the arguments {name: text} that is wrong."""
+Check = Callable[[str, Place], str]
+
+
+def faults(values: Mapping[str, str], place: Place) -> list[str]:
+    """Returns a sentence for each of the arguments {name: text} that is wrong."""
     checked = ((name, text, ARGUMENTS[name](text, place)) for name, text in values.items())
-    return [f"{name}:={text}: {wrong}" for name, text, wrong in checked if wrong]
+    return [f"{name}:={_without_password(text)}: {wrong}" for name, text, wrong in checked if wrong]
 
 
-def unknown(names, known):
-    """Sentences, one for each of the names that is none of those that a launch file knows."""
+def value(name: str, text: str, place: Place) -> str:
+    """Returns a checked argument as nodes take it: the files of a shift by their whole path."""
+    return _of_the_shift(name, text, place) if name in OF_THE_SHIFT else text
+
+
+def unknown(names: Iterable[str], known: Collection[str]) -> list[str]:
+    """Returns a sentence for each of the names that a launch file does not know."""
     return [
         f"there is no argument '{name}'{near(name, known)}; known are {', '.join(sorted(known))}"
         for name in names
@@ -44,8 +53,8 @@ def unknown(names, known):
     ]
 
 
-def near(text, known):
-    """The question whether the nearest of the known words was meant; "" if none is near."""
+def near(text: str, known: Iterable[str]) -> str:
+    """Returns the question whether the nearest known word was meant; "" if none is near."""
     found = get_close_matches(text, known, 1)
     return f" (did you mean '{found[0]}'?)" if found else ""
 
@@ -53,35 +62,30 @@ def near(text, known):
 # --- checks
 
 
-def _anything(text, place):
-    """What the node that takes it checks itself."""
-    return ""
-
-
-def _one_of(*words):
-    """Of words; "" among them: none."""
+def _one_of(*words: str) -> Check:
+    """Accepts these words; "" among them means that the argument may be empty."""
     named = ", ".join(word or "nothing" for word in words)
 
-    def check(text, place):
+    def check(text: str, place: Place) -> str:
         return "" if text in words else f"one of {named} was expected{near(text, words)}"
 
     return check
 
 
-def _flag(text, place):
+def _flag(text: str, place: Place) -> str:
     return "" if text.lower() in ("true", "false", "1", "0") else "true or false was expected"
 
 
-def _whole(most):
-    def check(text, place):
+def _whole(most: int) -> Check:
+    def check(text: str, place: Place) -> str:
         right = re.fullmatch(r"\+?\d{1,15}", text) and int(text) <= most
         return "" if right else f"a whole number from 0 to {most} was expected"
 
     return check
 
 
-def _number(fits, expected):
-    def check(text, place):
+def _number(fits: Callable[[float], bool], expected: str) -> Check:
+    def check(text: str, place: Place) -> str:
         try:
             right = math.isfinite(float(text)) and fits(float(text))
         except ValueError:
@@ -91,7 +95,7 @@ def _number(fits, expected):
     return check
 
 
-def _world(text, place):
+def _world(text: str, place: Place) -> str:
     try:
         if text:
             world_file.find(text, place.worlds, place.cwd)
@@ -100,10 +104,10 @@ def _world(text, place):
     return ""
 
 
-def _file(what):
-    """To be read; "" for none."""
+def _file(what: str) -> Check:
+    """Accepts a file that can be read, and ""."""
 
-    def check(text, place):
+    def check(text: str, place: Place) -> str:
         path = place.cwd / text
         if not text or (path.is_file() and os.access(path, os.R_OK)):
             return ""
@@ -112,22 +116,22 @@ def _file(what):
     return check
 
 
-def _new_file(text, place):
-    """To be written; "" for none."""
+def _new_file(text: str, place: Place) -> str:
+    """Accepts a file that can be written, and ""."""
     path = place.cwd / text
     if not text or (os.access(path.parent, os.W_OK | os.X_OK) and not path.is_dir()):
         return ""
     return f"a file that can be written was expected; {path} is none"
 
 
-def _realism(text, place):
+def _realism(text: str, place: Place) -> str:
     names = sorted(path.stem for path in (place.worlds / "realism").glob("*.yaml"))
     if "/" in text or "." in text:
         return _file(f"{', '.join(names)} or a YAML file")(text, place)
     return _one_of("", *names)(text, place)
 
 
-def _host(text, place):
+def _host(text: str, place: Place) -> str:
     try:
         socket.getaddrinfo(text, 0)
     except (OSError, UnicodeError) as error:
@@ -135,7 +139,7 @@ def _host(text, place):
     return ""
 
 
-def _token_file(text, place):
+def _token_file(text: str, place: Place) -> str:
     try:
         if text:
             token.read(place.cwd / text)
@@ -144,7 +148,7 @@ def _token_file(text, place):
     return ""
 
 
-def _point(text, place):
+def _point(text: str, place: Place) -> str:
     try:
         point(text)
     except ValueError as error:
@@ -152,8 +156,8 @@ def _point(text, place):
     return ""
 
 
-def point(text):
-    """(x, y) of "x,y" [m]; None of "". Raises ValueError."""
+def point(text: str) -> tuple[float, float] | None:
+    """Returns (x, y) [m] of "x,y"; None for "". Raises ValueError."""
     if not text:
         return None
     try:
@@ -165,13 +169,43 @@ def point(text):
     return x, y
 
 
-ARGUMENTS = {
+def _shift_takes(name: str) -> Check:
+    """Accepts what a shift takes for its argument of that name."""
+
+    def check(text: str, place: Place) -> str:
+        from warehouse_operations.simulation import ERRORS
+
+        try:
+            _of_the_shift(name, text, place)
+        except ERRORS as error:
+            return str(error)
+        return ""
+
+    return check
+
+
+def _of_the_shift(name: str, text: str, place: Place) -> str:
+    # Most launches pass one of these.
+    if text in ("", "fill", "none"):
+        return text
+    from warehouse_operations import arguments
+
+    return getattr(arguments, name)(text, place.cwd)
+
+
+def _without_password(text: str) -> str:
+    """Returns a database's URL without its password, and any other text as it is."""
+    return re.sub(r"(://[^:/@]*:)[^@]*@", r"\1***@", text)
+
+
+OF_THE_SHIFT = ("orders", "policies", "database")
+ARGUMENTS: dict[str, Check] = {
     "world": _world,
     "replay": _file("a recording"),
     "size": _one_of("none", *PRESETS, FIT),
     "at": _point,
     "rviz": _flag,
-    "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as it goes)"),
+    "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as possible)"),
     "seed": _whole(MOST_WHOLE),
     "drive": _one_of("", "traction", "jointed"),
     "realism": _realism,
@@ -189,8 +223,5 @@ ARGUMENTS = {
     "exchange": _number(lambda seconds: seconds > 0, "a number of seconds above 0"),
     "planner": _file("a YAML file that names a planner"),
     "respawn": _flag,
-    # Of operations.launch.
-    "orders": _anything,
-    "policies": _anything,
-    "database": _anything,
+    **{name: _shift_takes(name) for name in OF_THE_SHIFT},
 }

@@ -4,11 +4,14 @@
 import os
 import re
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 from xmlrpc.client import ServerProxy
 
 from warehouse_layout import files
 from warehouse_sim import launch_arguments
+from warehouse_sim.launch_arguments import Place
 
 TIMEOUT = 3.0  # for a world to say that it is there [s, wall]
 SHARE = files.share(__file__)  # the folder with launch/
@@ -23,7 +26,7 @@ class LaunchError(ValueError):
 class Caller:
     """The process that reads a launch file, from its command line (a list) and its folder."""
 
-    def __init__(self, command_line, cwd, share):
+    def __init__(self, command_line: Sequence[str], cwd: str | Path, share: Path) -> None:
         self._share = share
         names = [part.rpartition("/")[2] for part in command_line[:2]]
         self.is_roslaunch = "roslaunch" in names
@@ -31,20 +34,20 @@ class Caller:
         self.cwd = Path(cwd)
 
     @classmethod
-    def of_process(cls, number, share):
-        """The one of that number."""
+    def of_process(cls, number: int, share: Path) -> "Caller":
+        """Returns the process of that number."""
         process = Path(f"/proc/{number}")
         line = (process / "cmdline").read_text(errors="replace").split("\0")
         return cls(line, os.readlink(process / "cwd"), share)
 
     @property
-    def typed(self):
+    def typed(self) -> dict[str, str]:
         """The arguments {name: text} that a person typed."""
         pairs = (re.fullmatch(r"(?!__)([^:=]+):=(.*)", word, re.DOTALL) for word in self.words)
-        return dict(pair.groups() for pair in pairs if pair)
+        return {pair[1]: pair[2] for pair in pairs if pair}
 
-    def launch_file(self):
-        """The one file of which the arguments are; None if that can't be told."""
+    def launch_file(self) -> Path | None:
+        """Returns the launch file that was called; None if that can't be told."""
         files = [word for word in self.words if word.endswith((".launch", ".xml"))]
         if len(files) != 1:
             return None
@@ -54,25 +57,25 @@ class Caller:
         return path if path.is_file() else None
 
     @property
-    def name(self):
-        """What a person launched."""
+    def name(self) -> str:
+        """The name of the launch file."""
         path = self.launch_file()
         return path.name if path else "warehouse.launch"
 
-    def known(self):
-        """The arguments that the launch file takes; None if that can't be told."""
+    def known(self) -> set[str] | None:
+        """Returns the arguments that the launch file takes; None if that can't be told."""
         path = self.launch_file()
         return known_arguments(path, self._share) if path else None
 
 
-def known_arguments(path, share):
-    """The names of arguments of a launch file, and of those that get all of its arguments; None
-    where one of them is not to be found."""
+def known_arguments(path: str | Path, share: Path) -> set[str] | None:
+    """Returns the names of the arguments of a launch file and of the files that it passes all its
+    arguments to; None if one of the files is missing."""
     try:
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, OSError):
         return None
-    known = {arg.get("name") for arg in root.iter("arg") if "value" not in arg.attrib}
+    known = {arg.get("name", "") for arg in root.iter("arg") if "value" not in arg.attrib}
     for include in root.iter("include"):
         if include.get("pass_all_args", "").lower() != "true":
             continue
@@ -80,18 +83,20 @@ def known_arguments(path, share):
         inner = None if "$" in file else known_arguments(file, share)
         if inner is None:
             return None
-        known |= inner - {arg.get("name") for arg in include.iter("arg")}
+        known |= inner - {arg.get("name", "") for arg in include.iter("arg")}
     return known
 
 
-def check_arguments(given, caller, place):
-    """Raises LaunchError with a sentence for each argument that is wrong: those that the launch
-    file hands on, {name: text}, and those that a person typed."""
+def check_arguments(given: Mapping[str, str], caller: Caller, place: Place) -> None:
+    """Checks the arguments {name: text} that a launch file passes on, and those that were typed.
+
+    Raises LaunchError with a sentence for each that is wrong."""
     known = caller.known()
     texts = launch_arguments.unknown(caller.typed, known) if known is not None else []
     # A launch file of one's own may have arguments of the same names.
     path = caller.launch_file()
-    is_ours = path and path.resolve().is_relative_to((place.worlds.parent / "launch").resolve())
+    launch = (place.worlds.parent / "launch").resolve()
+    is_ours = path is not None and path.resolve().is_relative_to(launch)
     typed = caller.typed if is_ours else {}
     checked = launch_arguments.ARGUMENTS.keys() & (known or ())
     values = {**given, **{name: text for name, text in typed.items() if name in checked}}
@@ -100,10 +105,10 @@ def check_arguments(given, caller, place):
         raise LaunchError("\n  ".join(texts))
 
 
-def master_of(caller, environment):
-    """The master that a roslaunch uses; None of another program.
+def master_of(caller: Caller, environment: Mapping[str, str]) -> str | None:
+    """Returns the URI of the master that a roslaunch uses; None for any other program.
 
-    rostest, say, always starts one of its own.
+    rostest, for example, always starts a master of its own.
     """
     if not caller.is_roslaunch:
         return None
@@ -117,8 +122,8 @@ def master_of(caller, environment):
     return environment.get("ROS_MASTER_URI", "http://localhost:11311")
 
 
-def check_master(uri, connect=ServerProxy):
-    """Raises LaunchError where a world runs at that master already.
+def check_master(uri: str, connect: Callable[[str], Any] = ServerProxy) -> None:
+    """Raises LaunchError if a world runs at that master already.
 
     A second of the same name would end the first, and with it the master of both.
     """
@@ -133,7 +138,7 @@ def check_master(uri, connect=ServerProxy):
     raise LaunchError(_runs_already(uri, *(v if code == 1 else "" for code, _, v in (name, page))))
 
 
-def _runs_already(uri, name, page):
+def _runs_already(uri: str, name: str, page: str) -> str:
     lines = [
         f"a warehouse{f' ({name})' if name else ''} runs at {uri} already; nothing was started",
         f"  join it:             rostopic echo /warehouse/events{f'    or {page}' if page else ''}",

@@ -32,7 +32,7 @@ class Command:
     """A message for a robot, and the topic it goes to."""
 
     topic: str
-    message: object
+    message: Any
 
     def __str__(self):
         fields = (f"{n} {getattr(self.message, n):g}" for n in self.message.__slots__)
@@ -47,7 +47,7 @@ def command(topic: str, kiva: int, **fields: Any) -> Command:
 class ScriptExecutor:
     """`ros` is rospy. `say(seconds, who, text)` tells what happens; seconds are simulated."""
 
-    def __init__(self, ros: Any, say: Callable[[str], Any], deadline: float) -> None:
+    def __init__(self, ros: Any, say: Callable[[float, str, str], Any], deadline: float) -> None:
         """`deadline` [s, wall] bounds each scene."""
         self._ros, self._say, self._deadline = ros, say, deadline
         self._inbox: queue.Queue[Any] = queue.Queue()

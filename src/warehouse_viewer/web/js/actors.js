@@ -69,7 +69,7 @@ export class Actors {
 
   /** Before each picture: what is drawn in detail, how, and what not. */
   fill(camera, height) {
-    const moved = this.view.look(camera, height);
+    const moved = this.view.update(camera, height);
     const crowds = [this.robots.crowd, this.units, this.items, ...this.sceneryCrowds, this.belts.slats];
     for (const crowd of crowds) {
       crowd.fill(this.view, moved);

@@ -44,7 +44,7 @@ export class Bar {
     const lack = this.lacks.checkpoint;
     const undone = lack ? `This can't be undone: ${lack}.` : 'It can be undone.';
     const text = 'Robots, storage units and items go back to where they started, and the time to 0:00. '
-      + `Running commands are cancelled; commands sent while time stands still are carried out afterwards. ${undone}`;
+      + `Running commands are cancelled; commands sent while the simulation is paused are carried out afterwards. ${undone}`;
     if (!await confirmed('Reset the warehouse?', text, 'Reset')) return;
     const kept = !lack && await this.act('checkpoint', { name: BEFORE_RESET });
     if (!lack && !kept) return;
@@ -104,7 +104,7 @@ export class Bar {
   showPaused(paused) {
     this.paused = paused;
     setIcon($('pause'), paused ? 'play' : 'pause');
-    $('pause').querySelector('span').textContent = paused ? 'Go on' : 'Pause';
+    $('pause').querySelector('span').textContent = paused ? 'Resume' : 'Pause';
   }
 
   showSpeed(factor) {

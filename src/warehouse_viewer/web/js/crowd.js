@@ -74,8 +74,8 @@ export class View {
     this.frustum = new THREE.Frustum();
   }
 
-  /** Takes in a camera on a picture of that height [px]. True if it sees other than before. */
-  look(camera, height) {
+  /** Updates the view for a camera and a picture of that height [px]. Returns whether it changed. */
+  update(camera, height) {
     camera.updateMatrixWorld();
     const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     if (matrix.equals(this.matrix) && height === this.height) return false;

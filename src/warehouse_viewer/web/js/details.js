@@ -3,13 +3,17 @@
 
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
+import { LiftStatus, RobotMode, Turn } from './message_enums.js';
 import { ACTIVITY, FAILURE, STATE } from './words.js';
 
-const LIFT = { drop: 0, carry: 1 };
+const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
-const MODE = { AUTOMATIC: 'the coordinator commands it', MANUAL: 'you command it; other robots drive around it',
-  OUT_OF_SERVICE: 'it takes no commands; other robots drive around it' };
-const WAITS = 'sent; time stands still: the robot starts when time goes on, even after a reset';
+const MODE = {
+  [RobotMode.AUTOMATIC]: 'the coordinator commands it',
+  [RobotMode.MANUAL]: 'you command it; other robots drive around it',
+  [RobotMode.OUT_OF_SERVICE]: 'it takes no commands; other robots drive around it',
+};
+const WAITS = 'sent; the simulation is paused: the robot starts when it resumes, even after a reset';
 
 export class Details {
   /** `select(name)` for links to others; `say(text, kind, at)` for what became of a command;
@@ -20,8 +24,8 @@ export class Details {
     for (const button of $('modes').children) {
       on(button, 'click', () => this.setMode(button.dataset.mode));
     }
-    on($('left'), 'click', () => this.turn(1));
-    on($('right'), 'click', () => this.turn(-1));
+    on($('left'), 'click', () => this.turn(Turn.COUNTERCLOCKWISE));
+    on($('right'), 'click', () => this.turn(Turn.CLOCKWISE));
     on($('carry'), 'click', () => this.lift('carry'));
     on($('drop'), 'click', () => this.lift('drop'));
     on($('fetch'), 'click', () => this.sendRobotHere());
@@ -59,7 +63,7 @@ export class Details {
     $('fetch').hidden = thing?.kind !== 'unit' || !this.world.indexOf.has(this.robot);
     $('fetch').textContent = `Send ${this.robot} beneath it`;
     $('pick-up').hidden = thing?.kind !== 'item' || this.fallen.unitOf(thing.index) < 0;
-    this.facts(thing ? this.factsOf(thing) : [['', 'is no longer there']]);
+    this.facts(thing ? this.factsOf(thing) : [['', 'no longer exists']]);
   }
 
   refreshRobot(i) {
@@ -67,8 +71,8 @@ export class Details {
     $('badge').className = `badge ${status}`;
     $('badge').textContent = status;
     const load = this.world.shelf[i], over = this.world.unitOver(i);
-    enable($('carry'), load ? 'it carries one' : over < 0 ? 'no storage unit stands over it' : '');
-    enable($('drop'), load ? '' : 'it carries none');
+    enable($('carry'), load ? 'it carries a storage unit' : over < 0 ? 'no storage unit stands over it' : '');
+    enable($('drop'), load ? '' : 'it carries no storage unit');
     enable($('remove'), load ? 'it carries a storage unit' : '');
     const mode = this.fleet.modeOf(this.world.scene.robots[i]);
     for (const button of $('modes').children) press(button, button.dataset.mode === mode);
@@ -86,13 +90,13 @@ export class Details {
 
   factsOfRobot(index) {
     const { world } = this, { scene } = world;
-    const out = [['does', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
+    const out = [['activity', STATE[world.state[index]]], ...this.planOf(scene.robots[index])];
     const broken = FAILURE.filter((_, bit) => world.failures[index] >> bit & 1);
     if (broken.length) out.push(['broken', broken.join(', ')]);
     if (world.charge.some((c) => c < 100)) out.push(['battery', `${world.charge[index]} %`]);
     const load = world.loadOf(index), limit = world.loadLimit[index];
     out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
-    if (limit > 0) out.push(['brakes for it', `at ${limit.toFixed(1)} m/s² at most`]);
+    if (limit > 0) out.push(['deceleration', `${limit.toFixed(1)} m/s² at most, so that the load does not tip`]);
     if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
     return out;
   }

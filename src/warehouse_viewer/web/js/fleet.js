@@ -2,6 +2,7 @@
 // The fleet that a coordinator drives, at a glance; nothing where none runs.
 
 import { $, make } from './dom.js';
+import { EventKind, RobotMode } from './message_enums.js';
 import { counted, countedEvents } from './words.js';
 
 const MOST_WAITING = 50; // rows
@@ -12,11 +13,12 @@ export function factsOf({ robots, work, transports, executed_over_planned: execu
     ['robots', counted(robots)],
     ['at work', counted(work)],
     ['transports', `${transports.open} open, ${transports.under_way} under way`],
-    ['done', `${transports.delivered} delivered, ${transports.stored} stored`
+    ['completed', `${transports.delivered} delivered, ${transports.stored} stored`
       + (transports.failed ? `, ${transports.failed} failed` : '')],
-    ['planning', `${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
-    ['driven / planned', `${executed.toFixed(2)} s/s`],
-    ['so far', countedEvents({ COLLISION: told.collisions, BLOCKED: told.blocked, watchdog: told.watchdog })],
+    ['planning time', `median ${told.plan_p50.toFixed(1)} ms, p99 ${told.plan_p99.toFixed(1)} ms`],
+    ['driven / planned time', executed.toFixed(2)],
+    ['incidents', countedEvents({
+      [EventKind.COLLISION]: told.collisions, [EventKind.BLOCKED]: told.blocked, watchdog: told.watchdog })],
   ];
 }
 
@@ -54,7 +56,7 @@ export class FleetPanel {
   /** Who commands a robot, by its id; null where no coordinator runs. */
   modeOf(id) {
     if (!this.fleet) return null;
-    if (this.fleet.manual.includes(id)) return 'MANUAL';
-    return this.fleet.out_of_service.includes(id) ? 'OUT_OF_SERVICE' : 'AUTOMATIC';
+    if (this.fleet.manual.includes(id)) return RobotMode.MANUAL;
+    return this.fleet.out_of_service.includes(id) ? RobotMode.OUT_OF_SERVICE : RobotMode.AUTOMATIC;
   }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which robots and stations have a label.
 
+import { Status } from './message_enums.js';
+
 export const LABEL_HEIGHT = 0.42; // above the floor [m]
 const LARGE = 24; // [px] a metre: robots seen so large have a number
 const MOST = 60; // of numbers, and of names
-const BLOCKED = 2;
 const READABLE = 10; // [px] a metre: a station that is seen so large has its name
 
 /** Indices of robots in sight of a View: {names, numbers}. Names have those of the set `wanted` and
@@ -13,7 +14,7 @@ export function labelled({ shown, status }, view, wanted) {
   const scales = Array.from(status, (_, i) => (
     view.scaleAt(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT, 0.5)));
   const seen = [...scales.keys()].filter((i) => scales[i] > 0);
-  const matters = (i) => wanted.has(i) || status[i] === BLOCKED;
+  const matters = (i) => wanted.has(i) || status[i] === Status.BLOCKED;
   const nearestFirst = (a, b) => scales[b] - scales[a] || a - b;
   return {
     names: seen.filter(matters)

@@ -2,6 +2,7 @@
 // The list of robots, blocked ones first, of which only the rows in sight exist; and the search.
 
 import { $, make, on, press } from './dom.js';
+import { Status } from './message_enums.js';
 import { found, rowsOf, wanted } from './search.js';
 import { ACTIVITY, STATE } from './words.js';
 
@@ -107,7 +108,7 @@ export class RobotList {
     const { status, state, shelf } = this.world;
     const name = this.nameOf(i);
     const kind = ACTIVITY[status[i]];
-    const load = shelf[i] ? `carries ${shelf[i]}` : status[i] === 1 ? STATE[state[i]] : '';
+    const load = shelf[i] ? `carries ${shelf[i]}` : status[i] === Status.BUSY ? STATE[state[i]] : '';
     const out = make('div', { className: 'row', click: () => this.select(name) },
       make('span', { className: `badge ${kind}`, textContent: kind }), name,
       make('span', { className: 'load', textContent: load }));

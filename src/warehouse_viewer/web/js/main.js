@@ -102,7 +102,7 @@ class Page {
   showPace(gap) {
     this.connection.slowTo(gap / 1000);
     $('pace').hidden = gap < NOTABLE;
-    $('pace').textContent = `${Math.round(1000 / gap)} frames/s: this machine draws in software`;
+    $('pace').textContent = `${Math.round(1000 / gap)} frames/s: rendered without a graphics card`;
   }
 
   /** Keeps what is looked at in the middle of what the panels leave free. */
@@ -129,7 +129,7 @@ class Page {
     if (String(floor) === this.floor) return;
     this.floor = String(floor);
     this.stage.setFloor(floor, grid);
-    this.navigator.see();
+    this.navigator.showAll();
   }
 
   takeUpdate(update) {
@@ -323,15 +323,15 @@ class Page {
     toggle('trails', (wanted) => this.showTrails(wanted));
     toggle('heat', (wanted) => this.heat?.want(wanted));
     toggle('xray', (wanted) => this.actors?.setSeeThrough(wanted));
-    on($('home'), 'click', () => this.see(false));
-    on($('top'), 'click', () => this.see(true));
+    on($('home'), 'click', () => this.showAll(false));
+    on($('top'), 'click', () => this.showAll(true));
     on($('theme'), 'click', () => this.changeTheme());
     on($('remove'), 'click', () => this.builder.remove(this.selected));
   }
 
-  see(above) {
+  showAll(above) {
     this.follow(false);
-    this.navigator?.see(above);
+    this.navigator?.showAll(above);
   }
 
   showTrails(wanted) {

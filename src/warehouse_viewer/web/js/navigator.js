@@ -15,8 +15,8 @@ export class Navigator {
     this.followed = null; // a function that returns [x, y, z]
   }
 
-  /** Everything in sight, as large as it goes; `above`: straight from above. */
-  see(above = false) {
+  /** Shows everything as large as it fits; `above`: straight from above. */
+  showAll(above = false) {
     const { camera, controls, bounds, margins: { left, right, top, bottom } } = this.stage;
     const half = Math.tan(camera.fov * Math.PI / 360) / innerHeight * EDGE;
     const free = [innerWidth - left - right, innerHeight - top - bottom].map((px) => Math.max(px, 100));

@@ -17,14 +17,14 @@ import { WorkScreen } from './work_screen.js';
 const PLACES = 200;
 const FIGURES = [
   ['item_throughput_per_hour', 'pieces per hour', count],
-  ['item_score', 'of the upper bound', percent],
-  ['orders_completed', 'orders complete', count],
+  ['item_score', 'throughput / upper bound', percent],
+  ['orders_completed', 'orders completed', count],
   ['orders_waiting', 'orders waiting', count],
   ['orders_at_stations', 'at stations', count],
   ['orders_late', 'late now', count],
-  ['late_orders_fraction', 'were or are late', percent],
-  ['pile_on', 'pieces a unit', (v) => v.toFixed(1)],
-  ['station_idle_fraction', 'picking idle', percent],
+  ['late_orders_fraction', 'late, of all orders', percent],
+  ['pile_on', 'pieces per unit visit', (v) => v.toFixed(1)],
+  ['station_idle_fraction', 'picking stations idle', percent],
   ['stock_level', 'stock', percent],
   ['real_time_factor', 'real-time factor', (v) => v.toFixed(2)],
   ['collisions', 'collisions', count],
@@ -145,7 +145,7 @@ class Page {
       return make('li', {}, dot, make('b', { textContent: doing[name] }), ` ${spaced(name)}`);
     }));
     const { transports } = fleet;
-    $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; plans take `
+    $('fleet').textContent = `${transports.under_way} transports under way, ${transports.open} open; planning takes `
       + `${fleet.plan_p50.toFixed(1)} ms, p99 ${fleet.plan_p99.toFixed(1)} ms`;
     $('waiting').replaceChildren(...fleet.waiting.map(({ robot, since, text }) => (
       make('li', { textContent: `kiva${robot} waits ${Math.round(fleet.time - since)} s ${text}` }))));
@@ -159,7 +159,7 @@ class Page {
       $('found').textContent = `${count(pieces)} pieces in ${count(total)} bins`;
       Object.assign($('on-floor'), { hidden: !sku || !total, href: `/#${encodeURIComponent(sku)}` });
       $('places').replaceChildren(...places.map(({ item, shelf_id: unit, sku: held, quantity, reserved }) => (
-        make('li', { textContent: `storage unit ${unit}: ${quantity}${sku ? '' : ` ${held}`} in ${item}${reserved ? `, ${reserved} promised` : ''}` }))));
+        make('li', { textContent: `storage unit ${unit}: ${quantity}${sku ? '' : ` ${held}`} in ${item}${reserved ? `, ${reserved} reserved` : ''}` }))));
     } catch (error) {
       $('found').textContent = error.message;
     }

@@ -4,7 +4,7 @@
 
 import { get } from './api.js';
 import { $, make, on, press } from './dom.js';
-import { OrderRow } from './order_row.js';
+import { isOver, OrderRow } from './order_row.js';
 
 const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in operations.css
 const AROUND = 30; // rows beside those in sight that are asked for too
@@ -70,7 +70,7 @@ export class OrderList {
   /** Asks for what is in sight after so many milliseconds, and not before an answer has come. */
   soon(delay) {
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.look(), delay);
+    this.timer = setTimeout(() => this.fetchOrders(), delay);
   }
 
   /** The server is there, perhaps again: what changed meanwhile was not told. */
@@ -89,7 +89,7 @@ export class OrderList {
     return !this.filter && !this.text;
   }
 
-  async look() {
+  async fetchOrders() {
     if (this.isLooking) {
       this.isStale = true;
       return;
@@ -173,8 +173,7 @@ export class OrderList {
 /** Whether an order is one of those that a filter of the server's query and a text ask for. */
 export function belongs(order, filter, text, now) {
   const wanted = new URLSearchParams(filter), state = wanted.get('state');
-  const isOver = order.state === 'COMPLETED' || order.state === 'CANCELLED';
   if (state && order.state !== state) return false;
-  if (wanted.has('late') && (!order.due || isOver || order.due > now)) return false;
+  if (wanted.has('late') && (!order.due || isOver(order) || order.due > now)) return false;
   return !text || order.reference.includes(text) || order.lines.some(({ sku }) => sku === text);
 }

@@ -2,6 +2,7 @@
 // A row of the list of orders. It shows one order as long as it lives: a finger may be on its button.
 
 import { make } from './dom.js';
+import { OrderState } from './message_enums.js';
 import { ORDER_STATES } from './words.js';
 
 export class OrderRow {
@@ -35,7 +36,7 @@ export class OrderRow {
 }
 
 export function isOver({ state }) {
-  return state === 'COMPLETED' || state === 'CANCELLED';
+  return state === OrderState.COMPLETED || state === OrderState.CANCELLED;
 }
 
 /** What is picked of what, as '1/2 sku-3, 0/1 sku-7'. */
@@ -45,7 +46,7 @@ export function piecesOf({ lines }) {
 
 /** {isLate, text} of an order at a time [s]. */
 export function lateness({ due, completed, state }, now) {
-  if (!due || state === 'CANCELLED') return { isLate: false, text: '' };
+  if (!due || state === OrderState.CANCELLED) return { isLate: false, text: '' };
   const left = due - (completed || now);
   const minutes = `${Math.max(1, Math.round(Math.abs(left) / 60))} min`;
   if (left < 0) return { isLate: true, text: `${minutes} late` };

@@ -10,9 +10,9 @@ const NEW = 0.3; // weight of the last picture's cost beside those before
 const LOOK = 4; // between two looks at whether a picture is done [ms]
 
 export class Pace {
-  /** `tell(gap)` hears the time from one picture to the next [ms], after each. */
-  constructor(tell, clock = () => performance.now(), later = (done, ms) => setTimeout(done, ms)) {
-    Object.assign(this, { tell, clock, later });
+  /** `onPicture(gap)` gets the time from one picture to the next [ms], after each. */
+  constructor(onPicture, clock = () => performance.now(), later = (done, ms) => setTimeout(done, ms)) {
+    Object.assign(this, { onPicture, clock, later });
     this.cost = 0; // of a picture [ms]
     this.gap = 0; // from one picture to the next, at least [ms]
     this.hurriedUntil = 0; // [ms]
@@ -35,7 +35,7 @@ export class Pace {
     this.cost += (this.cost ? NEW : 1) * (cost - this.cost);
     const share = this.clock() < this.hurriedUntil ? HURRIED : SHARE;
     this.gap = Math.min(SLOWEST, this.cost / share);
-    this.tell(this.gap);
+    this.onPicture(this.gap);
     await this.wait(begun + this.gap - this.clock());
   }
 

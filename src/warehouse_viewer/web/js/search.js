@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person types in search of something, and what it finds.
 
+import { Status } from './message_enums.js';
+import { HOLDING } from './words.js';
+
 const MOST = 12; // found names shown
-const ORDER = [3, 1, 0, 2]; // of robots, by ACTIVITY: blocked, busy, holding, idle
+const ORDER = { [Status.BLOCKED]: 0, [Status.BUSY]: 1, [HOLDING]: 2, [Status.IDLE]: 3 }; // of robots
 
 /** 'Robot 3' is kiva3; 'unit 12' is within storage_unit12. */
 export function wanted(text) {

@@ -3,6 +3,7 @@
 
 import { put } from './api.js';
 import { $, make } from './dom.js';
+import { StationMode } from './message_enums.js';
 
 const UNATTENDED = 60; // [s], simulated
 
@@ -31,14 +32,15 @@ class Card {
     this.waits = make('div', { className: 'waits-for-person', hidden: true });
     this.queue = make('div', { className: 'queue' });
     this.gate = make('button', { click: () => act(this.set(!this.station.open, this.station.mode)) });
-    this.hand = make('button', { click: () => act(this.set(this.station.open, this.isByHand ? 'AUTOMATIC' : 'MANUAL')) });
+    this.hand = make('button', { click: () => act(this.set(this.station.open,
+      this.isByHand ? StationMode.AUTOMATIC : StationMode.MANUAL)) });
     this.screen = make('a', { className: 'button', textContent: 'Screen', title: 'For a person at the station' });
     this.element = make('div', {}, make('header', {}, this.name, this.busy), this.work, this.waits, this.queue,
       make('footer', {}, this.gate, this.hand, this.screen));
   }
 
   get isByHand() {
-    return this.station.mode === 'MANUAL';
+    return this.station.mode === StationMode.MANUAL;
   }
 
   /** Each button sends both: until the server has one, the other waits. */
@@ -69,14 +71,14 @@ class Card {
     this.queue.replaceChildren(...unit ? [chip(unit, 'here')] : [], ...inbound.map((other) => chip(other)));
     this.queue.title = `storage units: ${unit ? `${unit} is there, ` : ''}${inbound.length} on their way`;
     this.gate.textContent = open ? 'Close' : 'Open';
-    this.hand.textContent = this.isByHand ? 'By itself' : 'By hand';
+    this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
     this.screen.href = `#${name}`;
   }
 }
 
 /** That a station has waited for a person for a minute or longer; '': it has not. */
 export function waitingOf({ waiting }) {
-  return waiting < UNATTENDED ? '' : `waits for a person, ${Math.floor(waiting / 60)} min`;
+  return waiting < UNATTENDED ? '' : `has waited for a person for ${Math.floor(waiting / 60)} min`;
 }
 
 function chip(text, className = '') {

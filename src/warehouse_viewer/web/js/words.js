@@ -1,21 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words for what the server tells in numbers and names: the same on every page, and those of the
-// API and of the events (words.py); a test compares them.
+// The words for the constants of messages: the same on every page, and those of the API and of the
+// events (message_names.py); a test compares them.
 
-/** What a robot does at a glance, by number: `holding` carries a storage unit and has no command,
- *  `blocked` ended its last command before an obstacle, and has no other one yet. */
-export const ACTIVITY = ['idle', 'busy', 'blocked', 'holding'];
-/** More closely, by number. */
-export const STATE = ['stands', 'drives along x', 'drives along y', 'turns', 'lifts', 'blocked', 'waits for its turn'];
-/** What is broken, by bit. */
-export const FAILURE = ['battery empty', 'drive', 'lift stuck', 'laser blind', 'radio lost', 'wheels slip'];
-/** What the coordinator has robots do, in the order of a transport; `idle` have no transport. */
+import { EventKind, FailureKind, OrderState, RobotMode, State, Status } from './message_enums.js';
+
+/** A robot that carries a storage unit and has no command; statuses.py sends it in place of a Status. */
+export const HOLDING = 3;
+
+/** An array of the texts of {number: text}. */
+const byNumber = (texts) => Object.assign([], texts);
+
+/** What a robot does at a glance, by Status or HOLDING: a `blocked` robot ended its last command
+ *  before an obstacle, and has no other command yet. */
+export const ACTIVITY = byNumber({
+  [Status.IDLE]: 'idle',
+  [Status.BUSY]: 'busy',
+  [Status.BLOCKED]: 'blocked',
+  [HOLDING]: 'holding',
+});
+/** What a robot does in detail, by State. */
+export const STATE = byNumber({
+  [State.IDLE]: 'stands',
+  [State.MOVING_X]: 'drives along x',
+  [State.MOVING_Y]: 'drives along y',
+  [State.ROTATING]: 'turns',
+  [State.LIFTING]: 'lifts',
+  [State.BLOCKED]: 'blocked',
+  [State.WAITING]: 'waits for its turn',
+});
+/** What is broken, by bit: an empty battery, then the kinds of failures. */
+export const FAILURE = byNumber({
+  0: 'battery empty',
+  [FailureKind.MOTOR]: 'drive',
+  [FailureKind.LIFT_STUCK]: 'lift stuck',
+  [FailureKind.LASER_BLIND]: 'laser blind',
+  [FailureKind.RADIO_LOST]: 'radio lost',
+  [FailureKind.WHEEL_SLIPS]: 'wheels slip',
+});
+/** What the coordinator has robots do, in the order of a transport; `idle` robots have no transport. */
 export const WORK = ['fetching', 'ready', 'lifting', 'bringing', 'waiting', 'storing', 'dropping', 'idle'];
-/** Who commands a robot. */
-export const MODE = { AUTOMATIC: 'automatic', MANUAL: 'manual', OUT_OF_SERVICE: 'out of service' };
+/** Which side commands a robot. */
+export const MODE = {
+  [RobotMode.AUTOMATIC]: 'automatic',
+  [RobotMode.MANUAL]: 'manual',
+  [RobotMode.OUT_OF_SERVICE]: 'out of service',
+};
 /** Kinds of events that a person may have to look after. */
-export const TROUBLE = ['REFUSED', 'BLOCKED', 'COLLISION', 'FAILED', 'LOST', 'TIPPED', 'FELL'];
-export const ORDER_STATES = { OPEN: 'open', ASSIGNED: 'at', COMPLETED: 'done', CANCELLED: 'cancelled' };
+export const TROUBLE = [EventKind.REFUSED, EventKind.BLOCKED, EventKind.COLLISION, EventKind.FAILED,
+  EventKind.LOST, EventKind.TIPPED, EventKind.FELL];
+/** The state of an order; `at` precedes the name of its station. */
+export const ORDER_STATES = {
+  [OrderState.OPEN]: 'open',
+  [OrderState.ASSIGNED]: 'at',
+  [OrderState.COMPLETED]: 'done',
+  [OrderState.CANCELLED]: 'cancelled',
+};
 
 /** A name of several words, as in out_of_service. */
 export function spaced(name) {

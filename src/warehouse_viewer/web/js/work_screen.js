@@ -4,6 +4,7 @@
 
 import { get, post, put, remove } from './api.js';
 import { $, make } from './dom.js';
+import { PickOutcome, StationMode } from './message_enums.js';
 import { Told } from './told.js';
 import { unitDrawing } from './unit_drawing.js';
 
@@ -40,8 +41,8 @@ export class WorkScreen {
     this.isSure = false;
     this.shown = this.keyOf(this.station ?? {});
     if (!this.station) this.say(`there is no station ${this.name}`);
-    else if (mode !== 'MANUAL') this.say(`${this.name} works by itself.`, this.byHand('Work by hand', 'MANUAL'));
-    else if (!picks.length) this.say(this.waitsFor(), this.byHand('Let it work by itself', 'AUTOMATIC'));
+    else if (mode !== StationMode.MANUAL) this.say(`${this.name} works automatically.`, this.byHand('Work manually', StationMode.MANUAL));
+    else if (!picks.length) this.say(this.waitsFor(), this.byHand('Back to automatic', StationMode.AUTOMATIC));
     else this.ask(picks);
   }
 
@@ -98,7 +99,7 @@ export class WorkScreen {
     const unit = this.station.shelf_id;
     this.count = quantity;
     const count = make('b');
-    const confirm = this.button('confirm strong', 'Confirm', () => this.report(pick, 'DONE', this.count));
+    const confirm = this.button('confirm strong', 'Confirm', () => this.report(pick, PickOutcome.DONE, this.count));
     this.enable = () => { confirm.disabled = !isPicking && this.count !== quantity; }; // a bundle goes in whole
     const set = (number) => {
       this.count = Math.max(1, Math.min(quantity, number));
@@ -109,9 +110,9 @@ export class WorkScreen {
       set(this.count + by);
       this.enable();
     } });
-    const short = this.button('short', 'Short', () => this.sure(pick, 'SHORT', isPicking));
-    short.title = isPicking ? 'no more of them are in the bin' : 'so many did not come';
-    const damaged = this.button('damaged', 'Damaged', () => this.sure(pick, 'DAMAGED'));
+    const short = this.button('short', 'Short', () => this.sure(pick, PickOutcome.SHORT, isPicking));
+    short.title = isPicking ? 'the bin is empty' : 'so many pieces are missing';
+    const damaged = this.button('damaged', 'Damaged', () => this.sure(pick, PickOutcome.DAMAGED));
     const left = picks.length > 1 ? `then ${picks.length - 1} more` : 'the last one at this unit';
     this.draw([confirm, short, damaged],
       this.head(`${this.name}: storage unit ${unit}`, left), unitDrawing(unit, item, quantity),
@@ -127,8 +128,8 @@ export class WorkScreen {
     const pieces = isEmpty ? await booked(pick).catch(() => null) : this.count;
     if (this.buttons !== buttons) return; // something else is asked for by now
     const what = `${pieces ?? 'all'} × ${pick.sku}`;
-    const [why, verb] = kind === 'PICK'
-      ? [outcome === 'SHORT' ? `Bin ${pick.item} is empty` : 'Damaged', 'Write off'] : [outcome === 'SHORT' ? 'Not there' : 'Damaged', 'Leave out'];
+    const isPicking = kind === 'PICK', missing = isPicking ? `Bin ${pick.item} is empty` : 'Not there';
+    const why = outcome === PickOutcome.SHORT ? missing : 'Damaged', verb = isPicking ? 'Write off' : 'Leave out';
     buttons.replaceChildren(make('p', { className: 'sure-text', textContent: `${why}: ${verb.toLowerCase()} ${what}?` }),
       this.button('back', 'Back', () => this.redraw()),
       this.button('sure', `${verb} ${what}`, () => this.report(pick, outcome, isEmpty ? 0 : pieces)));
@@ -147,9 +148,9 @@ export class WorkScreen {
   report({ sku, item, order_id: order, sequence }, outcome, quantity) {
     const path = `/stations/${this.name}/picks/${sequence}`;
     return this.send(() => post(path, { order_id: order, item, quantity, outcome }), ({ quantity: pieces }) => {
-      if (outcome === 'DONE') return this.told.clear();
+      if (outcome === PickOutcome.DONE) return this.told.clear();
       const what = `${pieces} × ${sku} in ${item}`;
-      return this.told.offer(`${what}: out of the books`, 'Undo', () => remove(path), `${what}: in the books again`);
+      return this.told.offer(`${what}: written off`, 'Undo', () => remove(path), `${what}: back in stock`);
     });
   }
 

@@ -13,8 +13,8 @@ import pytest
 from kiva_plugin_cpp import EventKind, FailureKind, World
 from warehouse_fleet.failures import EMPTY, FailureLog
 from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import Mode
 from warehouse_fleet.transports import Kind, Step
 
 LONG = float(os.environ.get("FAILURE_MINUTES", "0"))

@@ -14,8 +14,9 @@ from faults import BadConnection, Stops
 
 from kiva_plugin_cpp import World
 from warehouse_fleet.fleet_driver import FleetDriver
+from warehouse_fleet.message_enums import Mode
 from warehouse_fleet.random_transports import RandomTransports
-from warehouse_fleet.robot_table import Mode, reports_of
+from warehouse_fleet.robot_table import reports_of
 from warehouse_fleet.transports import Kind
 from warehouse_layout.stations import PICK
 

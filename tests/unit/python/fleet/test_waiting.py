@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from warehouse_fleet.robot_table import NOWHERE, Mode, RobotTable
+from warehouse_fleet.message_enums import Mode
+from warehouse_fleet.robot_table import NOWHERE, RobotTable
 from warehouse_fleet.transport_book import Step, Transport
 from warehouse_fleet.waiting import Waiting
 
@@ -39,7 +40,7 @@ def test_a_queue_is_told_by_its_station():
 def test_a_station_by_hand_is_named_instead_of_its_queue():
     waiting = Waiting(Queue(), [served(0, "pick1")], frozenset(["pick1"]))
     assert waiting.long() == []
-    assert waiting.for_people() == ["pick1 waits for a person, 20 min"]
+    assert waiting.for_people() == ["pick1 has waited for a person for 20 min"]
 
 
 def test_what_stands_in_the_way_is_told():
@@ -48,7 +49,7 @@ def test_what_stands_in_the_way_is_told():
     queue.robots.busy[0] = False
     told = dict(Waiting(queue, []).long())
     assert told[1] == "behind kiva1, which is MANUAL"
-    assert told[2] == "behind kiva2, in a row that kiva1 heads"
+    assert told[2] == "behind kiva2, in a queue behind kiva1"
     queue.robots.slowed_for_people[0] = True
     assert dict(Waiting(queue, []).long())[0] == "for people on the floor"
 

@@ -98,7 +98,7 @@ def test_transports_to_what_is_left_out_are_refused_with_the_reason():
     answer = transports.submit(2, x=0.0, y=0.0)
     assert (answer.accepted, answer.message) == (
         False,
-        "no robot can come to storage unit 2 and back",
+        "no robot can reach storage unit 2 and return",
     )
     answer = transports.submit(1, "pick1")
-    assert answer.message == "no robot can come to station pick1 and back"
+    assert answer.message == "no robot can reach station pick1 and return"

@@ -9,8 +9,8 @@ from warehouse_operations import Operations, check
 from warehouse_operations.changes import ChangeJournal
 from warehouse_operations.database import open_engine
 from warehouse_operations.floor_heat import GAP, SLICES, TRAFFIC, WAITING, WINDOW, FloorHeat
+from warehouse_operations.message_enums import Mode
 from warehouse_operations.queries import find_orders
-from warehouse_operations.stations import Mode
 
 REPLENISH = "replenish3"
 

@@ -8,7 +8,7 @@ from operations_site import site
 
 from warehouse_operations import Operations
 from warehouse_operations.database import open_engine
-from warehouse_operations.orders import OrderState
+from warehouse_operations.message_enums import OrderState
 from warehouse_operations.queries import find_orders, find_stock
 
 

@@ -20,9 +20,8 @@ from kiva_plugin_cpp import World
 from warehouse_operations import Operations, check, demand, queries, stored
 from warehouse_operations.database import DatabaseError, open_engine
 from warehouse_operations.inventory import Reason
-from warehouse_operations.orders import OrderEventKind, OrderState
+from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.returning import SiteError
-from warehouse_operations.stations import Mode
 
 PICK, REPLENISH = "pick1", "replenish3"
 
@@ -424,7 +423,7 @@ def test_more_than_there_is_waits_for_new_stock_and_nothing_else_suffers():
     told = events_of(ops)
     there = ops.shift.inventory.available("sku-1")
     greedy, message = ops.shift.submit([("sku-1", there + 5)])
-    assert message == "waits for new stock of sku-1"
+    assert message == "waits for replenishment of sku-1"
     assert told[-1][1] == OrderEventKind.SHORT
     modest, _ = ops.shift.submit([("sku-2", 1)])
     ops.run(minutes=15)

@@ -6,9 +6,8 @@ from operations_site import site
 
 from warehouse_operations import Operations, check
 from warehouse_operations.database import open_engine
-from warehouse_operations.orders import OrderState
-from warehouse_operations.stations import Mode
-from warehouse_operations.tasks import UNDO_WITHIN, Outcome, Report
+from warehouse_operations.message_enums import Mode, OrderState, Outcome
+from warehouse_operations.tasks import UNDO_WITHIN, Report
 
 PICK, REPLENISH = "pick1", "replenish3"
 

@@ -98,7 +98,8 @@ def test_a_newcomer_ends_the_one_that_waited_longest(monkeypatch):
         others = [await connect() for _ in range(2)]
         for streams in others:
             await ask(streams)
-        assert await ask(await connect()) == b"HTTP/1.1 200 OK"
+        newest = await connect()
+        assert await ask(newest) == b"HTTP/1.1 200 OK"
         assert await end(first) == b""
         for streams in others:
             assert await ask(streams) == b"HTTP/1.1 200 OK"

@@ -16,7 +16,7 @@ from warehouse_msgs.msg import (
     UnitStates,
     WarehouseObjects,
 )
-from warehouse_viewer.page import protocol, statuses
+from warehouse_viewer.page import protocol
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.table import Table
 
@@ -105,11 +105,6 @@ def test_a_newcomer_gets_all_and_then_what_changed():
     assert world.turn(fleet=fleet(x=(0.0, 1.5)))
     assert rows(world.model.encode_update(seen)) == [1, 0, 0, 0]
     assert rows(world.model.encode_update(world.model.tick)) == [0, 0, 0, 0]
-
-
-def test_statuses_are_numbered_as_in_messages():
-    assert statuses.BLOCKED == KivaStatus.STATUS_BLOCKED
-    assert statuses.ENDED_BLOCKED == Event.BLOCKED
 
 
 def test_nothing_new_is_no_update():

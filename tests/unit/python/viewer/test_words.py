@@ -3,6 +3,7 @@
 
 import json
 import subprocess
+from typing import get_args
 
 import numpy as np
 from paths import ROOT
@@ -13,6 +14,8 @@ from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
+from warehouse_viewer.api.schemas.pydantic_versions import names_of
+from warehouse_viewer.message_enums import EventKind, Status
 from warehouse_viewer.page import statuses
 
 WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
@@ -34,7 +37,7 @@ def test_the_page_has_the_words_of_the_api():
     assert [one.upper() for one in told["ACTIVITY"]] == list(catalogue.ACTIVITY.values())
     assert list(catalogue.ACTIVITY) == list(range(len(catalogue.ACTIVITY)))
     assert len(told["STATE"]) == len(message_names.STATE)
-    assert told["FAILURE"] == list(message_names.FAILURES)
+    assert told["FAILURE"] == list(message_names.FAILURES.values())
     assert told["WORK"] == list(message_names.WORK)
     assert list(told["MODE"]) == list(message_names.MODE.values())
     assert [mode.replace(" ", "_").upper() for mode in told["MODE"].values()] == list(told["MODE"])
@@ -43,9 +46,9 @@ def test_the_page_has_the_words_of_the_api():
 
 
 def test_the_api_has_the_words_of_the_messages():
-    assert set(RobotsByWork.__fields__) == set(message_names.WORK)
+    assert set(names_of(RobotsByWork)) == set(message_names.WORK)
     assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
-    allowed = Robot.__fields__["activity"].type_.__args__
+    allowed = get_args(Robot.__annotations__["activity"])
     assert set(allowed) == set(catalogue.ACTIVITY.values())
 
 
@@ -55,7 +58,5 @@ def test_a_robot_that_carries_is_not_idle():
     )
     assert statuses.shown_status(fleet).tolist() == [IDLE, IDLE, BUSY]
     assert statuses.activity(fleet).tolist() == [IDLE, statuses.HOLDING, BUSY]
-    blocked = FleetState(
-        kiva_id=[1], status=[IDLE], shelf_id=[6], last_end=[statuses.ENDED_BLOCKED]
-    )
-    assert np.array_equal(statuses.activity(blocked), [statuses.BLOCKED])
+    blocked = FleetState(kiva_id=[1], status=[IDLE], shelf_id=[6], last_end=[EventKind.BLOCKED])
+    assert np.array_equal(statuses.activity(blocked), [Status.BLOCKED])

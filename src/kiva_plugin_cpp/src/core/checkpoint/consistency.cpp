@@ -215,27 +215,27 @@ class ColumnCheck {
   template <typename... Fields>
   void named(const char* names, Fields&&... fields) {
     int index = 0;
-    (see(nameIn(names, index++), fields), ...);
+    (checkColumn(nameIn(names, index++), fields), ...);
   }
 
  private:
   template <typename T>
-  void see(const std::string& name, const Column<T>& column) const {
+  void checkColumn(const std::string& name, const Column<T>& column) const {
     if (column.size() == size_) return;
     throw ArchiveError("it has " + std::to_string(column.size()) + " entries for " +
                            std::to_string(size_) + " robots",
                        "fleet." + name);
   }
   template <typename T>
-  void see(const std::string& name, const Column<T> (&columns)[2]) const {
-    for (const Column<T>& column : columns) see(name, column);
+  void checkColumn(const std::string& name, const Column<T> (&columns)[2]) const {
+    for (const Column<T>& column : columns) checkColumn(name, column);
   }
   template <typename T>
-  void see(const std::string& name, const Within<T>& column) const {
-    see(name, column.value);
+  void checkColumn(const std::string& name, const Within<T>& column) const {
+    checkColumn(name, column.value);
   }
   template <typename T>
-  void see(const std::string& /*name*/, const T& /*table*/) const {}
+  void checkColumn(const std::string& /*name*/, const T& /*table*/) const {}
 
   std::size_t size_;
 };

@@ -36,7 +36,7 @@ bool tellsTheSame(const RobotReport& a, const RobotReport& b) {
 }
 
 /// Takes in a report, unless a newer one has overtaken it.
-void hear(MotionView& world, int robot, std::uint64_t number, const RobotReport& report) {
+void takeReport(MotionView& world, int robot, std::uint64_t number, const RobotReport& report) {
   Heard& heard = world.fleet.heard[robot];
   if (number < heard.number) return;
   const bool is_new = heard.number == 0 || !tellsTheSame(report, heard.report);
@@ -53,7 +53,7 @@ void receiveReports(MotionView& world) {
     std::pop_heap(on_air.begin(), on_air.end(), comesLater);
     const ReportMessage& message = on_air.back();
     const int robot = world.fleet.find(message.kiva_id);
-    if (robot >= 0) hear(world, robot, message.number, message.report);
+    if (robot >= 0) takeReport(world, robot, message.number, message.report);
     on_air.pop_back();
   }
 }
@@ -79,7 +79,7 @@ void deliverReports(MotionView& world) {
     if (robot < 0) continue;
     // The client that spawns a robot knows its pose.
     if (world.fleet.heard[robot].number == 0) {
-      hear(world, robot, ++world.report_link.sent, reportOf(world, robot));
+      takeReport(world, robot, ++world.report_link.sent, reportOf(world, robot));
     } else {
       sendReport(world, robot);
     }
@@ -92,7 +92,8 @@ void deliverReports(MotionView& world) {
 
 void recordPlacement(MotionView& world, FailureState& failures, int robot) {
   const RobotReport report = reportOf(world, robot);
-  if (world.fleet.heard[robot].number > 0) hear(world, robot, ++world.report_link.sent, report);
+  if (world.fleet.heard[robot].number > 0)
+    takeReport(world, robot, ++world.report_link.sent, report);
   const int id = world.fleet.robots[robot].id;
   for (Defect& defect : failures.defects) {
     if (defect.kiva_id == id) defect.last = report;

@@ -76,7 +76,7 @@ void noteJolts(ContactView& world, const TouchingPair& pair) {
   noteJolt(world, *world.models[pair.model_b], -impulse);
 }
 
-void tell(ContactView& world, TouchingPair* pair) {
+void publishCollision(ContactView& world, TouchingPair* pair) {
   const Model* a = world.models[pair->model_a].get();
   const Model* b = world.models[pair->model_b].get();
   Impact impact = pair->impact;
@@ -95,7 +95,7 @@ void tellWhatIsOver(ContactView& world) {
   for (TouchingPair& pair : world.contact_log.touching) {
     if (pair.tell_at == 0 || pair.tell_at > world.clock.total_steps) continue;
     noteJolts(world, pair);
-    tell(world, &pair);
+    publishCollision(world, &pair);
   }
 }
 
@@ -147,7 +147,7 @@ void forgetContacts(ContactView& world, int slot) {
     return slot < 0 || pair.model_a == slot || pair.model_b == slot;
   };
   for (TouchingPair& pair : world.contact_log.touching) {
-    if (has(pair) && pair.tell_at > 0) tell(world, &pair);
+    if (has(pair) && pair.tell_at > 0) publishCollision(world, &pair);
   }
   world.contact_log.touching.erase(
       std::remove_if(world.contact_log.touching.begin(), world.contact_log.touching.end(), has),

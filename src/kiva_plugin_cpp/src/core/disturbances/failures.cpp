@@ -47,7 +47,7 @@ void apply(FleetState& fleet, const Realism& realism, int robot, Failure failure
   fleet.robots[robot].grip = realism.failures.slipping_grip;
 }
 
-void tell(MotionView& world, Event::Kind kind, int robot, const std::string& text) {
+void publishEvent(MotionView& world, Event::Kind kind, int robot, const std::string& text) {
   world.log.report(kind, world.fleet.robots[robot].name, "", text);
 }
 
@@ -77,7 +77,8 @@ void repairDefect(MotionView& world, const Defect& defect) {
     adapt(world, robot);
   }
   if (was_held && !isHeld(f, robot)) replan(world, robot);
-  tell(world, Event::Kind::kRepaired, robot, std::string("repaired: ") + nameOf(defect.failure));
+  publishEvent(world, Event::Kind::kRepaired, robot,
+               std::string("repaired: ") + nameOf(defect.failure));
   if (defect.failure != Failure::kRadio) return;
   // Clients missed the status changes in the meantime.
   f.tasks[robot].reported_shelf = -1;
@@ -133,7 +134,7 @@ void injectFailure(MotionView& world, FailureState& failures, int kiva_id, Failu
     defect.left = left;
     return;
   }
-  tell(world, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
+  publishEvent(world, Event::Kind::kFailed, robot, nameOf(failure) + within(left));
   failures.defects.push_back({kiva_id, failure, left, reportOf(world, robot)});
   apply(world.fleet, world.settings.realism, robot, failure);
   adapt(world, robot);

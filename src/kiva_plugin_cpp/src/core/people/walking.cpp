@@ -138,7 +138,7 @@ void stepTowards(ContactView& world, Walker* walker, const PathPoint& to) {
   if (part == 1) arrive(walker);
 }
 
-void walkOn(ContactView& world, Walker* walker) {
+void advanceWalker(ContactView& world, Walker* walker) {
   walker->vx = walker->vy = 0;
   if (walker->pause > 0) {
     walker->pause -= world.clock.dt;
@@ -178,7 +178,7 @@ void restartScripts(FleetState& fleet, People& people) {
 }
 
 void stepPeople(ContactView& world, People& people) {
-  for (Walker& walker : people.walkers) walkOn(world, &walker);
+  for (Walker& walker : people.walkers) advanceWalker(world, &walker);
 }
 
 std::vector<Person> listPeople(const Scene& world) {

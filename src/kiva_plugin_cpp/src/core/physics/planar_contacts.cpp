@@ -261,7 +261,7 @@ void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
   const btScalar reach =
       std::min(kForeseen, kClose + 2 * (speedOf(body_a) + speedOf(body_b)) * info.m_timeStep);
   bool any = false;
-  for (Pair& pair : pairs_) any = look(a, b, reach, &pair) || any;
+  for (Pair& pair : pairs_) any = findPairContacts(a, b, reach, &pair) || any;
   const btScalar height = any ? heightOfPush(centreOf(a, b)) : 0;
   for (Pair& pair : pairs_) {
     if (!pair.manifold) continue;
@@ -273,8 +273,8 @@ void PlanarContacts::processCollision(const btCollisionObjectWrapper* a,
   }
 }
 
-bool PlanarContacts::look(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                          double reach, Pair* pair) {
+bool PlanarContacts::findPairContacts(const btCollisionObjectWrapper* a,
+                                      const btCollisionObjectWrapper* b, double reach, Pair* pair) {
   pair->contacts.count = 0;
   const Rectangle on_a = partOutline(a, pair->a), on_b = partOutline(b, pair->b);
   if (!mayBeWithin(kNear, on_a, on_b)) return false;

@@ -46,8 +46,8 @@ class PlanarContacts : public ContactAlgorithm {
  private:
   void forget();
   /// Returns whether the pair may touch soon; it has a manifold then.
-  bool look(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, double reach,
-            Pair* pair);
+  bool findPairContacts(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        double reach, Pair* pair);
   double heightOfPush(double centre) const;
 
   std::vector<Pair> pairs_;

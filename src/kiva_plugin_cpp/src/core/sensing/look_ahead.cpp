@@ -38,7 +38,7 @@ bool stops(const Scene& world, int model, int robot) {
 }
 
 /// Returns the nearest obstacle in the corridor that the robot would sweep.
-Sighting look(const Scene& world, const Scans& scans, int robot) {
+Sighting sightingOf(const Scene& world, const Scans& scans, int robot) {
   const Robot& r = world.fleet.robots[robot];
   const RayFan& fan = scans.fans[r.ray_fan];
   const double half = halfWidth(r) + kSideMargin;
@@ -94,7 +94,7 @@ void lookAhead(MotionView& world, Scans& scans, const std::vector<int>& robots) 
       looked[k] = 1;
       Task& task = f.tasks[robots[k]];
       task.last_sighting = task.sighting;
-      task.sighting = look(world, scans, robots[k]);
+      task.sighting = sightingOf(world, scans, robots[k]);
     }
   });
   for (int k = 0; k < count; ++k) {

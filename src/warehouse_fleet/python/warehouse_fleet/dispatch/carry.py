@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from warehouse_fleet.robot_table import IDLE, NOWHERE
+from warehouse_fleet.message_enums import Status
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transport_book import STAY, Kind, Step, Transport
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def _watch_lift(work: "Transports", robot: int, report: np.void) -> None:
     transport = work.book.of_robot.get(robot)
     if transport is None or transport.step not in (Step.LIFTING, Step.DROPPING):
         return
-    if report["status"] != IDLE:
+    if report["status"] != Status.IDLE:
         return
     robots, is_up = work.robots, transport.step == Step.LIFTING
     if report["shelf_id"] == (transport.shelf if is_up else 0):
@@ -47,7 +48,9 @@ def _watch_lift(work: "Transports", robot: int, report: np.void) -> None:
             begin_lift(work, transport, transport.step)
         else:
             robots.busy[robot] = False
-            work.fail(transport, "its robot does not lift" if is_up else "it can't be dropped")
+            work.fail(
+                transport, "its robot can't lift it" if is_up else "its robot can't put it down"
+            )
 
 
 def begin_lift(work: "Transports", transport: Transport, step: Step) -> None:

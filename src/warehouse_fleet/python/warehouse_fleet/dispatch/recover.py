@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from warehouse_fleet.dispatch import carry
-from warehouse_fleet.robot_table import IDLE, NOWHERE, Mode
+from warehouse_fleet.message_enums import Mode, Status
+from warehouse_fleet.robot_table import NOWHERE
 from warehouse_fleet.transport_book import Kind, Step
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def _drop_lost(work: "Transports") -> None:
 def _why_lost(work: "Transports", robot: int) -> str:
     robots = work.robots
     if robots.gone[robot]:
-        return "its robot is gone"
+        return "its robot was removed from the world"
     if robots.broken[robot]:
         return "its robot is broken"
     if robots.mode[robot] == Mode.AUTOMATIC:
@@ -61,7 +62,7 @@ def _adopt_loaded(work: "Transports", reports: np.ndarray) -> None:
     without[list(work.book.of_robot)] = False
     robots.loaded[without] = loaded[without]
     # A robot that broke while it lifted, or was served, and lost its transport, is free again.
-    robots.busy[without & ~robots.broken & (reports["status"] == IDLE)] = False
+    robots.busy[without & ~robots.broken & (reports["status"] == Status.IDLE)] = False
     ready = without & loaded & robots.stands & ~robots.broken & ~_lost(work)
     for robot in np.flatnonzero(ready).tolist():
         _adopt(work, robot, int(shelf[robot]))

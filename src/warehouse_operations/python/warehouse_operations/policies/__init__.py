@@ -1,18 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The decisions of a shift, each one small class, chosen in YAML:
+"""The policies that make the decisions of a shift, small classes that are chosen in YAML:
 
     orders: pile-on                                   # by name, or
     units: {name: most lines}                         # by name with options, or
     storage: {name: my_module:ByWeight, heavy: 40}    # a class of your own with options
 
-What is left out is as in DEFAULTS. A class of your own has the methods of the protocol of its role;
-its constructor takes the options. `view` is a view.View of the shift.
+Roles that are left out have the policies of DEFAULTS. A class of your own has the methods of the
+protocol of its role; its constructor takes the options. `view` is a view.View of the shift.
 """
 
 import importlib
-from typing import Protocol
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
 
 from warehouse_fleet import charging
+from warehouse_operations.inventory import Bin
+from warehouse_operations.orders import Bundle, Line, Order
 from warehouse_operations.policies import (
     bins,
     idle,
@@ -22,63 +28,98 @@ from warehouse_operations.policies import (
     storage,
     unit_choice,
 )
+from warehouse_operations.protocols import Task
+from warehouse_operations.stations import WorkStation
 from warehouse_operations.yaml_file import read_yaml
+
+if TYPE_CHECKING:
+    from warehouse_operations.view import View
 
 
 class OrderAssignment(Protocol):
-    def choose(self, station, view):
-        """The order of view.backlog that a picking station with a free slot gets, or None."""
+    """Chooses orders for picking stations."""
+
+    def choose(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order of view.backlog for a picking station with a free slot, or None."""
 
 
 class UnitChoice(Protocol):
-    def choose(self, station, candidates, view):
-        """The unit that is brought for missing lines of the station's orders, one of candidates.
+    """Chooses units for picking stations."""
 
-        candidates: {unit: {line: pieces}}, what each unit that is free could serve; not empty.
+    def choose(
+        self, station: WorkStation, candidates: Mapping[int, Mapping[Line, int]], view: "View"
+    ) -> int:
+        """Returns the unit, one of candidates, that is brought for missing lines of a station.
+
+        candidates: {unit: {line: pieces}}, what each free unit could serve; not empty.
         """
 
 
 class StoragePlace(Protocol):
-    def choose(self, unit, cells, distances, view):
-        """The cell to store a unit in, one of cells (n,), with metres from where it is."""
+    """Chooses storage places for units."""
+
+    def choose(self, unit: int, cells: np.ndarray, distances: np.ndarray, view: "View") -> int:
+        """Returns the cell, one of cells (n,), in which a unit is stored.
+
+        distances: the way to each cell from where the unit is [m], (n,).
+        """
 
 
 class BinChoice(Protocol):
-    def choose(self, bundle, candidates, view):
-        """The bin that a bundle goes to, one of candidates (not empty; each has room for it)."""
+    """Chooses bins for bundles."""
+
+    def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
+        """Returns the bin that a bundle goes to: one of candidates, which have room for it."""
 
 
 class Replenishment(Protocol):
-    def bundles(self, view):
+    """Orders bundles to refill the stock."""
+
+    def bundles(self, view: "View") -> Iterable[tuple[str, int]]:
         """Yields (sku, pieces) of new bundles to be ordered now."""
 
 
 class TaskMatching(Protocol):
-    def match(self, tasks, robots, seconds, view):
-        """Pairs (index of the task, index of the robot); see protocols.Hooks.match_robots."""
+    """Matches robots to transports."""
+
+    def match(
+        self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray, view: "View"
+    ) -> Iterable[tuple[int, int]]:
+        """Returns pairs (index of the task, index of the robot).
+
+        See protocols.Hooks.match_robots.
+        """
 
 
 class Idle(Protocol):
-    def park(self, kiva_id, cell, view):
-        """The cell that a robot without work goes to; None: it waits where it is."""
+    """Chooses where robots without work wait."""
+
+    def park(self, kiva_id: int, cell: int, view: "View") -> int | None:
+        """Returns the cell to which a robot without work goes; None: it waits where it is."""
 
 
 class ChargingPolicy(Protocol):
-    """charge: state of charge of batteries, (n,), 0…1; answers are (n,) bool."""
+    """Decides when robots charge.
 
-    low: float  # who is below comes before who charges though it need not
+    charge: the state of charge of batteries, (n,), 0…1. Results are (n,) bool.
+    """
 
-    def sends(self, charge, is_wanted):
-        """Which robots without work are to charge; is_wanted: transports wait for robots."""
+    low: float  # robots below it may take the places of charging ones that could work
 
-    def frees(self, charge):
-        """Which of those that charge may be given work."""
+    def sends(self, charge: np.ndarray, is_wanted: bool) -> np.ndarray:
+        """Returns which robots without work are to charge.
 
-    def spares(self, charge):
-        """Which robots get no work even if no place to charge at is free."""
+        is_wanted: whether transports wait for robots.
+        """
+
+    def frees(self, charge: np.ndarray) -> np.ndarray:
+        """Returns which charging robots may be given work."""
+
+    def spares(self, charge: np.ndarray) -> np.ndarray:
+        """Returns which robots get no work even if no charging place is free."""
 
 
-ROLES = {
+ROLES: dict[str, dict[str, Any]] = {
     "orders": order_assignment.NAMES,
     "units": unit_choice.NAMES,
     "storage": storage.NAMES,
@@ -111,13 +152,26 @@ DEFAULTS = {
 
 
 class PolicyError(ValueError):
-    """There is no such policy; the text names the file and key and what was expected."""
+    """Raised for an unknown policy; names the file and key and what was expected."""
 
 
 class Policies:
-    """One policy a role of ROLES, as attributes."""
+    """Holds one policy for each of ROLES, as attributes.
 
-    def __init__(self, chosen=None, source="policies"):
+    chosen: policies by role, each a name or a mapping with `name` and options. source: where they
+    come from, for errors. Raises PolicyError.
+    """
+
+    orders: OrderAssignment
+    units: UnitChoice
+    storage: StoragePlace
+    bins: BinChoice
+    replenishment: Replenishment
+    robots: TaskMatching
+    idle: Idle
+    charging: ChargingPolicy
+
+    def __init__(self, chosen: Mapping[str, Any] | None = None, source: str = "policies") -> None:
         chosen = {} if chosen is None else chosen
         if not isinstance(chosen, dict):
             raise PolicyError(f"{source}: roles with a policy each were expected")
@@ -130,12 +184,12 @@ class Policies:
             setattr(self, role, _make(role, what, source))
 
     @classmethod
-    def read(cls, path):
-        """Those of a YAML file; raises PolicyError."""
+    def read(cls, path: str | Path) -> "Policies":
+        """Returns the policies of a YAML file. Raises PolicyError."""
         return cls(read_yaml(path, PolicyError), str(path))
 
 
-def _make(role, what, source):
+def _make(role: str, what: Any, source: str) -> Any:
     options = dict(what) if isinstance(what, dict) else {"name": what}
     name = options.pop("name", None)
     if not isinstance(name, str):
@@ -150,7 +204,7 @@ def _make(role, what, source):
     return policy
 
 
-def _own(role, name, source):
+def _own(role: str, name: str, source: str) -> Any:
     module, colon, attribute = name.partition(":")
     if not colon:
         known = ", ".join(ROLES[role])

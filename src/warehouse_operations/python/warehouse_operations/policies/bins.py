@@ -1,23 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which bin new stock goes to."""
+"""Policies that choose the bin for new stock."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from warehouse_operations.inventory import Bin
+from warehouse_operations.orders import Bundle
+
+if TYPE_CHECKING:
+    from warehouse_operations.view import View
 
 
 class Random:
-    def choose(self, bundle, candidates, view):
+    """Chooses any bin."""
+
+    def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
+        """Returns the bin, one of candidates, that a bundle goes to."""
         return candidates[view.rng.integers(len(candidates))]
 
 
 class Emptiest:
-    """On the emptiest unit, its emptiest bin."""
+    """Chooses the emptiest bin of the emptiest unit."""
 
-    def choose(self, bundle, candidates, view):
+    def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
+        """Returns the bin, one of candidates, that a bundle goes to."""
         return max(candidates, key=lambda one: (view.room(one.unit), one.room, -one.bin_id))
 
 
 class SameSku:
-    """With others of its SKU, the fullest bin that has room; else the emptiest."""
+    """Chooses the fullest bin that has room among those of the same SKU; else the emptiest."""
 
-    def choose(self, bundle, candidates, view):
+    def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
+        """Returns the bin, one of candidates, that a bundle goes to."""
         return max(
             candidates,
             key=lambda one: (one.sku == bundle.sku and not one.empty, -one.room, -one.bin_id),
@@ -25,19 +39,20 @@ class SameSku:
 
 
 class Turnover:
-    """What is asked for often on units near the stations, what is not far away."""
+    """Stores SKUs with much demand on units near the stations, the others far away."""
 
-    def choose(self, bundle, candidates, view):
+    def choose(self, bundle: Bundle, candidates: Sequence[Bin], view: "View") -> Bin:
+        """Returns the bin, one of candidates, that a bundle goes to."""
         wanted = view.popularity_rank(bundle.sku)
 
-        def distance(one):
+        def distance(one: Bin) -> float:
             cell = view.cell(one.unit)
             return abs(float(view.place_rank([cell])[0]) - wanted) if cell is not None else 1.0
 
         return min(candidates, key=lambda one: (distance(one), one.bin_id))
 
 
-NAMES = {
+NAMES: dict[str, type] = {
     "random": Random,
     "emptiest": Emptiest,
     "same sku": SameSku,

@@ -1,54 +1,79 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which order a picking station works at next."""
+"""Policies that choose the next order of a picking station."""
+
+from collections.abc import Mapping
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+from warehouse_operations.orders import Order
+from warehouse_operations.stations import WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.view import View
 
 
 class Random:
-    def choose(self, station, view):
+    """Chooses any order in stock."""
+
+    def choose(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order that a station gets, or None."""
         orders = [order for order in view.backlog if view.in_stock(order)]
         return orders[view.rng.integers(len(orders))] if orders else None
 
 
 class FirstCome:
-    def choose(self, station, view):
+    """Chooses the oldest order in stock."""
+
+    def choose(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order that a station gets, or None."""
         return next((order for order in view.backlog if view.in_stock(order)), None)
 
 
 class DueDate:
-    def choose(self, station, view):
+    """Chooses the most urgent order in stock: by priority, then by due time, then by age."""
+
+    def choose(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order that a station gets, or None."""
         return _most_urgent(view)
 
 
 class FewestLinesMissing:
-    """The order with the fewest lines that no unit at the station or on its way can serve."""
+    """Chooses the order with the fewest lines that no inbound unit can serve."""
 
-    def choose(self, station, view):
+    def choose(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order that a station gets, or None."""
         stock = station.inbound_stock()
 
-        def missing(order):
+        def missing(order: Order) -> int:
             return sum(stock.get(line.sku, 0) < line.open for line in order.lines if line.open)
 
+        def rank(order: Any) -> tuple[int, tuple[int, float, int]]:
+            return missing(order), order.urgency
+
         orders = (order for order in view.backlog if view.in_stock(order))
-        return min(orders, key=lambda order: (missing(order), order.urgency), default=None)
+        return min(orders, key=rank, default=None)
 
 
 class PileOn:
-    """The order of which the inbound units can serve most; the most urgent of equals.
+    """Chooses the order of which the inbound units can serve most; the most urgent of equals.
 
     fast_lane: the last slot is kept for orders that the unit at the station completes at once.
     """
 
-    def __init__(self, fast_lane=True):
+    def __init__(self, fast_lane: bool = True) -> None:
         self.fast_lane = fast_lane
 
-    def choose(self, station, view):
+    def choose(self, station: WorkStation, view: "View") -> Order | None:
+        """Returns the order that a station gets, or None."""
         if self.fast_lane and station.free_slots == 1 and station.capacity > 1:
             return self._best(station.stock_here(), view, complete=True)
         return self._best(station.inbound_stock(), view) or _most_urgent(view)
 
     @staticmethod
-    def _best(stock, view, complete=False):
-        best, best_score = None, None
-        seen = set()
+    def _best(stock: Mapping[str, int], view: "View", complete: bool = False) -> Order | None:
+        best: Order | None = None
+        best_score: tuple = ()
+        seen: set[int] = set()
         for sku in stock:
             for order in view.backlog.with_sku(sku):
                 if order.order_id in seen:
@@ -64,12 +89,12 @@ class PileOn:
         return best
 
 
-def _most_urgent(view):
+def _most_urgent(view: "View") -> Order | None:
     orders = (order for order in view.backlog if view.in_stock(order))
-    return min(orders, key=lambda order: order.urgency, default=None)
+    return min(orders, key=attrgetter("urgency"), default=None)
 
 
-NAMES = {
+NAMES: dict[str, type] = {
     "random": Random,
     "first come": FirstCome,
     "due date": DueDate,

@@ -1,25 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When stock is refilled, and with what."""
+"""Policies that order bundles to refill the stock."""
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from warehouse_operations.demand import BUNDLE_LEAST, BUNDLE_MOST
 
-AHEAD = 10 * BUNDLE_MOST  # pieces of a SKU at the door, at most, when orders lack more than that
+if TYPE_CHECKING:
+    from warehouse_operations.view import View
+
+AHEAD = 10 * BUNDLE_MOST  # most pieces of a SKU that wait for bins while orders lack more
 
 
 class Threshold:
-    """Refills from when the stock falls below `begin` until it reaches `stop`, shares of its room.
+    """Refills once the stock falls below `begin`, until it reaches `stop`, shares of its room.
 
-    What orders lack comes at once, however much in portions: the next when the first is in its
-    bins. waiting: bundles that wait at the stations' door at most.
+    Orders pieces that customers' orders lack at once; of much, a part that follows when the one
+    before is in its bins. waiting: the most bundles that wait for a bin. Raises ValueError unless
+    0 <= begin <= stop <= 1.
     """
 
-    def __init__(self, begin=0.65, stop=0.85, waiting=200):
+    def __init__(self, begin: float = 0.65, stop: float = 0.85, waiting: int = 200) -> None:
         if not 0 <= begin <= stop <= 1:
             raise ValueError(f"begin {begin} and stop {stop}; 0 <= begin <= stop <= 1 was expected")
         self.begin, self.stop, self.waiting = begin, stop, waiting
         self.on = True  # as a shift begins, until the stock has been full once
 
-    def bundles(self, view):
+    def bundles(self, view: "View") -> Iterator[tuple[str, int]]:
+        """Yields (SKU, pieces) of the bundles to be ordered now."""
         yield from self._shortages(view)
         level = view.inventory.level
         self.on = level < (self.stop if self.on else self.begin)
@@ -35,7 +43,7 @@ class Threshold:
             missing -= quantity
             yield sku, quantity
 
-    def _shortages(self, view):
+    def _shortages(self, view: "View") -> Iterator[tuple[str, int]]:
         for sku, lacking in sorted(view.shortages().items()):
             pieces = min(lacking, AHEAD - view.pieces_at_door(sku))
             whole = -(-pieces // BUNDLE_MOST) * BUNDLE_MOST
@@ -45,10 +53,11 @@ class Threshold:
 
 
 class Never:
-    """Nothing but what comes of itself."""
+    """Orders no bundles; those of the demand come all the same."""
 
-    def bundles(self, view):
+    def bundles(self, view: "View") -> Iterable[tuple[str, int]]:
+        """Returns no bundles."""
         return ()
 
 
-NAMES = {"threshold": Threshold, "never": Never}
+NAMES: dict[str, type] = {"threshold": Threshold, "never": Never}

@@ -1,27 +1,41 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which robot drives which transport."""
+"""Policies that match robots to transports."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from warehouse_operations.protocols import Task
+
+if TYPE_CHECKING:
+    from warehouse_operations.view import View
+
 
 class Nearest:
-    """In the tasks' order, each the robot that is there first."""
+    """Matches each task, in their order, to the robot that is there first."""
 
-    def match(self, tasks, robots, seconds, view):
+    def match(
+        self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray, view: "View"
+    ) -> Iterable[tuple[int, int]]:
+        """Returns pairs (index of the task, index of the robot); seconds: (tasks, robots)."""
         return _in_order(range(len(tasks)), seconds)
 
 
 class Balanced:
-    """Stations with the fewest units on the way come first."""
+    """Matches tasks of stations with the fewest units on the way first."""
 
-    def match(self, tasks, robots, seconds, view):
-        ahead = {}
+    def match(
+        self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray, view: "View"
+    ) -> Iterable[tuple[int, int]]:
+        """Returns pairs (index of the task, index of the robot); seconds: (tasks, robots)."""
+        ahead: dict[int, int] = {}
 
-        def key(i):
+        def key(i: int) -> tuple[int, int, int]:
             return -tasks[i].priority, ahead[i], i
 
-        waiting = {}
+        waiting: dict[str, int] = {}
         for task in tasks:
             waiting[task.station] = waiting.get(task.station, 0) + 1
         for i, task in enumerate(tasks):
@@ -32,14 +46,20 @@ class Balanced:
 
 
 class Optimal:
-    """The least time in all, by the Hungarian method; the first tasks, if robots are few."""
+    """Minimises the sum of the times, by the Hungarian method.
 
-    def match(self, tasks, robots, seconds, view):
+    Only the first tasks are matched if there are fewer robots.
+    """
+
+    def match(
+        self, tasks: Sequence[Task], robots: Sequence[int], seconds: np.ndarray, view: "View"
+    ) -> Iterable[tuple[int, int]]:
+        """Returns pairs (index of the task, index of the robot); seconds: (tasks, robots)."""
         count = min(len(tasks), len(robots))
         return list(zip(*linear_sum_assignment(np.asarray(seconds)[:count])))
 
 
-def _in_order(order, seconds):
+def _in_order(order: Iterable[int], seconds: np.ndarray) -> Iterator[tuple[int, int]]:
     seconds = np.array(seconds)
     for task in list(order)[: seconds.shape[1]]:
         robot = int(np.argmin(seconds[task]))
@@ -47,4 +67,4 @@ def _in_order(order, seconds):
         yield task, robot
 
 
-NAMES = {"nearest": Nearest, "balanced": Balanced, "optimal": Optimal}
+NAMES: dict[str, type] = {"nearest": Nearest, "balanced": Balanced, "optimal": Optimal}

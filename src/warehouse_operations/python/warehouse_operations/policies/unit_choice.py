@@ -1,27 +1,47 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which storage unit is brought to a picking station for its orders."""
+"""Policies that choose the storage unit brought to a picking station for its orders."""
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from warehouse_operations.orders import Line
+from warehouse_operations.stations import WorkStation
+
+if TYPE_CHECKING:
+    from warehouse_operations.view import View
+
+Candidates = Mapping[int, Mapping[Line, int]]  # {unit: {line: pieces}}
 
 
 class Random:
-    def choose(self, station, candidates, view):
+    """Chooses any unit."""
+
+    def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
+        """Returns the unit, one of candidates, that is brought to a station."""
         units = sorted(candidates)
         return units[view.rng.integers(len(units))]
 
 
 class Nearest:
-    def choose(self, station, candidates, view):
+    """Chooses the unit that is fastest at the station."""
+
+    def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
+        """Returns the unit, one of candidates, that is brought to a station."""
         return min(candidates, key=lambda unit: (view.seconds_to(station.name, unit), unit))
 
 
 class MostLines:
-    """The one that completes most lines; of equals, the one with most work in lines to come. A
-    station that nothing is on the way to would stand idle until it comes: it gets the nearest."""
+    """Chooses the unit that completes most lines; of equals, the one with most pieces for others.
 
-    def choose(self, station, candidates, view):
+    A station without units on the way gets the nearest one: it stands idle until then.
+    """
+
+    def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
+        """Returns the unit, one of candidates, that is brought to a station."""
         if not station.coming:
             return Nearest().choose(station, candidates, view)
 
-        def lines(unit):
+        def lines(unit: int) -> int:
             return sum(pieces >= line.missing for line, pieces in candidates[unit].items())
 
         completed = {unit: lines(unit) for unit in candidates}
@@ -31,16 +51,19 @@ class MostLines:
 
 
 class MostWork:
-    """The one with most pieces for the station's orders and those that wait."""
+    """Chooses the unit with most pieces for the station's orders and the backlog."""
 
-    def choose(self, station, candidates, view):
+    def choose(self, station: WorkStation, candidates: Candidates, view: "View") -> int:
+        """Returns the unit, one of candidates, that is brought to a station."""
         return max(
             candidates, key=lambda unit: _with_backlog(unit, candidates[unit], station, view)
         )
 
 
-def _with_backlog(unit, lines, station, view):
-    """Pieces for the station and for orders that wait; then the nearer, then the lower number."""
+def _with_backlog(
+    unit: int, lines: Mapping[Line, int], station: WorkStation, view: "View"
+) -> tuple[int, float, int]:
+    """Returns a sort key: pieces for the station and the backlog, then nearness, then number."""
     demand = view.backlog.demand
     waiting = sum(
         min(one.available, demand.get(one.sku, 0)) for one in view.inventory.of_unit[unit]
@@ -48,7 +71,7 @@ def _with_backlog(unit, lines, station, view):
     return sum(lines.values()) + waiting, -view.seconds_to(station.name, unit), -unit
 
 
-NAMES = {
+NAMES: dict[str, type] = {
     "random": Random,
     "nearest": Nearest,
     "most lines": MostLines,

@@ -19,6 +19,7 @@ from warehouse_viewer.api.schemas.fleet import (
     Waiting,
 )
 from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
+from warehouse_viewer.api.schemas.pydantic_versions import as_json, names_of
 from warehouse_viewer.page.statuses import HOLDING, activity, shown_status
 
 ACTIVITY = STATUS | {HOLDING: "HOLDING"}  # as statuses.activity() numbers it
@@ -52,9 +53,9 @@ def coordinator(state: CoordinatorState) -> Coordinator:
     waiting = zip(state.waiting_kiva, state.waiting_for, state.waiting_since, state.waiting_text)
     return Coordinator(
         time=state.header.stamp.to_sec(),
-        robots={name: getattr(state, name) for name in RobotsByMode.__fields__},
-        work={name: getattr(state, name) for name in RobotsByWork.__fields__},
-        transports={name: getattr(state, name) for name in TransportCounts.__fields__},
+        robots={name: getattr(state, name) for name in names_of(RobotsByMode)},
+        work={name: getattr(state, name) for name in names_of(RobotsByWork)},
+        transports={name: getattr(state, name) for name in names_of(TransportCounts)},
         manual=list(state.manual_kiva),
         out_of_service=list(state.out_of_service_kiva),
         plan_p50=state.plan_p50,
@@ -71,7 +72,7 @@ def coordinator(state: CoordinatorState) -> Coordinator:
 
 def plain_coordinator(state: CoordinatorState) -> dict[str, Any]:
     """Returns a CoordinatorState as JSON has it."""
-    return json.loads(coordinator(state).json())
+    return json.loads(as_json(coordinator(state)))
 
 
 def things(kind: str, objects: WarehouseObjects, states: UnitStates) -> Tracked:
@@ -94,7 +95,7 @@ def thing(tracked: Tracked, i: int) -> Thing:
     return Thing(
         name=tracked.names[i],
         id=kind_and_number(tracked.names[i])[1],
-        pose=dict(zip(Pose.__fields__, np.asarray(tracked.pose[i]).tolist())),
+        pose=dict(zip(names_of(Pose), np.asarray(tracked.pose[i]).tolist())),
         storage_unit=tracked.unit[i],
         carrier=f"kiva{carrier}" if carrier else "",
     )

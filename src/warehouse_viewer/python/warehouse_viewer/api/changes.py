@@ -43,54 +43,74 @@ TOPICS = (*ROWS, *WHOLE)
 
 
 class Shift(BaseModel):
+    """Tells whether a shift runs: the first message, and one at each change."""
+
     type: Literal["shift"]
     runs: bool
 
 
 class OrdersChanged(BaseModel):
+    """Brings the orders that are new or have changed."""
+
     type: Literal["orders"]
     orders: list[Order]
     missed: bool = Field(description="there were more; read the list again")
 
 
 class StockChanged(BaseModel):
+    """Brings the places whose stock has changed."""
+
     type: Literal["stock"]
     stock: list[Place]
     missed: bool
 
 
 class TransportsChanged(BaseModel):
+    """Brings the transports that are new or have changed."""
+
     type: Literal["transports"]
     transports: list[Transport]
     missed: bool
 
 
 class StationsNow(BaseModel):
+    """Brings all stations as they are now."""
+
     type: Literal["stations"]
     stations: list[Station]
 
 
 class KpisNow(BaseModel):
+    """Brings the shift's figures as they are now."""
+
     type: Literal["kpis"]
     kpis: dict[str, float | int | str | dict[str, float]]
 
 
 class ThroughputNow(BaseModel):
+    """Brings what the stations did in the last hour."""
+
     type: Literal["throughput"]
     throughput: Throughput
 
 
 class CoordinatorNow(BaseModel):
+    """Brings the state of the fleet; null without a coordinator."""
+
     type: Literal["coordinator"]
     coordinator: Coordinator | None
 
 
 class NoticesNow(BaseModel):
+    """Brings the notices that hold now."""
+
     type: Literal["notices"]
     notices: list[str]
 
 
 class HeatNow(BaseModel):
+    """Brings where robots drove and waited."""
+
     type: Literal["heat"]
     heat: Heat
 

@@ -6,9 +6,9 @@ from typing import Any
 
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
-from pydantic.schema import schema as schemas_of
 
 from warehouse_viewer.api import changes, stream
+from warehouse_viewer.api.schemas.pydantic_versions import schemas_of
 
 REFERENCE = "#/components/schemas/"
 RATE = {"name": "rate", "default": 2, "description": "messages of a kind a second, 0.1 to 10"}
@@ -19,7 +19,7 @@ def described(app: FastAPI) -> dict[str, Any]:
     if app.openapi_schema is None:
         about = {name: getattr(app, name) for name in ("title", "version", "description", "routes")}
         out = get_openapi(**about)
-        messages = schemas_of(changes.MESSAGES, ref_prefix=REFERENCE)["definitions"]
+        messages = schemas_of(changes.MESSAGES, REFERENCE)
         kinds = out.setdefault("components", {}).setdefault("schemas", {})
         kinds.update((name, kind) for name, kind in messages.items() if name not in kinds)
         out["x-websockets"] = {

@@ -11,6 +11,7 @@ from prometheus_client.registry import Collector
 
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.operations import STATES
+from warehouse_viewer.api.schemas.pydantic_versions import names_of
 from warehouse_viewer.page.source import AwayError
 from warehouse_viewer.ros.feed import Feed
 from warehouse_viewer.ros.operations_client import OperationsClient
@@ -88,8 +89,8 @@ class Metrics(Collector):
     def _of_shift(self):
         yield _by_label("orders", "Orders that are kept.", "state", self._orders())
         if kpis := self._shift["kpis"]:
-            yield from (_counter(*named, getattr(kpis, f)) for *named, f in SHIFT_COUNTERS)
-            yield from (_gauge(*named, getattr(kpis, f)) for *named, f in SHIFT_GAUGES)
+            yield from (_counter(name, text, getattr(kpis, f)) for name, text, f in SHIFT_COUNTERS)
+            yield from (_gauge(name, text, getattr(kpis, f)) for name, text, f in SHIFT_GAUGES)
             turnover = {p: getattr(kpis.order_turnover_s, n) for n, p in PERCENTILES.items()}
             text = "From an order's arrival to its completion."
             yield _by_label("order_turnover_seconds", text, "percentile", turnover)
@@ -110,7 +111,7 @@ class Metrics(Collector):
 
 
 def _fleet(state):
-    names = [*RobotsByWork.__fields__, "manual", "out_of_service"]
+    names = [*names_of(RobotsByWork), "manual", "out_of_service"]
     robots = {name: getattr(state, name) for name in names}
     yield _by_label("robots", "Robots by what they do.", "state", robots)
     yield _gauge("robots_waiting", "That have stood for 10 s or longer.", len(state.waiting_kiva))
@@ -119,8 +120,8 @@ def _fleet(state):
     plans = {"50": state.plan_p50 / 1000, "99": state.plan_p99 / 1000}
     yield _by_label("plan_seconds", "Computing time of a plan.", "percentile", plans)
     yield _gauge("alarms", "Alarms of the coordinator.", len(state.alarms))
-    yield from (_counter(*named, getattr(state, field)) for *named, field in FLEET_COUNTERS)
-    yield from (_gauge(*named, getattr(state, field)) for *named, field in FLEET_GAUGES)
+    yield from (_counter(name, text, getattr(state, field)) for name, text, field in FLEET_COUNTERS)
+    yield from (_gauge(name, text, getattr(state, field)) for name, text, field in FLEET_GAUGES)
 
 
 def _stations(stations):

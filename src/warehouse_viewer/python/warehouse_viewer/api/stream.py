@@ -20,6 +20,7 @@ from fastapi import HTTPException
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_viewer.api.backend import ApiBackend
+from warehouse_viewer.api.schemas.pydantic_versions import as_dict
 
 
 async def serve(socket: WebSocket, backend: ApiBackend, rate: float) -> None:
@@ -50,7 +51,7 @@ async def until_gone(socket: WebSocket) -> None:
 
 async def _send_robots(socket, backend, known):
     try:
-        robots = {r.id: r.dict() for r in await backend.robots()}
+        robots = {r.id: as_dict(r) for r in await backend.robots()}
     except HTTPException:  # the world does not answer now; it may come back
         return known
     news = [robot for number, robot in robots.items() if known.get(number) != robot]

@@ -131,7 +131,7 @@ def _is_straight(part):
 
 def _alike(parts):
     """Parts in groups of one size and colour."""
-    groups = {}
+    groups: dict[tuple[Any, ...], list[Any]] = {}
     for part in parts:
         groups.setdefault((tuple(part.size), tuple(part.colour)), []).append(part)
     return list(groups.values())

@@ -116,6 +116,7 @@ class ShapeArray(MarkerArray):
     __slots__ = MarkerArray.__slots__
 
     def serialize(self, buff: BytesIO) -> None:
+        """Writes all markers into a message's buffer (genpy's hook)."""
         buff.write(np.uint32(len(self.markers)).tobytes())
         for shape in self.markers:
             shape.serialize(buff)

@@ -102,9 +102,10 @@ class Hub:
             self._feed.subscribe()
         elif self._feed.unsubscribe_if_idle():
             return
-        if not self._feed.is_complete:
+        together = self._feed.objects_and_states
+        if together is None or not self._feed.is_complete:
             return
-        objects, states = self._feed.objects_and_states
+        objects, states = together
         scenery = self._feed["scenery"]
         # While a warehouse is built, what stands there changes ten times a second.
         if not self._model.is_same_scene(objects, scenery):
@@ -225,7 +226,8 @@ class Hub:
         state = self._feed.coordinator
         if state is not page.coordinator:
             page.coordinator = state
-            fleet = self._source.describe_coordinator(state) if state else None
+            describe = self._source.describe_coordinator
+            fleet = describe(state) if state and describe else None
             await page.send_json({"type": "fleet", "fleet": fleet})
         ways = self._feed["ways"] if page.ways is None or page.ways else None
         if ways and ways is not page.sent_ways:

@@ -180,7 +180,7 @@ def _limits(fleet):
 def _paint(scenery):
     """Rectangles on the floor by kind, x y and full extents of each in a row [m]; stations."""
     marks = painted.marks(scenery)
-    rectangles = {}
+    rectangles: dict[str, list[float]] = {}
     for m in marks:
         rectangles.setdefault(m.kind, []).extend(_short([m.x, m.y, m.size_x, m.size_y]))
     return {

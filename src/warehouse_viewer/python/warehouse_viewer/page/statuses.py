@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-IDLE, BLOCKED = 0, 2  # as KivaStatus says it
-HOLDING = 3  # beside them: it carries a storage unit, and has no command
-ENDED_BLOCKED = 3  # as Event does
+from warehouse_viewer.message_enums import EventKind, Status
+
+HOLDING = 3  # beside those of Status: the robot carries a storage unit, and has no command
 
 
 def shown_status(fleet: Any) -> np.ndarray:
@@ -17,7 +17,7 @@ def shown_status(fleet: Any) -> np.ndarray:
     """
     # rospy reads uint8[] as bytes.
     status = np.frombuffer(bytes(fleet.status), np.uint8).copy()
-    status[np.frombuffer(bytes(fleet.last_end), np.uint8) == ENDED_BLOCKED] = BLOCKED
+    status[np.frombuffer(bytes(fleet.last_end), np.uint8) == EventKind.BLOCKED] = Status.BLOCKED
     return status
 
 
@@ -27,5 +27,5 @@ def activity(fleet: Any) -> np.ndarray:
     A robot that carries a storage unit is at work, even while it would take a command.
     """
     out = shown_status(fleet)
-    out[(out == IDLE) & (np.asarray(fleet.shelf_id) != 0)] = HOLDING
+    out[(out == Status.IDLE) & (np.asarray(fleet.shelf_id) != 0)] = HOLDING
     return out

@@ -12,8 +12,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from warehouse_client.commands import COMMANDS
+from warehouse_viewer.message_enums import EventKind
 
-ANSWERS, ENDS = ("ACCEPTED", "REFUSED"), ("DONE", "BLOCKED")
+ANSWERS = EventKind.ACCEPTED.name, EventKind.REFUSED.name
+ENDS = EventKind.DONE.name, EventKind.BLOCKED.name
 
 
 @dataclass

@@ -6,7 +6,7 @@ import ipaddress
 import json
 import time
 from collections.abc import Callable, Hashable, Sequence
-from http.cookies import CookieError, SimpleCookie
+from http.cookies import BaseCookie, CookieError, SimpleCookie
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
@@ -155,9 +155,10 @@ def _query_token(scope):
 
 def _cookie(headers):
     try:
-        morsel = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+        cookies: BaseCookie[str] = SimpleCookie(headers.get("cookie", ""))
     except CookieError:
         return ""
+    morsel = cookies.get(COOKIE)
     return morsel.value if morsel else ""
 
 
@@ -185,8 +186,9 @@ async def _ask(scope, send, to=None, wrong=False):
 
 
 async def _keep_token(send, token, to="/"):
-    cookie = SimpleCookie({COOKIE: token})
-    cookie[COOKIE].update({"httponly": True, "samesite": "Strict", "path": "/"})
+    cookie: BaseCookie[str] = SimpleCookie({COOKIE: token})
+    attributes: dict[str, Any] = {"httponly": True, "samesite": "Strict", "path": "/"}
+    cookie[COOKIE].update(attributes)
     headers = [(b"location", to.encode()), (b"set-cookie", cookie[COOKIE].OutputString().encode())]
     await send({"type": "http.response.start", "status": 303, "headers": headers})
     await send({"type": "http.response.body", "body": b""})

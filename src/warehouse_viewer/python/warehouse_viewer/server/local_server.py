@@ -38,8 +38,8 @@ class LocalServer:
         self.url = "http://{}:{}/".format(*self._listener.getsockname())
         config = config_of(AccessControl(application(source, self.hub)), ws="wsproto")
         self._server = Server(config, HubTask(self.hub).start)
-        run = {"target": self._server.run, "args": ([self._listener],)}
-        self._thread = threading.Thread(**run, daemon=True)
+        run, listeners = self._server.run, [self._listener]
+        self._thread = threading.Thread(target=run, args=(listeners,), daemon=True)
         self._thread.start()
         self._server.is_serving.wait(PATIENCE)
 

@@ -18,6 +18,7 @@ from warehouse_viewer.api.schemas.fleet import (
     Transports,
     TransportState,
 )
+from warehouse_viewer.api.schemas.pydantic_versions import as_dict
 
 router = APIRouter()
 TRANSPORT = Path(ge=1, le=2**32 - 1, description="of the transport")
@@ -65,7 +66,7 @@ async def get_transport(number: int = TRANSPORT, backend: ApiBackend = BACKEND) 
 )
 async def submit_transport(wanted: NewTransport, backend: ApiBackend = BACKEND) -> Any:
     """Has a storage unit brought somewhere. It waits there to be released."""
-    return {"transport_id": await backend.coordinate("submit", *wanted.dict().values())}
+    return {"transport_id": await backend.coordinate("submit", *as_dict(wanted).values())}
 
 
 @router.post(

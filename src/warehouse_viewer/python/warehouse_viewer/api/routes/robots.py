@@ -4,16 +4,14 @@
 from typing import Any, Literal
 
 from fastapi import APIRouter, Body, Depends, HTTPException, Query, Request
-from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic.error_wrappers import ErrorWrapper
-from pydantic.errors import StrError
 
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.routes.common import LIMIT, NUMBER, OFFSET, SENT, TEXT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.commands import Command, NewWalk, Outcome, Walker
 from warehouse_viewer.api.schemas.models import NewRobot, Robot, Robots
+from warehouse_viewer.api.schemas.pydantic_versions import as_dict, no_text
 
 router = APIRouter()
 ANSWER, END = 10.0, 300.0  # for the answer to a command, and for its end [s, wall]
@@ -27,7 +25,7 @@ async def _check_command(request: Request):
     except (ValueError, RecursionError):
         return  # FastAPI tells what is wrong with it
     if isinstance(body, dict) and not isinstance(body.get("command", ""), str):
-        raise RequestValidationError([ErrorWrapper(StrError(), ("body", "command"))])
+        raise no_text("body", "command")
 
 
 @router.get("/robots", response_model=Robots, responses=problems())
@@ -87,7 +85,7 @@ async def command_robot(
     202 tells that what was waited for has not come in time.
     """
     await backend.robot(number)
-    fields = command.dict(exclude={"command"})
+    fields = as_dict(command, exclude={"command"})
     topic = f"/{command.command}"
     if not await backend.commander.ready(topic):
         raise HTTPException(503, f"{topic} has no subscriber; does the world run?")
@@ -104,4 +102,4 @@ async def command_robot(
 @router.post("/people", status_code=201, response_model=Walker, responses=problems(*SENT))
 async def send_person(wanted: NewWalk, backend: ApiBackend = BACKEND) -> Any:
     """Has a person walk over the floor, around obstacles and never into them."""
-    return {"name": await backend.simulate("walk", *wanted.dict().values())}
+    return {"name": await backend.simulate("walk", *as_dict(wanted).values())}

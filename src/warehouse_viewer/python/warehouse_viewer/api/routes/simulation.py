@@ -8,6 +8,7 @@ from fastapi import APIRouter, Body
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done
+from warehouse_viewer.api.schemas.pydantic_versions import as_dict
 from warehouse_viewer.api.schemas.warehouse import Checkpoint, Reset, Speed, Step, Undo
 
 router = APIRouter()
@@ -29,34 +30,34 @@ async def resume(backend: ApiBackend = BACKEND) -> Any:
 @router.post("/simulation/reset", response_model=Done, responses=problems(*SENT))
 async def reset(wanted: Reset = RESET, backend: ApiBackend = BACKEND) -> Any:
     """Everything goes back to where it came."""
-    return {"message": await backend.simulate("reset", *wanted.dict().values())}
+    return {"message": await backend.simulate("reset", *as_dict(wanted).values())}
 
 
 @router.post("/simulation/step", response_model=Done, responses=problems(*SENT))
 async def step(wanted: Step = STEP, backend: ApiBackend = BACKEND) -> Any:
     """While paused: so many steps of the physics."""
-    return {"message": await backend.simulate("step", *wanted.dict().values())}
+    return {"message": await backend.simulate("step", *as_dict(wanted).values())}
 
 
 @router.post("/simulation/speed", response_model=Done, responses=problems(*SENT))
 async def speed(wanted: Speed, backend: ApiBackend = BACKEND) -> Any:
     """How fast simulated time passes."""
-    return {"message": await backend.simulate("speed", *wanted.dict().values())}
+    return {"message": await backend.simulate("speed", *as_dict(wanted).values())}
 
 
 @router.post("/simulation/checkpoint", response_model=Done, responses=problems(*SENT))
 async def checkpoint(wanted: Checkpoint, backend: ApiBackend = BACKEND) -> Any:
     """Keeps the world as it is."""
-    return {"message": await backend.simulate("checkpoint", *wanted.dict().values())}
+    return {"message": await backend.simulate("checkpoint", *as_dict(wanted).values())}
 
 
 @router.post("/simulation/restore", response_model=Done, responses=problems(*SENT))
 async def restore(wanted: Checkpoint, backend: ApiBackend = BACKEND) -> Any:
     """Goes back to a checkpoint."""
-    return {"message": await backend.simulate("restore", *wanted.dict().values())}
+    return {"message": await backend.simulate("restore", *as_dict(wanted).values())}
 
 
 @router.post("/simulation/undo", response_model=Done, responses=problems(*SENT))
 async def undo(wanted: Undo, backend: ApiBackend = BACKEND) -> Any:
     """Goes back so many simulated seconds."""
-    return {"message": await backend.simulate("undo", *wanted.dict().values())}
+    return {"message": await backend.simulate("undo", *as_dict(wanted).values())}

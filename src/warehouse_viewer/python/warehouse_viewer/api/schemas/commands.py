@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Commands to robots and people, and what became of them."""
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, Field, StrictBool
 
-from warehouse_viewer.api.schemas.base import Body, Int8, Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.base import Int8, Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.pydantic_versions import Body, items, number
+
+if TYPE_CHECKING:
+    WalkingSpeed = float
+else:
+    WalkingSpeed = number(0.01, 1.6)  # [m/s]
 
 
 class Mov(Body):
@@ -50,35 +56,39 @@ class LiftCommand(Body):
 Command = Mov | MovX | MovY | Rot | LiftCommand
 
 
-class WalkingSpeed(Number):
-    ge, le = 0.01, 1.6
-
-
 class NewWalk(Body):
     """Has a person walk from place to place; one of a new name comes to the first place."""
 
-    name: Name = Field("", description="who; empty: a new person")
-    x: list[Number] = Field(max_items=1000, description="[m], of each place")
-    y: list[Number] = Field(max_items=1000, description="[m], as many")
+    name: Name = Field("", description="name of the person; empty: a new person")
+    x: list[Number] = Field(**items(0, 1000), description="x of each waypoint [m]")
+    y: list[Number] = Field(**items(0, 1000), description="y of each waypoint [m], as many as x")
     speed: WalkingSpeed = Field(1.2, description="[m/s]")
-    loop: StrictBool = Field(False, description="after the last place comes the first again")
+    loop: StrictBool = Field(False, description="walk to the first waypoint again after the last")
 
 
 class Walker(BaseModel):
+    """A person who walks."""
+
     name: str
 
 
 class Event(BaseModel):
+    """An event in the world."""
+
     id: int
     time: float = Field(description="[s], simulated")
     kind: str
-    command: int = Field(description="the one it belongs to, counted from 1; 0: none")
+    command: int = Field(
+        description="number of the command that the event belongs to, from 1; 0: none"
+    )
     model: str
     other: str
     text: str
 
 
 class Events(BaseModel):
+    """Events, the oldest first."""
+
     events: list[Event]
 
 

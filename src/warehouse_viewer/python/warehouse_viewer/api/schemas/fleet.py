@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The coordinator: transports, modes of robots and its state at a glance."""
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
-from pydantic import BaseModel, Field, root_validator
+from pydantic import BaseModel, Field
 
-from warehouse_viewer.api.schemas.base import Body, Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.base import Int32, Name, Number, UInt8
+from warehouse_viewer.api.schemas.pydantic_versions import Body, check_all, schema_extra
 
 Mode = Literal["AUTOMATIC", "MANUAL", "OUT_OF_SERVICE"]
 TransportState = Literal[
@@ -13,66 +15,78 @@ TransportState = Literal[
 ]
 
 
-class NewTransport(Body):
+# Either a station or both coordinates.
+DESTINATION = {
+    "oneOf": [
+        {
+            "required": ["station"],
+            "properties": {"station": {"minLength": 1}},
+            "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
+        },
+        {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
+    ]
+}
+
+
+def _check_destination(values: Mapping[str, Any]) -> None:
+    at = [values["x"], values["y"]]
+    if not (at == [None, None] if values["station"] else None not in at):
+        raise ValueError("either a station or both x and y were expected")
+
+
+class NewTransport(Body, **schema_extra(DESTINATION)):
     """Has a storage unit brought to a station, or to the cell at (x, y), by whichever robot."""
 
     storage_unit: Int32 = Field(description="the number in storage_unit<id>")
-    station: Name = Field("", description="its name, or empty: to the cell at (x, y)")
+    station: Name = Field(
+        "", description="name of the station; empty: the goal is the cell at (x, y)"
+    )
     x: Number | None = Field(None, description="[m], of a grid point")
     y: Number | None = Field(None, description="[m], of a grid point")
     then: Literal["STORE", "STAY"] = Field(
         "STORE", description="what becomes of the unit once it is released; STAY: put down there"
     )
-    priority: UInt8 = Field(0, description="higher ones come first")
+    priority: UInt8 = Field(0, description="transports of higher priority are assigned first")
 
-    class Config(Body.Config):
-        schema_extra = {
-            "oneOf": [
-                {
-                    "required": ["station"],
-                    "properties": {"station": {"minLength": 1}},
-                    "not": {"anyOf": [{"required": ["x"]}, {"required": ["y"]}]},
-                },
-                {"required": ["x", "y"], "properties": {"station": {"maxLength": 0}}},
-            ]
-        }
-
-    @root_validator(skip_on_failure=True)
-    def _has_one_destination(cls, values):  # noqa: N805 (pydantic's)
-        at = [values["x"], values["y"]]
-        if values["station"] and at == [None, None]:
-            return values
-        if not values["station"] and None not in at:
-            return values
-        raise ValueError("either a station or both x and y were expected")
+    _check = check_all(_check_destination)
 
 
 class NewMode(Body):
+    """Sets how a robot is commanded."""
+
     mode: Mode = Field(description="commanded by the coordinator, by a person, or not at all")
 
 
 class TransportNumber(BaseModel):
+    """The number of a transport."""
+
     transport_id: int
 
 
 class Transport(BaseModel):
+    """A storage unit's way to a station or a cell, and its state."""
+
     id: int
     state: TransportState = Field(
-        description="ARRIVED: waits to be released. STORED, FAILED: it is over"
+        description="ARRIVED: the unit waits to be released. STORED, FAILED: it has ended"
     )
     since: float = Field(description="[s], simulated")
-    robot: str = Field(description="that does it, or empty")
+    robot: str = Field(description="the robot assigned to it, or empty")
     storage_unit: str
-    station: str = Field(description="or empty, if it is brought to a cell")
+    station: str = Field(description="name of the station; empty: the goal is a cell")
     text: str
 
 
 class Transports(BaseModel):
+    """Transports, and how many there are in all."""
+
     total: int
     transports: list[Transport]
 
 
 class RobotsByMode(BaseModel):
+    """Numbers of robots by mode."""
+
     automatic: int
     manual: int
     out_of_service: int
@@ -92,7 +106,9 @@ class RobotsByWork(BaseModel):
 
 
 class TransportCounts(BaseModel):
-    open: int = Field(description="without a robot yet")
+    """Numbers of transports by state."""
+
+    open: int = Field(description="transports without a robot so far")
     under_way: int
     delivered: int
     stored: int
@@ -103,9 +119,9 @@ class Waiting(BaseModel):
     """A robot that has stood for 10 s or longer although it has somewhere to go."""
 
     robot: int
-    waits_for: int = Field(description="a robot; 0: not known")
+    waits_for: int = Field(description="id of the robot that blocks it; 0: unknown")
     since: float = Field(description="[s], simulated")
-    text: str = Field(description="for what it waits, for a person")
+    text: str = Field(description="why the robot waits, as a sentence")
 
 
 class Coordinator(BaseModel):
@@ -118,8 +134,8 @@ class Coordinator(BaseModel):
     manual: list[int] = Field(description="robots that a person commands")
     out_of_service: list[int]
     plan_p50: float = Field(description="computing time of a plan [ms], median")
-    plan_p99: float = Field(description="[ms]")
-    executed_over_planned: float = Field(description="seconds driven over those planned")
+    plan_p99: float = Field(description="computing time of a plan [ms], 99th percentile")
+    executed_over_planned: float = Field(description="driving time as executed, over that planned")
     queues: dict[str, int] = Field(description="units at each station or on their way there")
     waiting: list[Waiting]
     collisions: int

@@ -5,16 +5,21 @@ from typing import Literal
 
 from pydantic import BaseModel, Field
 
-from warehouse_viewer.api.schemas.base import Body, Number
+from warehouse_viewer.api.schemas.base import Number
+from warehouse_viewer.api.schemas.pydantic_versions import Body
 
 
 class NewRobot(Body):
+    """Adds a robot at a grid point."""
+
     x: Number = Field(description="[m], of a grid point")
     y: Number = Field(description="[m], of a grid point")
     heading: Number = Field(0, description="[rad] about z, by quarter turns; 0: along x")
 
 
 class Pose(BaseModel):
+    """A position [m] and an orientation, a quaternion, in the world."""
+
     x: float
     y: float
     z: float
@@ -25,6 +30,8 @@ class Pose(BaseModel):
 
 
 class Robot(BaseModel):
+    """A robot, with its pose in the world [m, rad]."""
+
     name: str
     id: int
     status: Literal["IDLE", "BUSY", "BLOCKED"] = Field(
@@ -43,8 +50,10 @@ class Robot(BaseModel):
     y: float
     yaw: float
     storage_unit: str = Field(description="the one it carries, or empty")
-    charge: float = Field(description="of its battery, 0 to 1; 1 where energy is not simulated")
-    failures: list[str] = Field(description="what is broken in it")
+    charge: float = Field(
+        description="state of charge of the battery, 0 to 1; 1 where energy is not simulated"
+    )
+    failures: list[str] = Field(description="failures of the robot")
 
 
 class Thing(BaseModel):
@@ -58,10 +67,14 @@ class Thing(BaseModel):
 
 
 class Robots(BaseModel):
+    """Robots, and how many there are in all."""
+
     total: int
     robots: list[Robot]
 
 
 class Things(BaseModel):
+    """Storage units or items, and how many there are in all."""
+
     total: int
     things: list[Thing]

@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orders, stock, stations and figures of a shift."""
 
-import re
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Literal, get_args
 
-from pydantic import (
-    BaseModel,
-    ConstrainedInt,
-    ConstrainedStr,
-    Field,
-    StrictBool,
-)
+from pydantic import BaseModel, Field, StrictBool
 
-from warehouse_viewer.api.schemas.base import INT32, Body, Number, UInt8
+from warehouse_viewer.api.schemas.base import INT32, UInt8
+from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, items, number, text
 
 State = Literal["OPEN", "ASSIGNED", "COMPLETED", "CANCELLED"]
 Mode = Literal["AUTOMATIC", "MANUAL"]
@@ -21,42 +15,23 @@ PickOutcome = Literal["DONE", "SHORT", "DAMAGED"]
 STATES, MODES, OUTCOMES = map(get_args, (State, Mode, PickOutcome))
 
 
-class Sku(ConstrainedStr):
-    """The name of a kind of goods."""
-
-    strict, min_length, max_length = True, 1, 80
-    regex = re.compile(r"^[ -~]+$")
-
-
-class Pieces(ConstrainedInt):
-    """How many pieces, at least one."""
-
-    strict, ge, le = True, 1, INT32
-
-
-class PiecesOrNone(ConstrainedInt):
-    """How many pieces, or 0."""
-
-    strict, ge, le = True, 0, INT32
-
-
-class OrderNumber(ConstrainedInt):
-    """An order's number, or 0."""
-
-    strict, ge, le = True, 0, 2**53
-
-
-class Reference(ConstrainedStr):
-    """What the orderer calls an order."""
-
-    strict, max_length, regex = True, 200, re.compile(r"^[ -~]*$")
-
-
-class Moment(Number):
-    ge, le = 0, 4e9
+if TYPE_CHECKING:
+    Sku = str
+    Reference = str
+    Pieces = int
+    PiecesOrNone = int
+    OrderNumber = int
+    Moment = float
+else:
+    Sku, Reference = text(r"^[ -~]+$", 80, least=1), text(r"^[ -~]*$", 200)
+    Pieces, PiecesOrNone = integer(1, INT32), integer(0, INT32)
+    OrderNumber = integer(0, 2**53)  # 0: none
+    Moment = number(0, 4e9)  # a simulated time [s]
 
 
 class Line(Body):
+    """Pieces of one kind of goods."""
+
     sku: Sku
     quantity: Pieces
 
@@ -64,18 +39,22 @@ class Line(Body):
 class NewOrder(Body):
     """An order; `due` in simulated time, 0 = none."""
 
-    reference: Reference = Reference()
-    lines: list[Line] = Field(min_items=1, max_items=100)
+    reference: Reference = ""
+    lines: list[Line] = Field(**items(1, 100))
     due: Moment = Field(0.0, description="[s], simulated time")
-    priority: UInt8 = UInt8(0)
+    priority: UInt8 = 0
 
 
 class Accepted(BaseModel):
+    """The number of an order that was accepted."""
+
     order_id: int
     message: str
 
 
 class OrderLine(BaseModel):
+    """A line of an order, and the pieces picked for it so far."""
+
     sku: str
     quantity: int
     picked: int
@@ -96,11 +75,15 @@ class Order(BaseModel):
 
 
 class Orders(BaseModel):
+    """Orders, and how many there are in all."""
+
     total: int
     orders: list[Order]
 
 
 class Place(BaseModel):
+    """A bin on a storage unit: what lies in it, in pieces."""
+
     item: str
     shelf_id: int
     sku: str
@@ -110,23 +93,27 @@ class Place(BaseModel):
 
 
 class Stock(BaseModel):
+    """Bins, how many there are in all, and their pieces."""
+
     total: int
     pieces: int
     places: list[Place]
 
 
 class Pick(BaseModel):
+    """Pieces to be taken out at a station for an order."""
+
     sku: str
     quantity: int
     item: str
     order_id: int
     reference: str
-    sequence: int = Field(
-        description="another one for each thing to be done, and what is left of it"
-    )
+    sequence: int = Field(description="number of the task; a partly done task gets a new number")
 
 
 class Station(BaseModel):
+    """A picking or replenishment station, and its work."""
+
     name: str
     kind: str
     open: bool
@@ -138,14 +125,20 @@ class Station(BaseModel):
     picks: list[Pick]
     pieces: int
     busy_fraction: float
-    waiting: float = Field(description="for so long a person has been waited for [s]; 0: none is")
+    waiting: float = Field(
+        description="time that the station has waited for a person [s]; 0: it does not wait"
+    )
 
 
 class Stations(BaseModel):
+    """All stations."""
+
     stations: list[Station]
 
 
 class SetStation(Body):
+    """Opens or closes a station, and sets its mode."""
+
     open: StrictBool
     mode: Mode = "AUTOMATIC"
 
@@ -164,13 +157,15 @@ class PickReport(Body):
     """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
     bin is empty; DAMAGED: so many are."""
 
-    order_id: OrderNumber = OrderNumber(0)
+    order_id: OrderNumber = 0
     item: Sku
     quantity: PiecesOrNone
     outcome: PickOutcome = "DONE"
 
 
 class Reported(BaseModel):
+    """Says what a pick's report has led to."""
+
     message: str
     quantity: int = Field(description="pieces taken, put in or written off")
 
@@ -179,25 +174,29 @@ class Throughput(BaseModel):
     """What the stations did in each interval of the last hour, the oldest first. Intervals begin at
     whole multiples of their length; the last one goes on."""
 
-    interval: float = Field(description="[s], simulated")
-    begin: float = Field(description="of the first [s], simulated; the shift's, if it began within")
-    end: float = Field(description="up to which the last one goes so far [s]")
+    interval: float = Field(description="duration of an interval [s], simulated")
+    begin: float = Field(
+        description="begin of the first interval [s], simulated; the shift's begin if that is later"
+    )
+    end: float = Field(description="end of the last interval so far [s]")
     items_picked: list[int]
     pieces_stored: list[int]
     orders_completed: list[int]
 
 
 class Notices(BaseModel):
+    """Notices, as text."""
+
     notices: list[str]
 
 
 class Heat(BaseModel):
     """Where robots drive and wait, by cell, row after row from the smallest y on."""
 
-    seconds: float = Field(description="that it covers, an hour at most")
-    x: float = Field(description="[m] of the first cell's centre")
+    seconds: float = Field(description="time that the map covers [s], an hour at most")
+    x: float = Field(description="x of the first cell's centre [m]")
     y: float
-    spacing: float = Field(description="[m] of the cells")
+    spacing: float = Field(description="spacing of the cells [m]")
     width: int = Field(description="cells in a row")
     traffic: list[float] = Field(description="robots that came into the cell")
     waiting: list[float] = Field(description="[s] that robots waited there for their way")

@@ -1,22 +1,36 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a whole, and how simulated time passes in it."""
 
-from pydantic import BaseModel, ConstrainedInt, Field, StrictBool
+from typing import TYPE_CHECKING
 
-from warehouse_viewer.api.schemas.base import Body, Int32, Label, Name, Number
+from pydantic import BaseModel, Field, StrictBool
+
+from warehouse_viewer.api.schemas.base import Int32, Label, Name
+from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, number
+
+if TYPE_CHECKING:
+    Steps = int
+    Factor = float
+    Seconds = float
+else:
+    Steps = integer(1, 100000)  # of the physics
+    Factor = number(0, 1000)  # simulated seconds a wall second
+    Seconds = number(0.001, 1e6)  # simulated
 
 
 class NewWarehouse(Body):
     """Counts of 0 everywhere with a preset's name mean that preset."""
 
     name: Name = Field(description="a preset (empty, small, medium, large, huge), or any name")
-    id: Int32 = Int32(0)
-    robots: Int32 = Int32(0)
-    items: Int32 = Int32(0)
-    shelves: Int32 = Int32(0)
+    id: Int32 = 0
+    robots: Int32 = 0
+    items: Int32 = 0
+    shelves: Int32 = 0
 
 
 class Counts(BaseModel):
+    """Numbers of models by kind."""
+
     robots: int
     shelves: int
     items: int
@@ -30,6 +44,8 @@ class Sizes(BaseModel):
 
 
 class Warehouse(BaseModel):
+    """The warehouse, its size and how time passes in it."""
+
     name: str
     id: int
     robots: int
@@ -44,35 +60,31 @@ class Warehouse(BaseModel):
     lacks: dict[str, str] = Field(description="what can't be done with this engine, and why")
 
 
-class Factor(Number):
-    ge, le = 0, 1000
-
-
-class Seconds(Number):
-    ge, le = 0.001, 1e6
-
-
-class Steps(ConstrainedInt):
-    """Steps of the physics."""
-
-    strict, ge, le = True, 1, 100000
-
-
 class Reset(Body):
+    """Puts all models back to where they came."""
+
     time_too: StrictBool = Field(True, description="false: models alone go back to where they came")
 
 
 class Step(Body):
+    """Advances a paused world by so many steps."""
+
     steps: Steps = Field(1, description="of the physics")
 
 
 class Speed(Body):
+    """Sets how fast simulated time passes."""
+
     factor: Factor = Field(description="simulated seconds a wall second; 0: as fast as it goes")
 
 
 class Checkpoint(Body):
+    """The name of a checkpoint."""
+
     name: Label
 
 
 class Undo(Body):
+    """Goes back in simulated time."""
+
     seconds: Seconds = Field(description="[s], simulated")
