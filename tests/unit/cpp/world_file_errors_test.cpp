@@ -422,6 +422,15 @@ TEST(WorldFileErrors, NameTheLineOfAUrdf) {
                 "left out: 'a b c' is no value for <size>; expected three numbers"}));
 }
 
+TEST(WorldFileWarnings, AreNoneForAMeshBesideItsUrdf) {
+  const std::string urdf =
+      "<robot name='r'><link name='a'><collision><geometry><mesh filename='meshes/CUBE.STL'/>"
+      "</geometry></collision></link></robot>";
+  std::vector<std::string> warnings;
+  parseWorld(urdf, kPaths, (kFolder / "text.urdf").string(), &warnings);
+  EXPECT_EQ(warnings, std::vector<std::string>());
+}
+
 /// Entities of a document type are not read: none grows.
 TEST(WorldFileErrors, LeaveEntitiesAsTheyAre) {
   std::string type = "<!DOCTYPE sdf [<!ENTITY a0 'lol'>";
@@ -449,6 +458,20 @@ TEST(WorldFileWarnings, TakeNoLongerForEachFaultThanForAnother) {
   EXPECT_EQ(warningsOfText(xml + "</world></sdf>").size(), kFaults);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   EXPECT_LT(took.count(), 10.0);  // Takes 0.3 s; minutes where each fault begins again.
+}
+
+/// Poses of thousands of models, each told in the one before.
+TEST(WorldFileWarnings, TakeNoLongSearchForFrames) {
+  std::string xml = "<sdf version='1.9'><world name='w'>";
+  for (int i = 0; i < 3000; ++i) {
+    const std::string before = i > 0 ? "m" + std::to_string(i - 1) : "world";
+    xml += "<model name='m" + std::to_string(i) + "'><pose relative_to='" + before +
+           "'>1 0 0 0 0 0</pose><link name='l'/></model>";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  warningsOfText(xml + "</world></sdf>");
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(took.count(), 20.0);  // Takes 3 s; minutes where each name is searched for.
 }
 
 TEST(WorldFileErrors, HaveAFixtureEach) {

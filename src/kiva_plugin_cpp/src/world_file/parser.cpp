@@ -75,6 +75,7 @@ SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   expandIncludes(model_paths, &parsed);
   parsed.warnings.insert(parsed.warnings.end(), unknown.begin(), unknown.end());
   checkElements(root, &parsed.warnings);
+  parsed.xml->setFinal();
   return parsed;
 }
 

@@ -58,6 +58,12 @@ class FlatPrinter : public tinyxml2::XMLPrinter {
   const XmlElement* but_;
 };
 
+/// Whether poses can be told in it.
+bool isFrame(const XmlElement& element) {
+  return is(element, "link") || is(element, "joint") || is(element, "frame") ||
+         is(element, "model");
+}
+
 const XmlElement* elementAround(const XmlElement& element) {
   const tinyxml2::XMLNode* const parent = element.Parent();
   return parent ? parent->ToElement() : nullptr;
@@ -103,6 +109,24 @@ Fault faultOfXml(const XmlDocument& document) {
 }
 
 }  // namespace
+
+const XmlElement* XmlDocument::findFrame(const XmlElement& scope, const std::string& name) {
+  const auto& document = static_cast<const XmlDocument&>(*scope.GetDocument());
+  if (!document.is_final_) {
+    for (auto part = scope.FirstChildElement(); part; part = part->NextSiblingElement()) {
+      if (hasName(*part, name) && isFrame(*part)) return part;
+    }
+    return nullptr;
+  }
+  const auto [frames, is_new] = document.frames_.try_emplace(&scope);
+  if (is_new) {
+    for (auto part = scope.FirstChildElement(); part; part = part->NextSiblingElement()) {
+      if (isFrame(*part)) frames->second.emplace(attributeOf(*part, "name"), part);
+    }
+  }
+  const auto found = frames->second.find(name);
+  return found == frames->second.end() ? nullptr : found->second;
+}
 
 std::unique_ptr<XmlDocument> parseXml(const std::string& text) {
   if (text.size() > kMostBytes) {
