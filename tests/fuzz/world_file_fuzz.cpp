@@ -52,7 +52,7 @@ std::vector<std::string> readSeeds() {
   return seeds;
 }
 
-/// Damages texts: bytes, pieces, numbers, tags.
+/// Damages texts: bytes, pieces, numbers, tags, depth, entities.
 class Mutator {
  private:
   std::size_t below(std::size_t limit) { return limit ? random_() % limit : 0; }
@@ -74,7 +74,7 @@ class Mutator {
 
  private:
   void damage(std::string* text) {
-    switch (below(8)) {
+    switch (below(10)) {
       case 0:
         (*text)[below(text->size())] = static_cast<char>(random_());
         return;
@@ -92,6 +92,10 @@ class Mutator {
         return renameTag(text);
       case 6:
         return moveElement(text);
+      case 7:
+        return nest(text);
+      case 8:
+        return addEntity(text);
       default:
         return replaceText(text);
     }
@@ -140,6 +144,35 @@ class Mutator {
     text->insert(at == std::string::npos ? 0 : at, piece);
   }
 
+  /// Puts an element into many others of one kind.
+  void nest(std::string* text) {
+    const std::size_t at = text->find('<', below(text->size()));
+    if (at == std::string::npos) return;
+    const std::string word = any(kWords);
+    const std::size_t depth = below(10) ? below(12) : below(2000);
+    std::string opened, closed;
+    for (std::size_t i = 0; i < depth; ++i) {
+      opened += "<" + word + " name='n" + std::to_string(below(3)) + "'>";
+      closed += "</" + word + ">";
+    }
+    text->insert(below(text->size() - at) + at, closed);
+    text->insert(at, opened);
+  }
+
+  /// Declares entities that would grow to a billion letters, and uses one.
+  void addEntity(std::string* text) {
+    std::string declared = "<!DOCTYPE sdf [<!ENTITY e0 '1 0 0'>";
+    for (int i = 1; i < 10; ++i) {
+      const std::string last = "&e" + std::to_string(i - 1) + ";";
+      declared += "<!ENTITY e" + std::to_string(i) + " '";
+      for (int j = 0; j < 10; ++j) declared += last;
+      declared += "'>";
+    }
+    const std::size_t at = text->find('>', below(text->size()));
+    if (at != std::string::npos) text->insert(at + 1, "&e9;");
+    text->insert(0, declared + "]>");
+  }
+
   void replaceText(std::string* text) {
     const std::size_t from = text->find_first_of(">\"'", below(text->size()));
     if (from == std::string::npos) return;
@@ -171,9 +204,31 @@ bool tryModels(const std::string& text) {
   return true;
 }
 
-bool passes(bool (*attempt)(const std::string&), const std::string& text) {
+/// Reads the text as the model of a folder, which a world includes by itself, in a model that takes
+/// its parts over, and in one that nests it.
+bool tryInclude(const std::string& text, const fs::path& library) {
+  const fs::path folder = library / "damaged";
+  fs::create_directories(folder);
+  std::ofstream(folder / "model.sdf", std::ios::binary) << text;
+  std::ofstream(folder / "model.config")
+      << "<model><name>damaged</name><sdf version='1.9'>model.sdf</sdf></model>";
+  constexpr char kInclude[] = "<include><uri>model://damaged</uri></include>";
+  constexpr char kMerged[] = "<include merge='true'><uri>model://damaged</uri></include>";
+  const std::string world = std::string("<sdf version='1.9'><world name='w'>") + kInclude +
+                            "<model name='merged'>" + kMerged + "</model><model name='around'>" +
+                            kInclude + "<link name='own'/></model></world></sdf>";
+  kiva::ModelPaths paths = kPaths;
+  paths.push_back(library.string());
+  std::vector<std::string> warnings;
+  kiva::World built(kiva::parseWorld(world, paths, "fuzz.sdf", &warnings));
+  for (int i = 0; i < kSteps; ++i) built.step();
+  return warnings.empty();
+}
+
+template <typename Attempt>
+bool passes(const Attempt& attempt) {
   try {
-    return attempt(text);
+    return attempt();
   } catch (const kiva::DescriptionError& error) {
     if (*error.what()) return false;
     throw std::logic_error("an error without a word");
@@ -191,14 +246,17 @@ int main(int argc, char** argv) {
   const std::chrono::duration<double> limit(std::atof(argv[3]));
   const auto start = std::chrono::steady_clock::now();
   Mutator mutator(readSeeds(), std::strtoul(argv[2], nullptr, 10));
+  const fs::path library = std::string(argv[4]) + "_models";
   long done = 0, passed = 0;
   for (; done < count && std::chrono::steady_clock::now() - start < limit; ++done) {
     const std::string text = mutator.next();
     std::ofstream(argv[4], std::ios::binary) << text;
     const bool is_world = text.find("<world") != std::string::npos;
-    passed += passes(is_world ? tryWorld : tryModels, text);
+    passed += passes([&] { return is_world ? tryWorld(text) : tryModels(text); });
+    if (!is_world) passes([&] { return tryInclude(text, library); });
   }
   fs::remove(argv[4]);
+  fs::remove_all(library);
   std::printf("%ld files, %ld of them still worlds or models\n", done, passed);
   if (done < count) std::cerr << "out of time after " << done << " of " << count << " files\n";
   return done < count ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -54,12 +55,12 @@ const std::string kNowhere =
 /// What follows the file's name, line and all: nothing would be left of these.
 const std::map<std::string, std::string> kErrors = {
     {"empty", ": the XML is ill-formed: empty document"},
-    {"no_version", ": expected <sdf version=\"…\"> as the root element, found no version"},
+    {"no_version", ":3: expected <sdf version=\"…\"> as the root element, found no version"},
     {"no_world", ": expected a <world> in <sdf>, or a URDF <robot>"},
-    {"root", ": expected <sdf version=\"…\"> as the root element, found <warehouse>"},
+    {"root", ":3: expected <sdf version=\"…\"> as the root element, found <warehouse>"},
     {"two_models", ": expected a <world> in <sdf>, or a URDF <robot>"},
     {"two_worlds", ":3: expected one <world>, found several"},
-    {"version", ": SDF version 3.3 is unknown; expected 1.0 to 1.11"},
+    {"version", ":3: SDF version '3.3' is unknown; expected 1.0 to 1.11"},
     {"xml", ":6: the XML is ill-formed: mismatched element (XMLElement name=link)"},
 };
 
@@ -353,7 +354,6 @@ TEST(WorldFileWarnings, EndWhenTheMissingModelComes) {
   fs::remove_all(folder);
 }
 
-/// libsdformat would end the process at some of them.
 TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
   const fs::path folder = fs::temp_directory_path() / ("config_" + std::to_string(getpid()));
   fs::create_directories(folder / "m");
@@ -383,6 +383,95 @@ TEST(WorldFileWarnings, NameTheModelConfigThatIsFaulty) {
     }
   }
   fs::remove_all(folder);
+}
+
+std::vector<std::string> warningsOfText(const std::string& xml) {
+  std::vector<std::string> warnings;
+  parseWorld(xml, kPaths, "text", &warnings);
+  return warnings;
+}
+
+/// A model that is included may nest an include of its own that says nothing.
+TEST(WorldFileWarnings, NameAnIncludeWithoutAUriInAModelThatIsIncluded) {
+  const fs::path folder = fs::temp_directory_path() / ("blank_" + std::to_string(getpid()));
+  fs::create_directories(folder / "m");
+  std::ofstream(folder / "m" / "model.config")
+      << "<model><name>m</name><sdf version='1.9'>model.sdf</sdf></model>";
+  std::ofstream(folder / "m" / "model.sdf")
+      << "<sdf version='1.9'><model name='m'><link name='l'/>\n<include/></model></sdf>";
+  const std::string xml =
+      "<sdf version='1.9'><world name='w'><model name='around'><link name='l'/>"
+      "<include><uri>model://m</uri></include></model></world></sdf>";
+  std::vector<std::string> warnings;
+  parseWorld(xml, {folder.string()}, "text", &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_PRED2(test::contains, warnings[0], "m/model.sdf:2: ");
+  EXPECT_PRED2(test::contains, warnings[0], "expected a text in <uri>");
+  fs::remove_all(folder);
+}
+
+TEST(WorldFileErrors, NameTheLineOfAUrdf) {
+  const std::string urdf =
+      "<robot name='r'>\n<link name='a'>\n<visual><origin xyz='1 2'/>\n"
+      "<geometry><box size='a b c'/></geometry></visual></link></robot>";
+  EXPECT_EQ(warningsOfText(urdf),
+            (std::vector<std::string>{
+                "text:3: robot 'r', link 'a', visual/origin: this xyz is left out: '1 2' is no "
+                "value for it; expected three numbers",
+                "text:4: model 'r', link 'a', visual 'a_visual', geometry/box/size: this visual is "
+                "left out: 'a b c' is no value for <size>; expected three numbers"}));
+}
+
+TEST(WorldFileWarnings, AreNoneForAMeshBesideItsUrdf) {
+  const std::string urdf =
+      "<robot name='r'><link name='a'><collision><geometry><mesh filename='meshes/CUBE.STL'/>"
+      "</geometry></collision></link></robot>";
+  std::vector<std::string> warnings;
+  parseWorld(urdf, kPaths, (kFolder / "text.urdf").string(), &warnings);
+  EXPECT_EQ(warnings, std::vector<std::string>());
+}
+
+/// Entities of a document type are not read: none grows.
+TEST(WorldFileErrors, LeaveEntitiesAsTheyAre) {
+  std::string type = "<!DOCTYPE sdf [<!ENTITY a0 'lol'>";
+  for (int i = 1; i < 10; ++i) {
+    type += "<!ENTITY a" + std::to_string(i) + " '";
+    for (int j = 0; j < 10; ++j) type += "&a" + std::to_string(i - 1) + ";";
+    type += "'>";
+  }
+  const std::string xml = type + "]>\n<sdf version='1.9'><world name='w'><model name='m'>\n" +
+                          "<pose>&a9;</pose><link name='l'/></model></world></sdf>";
+  const std::vector<std::string> warnings = warningsOfText(xml);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_PRED2(test::contains, warnings[0], "text:3: world 'w', model 'm', pose: ");
+  EXPECT_PRED2(test::contains, warnings[0], "'&a9;' is no value for <pose>");
+}
+
+/// Each fault costs itself alone, and no second look at the rest.
+TEST(WorldFileWarnings, TakeNoLongerForEachFaultThanForAnother) {
+  std::string xml = "<sdf version='1.9'><world name='w'>";
+  constexpr std::size_t kFaults = 20000;
+  for (std::size_t i = 0; i < kFaults; ++i) {
+    xml += "<light name='l" + std::to_string(i) + "' type='point'><diffuse>red</diffuse></light>\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(warningsOfText(xml + "</world></sdf>").size(), kFaults);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(took.count(), 10.0);  // Takes 0.3 s; minutes where each fault begins again.
+}
+
+/// Poses of thousands of models, each told in the one before.
+TEST(WorldFileWarnings, TakeNoLongSearchForFrames) {
+  std::string xml = "<sdf version='1.9'><world name='w'>";
+  for (int i = 0; i < 3000; ++i) {
+    const std::string before = i > 0 ? "m" + std::to_string(i - 1) : "world";
+    xml += "<model name='m" + std::to_string(i) + "'><pose relative_to='" + before +
+           "'>1 0 0 0 0 0</pose><link name='l'/></model>";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  warningsOfText(xml + "</world></sdf>");
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(took.count(), 20.0);  // Takes 3 s; minutes where each name is searched for.
 }
 
 TEST(WorldFileErrors, HaveAFixtureEach) {

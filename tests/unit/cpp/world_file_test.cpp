@@ -672,8 +672,8 @@ TEST(Includes, OfALightKeepItUnderItsName) {
   EXPECT_EQ(w.lights[1].kind, Light::Kind::kDirectional);
 }
 
-/// Our reading of plain includes against libsdformat's: a frame on a robot makes it take all.
-TEST(Includes, ComeOutAsLibsdformatHasThem) {
+/// Plain includes are read apart from the rest; a frame on a robot has all read in one.
+TEST(Includes, ComeOutAlikeApartAndInOne) {
   const std::string body = include("kiva", "<name>kiva1</name><pose>1 2 0 0 0 0.5</pose>") +
                            include("storage_unit", "<name>storage_unit1</name>");
   const std::string frame = "<frame name='f' attached_to='kiva1'/>";
@@ -708,7 +708,7 @@ TEST(Includes, OfFiveThousandShelvesCostNoMoreThanOne) {
   ASSERT_EQ(models.size(), 5000u);
   EXPECT_EQ(models[4999].pose.Pos().X(), 4999);
   EXPECT_EQ(models[0].description, models[4999].description);
-  EXPECT_LT(took.count(), 5.0);  // Takes 0.05 s; libsdformat alone needs minutes.
+  EXPECT_LT(took.count(), 5.0);  // Takes 0.05 s.
 }
 
 // --- requests
@@ -775,7 +775,7 @@ TEST(Requests, ByTheThousandAreCheap) {
     ASSERT_EQ(models.at(0).name, name);
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(took.count(), 10.0);  // Takes 0.3 s; libsdformat alone needs 20 minutes.
+  EXPECT_LT(took.count(), 10.0);  // Takes 0.3 s.
 }
 
 TEST(Requests, SeeAModelThatWasEdited) {

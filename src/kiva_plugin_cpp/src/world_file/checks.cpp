@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/checks.h"
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,15 +16,24 @@ namespace {
 
 /// Names of what is in an element, by kind: links among links, models among models and so on. Of
 /// plugins several may have one name.
-using Names = std::set<std::pair<std::string, std::string>>;
+using KindAndName = std::pair<std::string, std::string>;
+struct Names {
+  std::set<KindAndName> taken;
+  std::map<KindAndName, int> counts;  ///< Up to here `name_2`, `name_3` and so on were given out.
+
+  bool add(const std::string& kind, const std::string& name) {
+    return taken.emplace(kind, name).second;
+  }
+};
 
 /// Two shapes of one name are told apart here; nothing refers to them by it.
 void rename(XmlElement* part, Names* names, Faults* warnings) {
   const std::string name = attributeOf(*part, "name");
   std::string free;
-  for (int count = 2; free.empty(); ++count) {
-    const std::string tried = name + "_" + std::to_string(count);
-    if (names->emplace(part->Name(), tried).second) free = tried;
+  int& count = names->counts.try_emplace({part->Name(), name}, 1).first->second;
+  while (free.empty()) {
+    const std::string tried = name + "_" + std::to_string(++count);
+    if (names->add(part->Name(), tried)) free = tried;
   }
   warnings->push_back(noteAt(*part, "this name is taken; it is called '" + free + "' here"));
   part->SetAttribute("name", free.c_str());
@@ -33,7 +43,7 @@ void rename(XmlElement* part, Names* names, Faults* warnings) {
 std::string faultOfName(XmlElement* part, Names* names, Faults* warnings) {
   const std::string kind = part->Name();
   if (!part->Attribute("name") || kind == "plugin") return "";
-  if (names->emplace(kind, attributeOf(*part, "name")).second) return "";
+  if (names->add(kind, attributeOf(*part, "name"))) return "";
   if (kind == "collision" || kind == "visual" || kind == "sensor") {
     rename(part, names, warnings);
     return "";
@@ -59,11 +69,9 @@ bool isKnownJoint(const std::string& type) {
 /// is none.
 XmlElement* findPart(XmlElement* around, const std::string& name) {
   for (auto part = around->FirstChildElement(); part; part = part->NextSiblingElement()) {
+    if (!part->Attribute("name") || !hasName(*part, name)) continue;
     const std::string kind = part->Name();
-    const bool is_frame = kind == "link" || kind == "joint" || kind == "frame" || kind == "model";
-    if (is_frame && part->Attribute("name") && attributeOf(*part, "name") == name) {
-      return part;
-    }
+    if (kind == "link" || kind == "joint" || kind == "frame" || kind == "model") return part;
   }
   return nullptr;
 }
@@ -212,7 +220,9 @@ bool checkPlaces(XmlElement* element, Faults* warnings) {
 
 void checkElements(XmlElement* root, Faults* warnings) {
   checkParts(root, warnings);
-  while (checkPlaces(root, warnings)) continue;
+  // What is left of longer chains costs the model that it is in when its frames are looked up.
+  constexpr int kMostRounds = 20;
+  for (int round = 0; round < kMostRounds && checkPlaces(root, warnings); ++round) continue;
 }
 
 }  // namespace kiva

@@ -76,7 +76,7 @@ void convert(XmlElement* sdf) {
                                                   "1.7", "1.8", "1.9", "1.10", "1.11"};
   const std::string version = attributeOf(*sdf, "version");
   if (!kVersions.count(version)) {
-    throw SdfError({"SDF version " + version + " is unknown; expected 1.0 to 1.11", "", "", 0});
+    failAt(*sdf, "SDF version '" + version + "' is unknown; expected 1.0 to 1.11");
   }
   const double number = version.size() > 3 ? 1.9 : std::atof(version.c_str());
   forAll(sdf, [&](XmlElement* element) { convertElement(element, number); });

@@ -38,7 +38,9 @@ class Expansion {
     XmlElement* const uri = include->FirstChildElement("uri");
     const std::string place = findModel(contentOf(uri), model_paths_);
     if (place.empty()) {
-      document_->warnings.push_back(noteAt(*uri, leftOut(contentOf(uri), model_paths_)));
+      const std::string why = uri ? leftOut(contentOf(uri), model_paths_)
+                                  : "this include is left out: expected a text in <uri>";
+      document_->warnings.push_back(noteAt(uri ? *uri : *include, why));
     } else {
       const std::string file = std::filesystem::path(modelFile(place)).lexically_normal().string();
       if (XmlElement* const model = modelIn(file)) {

@@ -8,21 +8,8 @@ namespace {
 
 constexpr int kMostSteps = 1000;  // from frame to frame: more go in a circle
 
-bool isFrame(const XmlElement& element) {
-  return is(element, "link") || is(element, "joint") || is(element, "frame") ||
-         is(element, "model");
-}
-
-const XmlElement* partOf(const XmlElement& scope, const std::string& name) {
-  for (const XmlElement* part = scope.FirstChildElement(); part;
-       part = part->NextSiblingElement()) {
-    if (isFrame(*part) && attributeOf(*part, "name") == name) return part;
-  }
-  return nullptr;
-}
-
 const XmlElement& requiredPart(const XmlElement& scope, const std::string& name) {
-  const XmlElement* const part = partOf(scope, name);
+  const XmlElement* const part = XmlDocument::findFrame(scope, name);
   if (!part) failAt(scope, "there is no frame '" + name + "' in it");
   return *part;
 }
@@ -40,7 +27,8 @@ const XmlElement& scopeOf(const XmlElement& part) {
 class Search {
  public:
   Pose frame(const XmlElement& scope, const std::string& name) {
-    if (++steps_ > kMostSteps) failAt(scope, "its frames are told in a circle");
+    if (++steps_ > kMostSteps)
+      failAt(scope, "its frames are told in a circle, or through more than 1000 others");
     if (name.empty() || name == "world" || name == "__root__" || name == "__model__")
       return Pose::Zero;
     const std::size_t colons = name.find("::");
@@ -63,7 +51,8 @@ class Search {
   }
 
   std::string link(const XmlElement& model, const std::string& name) {
-    if (++steps_ > kMostSteps) failAt(model, "its frames are told in a circle");
+    if (++steps_ > kMostSteps)
+      failAt(model, "its frames are told in a circle, or through more than 1000 others");
     if (name == "world") return name;
     if (name == "__model__") return canonicalLinkOf(model);
     const std::size_t colons = name.find("::");

@@ -19,7 +19,8 @@ XmlElement* sdfOf(XmlDocument* document) {
   if (root && is(*root, "sdf") && root->Attribute("version")) return root;
   const std::string found =
       !root || is(*root, "sdf") ? "no version" : "<" + std::string(root->Name()) + ">";
-  throw SdfError({"expected <sdf version=\"…\"> as the root element, found " + found, "", "", 0});
+  throw SdfError({"expected <sdf version=\"…\"> as the root element, found " + found, "", "",
+                  root ? root->GetLineNum() : 0});
 }
 
 void dropIncludes(XmlElement* root) {
@@ -61,7 +62,7 @@ SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   SdfDocument parsed;
   parsed.xml = parseXml(text);
   if (parsed.xml->RootElement() && is(*parsed.xml->RootElement(), "robot")) {
-    parsed.xml = sdfFromUrdf(*parsed.xml);
+    parsed.xml = sdfFromUrdf(*parsed.xml, &parsed);
   }
   modernizePoses(parsed.xml.get());
   IncludeGraph includes(model_paths, faultOfFile);
@@ -74,6 +75,7 @@ SdfDocument parseSdf(const std::string& text, const ModelPaths& model_paths) {
   expandIncludes(model_paths, &parsed);
   parsed.warnings.insert(parsed.warnings.end(), unknown.begin(), unknown.end());
   checkElements(root, &parsed.warnings);
+  parsed.xml->setFinal();
   return parsed;
 }
 

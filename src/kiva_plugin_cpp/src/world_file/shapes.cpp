@@ -45,7 +45,8 @@ Vector3 lengths(const XmlElement& parent, const char* name) {
 /// The document that an element stands in: its own file, or the text that was given.
 std::string folderOf(const XmlElement& element, const Origin& origin) {
   const Source* const source = sourceOf(element);
-  return std::filesystem::path(source ? source->file : origin.where).parent_path().string();
+  const bool is_included = source && !source->file.empty();
+  return std::filesystem::path(is_included ? source->file : origin.where).parent_path().string();
 }
 
 Vector3 scaleOf(const XmlElement& mesh) {

@@ -5,12 +5,13 @@
 
 #include <string>
 
-#include "world_file/xml.h"
+#include "world_file/document.h"
 
 namespace kiva {
 
-/// The model that a `<robot>` describes, as SDF. Throws SdfError.
-std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf);
+/// Returns the model that a `<robot>` describes, as SDF. `parsed` is told the lines that its
+/// elements come from, and in warnings which numbers are none. Throws SdfError.
+std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf, SdfDocument* parsed);
 
 /// A URDF whose links without an inertial have one: Gazebo leaves out those that have none,
 /// and a hall's walls with them.

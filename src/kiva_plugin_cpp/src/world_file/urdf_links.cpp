@@ -9,13 +9,42 @@
 namespace kiva {
 namespace {
 
-Vector3 triple(const XmlElement& element, const char* attribute, const Vector3& otherwise) {
-  return readVector(attributeOf(element, attribute)).value_or(otherwise);
-}
+/// Reads values of attributes; what is none counts as if it were not given, and is told.
+class Attributes {
+ public:
+  explicit Attributes(Faults* warnings) : warnings_(warnings) {}
 
-double attributeNumber(const XmlElement& element, const char* attribute, double otherwise) {
-  return readDouble(attributeOf(element, attribute)).value_or(otherwise);
-}
+  double number(const XmlElement& element, const char* attribute) const {
+    const auto number = readDouble(attributeOf(element, attribute));
+    return number ? *number : warned(element, attribute, "a number", 0.0);
+  }
+
+  /// `xyz` and `rpy` of the `<origin>` in an element.
+  Pose originIn(const XmlElement& element) const {
+    const XmlElement* const origin = element.FirstChildElement("origin");
+    if (!origin) return Pose::Zero;
+    const Vector3 rpy = triple(*origin, "rpy");
+    return {triple(*origin, "xyz"), Quaternion(rpy.X(), rpy.Y(), rpy.Z())};
+  }
+
+ private:
+  Vector3 triple(const XmlElement& element, const char* attribute) const {
+    const auto found = readVector(attributeOf(element, attribute));
+    return found ? *found : warned(element, attribute, "three numbers", Vector3::Zero);
+  }
+
+  template <typename Value>
+  Value warned(const XmlElement& element, const std::string& attribute, const std::string& expected,
+               const Value& otherwise) const {
+    if (!element.Attribute(attribute.c_str())) return otherwise;
+    warnings_->push_back(noteAt(element, "this " + attribute + " is left out: '" +
+                                             attributeOf(element, attribute.c_str()) +
+                                             "' is no value for it; expected " + expected));
+    return otherwise;
+  }
+
+  Faults* const warnings_;
+};
 
 /// A tensor about a point at `arm` from the centre of mass (Huygens and Steiner).
 Matrix3 shifted(const Matrix3& about_centre, double mass, const Vector3& arm) {
@@ -30,31 +59,34 @@ Matrix3 turned(const UrdfInertia& inertia) {
   return turn * InertiaTensor{inertia.moments, inertia.products}.matrix() * turn.Transposed();
 }
 
-UrdfInertia readInertia(const XmlElement& inertial) {
+UrdfInertia readInertia(const XmlElement& inertial, const Attributes& attributes) {
   UrdfInertia found;
   const XmlElement* const mass = inertial.FirstChildElement("mass");
   const XmlElement* const inertia = inertial.FirstChildElement("inertia");
-  if (mass) found.mass = attributeNumber(*mass, "value", 0);
-  found.pose = originIn(inertial);
+  if (mass) found.mass = attributes.number(*mass, "value");
+  found.pose = attributes.originIn(inertial);
   if (!inertia) return found;
-  const auto moment = [&](const char* name) { return attributeNumber(*inertia, name, 0); };
+  const auto moment = [&](const char* name) { return attributes.number(*inertia, name); };
   found.moments = {moment("ixx"), moment("iyy"), moment("izz")};
   found.products = {moment("ixy"), moment("ixz"), moment("iyz")};
   return found;
 }
 
-std::vector<UrdfShape> readShapes(const XmlElement& link, const char* kind) {
+std::vector<UrdfShape> readShapes(const XmlElement& link, const char* kind,
+                                  const Attributes& attributes) {
   std::vector<UrdfShape> shapes;
   const std::string name = attributeOf(link, "name");
   forEach(link, kind, [&](const XmlElement& shape) {
     const std::string own = attributeOf(shape, "name");
-    shapes.push_back({&shape, own.empty() ? name : own, name, originIn(shape)});
+    shapes.push_back({&shape, own.empty() ? name : own, name, attributes.originIn(shape)});
   });
   return shapes;
 }
 
 class Reader {
  public:
+  explicit Reader(Faults* warnings) : attributes_(warnings) {}
+
   UrdfTree run(const XmlElement& robot) {
     forEach(robot, "link", [&](const XmlElement& link) { addLink(link); });
     forEach(robot, "joint", [&](const XmlElement& joint) { addJoint(joint); });
@@ -62,7 +94,7 @@ class Reader {
     for (const auto& [name, joint] : tree_.joints)
       tree_.links[joint.parent].children.push_back(name);
     findRoot(robot);
-    lump(tree_.root, 0);
+    lump(robot, tree_.root, 0);
     return std::move(tree_);
   }
 
@@ -71,20 +103,21 @@ class Reader {
 
   void addLink(const XmlElement& from) {
     UrdfLink link;
+    link.element = &from;
     link.name = attributeOf(from, "name");
     if (link.name.empty()) failAt(from, "expected a name");
     if (const XmlElement* const inertial = from.FirstChildElement("inertial")) {
       link.has_inertia = true;
-      link.inertia = readInertia(*inertial);
+      link.inertia = readInertia(*inertial, attributes_);
     }
-    link.collisions = readShapes(from, "collision");
-    link.visuals = readShapes(from, "visual");
+    link.collisions = readShapes(from, "collision", attributes_);
+    link.visuals = readShapes(from, "visual", attributes_);
     if (!tree_.links.emplace(link.name, link).second) failAt(from, "this name is taken");
   }
 
   void addJoint(const XmlElement& from) {
-    UrdfJoint joint{&from,         attributeOf(from, "name"), attributeOf(from, "type"), "", "",
-                    originIn(from)};
+    UrdfJoint joint{&from, attributeOf(from, "name"), attributeOf(from, "type"), "",
+                    "",    attributes_.originIn(from)};
     const auto end = [&](const char* kind) {
       const XmlElement* const element = from.FirstChildElement(kind);
       const std::string link = element ? attributeOf(*element, "link") : "";
@@ -123,12 +156,16 @@ class Reader {
     return joint.type == "fixed" && !kept_.count(joint.name);
   }
 
-  void lump(const std::string& name, int depth) {
-    if (depth > kDeepest) throw SdfError({"its links nest too deep", "", "", 0});
+  void lump(const XmlElement& robot, const std::string& name, int depth) {
+    if (depth > kDeepest) {
+      failAt(robot, "its links nest deeper than " + std::to_string(kDeepest));
+    }
     const std::vector<std::string> children = tree_.links[name].children;
     for (const bool first : {true, false}) {
       for (const std::string& child : children) {
-        if (isLumped(tree_.joints[child]) == first) lump(tree_.joints[child].child, depth + 1);
+        if (isLumped(tree_.joints[child]) == first) {
+          lump(robot, tree_.joints[child].child, depth + 1);
+        }
       }
       if (first) lumpIntoParent(name);
     }
@@ -174,19 +211,13 @@ class Reader {
     tree_.joints.erase(by.name);
   }
 
+  const Attributes attributes_;
   UrdfTree tree_;
   std::map<std::string, std::string> to_child_;  // joints by their child link
   std::set<std::string> kept_;                   // fixed joints that stay
 };
 
 }  // namespace
-
-Pose originIn(const XmlElement& element) {
-  const XmlElement* const origin = element.FirstChildElement("origin");
-  if (!origin) return Pose::Zero;
-  const Vector3 rpy = triple(*origin, "rpy", Vector3::Zero);
-  return {triple(*origin, "xyz", Vector3::Zero), Quaternion(rpy.X(), rpy.Y(), rpy.Z())};
-}
 
 void UrdfInertia::add(UrdfInertia other, const Pose& at) {
   other.pose = at * other.pose;
@@ -201,6 +232,6 @@ void UrdfInertia::add(UrdfInertia other, const Pose& at) {
   products = {tensor(0, 1), tensor(0, 2), tensor(1, 2)};
 }
 
-UrdfTree readUrdf(const XmlElement& robot) { return Reader().run(robot); }
+UrdfTree readUrdf(const XmlElement& robot, Faults* warnings) { return Reader(warnings).run(robot); }
 
 }  // namespace kiva

@@ -42,6 +42,7 @@ struct UrdfExtension {
 };
 
 struct UrdfLink {
+  const XmlElement* element = nullptr;
   std::string name;
   bool has_inertia = false;
   UrdfInertia inertia;
@@ -65,10 +66,8 @@ struct UrdfTree {
   std::map<std::string, Place> lumped;
 };
 
-/// Throws SdfError where the links are no tree.
-UrdfTree readUrdf(const XmlElement& robot);
-
-/// `xyz` and `rpy` of the `<origin>` in an element.
-Pose originIn(const XmlElement& element);
+/// Texts that are no numbers count as if they were not given, with a warning each. Throws SdfError
+/// where the links are no tree.
+UrdfTree readUrdf(const XmlElement& robot, Faults* warnings);
 
 }  // namespace kiva

@@ -26,13 +26,14 @@ std::string exact(const Vector3& v) {
 
 class Writer {
  public:
-  explicit Writer(const XmlElement& robot) : robot_(robot), tree_(readUrdf(robot)) {}
+  Writer(const XmlElement& robot, SdfDocument* parsed)
+      : robot_(robot), parsed_(parsed), tree_(readUrdf(robot, &parsed->warnings)) {}
 
   std::unique_ptr<XmlDocument> run() {
     XmlElement* const sdf = document_->NewElement("sdf");
     document_->InsertEndChild(sdf);
     sdf->SetAttribute("version", "1.9");
-    model_ = sdf->InsertNewChildElement("model");
+    model_ = insert(sdf, "model", robot_);
     model_->SetAttribute("name", attributeOf(robot_, "name").c_str());
     write(tree_.root, nullptr);
     forEach(robot_, "gazebo", [&](const XmlElement& extension) {
@@ -42,8 +43,22 @@ class Writer {
   }
 
  private:
+  /// Inserts an element that stands for one of the URDF.
+  XmlElement* insert(XmlElement* parent, const char* name, const XmlElement& from) {
+    XmlElement* const child = parent->InsertNewChildElement(name);
+    setLine(from, child);
+    return child;
+  }
+
+  /// An element, and what is in it, is of a line of the URDF.
+  void setLine(const XmlElement& from, XmlElement* element) {
+    parsed_->sources.push_back({"", from.GetLineNum()});
+    forAll(element, [&](XmlElement* part) { part->SetUserData(&parsed_->sources.back()); });
+  }
+
   XmlElement* add(XmlElement* parent, const char* name, const std::string& text) {
     XmlElement* const child = parent->InsertNewChildElement(name);
+    child->SetUserData(parent->GetUserData());
     child->SetText(text.c_str());
     return child;
   }
@@ -74,10 +89,10 @@ class Writer {
   }
 
   void writeLink(const UrdfLink& from, const UrdfJoint* by) {
-    XmlElement* const link = model_->InsertNewChildElement("link");
+    XmlElement* const link = insert(model_, "link", *from.element);
     link->SetAttribute("name", from.name.c_str());
     if (by) addPose(link, Pose::Zero)->SetAttribute("relative_to", by->name.c_str());
-    writeInertia(from.inertia, link);
+    writeInertia(from, link);
     int count = 0;
     for (const UrdfShape& shape : from.collisions) {
       writeFriction(shape, writeShape(from, shape, "collision", count++, link));
@@ -89,11 +104,14 @@ class Writer {
     for (const UrdfExtension& extension : from.extensions) writeExtension(extension, link);
   }
 
-  void writeInertia(const UrdfInertia& from, XmlElement* link) {
-    XmlElement* const inertial = link->InsertNewChildElement("inertial");
+  void writeInertia(const UrdfLink& of, XmlElement* link) {
+    const UrdfInertia& from = of.inertia;
+    const XmlElement* const own = of.element->FirstChildElement("inertial");
+    const XmlElement& given = own ? *own : *of.element;
+    XmlElement* const inertial = insert(link, "inertial", given);
     addPose(inertial, from.pose);
     add(inertial, "mass", exact(from.mass));
-    XmlElement* const inertia = inertial->InsertNewChildElement("inertia");
+    XmlElement* const inertia = insert(inertial, "inertia", given);
     const Vector3 &m = from.moments, &p = from.products;
     const std::pair<const char*, double> parts[] = {{"ixx", m.X()}, {"iyy", m.Y()}, {"izz", m.Z()},
                                                     {"ixy", p.X()}, {"ixz", p.Y()}, {"iyz", p.Z()}};
@@ -104,17 +122,17 @@ class Writer {
                          int count, XmlElement* to) {
     std::string name = from.name + "_" + kind + (count > 0 ? "_" + std::to_string(count) : "");
     if (!startsWith(name, link.name)) name = link.name + "_fixed_joint_lump__" + name;
-    XmlElement* const shape = to->InsertNewChildElement(kind.c_str());
+    XmlElement* const shape = insert(to, kind.c_str(), *from.element);
     shape->SetAttribute("name", name.c_str());
     addPose(shape, from.pose);
-    XmlElement* const geometry = shape->InsertNewChildElement("geometry");
     const XmlElement* const given = from.element->FirstChildElement("geometry");
+    XmlElement* const geometry = insert(shape, "geometry", given ? *given : *from.element);
     if (given && given->FirstChildElement()) writeGeometry(*given->FirstChildElement(), geometry);
     return shape;
   }
 
   void writeGeometry(const XmlElement& from, XmlElement* geometry) {
-    XmlElement* const shape = geometry->InsertNewChildElement(from.Name());
+    XmlElement* const shape = insert(geometry, from.Name(), from);
     for (const char* size : {"size", "radius", "length", "scale"}) {
       if (from.Attribute(size)) add(shape, size, attributeOf(from, size));
     }
@@ -140,9 +158,9 @@ class Writer {
     const XmlElement* const along = extensionOf(from, "mu1");
     const XmlElement* const across = extensionOf(from, "mu2");
     if (!along && !across) return;
-    XmlElement* const ode = collision->InsertNewChildElement("surface")
-                                ->InsertNewChildElement("friction")
-                                ->InsertNewChildElement("ode");
+    const XmlElement& given = along ? *along : *across;
+    XmlElement* const surface = insert(collision, "surface", given);
+    XmlElement* const ode = insert(insert(surface, "friction", given), "ode", given);
     if (along) add(ode, "mu", contentOf(along));
     if (across) add(ode, "mu2", contentOf(across));
   }
@@ -158,39 +176,40 @@ class Writer {
     }
     const XmlElement* const colour = material->FirstChildElement("color");
     if (!colour) return;
-    XmlElement* const out = visual->InsertNewChildElement("material");
+    XmlElement* const out = insert(visual, "material", *material);
     for (const char* kind : {"diffuse", "ambient"}) add(out, kind, attributeOf(*colour, "rgba"));
   }
 
   /// What is told in other words in SDF, or not at all.
   static bool isOfUrdf(const XmlElement& part) {
-    static const std::set<std::string> kNames = {"material",
-                                                 "mu1",
-                                                 "mu2",
-                                                 "kp",
-                                                 "kd",
-                                                 "maxVel",
-                                                 "minDepth",
-                                                 "maxContacts",
-                                                 "laserRetro",
-                                                 "fdir1",
-                                                 "stopCfm",
-                                                 "stopErp",
-                                                 "selfCollide",
-                                                 "turnGravityOff",
-                                                 "dampingFactor",
-                                                 "static",
-                                                 "stopKp",
-                                                 "stopKd",
-                                                 "initialJointPosition",
-                                                 "fudgeFactor",
-                                                 "provideFeedback",
-                                                 "implicitSpringDamper",
-                                                 "springReference",
-                                                 "springStiffness",
-                                                 "preserveFixedJoint",
-                                                 "disableFixedJointLumping"};
-    return kNames.count(part.Name()) > 0;
+    static constexpr const char* kNames[] = {"material",
+                                             "mu1",
+                                             "mu2",
+                                             "kp",
+                                             "kd",
+                                             "maxVel",
+                                             "minDepth",
+                                             "maxContacts",
+                                             "laserRetro",
+                                             "fdir1",
+                                             "stopCfm",
+                                             "stopErp",
+                                             "selfCollide",
+                                             "turnGravityOff",
+                                             "dampingFactor",
+                                             "static",
+                                             "stopKp",
+                                             "stopKd",
+                                             "initialJointPosition",
+                                             "fudgeFactor",
+                                             "provideFeedback",
+                                             "implicitSpringDamper",
+                                             "springReference",
+                                             "springStiffness",
+                                             "preserveFixedJoint",
+                                             "disableFixedJointLumping"};
+    return std::any_of(std::begin(kNames), std::end(kNames),
+                       [&](const char* name) { return is(part, name); });
   }
 
   void writeExtension(const UrdfExtension& from, XmlElement* link) {
@@ -216,6 +235,7 @@ class Writer {
   XmlElement* copyInto(const XmlElement& from, XmlElement* to) {
     XmlElement* const copy = from.DeepClone(document_.get())->ToElement();
     to->InsertEndChild(copy);
+    setLine(from, copy);
     if (is(*copy, "plugin")) renameBodies(copy);
     return copy;
   }
@@ -248,7 +268,7 @@ class Writer {
 
   void writeJoint(const UrdfJoint& from) {
     if (from.type == "floating" || from.type == "planar") return;
-    XmlElement* const joint = model_->InsertNewChildElement("joint");
+    XmlElement* const joint = insert(model_, "joint", *from.element);
     joint->SetAttribute("name", from.name.c_str());
     const bool is_continuous = from.type == "continuous";
     joint->SetAttribute("type", is_continuous ? "revolute" : from.type.c_str());
@@ -260,11 +280,11 @@ class Writer {
   }
 
   void writeAxis(const XmlElement& from, bool is_continuous, XmlElement* joint) {
-    XmlElement* const axis = joint->InsertNewChildElement("axis");
     const XmlElement* const given = from.FirstChildElement("axis");
+    XmlElement* const axis = insert(joint, "axis", given ? *given : from);
     add(axis, "xyz", given && given->Attribute("xyz") ? attributeOf(*given, "xyz") : "1 0 0");
     const XmlElement* const limit = from.FirstChildElement("limit");
-    XmlElement* const limits = axis->InsertNewChildElement("limit");
+    XmlElement* const limits = insert(axis, "limit", limit ? *limit : from);
     const auto text = [](const XmlElement* element, const char* name,
                          const std::string& otherwise) {
       return element && element->Attribute(name) ? attributeOf(*element, name) : otherwise;
@@ -275,11 +295,12 @@ class Writer {
       if (limit && limit->Attribute(most)) add(limits, most, attributeOf(*limit, most));
     }
     const XmlElement* const dynamics = from.FirstChildElement("dynamics");
-    XmlElement* const out = axis->InsertNewChildElement("dynamics");
+    XmlElement* const out = insert(axis, "dynamics", dynamics ? *dynamics : from);
     for (const char* name : {"damping", "friction"}) add(out, name, text(dynamics, name, "0"));
   }
 
   const XmlElement& robot_;
+  SdfDocument* const parsed_;
   const UrdfTree tree_;
   std::unique_ptr<XmlDocument> document_ = std::make_unique<XmlDocument>();
   XmlElement* model_ = nullptr;
@@ -287,8 +308,8 @@ class Writer {
 
 }  // namespace
 
-std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf) {
-  return Writer(*urdf.RootElement()).run();
+std::unique_ptr<XmlDocument> sdfFromUrdf(const XmlDocument& urdf, SdfDocument* parsed) {
+  return Writer(*urdf.RootElement(), parsed).run();
 }
 
 }  // namespace kiva

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "world_file/validation.h"
 
+#include <cstring>
 #include <set>
 
 #include "world_file/values.h"
@@ -28,28 +29,41 @@ XmlElement* wholeOf(XmlElement* faulty) {
   return faulty;
 }
 
-/// A fault and the element that it is at.
+/// A fault, the element that it is at, and the one that goes with it.
 struct Found {
   XmlElement* at = nullptr;
   Fault fault;
+  XmlElement* out = nullptr;
 };
 
+bool isDispensable(const XmlElement& element) {
+  return !is(element, "sdf") && !is(element, "world");
+}
+
+void drop(const Found& found, Faults* left_out) {
+  left_out->push_back(reworded(found.fault, "this " + std::string(found.out->Name()) +
+                                                " is left out: " + found.fault.message));
+  found.out->Parent()->DeleteChild(found.out);
+}
+
+/// Looks for faults; with `left_out` it drops what is faulty, and goes on where that was.
 class Validation {
  public:
-  explicit Validation(Faults* unknown) : unknown_(unknown) {}
+  explicit Validation(Faults* left_out) : left_out_(left_out) {}
 
-  /// The first fault in `element` or below it.
+  /// The first fault in `element` or below it that costs the element itself, or one around it.
   std::optional<Found> check(XmlElement* element, const ElementFormat& format, char count) {
     if (auto found = checkOwn(element, format, count)) return found;
     if (format.is_open) return std::nullopt;
-    for (XmlElement* child = element->FirstChildElement(); child;
-         child = child->NextSiblingElement()) {
+    XmlElement* next = nullptr;
+    for (XmlElement* child = element->FirstChildElement(); child; child = next) {
+      next = child->NextSiblingElement();
       const auto* const known = format.child(child->Name());
-      if (!known) {
-        tellUnknown(*child, format);
-      } else if (auto found = check(child, *known->format, known->count)) {
-        return found;
-      }
+      if (!known) continue;
+      const auto found = check(child, *known->format, known->count);
+      if (!found) continue;
+      if (!left_out_ || found->out != child || !isDispensable(*child)) return found;
+      drop(*found, left_out_);
     }
     return std::nullopt;
   }
@@ -57,7 +71,7 @@ class Validation {
  private:
   static std::optional<Found> at(XmlElement* element, const std::string& message) {
     if (message.empty()) return std::nullopt;
-    return Found{element, noteAt(*element, message)};
+    return Found{element, noteAt(*element, message), wholeOf(element)};
   }
 
   std::optional<Found> checkOwn(XmlElement* element, const ElementFormat& format, char count) {
@@ -110,32 +124,25 @@ class Validation {
     return "The supplied " + std::string(element.Name()) + " name [" + name + "] is reserved";
   }
 
-  void tellUnknown(const XmlElement& child, const ElementFormat& format) {
-    const bool is_foreign = std::string(child.Name()).find(':') != std::string::npos;
-    if (is_foreign || !unknown_ || !told_.insert(&child).second) return;
-    unknown_->push_back(noteAt(child, "XML Element[" + std::string(child.Name()) +
-                                          "], child of element[" + format.name +
-                                          "], not defined in SDF"));
-  }
-
-  Faults* unknown_;
-  std::set<const XmlElement*> told_;
+  Faults* left_out_;
 };
 
-bool isDispensable(const XmlElement& element) {
-  return !is(element, "sdf") && !is(element, "world");
+/// Tells of elements that SDF does not know; those with a namespace are for other programs.
+void tellUnknown(const XmlElement& element, const ElementFormat& format, Faults* unknown) {
+  if (format.is_open) return;
+  for (const XmlElement* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    if (const auto* const known = format.child(child->Name())) {
+      tellUnknown(*child, *known->format, unknown);
+    } else if (!std::strchr(child->Name(), ':')) {
+      unknown->push_back(noteAt(*child, "XML Element[" + std::string(child->Name()) +
+                                            "], child of element[" + format.name +
+                                            "], not defined in SDF"));
+    }
+  }
 }
 
 }  // namespace
-
-bool leaveOut(XmlElement* faulty, const Fault& fault, Faults* warnings) {
-  XmlElement* const out = wholeOf(faulty);
-  if (!isDispensable(*out)) return false;
-  warnings->push_back(
-      reworded(fault, "this " + std::string(out->Name()) + " is left out: " + fault.message));
-  out->Parent()->DeleteChild(out);
-  return true;
-}
 
 std::optional<Fault> firstFault(XmlElement* sdf) {
   auto found = Validation(nullptr).check(sdf, sdfFormat(), '!');
@@ -144,15 +151,10 @@ std::optional<Fault> firstFault(XmlElement* sdf) {
 }
 
 void validate(XmlElement* sdf, Faults* left_out, Faults* unknown) {
-  for (;;) {
-    Faults told;
-    auto found = Validation(&told).check(sdf, sdfFormat(), '!');
-    if (!found) {
-      unknown->insert(unknown->end(), told.begin(), told.end());
-      return;
-    }
-    if (!leaveOut(found->at, found->fault, left_out)) throw SdfError(found->fault);
+  if (const auto found = Validation(left_out).check(sdf, sdfFormat(), '!')) {
+    throw SdfError(found->fault);
   }
+  tellUnknown(*sdf, sdfFormat(), unknown);
 }
 
 }  // namespace kiva

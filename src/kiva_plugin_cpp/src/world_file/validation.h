@@ -16,8 +16,4 @@ void validate(XmlElement* sdf, Faults* left_out, Faults* unknown);
 /// The first fault of a document; nothing: none.
 std::optional<Fault> firstFault(XmlElement* sdf);
 
-/// Takes the smallest part out of a document that `faulty` belongs to and that the rest can do
-/// without, with a warning. Returns false if there is none.
-bool leaveOut(XmlElement* faulty, const Fault& fault, Faults* warnings);
-
 }  // namespace kiva

@@ -11,6 +11,8 @@
 namespace kiva {
 namespace {
 
+constexpr char kBlanks[] = " \t\r\n";
+
 /// tinyxml2's printer forgets where things were.
 class LinePrinter : public tinyxml2::XMLPrinter {
  public:
@@ -56,6 +58,12 @@ class FlatPrinter : public tinyxml2::XMLPrinter {
   const XmlElement* but_;
 };
 
+/// Whether poses can be told in it.
+bool isFrame(const XmlElement& element) {
+  return is(element, "link") || is(element, "joint") || is(element, "frame") ||
+         is(element, "model");
+}
+
 const XmlElement* elementAround(const XmlElement& element) {
   const tinyxml2::XMLNode* const parent = element.Parent();
   return parent ? parent->ToElement() : nullptr;
@@ -65,7 +73,7 @@ const XmlElement* elementAround(const XmlElement& element) {
 bool beginsFile(const XmlElement& element, const XmlElement& around) {
   const Source* const own = sourceOf(element);
   const Source* const other = sourceOf(around);
-  return own && (!other || own->file != other->file);
+  return own && !own->file.empty() && (!other || own->file != other->file);
 }
 
 /// `model 'm', link 'l', inertial/mass`
@@ -101,6 +109,24 @@ Fault faultOfXml(const XmlDocument& document) {
 }
 
 }  // namespace
+
+const XmlElement* XmlDocument::findFrame(const XmlElement& scope, const std::string& name) {
+  const auto& document = static_cast<const XmlDocument&>(*scope.GetDocument());
+  if (!document.is_final_) {
+    for (auto part = scope.FirstChildElement(); part; part = part->NextSiblingElement()) {
+      if (hasName(*part, name) && isFrame(*part)) return part;
+    }
+    return nullptr;
+  }
+  const auto [frames, is_new] = document.frames_.try_emplace(&scope);
+  if (is_new) {
+    for (auto part = scope.FirstChildElement(); part; part = part->NextSiblingElement()) {
+      if (isFrame(*part)) frames->second.emplace(attributeOf(*part, "name"), part);
+    }
+  }
+  const auto found = frames->second.find(name);
+  return found == frames->second.end() ? nullptr : found->second;
+}
 
 std::unique_ptr<XmlDocument> parseXml(const std::string& text) {
   if (text.size() > kMostBytes) {
@@ -139,11 +165,22 @@ void failAt(const XmlElement& element, const std::string& message) {
   throw SdfError(noteAt(element, message));
 }
 
-bool is(const XmlElement& element, const char* name) { return element.Name() == std::string(name); }
+bool is(const XmlElement& element, const char* name) {
+  return std::strcmp(element.Name(), name) == 0;
+}
 
 std::string attributeOf(const XmlElement& element, const char* name) {
   const char* const value = element.Attribute(name);
   return value ? trimmed(value) : "";
+}
+
+bool hasName(const XmlElement& element, const std::string& name) {
+  const char* begin = element.Attribute("name");
+  if (!begin) return name.empty();
+  begin += std::strspn(begin, kBlanks);
+  const char* end = begin + std::strlen(begin);
+  while (end > begin && std::strchr(kBlanks, end[-1])) --end;
+  return name.compare(0, std::string::npos, begin, static_cast<std::size_t>(end - begin)) == 0;
 }
 
 std::string contentOf(const XmlElement* element) {
@@ -156,7 +193,6 @@ std::string contentOf(const XmlElement* element) {
 }
 
 std::string trimmed(const std::string& text) {
-  constexpr const char* kBlanks = " \t\r\n";
   const auto first = text.find_first_not_of(kBlanks);
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "kiva_plugin_cpp/world_file.h"
@@ -15,8 +16,24 @@
 
 namespace kiva {
 
-using XmlDocument = tinyxml2::XMLDocument;
 using XmlElement = tinyxml2::XMLElement;
+
+/// A document that can look up the frames of its models.
+class XmlDocument : public tinyxml2::XMLDocument {
+ public:
+  /// From now on nothing in it is renamed, moved or taken out.
+  void setFinal() { is_final_ = true; }
+
+  /// Returns the link, joint, frame or model of that name right below `scope`, an element of an
+  /// XmlDocument; null if there is none. Makes an index of all names once the document is final.
+  static const XmlElement* findFrame(const XmlElement& scope, const std::string& name);
+
+ private:
+  using Frames = std::unordered_map<std::string, const XmlElement*>;
+
+  bool is_final_ = false;
+  mutable std::unordered_map<const XmlElement*, Frames> frames_;  // by their scope
+};
 
 /// The largest text that is read [byte].
 constexpr std::size_t kMostBytes = 20'000'000;
@@ -30,10 +47,10 @@ std::string textOf(const XmlDocument& document);
 /// The text of one element on one line; `but`, if given, is left out.
 std::string textOf(const XmlElement& element, const XmlElement* but = nullptr);
 
-/// Where an element stands that came from another file: its user data. Others stand in the document
-/// that was given.
+/// Where an element stands that came from another file or from URDF: its user data. Others stand in
+/// the document that was given.
 struct Source {
-  std::string file;
+  std::string file;  ///< Empty: the document that was given.
   int line = 0;
 };
 const Source* sourceOf(const XmlElement& element);
@@ -46,6 +63,8 @@ bool is(const XmlElement& element, const char* name);
 
 /// Returns an attribute without the blanks around it; empty if there is none.
 std::string attributeOf(const XmlElement& element, const char* name);
+/// Returns whether that is an element's name; copies nothing, for searches through many.
+bool hasName(const XmlElement& element, const std::string& name);
 /// Returns the text in an element, without the blanks around it; empty for null.
 std::string contentOf(const XmlElement* element);
 std::string trimmed(const std::string& text);
