@@ -427,7 +427,7 @@ TEST(WorldFileWarnings, AreNoneForAMeshBesideItsUrdf) {
       "<robot name='r'><link name='a'><collision><geometry><mesh filename='meshes/CUBE.STL'/>"
       "</geometry></collision></link></robot>";
   std::vector<std::string> warnings;
-  parseWorld(urdf, kPaths, (kFolder / "text.urdf").string(), &warnings);
+  parseWorld(urdf, {}, (kFolder / "text.urdf").string(), &warnings);
   EXPECT_EQ(warnings, std::vector<std::string>());
 }
 
@@ -460,18 +460,19 @@ TEST(WorldFileWarnings, TakeNoLongerForEachFaultThanForAnother) {
   EXPECT_LT(took.count(), 10.0);  // Takes 0.3 s; minutes where each fault begins again.
 }
 
-/// Poses of thousands of models, each told in the one before.
+/// Models that are each placed by the one before, in a world of many frames.
 TEST(WorldFileWarnings, TakeNoLongSearchForFrames) {
   std::string xml = "<sdf version='1.9'><world name='w'>";
-  for (int i = 0; i < 3000; ++i) {
-    const std::string before = i > 0 ? "m" + std::to_string(i - 1) : "world";
+  for (int i = 0; i < 5000; ++i) xml += "<frame name='f" + std::to_string(i) + "'/>";
+  for (int i = 0; i < 900; ++i) {
+    const std::string before = i > 0 ? "m" + std::to_string(i - 1) : "f0";
     xml += "<model name='m" + std::to_string(i) + "'><pose relative_to='" + before +
            "'>1 0 0 0 0 0</pose><link name='l'/></model>";
   }
   const auto start = std::chrono::steady_clock::now();
-  warningsOfText(xml + "</world></sdf>");
+  EXPECT_EQ(warningsOfText(xml + "</world></sdf>"), std::vector<std::string>());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(took.count(), 20.0);  // Takes 3 s; minutes where each name is searched for.
+  EXPECT_LT(took.count(), 15.0);  // Takes 1 s; a minute where each name is searched for.
 }
 
 TEST(WorldFileErrors, HaveAFixtureEach) {
