@@ -117,7 +117,7 @@ void RayScene::addSurfaces(const Model& model) {
     Target target;
     target.box = {fromBullet(min), fromBullet(max)};
     target.body = &body;
-    add(std::move(target));
+    add(target);
   }
 }
 

@@ -23,8 +23,8 @@ namespace kiva_ros {
 class DirectPublisher {
  public:
   DirectPublisher() = default;
-  explicit DirectPublisher(ros::Publisher publisher)
-      : publisher_(std::move(publisher)),
+  explicit DirectPublisher(const ros::Publisher& publisher)
+      : publisher_(publisher),
         topic_(ros::TopicManager::instance()->lookupPublication(publisher_.getTopic())) {}
 
   template <typename Message>

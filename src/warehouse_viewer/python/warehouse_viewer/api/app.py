@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from fastapi import FastAPI, HTTPException, Request
+from fastapi.encoders import jsonable_encoder
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.routing import Match
 
@@ -16,6 +18,7 @@ from warehouse_viewer.api.backend import ApiBackend
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.metrics import Metrics
 from warehouse_viewer.api.routes import prometheus, sockets
+from warehouse_viewer.api.schemas.pydantic_versions import faults_of
 from warehouse_viewer.api.transport_book import TransportBook
 from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
@@ -97,6 +100,7 @@ class Viewer:
         setattr(app, "openapi", lambda: description.described(app))  # noqa: B010 (for mypy)
         app.get("/api/v1/openapi.json", include_in_schema=False)(app.openapi)
         app.add_exception_handler(405, not_allowed)
+        app.add_exception_handler(RequestValidationError, not_valid)
         app.include_router(sockets.router)
         app.include_router(prometheus.router)
         self._add_files(app)
@@ -113,6 +117,11 @@ class Viewer:
             app.get(path, include_in_schema=False)(page.endpoint(name))
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", page.files)
+
+
+async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:
+    """Answers 422 with what is wrong with a request."""
+    return JSONResponse({"detail": jsonable_encoder(faults_of(error))}, 422)
 
 
 async def not_allowed(request: Request, error: HTTPException) -> JSONResponse:

@@ -49,6 +49,15 @@ def as_json(model: BaseModel) -> str:
     return model.json() if IS_1 else model.model_dump_json()
 
 
+def faults_of(error: RequestValidationError) -> list[dict[str, Any]]:
+    """Returns what is wrong with a request, for its answer.
+
+    pydantic 2 also tells what was given, which JSON may not be able to hold.
+    """
+    told = ("loc", "msg", "type", "ctx") if IS_1 else ("loc", "msg", "type")
+    return [{key: one[key] for key in told if key in one} for one in error.errors()]
+
+
 def _finite(value: Any) -> Any:
     # An integer too large for a float would be an error of ours further on.
     if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) > MOST:
