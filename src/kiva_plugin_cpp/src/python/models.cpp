@@ -23,7 +23,7 @@ struct ItemRow {
   std::int32_t shelf_id;
 };
 
-std::vector<std::string> spawn(Host& host, std::vector<ModelInstance> models) {
+std::vector<std::string> spawn(Host& host, const std::vector<ModelInstance>& models) {
   std::vector<std::string> names;
   for (const ModelInstance& model : models) names.push_back(model.name);
   host.world.spawn(models);

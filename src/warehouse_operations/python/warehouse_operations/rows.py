@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from sqlalchemy import Table, bindparam, insert, update
 from sqlalchemy.engine import Connection
 
@@ -40,12 +41,12 @@ class Rows:
 
     def insert(self, table: Table, key: Any, **values: Any) -> None:
         """Adds a row with the values by column."""
-        self.inserts[table][key] = values
+        self.inserts[table][key] = _plain(values)
 
     def update(self, table: Table, key: Any, **values: Any) -> None:
         """Changes values by column of a row, whether it is still to be inserted or exists."""
         known = self.inserts[table] if key in self.inserts.get(table, ()) else self.updates[table]
-        known.setdefault(key, {}).update(values)
+        known.setdefault(key, {}).update(_plain(values))
 
     def merge(self, later: "Rows") -> None:
         """Adds later rows and changes to these."""
@@ -74,6 +75,11 @@ class Rows:
                 where = [table.c[name] == bindparam(f"key_{name}") for name in names]
                 values = {column: bindparam(column) for column in columns}
                 connection.execute(update(table).where(*where).values(values), rows)
+
+
+def _plain(values: dict[str, Any]) -> dict[str, Any]:
+    """Returns values without numpy's types, which psycopg2 writes as numpy 2 shows them."""
+    return {k: v.item() if isinstance(v, np.generic) else v for k, v in values.items()}
 
 
 def _named(names: Sequence[str], key: Any) -> dict[str, Any]:

@@ -50,6 +50,7 @@ class BenchHistoryTest(unittest.TestCase):
 
     def test_times_are_compared_the_other_way_round(self):
         start = {"stands_s": 4.0, "stands_cpu_s": 3.0, "import_s": 0.1, "import_cpu_s": 0.1}
+        start |= {"create_s": 2.0, "create_cpu_s": 1.5, "create_gb": 0.3}
         self.append("a1", {"start": figures.of("start", start, arrays=20)})
         past = history.History(self.file)
         later = {"start": figures.of("start", start | {"import_s": 0.2}, arrays=20)}

@@ -19,7 +19,7 @@ SimulationServices::SimulationServices(ros::NodeHandle& node, SimulationThread& 
 }
 
 void SimulationServices::advertise(ros::NodeHandle& node, const std::string& name,
-                                   std::function<void()> act) {
+                                   const std::function<void()>& act) {
   using std_srvs::Empty;
   const boost::function<bool(Empty::Request&, Empty::Response&)> serve =
       [name, act](Empty::Request&, Empty::Response&) {

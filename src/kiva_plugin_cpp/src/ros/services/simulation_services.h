@@ -20,7 +20,7 @@ class SimulationServices {
   SimulationServices(ros::NodeHandle& node, SimulationThread& simulation);
 
  private:
-  void advertise(ros::NodeHandle& node, const std::string& name, std::function<void()> act);
+  void advertise(ros::NodeHandle& node, const std::string& name, const std::function<void()>& act);
   bool getWorld(gazebo_msgs::GetWorldProperties::Request& request,
                 gazebo_msgs::GetWorldProperties::Response& response);
 
