@@ -12,7 +12,7 @@ Before a belt's side or end, seen with the belt to the right (q queue, s service
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,8 @@ QUEUE = 6  # cells, the entry and a corner among them
 
 Point = Sequence[float]  # x, y [m]
 Cell = tuple[int, int]  # x, y
+Vector = np.ndarray  # x, y in cells
+Shape = Callable[[Vector, Vector, int, int], list[Vector]]  # service, towards, side, queue
 
 
 def find(plan: FloorPlan, belts: Mapping[str, Point], belt_cells: np.ndarray) -> FloorPlan:
@@ -121,36 +123,55 @@ def _candidates(
 
 def _shapes(
     plan: FloorPlan, streets: np.ndarray, at: Point, belt_cells: np.ndarray
-) -> Iterator[list[np.ndarray]]:
+) -> Iterator[list[Cell]]:
     """Yields the points (x, y) of each conceivable lane, in cells."""
     services = list(_services(plan, streets, at, belt_cells))
-    for shape in (_straight, _back, _corner):
+    for shape in SHAPES:
         for service, heading in services:
-            for side in (1, -1):
-                yield shape(np.array(service), np.array(STEPS[heading]), side)
+            yield from _both_ways(shape, service, heading, QUEUE)
 
 
-def _straight(service: np.ndarray, towards: np.ndarray, side: int) -> list[np.ndarray]:
+def lanes_past(service: Cell, headings: Iterable[int], queue: int) -> Iterator[list[Cell]]:
+    """Yields the cells of each conceivable lane past a service cell, in driving order.
+
+    `headings` are those in which its belt can be; `queue` is the number of cells before the service
+    cell.
+    """
+    for shape in SHAPES:
+        for heading in headings:
+            yield from _both_ways(shape, service, heading, queue)
+
+
+def _both_ways(shape: Shape, service: Cell, heading: int, queue: int) -> Iterator[list[Cell]]:
+    for side in (1, -1):
+        points = shape(np.array(service), np.array(STEPS[heading]), side, queue)
+        yield [(int(x), int(y)) for x, y in points]
+
+
+def _straight(service: Vector, towards: Vector, side: int, queue: int) -> list[Vector]:
     """Returns a lane on which units pass the belt without turning."""
     along = side * towards[::-1]
-    return [service + i * along for i in range(-QUEUE, 2)]
+    return [service + i * along for i in range(-queue, 2)]
 
 
-def _back(service: np.ndarray, towards: np.ndarray, side: int) -> list[np.ndarray]:
+def _back(service: Vector, towards: Vector, side: int, queue: int) -> list[Vector]:
     """Returns a lane on which units turn before the belt and after it."""
     along = side * towards[::-1]
-    there = [service - along - i * towards for i in range(QUEUE)]
+    there = [service - along - i * towards for i in range(queue)]
     return [*there[::-1], service, *(point + 2 * along for point in there)]
 
 
-def _corner(service: np.ndarray, towards: np.ndarray, side: int) -> list[np.ndarray]:
+def _corner(service: Vector, towards: Vector, side: int, queue: int) -> list[Vector]:
     """Returns a lane on which units turn before the belt and go straight on after it."""
     along = side * towards[::-1]
-    there = [service - along - i * towards for i in range(QUEUE)]
+    there = [service - along - i * towards for i in range(queue)]
     return [*there[::-1], service, service + along]
 
 
-def _lacking(points: Iterable[np.ndarray], streets: np.ndarray) -> list[Cell]:
+SHAPES: tuple[Shape, ...] = (_straight, _back, _corner)
+
+
+def _lacking(points: Iterable[Cell], streets: np.ndarray) -> list[Cell]:
     """Returns the points that are no streets."""
     height, width = streets.shape
     return [

@@ -88,8 +88,10 @@ class Layout:
     item_unit: np.ndarray = field(default_factory=lambda: np.zeros(0, int))  # index into units
     item_place: np.ndarray = field(default_factory=_none(3))  # x y z in the unit's frame
     belts: np.ndarray = field(default_factory=_none(3))  # x y yaw
+    belt_lengths: np.ndarray | None = None  # [m]; None: each as its model is
     drops: np.ndarray = field(default_factory=_none(2))  # x y, before the belt of the same index
     plan: FloorPlan | None = None  # streets and stations; None: nothing is marked on the floor
+    walls: np.ndarray = field(default_factory=_none(4))  # x y size_x size_y of boxes, a metre high
     has_own_floor: bool = True  # False: it uses the floor of the world
     where: str = ""  # the part of that floor, named for people
 
@@ -115,8 +117,8 @@ def _build(request: Request, shape: Shape, rng: np.random.Generator | None) -> L
     floor = _floor(*shape.cells)
     # From cells counted from the corner to metres in world.
     origin = np.array([floor.min_x + 0.5, floor.min_y + 0.5])
-    robots, robot_yaw = _robots(request.robots, shape, rng)
-    places = _some(storage_cells(shape), places_for(request.shelves))
+    robots, robot_yaw = parked(request.robots, shape, rng)
+    places = some(storage_cells(shape), places_for(request.shelves))
     units = _filled(places, request.shelves, rng)
     item_unit, item_place = shelves.spread(request.items, request.shelves, rng)
     drops = one_way.drops(shape)
@@ -130,7 +132,7 @@ def _build(request: Request, shape: Shape, rng: np.random.Generator | None) -> L
         item_place=item_place,
         belts=np.pad(belts + origin, ((0, 0), (0, 1))),
         drops=drops + origin,
-        plan=_marked(shape, places, origin, _charging(request.robots, shape)),
+        plan=_marked(shape, places, origin, charging(request.robots, shape)),
     )
 
 
@@ -140,17 +142,17 @@ def _floor(width: int, height: int) -> Floor:
     return Floor(west, west + width, south, south + height)
 
 
-def _robots(
-    count: int, shape: Shape, rng: np.random.Generator | None
+def parked(
+    count: int, shape: Shape, rng: np.random.Generator | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Returns cells and yaws of parked robots; the places nearest to the storage fill up first."""
     cells = parking_cells(shape)
-    cells = _some(cells, count) if rng is None else rng.permutation(cells)[:count]
+    cells = some(cells, count) if rng is None else rng.permutation(cells)[:count]
     upper = (cells[:, 1] - 1) % (BLOCK_DEPTH + 1) == BLOCK_DEPTH - 1
     return cells, np.where(upper, math.pi / 2, -math.pi / 2)
 
 
-def _some(cells: np.ndarray, count: int) -> np.ndarray:
+def some(cells: np.ndarray, count: int) -> np.ndarray:
     """Returns the last `count` of the cells, row by row."""
     cells = cells[::-1][:count]
     return cells[np.lexsort((cells[:, 0], cells[:, 1]))]
@@ -163,7 +165,7 @@ def _filled(places: np.ndarray, count: int, rng: np.random.Generator | None) -> 
     return places[np.arange(count) * len(places) // max(count, 1)]
 
 
-def _charging(robots: int, shape: Shape) -> np.ndarray:
+def charging(robots: int, shape: Shape) -> np.ndarray:
     """Returns the cells of parking where robots are charged, evenly spread, (n, 2)."""
     cells = parking_cells(shape)
     count = min(math.ceil(CHARGED * robots - 1e-9), len(cells))

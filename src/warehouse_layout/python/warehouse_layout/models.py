@@ -16,9 +16,34 @@ FLOOR = "ground_plane"
 # lies on another model goes after it.
 KINDS = ("kiva", "storage_unit", "item", "conveyor_belt")
 MARKINGS = floor_markings.NAME
-_NUMBERED = re.compile(rf"({'|'.join((*KINDS, MARKINGS))})(\d+)")
+WALLS = "layout_walls"
+_NUMBERED = re.compile(rf"({'|'.join((*KINDS, MARKINGS, WALLS))})(\d+)")
+
+WALL_HEIGHT = 1.0  # [m]
+BELT_LENGTH = 1.8  # [m], of its model
 
 _INCLUDE = "<include><uri>model://{}</uri><name>{}</name><pose>{}</pose></include>"
+
+_PLAIN_BELT = """<model name="{0}">
+  <static>true</static>
+  <pose>{1}</pose>
+  <link name="body">
+    <collision name="body">
+      <pose>0 0 0.3 0 0 0</pose>
+      <geometry><box><size>{2:.6g} 0.8 0.6</size></box></geometry>
+    </collision>
+    <visual name="frame">
+      <pose>0 0 0.295 0 0 0</pose>
+      <geometry><box><size>{2:.6g} 0.8 0.59</size></box></geometry>
+      <material><diffuse>0.95 0.75 0.10 1</diffuse></material>
+    </visual>
+    <visual name="belt">
+      <pose>0 0 0.595 0 0 0</pose>
+      <geometry><box><size>{2:.6g} 0.7 0.01</size></box></geometry>
+      <material><diffuse>0.13 0.13 0.14 1</diffuse></material>
+    </visual>
+  </link>
+</model>"""
 
 _FLOOR = """<model name="ground_plane">
   <static>true</static>
@@ -60,11 +85,40 @@ def of_layout(layout: Layout) -> list[Part]:
     return [
         *(floor if layout.has_own_floor else []),
         *([Part(marks, floor_markings.sdf(layout.plan, marks))] if layout.plan else []),
-        *_numbered("conveyor_belt", layout.belts[:, :2], layout.belts[:, 2]),
+        *([Part(f"{WALLS}1", _walls(layout.walls))] if len(layout.walls) else []),
+        *_belts(layout),
         *_numbered("storage_unit", layout.units),
         *_numbered("item", on_unit + layout.item_place),
         *_numbered("kiva", layout.robots[:, :2], layout.robots[:, 2]),
     ]
+
+
+def _walls(boxes: np.ndarray) -> str:
+    """Returns the SDF text of a static model of boxes x y size_x size_y [m], (n, 4)."""
+    parts = []
+    for i, (x, y, wide, deep) in enumerate(boxes.tolist()):
+        pose = f"<pose>{x:.6g} {y:.6g} {WALL_HEIGHT / 2:g} 0 0 0</pose>"
+        box = f"<geometry><box><size>{wide:.6g} {deep:.6g} {WALL_HEIGHT:g}</size></box></geometry>"
+        parts.append(
+            f'<collision name="{i}">{pose}{box}</collision><visual name="{i}">{pose}{box}'
+            "<material><diffuse>0.62 0.60 0.57 1</diffuse></material></visual>"
+        )
+    links = f'<link name="walls">{"".join(parts)}</link>'
+    return f'<model name="{WALLS}1"><static>true</static>{links}</model>'
+
+
+def _belts(layout: Layout) -> list[Part]:
+    """Returns the Parts of belts; one of another length than its model's is a plain one."""
+    parts = _numbered("conveyor_belt", layout.belts[:, :2], layout.belts[:, 2])
+    if layout.belt_lengths is None:
+        return parts
+    lengths = layout.belt_lengths.tolist()
+    for i, (length, (x, y, yaw)) in enumerate(zip(lengths, layout.belts.tolist())):
+        if abs(length - BELT_LENGTH) > 1e-6:
+            name = parts[i].name
+            xml = _PLAIN_BELT.format(name, f"{x!r} {y!r} 0 0 0 {yaw!r}", length)
+            parts[i] = Part(name, xml)
+    return parts
 
 
 def _numbered(kind: str, places: np.ndarray, yaws: np.ndarray | None = None) -> list[Part]:
