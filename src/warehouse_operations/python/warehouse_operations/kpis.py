@@ -66,7 +66,7 @@ def upper_bound(
 
     pile_on: pieces p picked from each unit. spacing: of the cells [m].
 
-    The formula is p * 3600 / (max(in + turn + out + pick - transfer, 0) + p * transfer):
+    The formula is p * 3600 / (max(in + turn + out + pick - transfer, 0) + p * transfer / pickers):
     the next unit may come while the last piece of a unit is still being handled.
     """
     cell = 2 * math.sqrt(spacing / kinematics.acceleration)
@@ -75,7 +75,7 @@ def upper_bound(
         cell = spacing / kinematics.speed + kinematics.start_stop
     change = 2 * cell + kinematics.quarter_turn + settings.pick_s - settings.piece_s
     pieces = max(pile_on, 1.0)
-    return pieces * 3600 / (max(change, 0.0) + pieces * settings.piece_s)
+    return pieces * 3600 / (max(change, 0.0) + pieces * settings.piece_s / settings.pickers)
 
 
 def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) -> dict[str, Any]:
@@ -92,11 +92,13 @@ def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) 
     spacing = shift.floor.plan.spacing
     bound = sum(
         upper_bound(pile_on, shift.settings.of(station.name), kinematics, spacing)
+        * (station.open_seconds(shift.now) / elapsed if elapsed else 1.0)
         for station in picking
     )
     throughput = tally.items_picked / hours
     overdue = sum(bool(order.due) and order.due < shift.now for order in shift.orders.values())
     busy = sum(station.busy_s for station in picking)
+    attended = sum(station.open_seconds(shift.now) * station.pickers for station in picking)
     return {
         "simulated_s": elapsed,
         "wall_s": wall_s,
@@ -113,7 +115,7 @@ def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) 
         "item_upper_bound_per_hour": bound,
         "item_score": throughput / bound if bound else 0.0,
         "pile_on": pile_on,
-        "station_idle_fraction": 1 - busy / (elapsed * len(picking)) if busy else 1.0,
+        "station_idle_fraction": 1 - busy / attended if busy else 1.0,
         "order_turnover_s": quantiles(tally.turnover_s),
         "order_throughput_s": quantiles(tally.throughput_s),
         "late_orders_fraction": (tally.late_orders + overdue)

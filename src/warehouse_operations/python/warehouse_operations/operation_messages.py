@@ -82,14 +82,13 @@ def stock_place(one: Bin) -> msg.StockPlace:
     return msg.StockPlace(one.item, one.unit, one.sku, one.quantity, one.reserved, one.capacity)
 
 
-def station_states(stations: Iterable[WorkStation], now: float, began: float) -> msg.StationStates:
-    """Returns the StationStates at `now` of a shift that began at `began` [s]."""
-    elapsed = max(now - began, 1e-9)
-    states = [_station_state(one, now, elapsed) for one in stations]
+def station_states(stations: Iterable[WorkStation], now: float) -> msg.StationStates:
+    """Returns the StationStates at `now` [s]."""
+    states = [_station_state(one, now) for one in stations]
     return msg.StationStates(header=header(now), stations=states)
 
 
-def _station_state(station: WorkStation, now: float, elapsed: float) -> msg.StationState:
+def _station_state(station: WorkStation, now: float) -> msg.StationState:
     here = station.here
     return msg.StationState(
         name=station.name,
@@ -102,7 +101,7 @@ def _station_state(station: WorkStation, now: float, elapsed: float) -> msg.Stat
         slots=station.capacity,
         picks=_tasks(here) if here else [],
         pieces=station.pieces,
-        busy_fraction=station.busy_s / elapsed,
+        busy_fraction=station.busy_fraction(now),
         waiting=station.waiting(now),
     )
 

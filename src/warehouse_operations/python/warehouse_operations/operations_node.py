@@ -227,9 +227,7 @@ class OperationsNode:
         """
         with self._lock:
             shift = self._shift
-            self._stations.publish(
-                operation_messages.station_states(shift.stations, shift.now, shift.began)
-            )
+            self._stations.publish(operation_messages.station_states(shift.stations, shift.now))
 
     def _publish_order_event(self, *event: Any) -> None:
         self._events.publish(operation_messages.order_event(self._shift.now, *event))

@@ -245,25 +245,35 @@ class Picking:
         self.leave_if_done(visit.station)
 
     def next_piece(self, station: WorkStation) -> None:
-        """Starts picking the next piece, if the picker is free and a unit is there."""
+        """Starts picking the next pieces, as many as pickers are free, if a unit is there."""
         visit = station.here
-        if station.at_work or not visit or not visit.picks or station.mode == Mode.MANUAL:
+        if not visit or station.mode == Mode.MANUAL:
             return
-        station.at_work = True
-        now = self.shift.now
-        self.shift.events.schedule(now + station.pick_seconds, self._taken, (station, visit))
-        self.shift.events.schedule(now + station.seconds_a_piece, self._in_tote, (station, now))
+        while station.at_work < station.pickers and station.reaching < visit.pieces_to_pick:
+            self._reach(station, visit)
+
+    def _reach(self, station: WorkStation, visit: Visit) -> None:
+        """Lets a picker begin with a piece."""
+        station.at_work += 1
+        station.reaching += 1
+        line = visit.piece_to_pick(station.reaching - 1).line
+        more = station.seconds_a_line if line is not station.line else 0.0
+        station.line, now = line, self.shift.now
+        self.shift.events.schedule(now + more + station.pick_seconds, self._taken, (station, visit))
+        taken = now + more + station.seconds_a_piece
+        self.shift.events.schedule(taken, self._in_tote, (station, now))
 
     def _taken(self, argument: tuple[WorkStation, Visit]) -> None:
         """Takes a piece out of its bin; the unit may leave if it was the last."""
         station, visit = argument
+        station.reaching -= 1
         if visit.here and visit.picks:  # else the order was cancelled meanwhile
             self.take(visit, visit.picks[0], 1)
             self.leave_if_done(station)
 
     def _in_tote(self, argument: tuple[WorkStation, float]) -> None:
         station, began = argument
-        station.at_work = False
+        station.at_work -= 1
         station.busy_s += self.shift.now - began
         self.complete(station)
         self.next_piece(station)

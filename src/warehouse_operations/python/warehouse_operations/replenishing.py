@@ -123,7 +123,7 @@ class Replenishing:
         visit = station.here
         if station.at_work or not visit or not visit.puts or station.mode == Mode.MANUAL:
             return
-        station.at_work = True
+        station.at_work = 1
         now = self.shift.now
         self.shift.events.schedule(
             now + station.seconds_a_piece, self._put_in, (station, visit, now)
@@ -131,7 +131,7 @@ class Replenishing:
 
     def _put_in(self, argument: tuple[WorkStation, Visit, float]) -> None:
         station, visit, began = argument
-        station.at_work = False
+        station.at_work = 0
         station.busy_s += self.shift.now - began
         if visit.here and visit.puts:
             self.put(visit, visit.puts[0])

@@ -112,7 +112,7 @@ def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:
     return {
         "name": station.name,
         "kind": station.kind,
-        "busy_fraction": station.busy_s / shift.now if shift.now else 0.0,
+        "busy_fraction": station.busy_fraction(shift.now),
         "pieces": station.pieces,
         "visits": station.visits,
     }

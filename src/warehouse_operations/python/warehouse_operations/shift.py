@@ -91,11 +91,17 @@ class Shift:
 
     def _work_station(self, place: Any) -> WorkStation:
         settings = self.settings.of(place.name)
-        if place.kind == "PICK":
-            times = settings.slots, settings.piece_s, min(settings.pick_s, settings.piece_s)
-        else:
-            times = 0, settings.bundle_s, settings.bundle_s
-        return WorkStation(place, *times, self.inventory)
+        station = WorkStation(place, settings, self.inventory, self.began)
+        edges = [(0.0, False)] if settings.hours else []
+        edges += [edge for begin, end in settings.hours for edge in ((begin, True), (end, False))]
+        for hour, is_open in edges:
+            self.events.schedule(self.began + 3600 * hour, self._keep_hours, (station, is_open))
+        return station
+
+    def _keep_hours(self, argument: tuple[WorkStation, bool]) -> None:
+        """Opens or closes a station as its hours say."""
+        station, is_open = argument
+        self.set_station(station.name, is_open, station.mode)
 
     def begin(self, stock: Iterable[tuple[Bin, int]]) -> None:
         """Lays the first stock, pairs (bin, pieces), into the bins."""
@@ -219,7 +225,8 @@ class Shift:
         station = self._stations.get(name)
         if not station:
             return False, f"there is no station '{name}'"
-        station.is_open, station.mode, station.attended = bool(is_open), Mode(mode), self.now
+        station.set_open(bool(is_open), self.now)
+        station.mode, station.attended = Mode(mode), self.now
         part = self.part_of(station)
         self.transports.set_open(name, station.is_open)
         if is_open:

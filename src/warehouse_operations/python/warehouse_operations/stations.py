@@ -6,9 +6,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from warehouse_layout.stations import PICK
 from warehouse_operations.inventory import Bin, Inventory
 from warehouse_operations.message_enums import Mode
 from warehouse_operations.orders import Bundle, Line, Order
+from warehouse_operations.settings import Settings
 
 
 @dataclass(eq=False)
@@ -45,33 +47,68 @@ class Visit:
         """Whether it stands in the service cell."""
         return self.arrived is not None and self.released is None
 
+    @property
+    def pieces_to_pick(self) -> int:
+        """How many pieces are still to be picked from its unit."""
+        return sum(pick.quantity for pick in self.picks)
+
+    def piece_to_pick(self, index: int) -> Pick:
+        """Returns the Pick that the piece of this index is part of. Raises IndexError."""
+        for pick in self.picks:
+            if index < pick.quantity:
+                return pick
+            index -= pick.quantity
+        raise IndexError(index)
+
 
 class WorkStation:
     """A station for picking or replenishing; `place` is the floor's Station.
 
-    capacity: open orders. seconds_a_piece, pick_seconds [s]: see Settings.
+    settings: its own. seconds_a_piece, pick_seconds [s]: of a piece, or of a bundle.
+    began: when its shift begins [s].
     """
 
     def __init__(
         self,
         place: Any,
-        capacity: int,
-        seconds_a_piece: float,
-        pick_seconds: float,
+        settings: Settings,
         inventory: Inventory,
+        began: float = 0.0,
     ) -> None:
         self.name, self.kind = place.name, place.kind
-        self.is_open, self.mode = True, Mode.AUTOMATIC
-        self.capacity, self.inventory = capacity, inventory
-        self.seconds_a_piece, self.pick_seconds = seconds_a_piece, pick_seconds
+        self.mode, self.inventory = Mode.AUTOMATIC, inventory
+        self.is_open, self._opened, self._open_s = True, began, 0.0
+        if place.kind == PICK:
+            self.capacity, self.seconds_a_piece = settings.slots, settings.piece_s
+            self.pick_seconds = min(settings.pick_s, settings.piece_s)
+        else:
+            self.capacity, self.seconds_a_piece = 0, settings.bundle_s
+            self.pick_seconds = settings.bundle_s
+        self.seconds_a_line, self.pickers = settings.line_s, settings.pickers
         self.orders: dict[int, Order] = {}  # by id
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
-        self.at_work = False  # on a piece or a bundle
+        self.at_work = 0  # pieces or bundles in people's hands
+        self.reaching = 0  # of these, pieces that are still in their bins
+        self.line: Line | None = None  # of the piece that was begun last
         self.busy_s = 0.0
         self.attended = 0.0  # when a person last did something here [s]
         # Lines with pieces for which no unit comes, by (order, line).
         self.missing: dict[tuple[int, int], Line] = {}
         self.pieces = self.visits = 0  # done here
+
+    def set_open(self, is_open: bool, now: float) -> None:
+        """Opens or closes the station at a time [s]."""
+        self._open_s, self._opened = self.open_seconds(now), now
+        self.is_open = is_open
+
+    def open_seconds(self, now: float) -> float:
+        """Returns for how long it was open until a time [s]."""
+        return self._open_s + (now - self._opened if self.is_open else 0.0)
+
+    def busy_fraction(self, now: float) -> float:
+        """Returns the share of its pickers' hours in which they worked, until a time [s]."""
+        hours = self.open_seconds(now) * self.pickers
+        return self.busy_s / hours if hours else 0.0
 
     @property
     def free_slots(self) -> int:

@@ -22,6 +22,7 @@ from warehouse_operations.database import DatabaseError, open_engine
 from warehouse_operations.inventory import Reason
 from warehouse_operations.message_enums import Mode, OrderEventKind, OrderState
 from warehouse_operations.returning import SiteError
+from warehouse_operations.settings import Settings
 
 PICK, REPLENISH = "pick1", "replenish3"
 
@@ -605,3 +606,44 @@ def test_a_sku_that_is_sold_out_keeps_a_bin_to_be_refilled_in():
     for one in own[1:]:
         inventory.expect(one, "sku-1", 1)
     assert not inventory.takes(own[0], "sku-1", 1) and inventory.takes(own[0], "sku-26", 12)
+
+
+def one_station(settings, seconds):
+    """Returns a shift at whose only station work is never short of units."""
+    place = replace(site(robots=20, picking=1), settings=settings)
+    ops = Operations(site=place, physics=False)
+    ops.run(seconds=seconds)
+    return ops
+
+
+def test_several_pickers_share_the_pieces_of_a_unit():
+    alone = one_station(Settings(piece_s=20.0), 3600)
+    three = one_station(Settings(piece_s=20.0, pickers=3), 3600)
+    bound = [ops.kpis()["item_upper_bound_per_hour"] for ops in (alone, three)]
+    picked = [ops.kpis()["items_picked"] for ops in (alone, three)]
+    assert 0.8 * bound[0] < picked[0] <= bound[0]
+    assert 1.5 * picked[0] < picked[1] <= bound[1]
+    assert three.kpis()["station_idle_fraction"] >= 0
+
+
+def test_the_first_piece_of_a_line_takes_longer():
+    ops = one_station(Settings(piece_s=5.0, line_s=30.0), 3600)
+    (station,) = ops.shift.picking.stations
+    lines = ops.kpis()["lines_picked"]
+    assert 35 * lines < station.busy_s < 35 * (lines + 12) + 5 * station.pieces
+
+
+def test_a_station_keeps_its_hours():
+    settings = Settings(hours=((0.25, 0.5), (0.75, 1.0)))
+    ops = one_station(settings, 0.25 * 3600)
+    (station,) = ops.shift.picking.stations
+    assert not station.pieces
+    ops.run(seconds=0.25 * 3600)
+    morning = station.pieces
+    assert morning > 20
+    ops.run(seconds=0.25 * 3600)
+    assert station.pieces <= morning + 1, "what was in a hand goes into its tote"
+    ops.run(seconds=0.25 * 3600)
+    assert station.pieces > morning + 20
+    assert station.open_seconds(3600) == pytest.approx(1800)
+    assert 0 < station.busy_fraction(3600) <= 1
