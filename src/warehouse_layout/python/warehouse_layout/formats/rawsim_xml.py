@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads elements and numbers of RAWSim-O's XML files; errors name file and element."""
 
-import os
 import xml.etree.ElementTree as ElementTree
 from typing import overload
 from xml.etree.ElementTree import Element
 
+from warehouse_layout.formats.common import FormatError, PathName
+
 MOST = 1e9  # the largest number in a file
-PathName = str | os.PathLike[str]
 
 
-class InstanceError(Exception):
+class InstanceError(FormatError):
     """Raised for a file that can't be used; names file, element and what was expected."""
 
 

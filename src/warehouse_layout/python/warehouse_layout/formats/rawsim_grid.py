@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from warehouse_operations.rawsim_xml import InstanceError, PathName, children, number_of
+from warehouse_layout.formats.rawsim_xml import InstanceError, PathName, children, number_of
 
 ON_A_LINE = 0.25  # of the spacing: waypoints this far apart may still be in one row
 MOST_CELLS = 4_000_000  # of a floor
