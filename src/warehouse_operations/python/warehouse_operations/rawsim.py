@@ -1,32 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads instances (.xinst) and settings (.xsett) of RAWSim-O as a Site and a demand."""
+"""Reads instances (.xinst) of RAWSim-O as a Site."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 from xml.etree.ElementTree import Element
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.formats.common import PathName
 from warehouse_layout.formats.rawsim_instance import read_floor
-from warehouse_layout.formats.rawsim_xml import InstanceError, number_of, read_root, text_of
+from warehouse_layout.formats.rawsim_xml import InstanceError, number_of
 from warehouse_operations.settings import Settings
 from warehouse_operations.site import Site
 
-__all__ = ["InstanceError", "ShiftSettings", "read_instance", "read_settings"]
+__all__ = ["InstanceError", "read_instance"]
 
 BIN = 100.0  # capacity of a pod that one bin stands for
-
-
-@dataclass(frozen=True)
-class ShiftSettings:
-    """The part of a settings file that a shift uses; None: the file does not say."""
-
-    orders: str = "fill"
-    policies: dict[str, Any] = field(default_factory=dict)
-    duration_s: float | None = None
-    seed: int | None = None
-    level: float | None = None  # of the first stock, over its room
 
 
 def read_instance(path: PathName) -> Site:
@@ -46,33 +35,6 @@ def read_instance(path: PathName) -> Site:
         instance.name,
         _kinematics(path, instance.bots),
         Settings(by_station=overrides),
-    )
-
-
-def read_settings(path: PathName) -> ShiftSettings:
-    """Returns the ShiftSettings of an .xsett file. Raises InstanceError."""
-    root = read_root(path, "SettingConfiguration")
-    mode = root.findtext(".//OrderMode", "Fill")
-    demand = root.find(".//DemandInventoryConfiguration")
-    if mode not in ("Fill", "Poisson"):
-        raise InstanceError(f"{path}: OrderMode is '{mode}'; Fill or Poisson was expected")
-    orders = mode.lower()
-    options: dict[str, Any] = {}
-    if demand is not None:
-        if mode == "Fill":
-            orders = f"fill:{int(text_of(path, demand, 'OrderCount', 200))}"
-        options = {
-            "begin": text_of(path, demand, "InventoryLevelBundleRestartThreshold", 0.65),
-            "stop": text_of(path, demand, "InventoryLevelBundleStopThreshold", 0.85),
-            "waiting": int(text_of(path, demand, "BundleCount", 200)),
-        }
-    seed = text_of(path, root, "Seed", None)
-    return ShiftSettings(
-        orders,
-        {"replenishment": {"name": "threshold", **options}} if options else {},
-        text_of(path, root, "SimulationDuration", None),
-        None if seed is None else int(seed),
-        text_of(path, root, ".//InitialInventory", None),
     )
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from warehouse_layout import FloorError
 from warehouse_operations import check, report, runs
 from warehouse_operations.building import world_of
 from warehouse_operations.database import DatabaseError
@@ -15,7 +16,8 @@ from warehouse_operations.locks import FileLock, InUseError
 from warehouse_operations.operations import Operations
 from warehouse_operations.policies import Policies, PolicyError
 from warehouse_operations.progress import ProgressBar
-from warehouse_operations.rawsim import InstanceError, read_instance, read_settings
+from warehouse_operations.rawsim import InstanceError, read_instance
+from warehouse_operations.rawsim_settings import read_settings
 from warehouse_operations.returning import SiteError
 from warehouse_operations.site import Site
 
@@ -74,6 +76,29 @@ def with_settings(description: Description) -> Description:
     )
 
 
+def remarks(description: Description) -> list[str]:
+    """Returns sentences about what a shift does otherwise than its files ask for.
+
+    Raises one of ERRORS.
+    """
+    told: list[str] = []
+    if description.settings:
+        told += read_settings(description.settings).not_followed
+    if description.instance and not description.physics:
+        jams = _jams(description.instance, read_instance(description.instance))
+        told += [f"{jams}; ideal robots, which pass through each other, work there"] if jams else []
+    return told
+
+
+def _jams(path: str, site: Site) -> str:
+    """Returns a sentence about where robots with bodies could be stuck; "" where they can't."""
+    try:
+        site.plan.check()
+    except FloorError as error:
+        return f"{path}: {error}"
+    return ""
+
+
 def open_operations(description: Description, database: str | None = None) -> Operations:
     """Opens the shift of a Description; raises one of ERRORS."""
     if description.instance:
@@ -83,6 +108,8 @@ def open_operations(description: Description, database: str | None = None) -> Op
             site = replace(site, level=told.level or site.level)
         world = None
         if description.physics:
+            if jams := _jams(description.instance, site):
+                raise InstanceError(jams)
             with _told_as_ours():
                 world, site = world_of(site, description.seed, description.realism)
     else:

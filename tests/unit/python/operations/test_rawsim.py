@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from instance_file import write_hall_instance, write_instance
 
-from warehouse_operations import Operations
-from warehouse_operations.rawsim import InstanceError, read_instance, read_settings
+from warehouse_operations import Operations, simulation
+from warehouse_operations.rawsim import InstanceError, read_instance
+from warehouse_operations.rawsim_settings import read_settings
 from warehouse_operations.simulation import Description, open_operations, simulate
 
 
@@ -72,6 +73,58 @@ def test_settings(tmp_path):
         path.write_text(SETTINGS.format(mode=mode, begin=begin))
         with pytest.raises(InstanceError, match=message):
             read_settings(path)
+
+
+# As RAWSim-O writes its settings, but for the log's.
+WHOLE_SETTINGS = """<?xml version="1.0" encoding="utf-8"?>
+<SettingConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
+  <Name>SKU1000</Name>
+  <SimulationWarmupTime>0</SimulationWarmupTime>
+  <SimulationDuration>86400</SimulationDuration>
+  <UseAcceleration>false</UseAcceleration>
+  <UseTurnDelay>true</UseTurnDelay>
+  <InventoryConfiguration>
+    <ItemType>SimpleItem</ItemType>
+    <OrderMode>Fill</OrderMode>
+    <BundleSizeMin>4</BundleSizeMin>
+    <OrderPositionCountMean>2.5</OrderPositionCountMean>
+    <DemandInventoryConfiguration>
+      <OrderCount>50</OrderCount>
+      <InventoryLevelOrderStopThreshold>0.1</InventoryLevelOrderStopThreshold>
+    </DemandInventoryConfiguration>
+    <SimpleItemConfiguration>
+      <GeneratorConfigFile>MaTi-1000.xgenc</GeneratorConfigFile>
+    </SimpleItemConfiguration>
+  </InventoryConfiguration>
+</SettingConfiguration>
+"""
+
+
+def test_settings_that_are_not_followed_are_named(tmp_path):
+    path = tmp_path / "whole.xsett"
+    path.write_text(WHOLE_SETTINGS)
+    remarks = simulation.remarks(Description(settings=str(path)))
+    inventory = "InventoryConfiguration/"
+    assert remarks == [
+        f"{path}: UseAcceleration false is not followed; it is true here",
+        f"{path}: {inventory}OrderPositionCountMean 2.5 is not followed; it is 1 here",
+        f"{path}: {inventory}DemandInventoryConfiguration/InventoryLevelOrderStopThreshold 0.1 is"
+        " not followed",
+        f"{path}: {inventory}SimpleItemConfiguration/GeneratorConfigFile MaTi-1000.xgenc is not"
+        " followed",
+    ]
+
+
+def test_an_instance_where_robots_could_jam_is_told_with_physics_and_without(tmp_path):
+    path = write_instance(tmp_path / "a.xinst")
+    edge = "<Waypoint>9</Waypoint>"
+    text = path.read_text()
+    assert edge in text
+    path.write_text(text.replace(edge, ""))  # no way leads into it any more
+    with pytest.raises(InstanceError, match="no loaded robot can drive there") as error:
+        open_operations(Description(instance=str(path)))
+    (remark,) = simulation.remarks(Description(instance=str(path), physics=False))
+    assert remark.startswith(str(error.value))
 
 
 @pytest.mark.parametrize(
