@@ -12,7 +12,7 @@ import yaml
 from warehouse_layout import layout_file as lf
 from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError, StationEntry
 from warehouse_layout.request import LIMITS
-from warehouse_layout.station_settings import StationSettingError, check_setting, SETTINGS
+from warehouse_layout.station_settings import SETTINGS, StationSettingError, check_setting
 
 MOST_CELLS = 4_000_000
 LEAST_SPACING, MOST_SPACING = 0.1, 10.0  # [m], as the world takes them
@@ -203,8 +203,10 @@ class LayoutReader:
             self._fail(top["layout"], f"layout is {told!r}; this reads version {lf.VERSION}")
 
     def _spacing(self, node: Node | None) -> float:
-        return 1.0 if node is None else float(
-            self._number(node, "spacing", LEAST_SPACING, MOST_SPACING)
+        return (
+            1.0
+            if node is None
+            else float(self._number(node, "spacing", LEAST_SPACING, MOST_SPACING))
         )
 
     def _at(self, node: Node | None) -> tuple[float, float] | None:
