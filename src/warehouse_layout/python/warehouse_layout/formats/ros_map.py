@@ -16,10 +16,16 @@ import yaml
 
 from warehouse_layout import layout_file as lf
 from warehouse_layout.formats import images, map_cells, straight
-from warehouse_layout.formats.common import FormatError, PathName, plural, text_of
+from warehouse_layout.formats.common import (
+    FormatError,
+    PathName,
+    check_spacing,
+    plural,
+    text_of,
+    trimmed,
+)
 from warehouse_layout.formats.map_cells import Picture
 from warehouse_layout.layout_file import LayoutFile
-from warehouse_layout.layout_reader import LEAST_SPACING, MOST_SPACING
 
 SPECK = 0.12  # what is smaller than this along x and y is noise [m]
 ISLAND = 4  # cells of floor that are joined to no other: fewer are noise
@@ -35,11 +41,7 @@ def read(
     `spacing` is the edge of a cell [m], 1 m by default; `angle` [rad] by which the map is turned
     about z, by default as its walls lie. Raises FormatError.
     """
-    spacing = 1.0 if spacing is None else spacing
-    if not LEAST_SPACING <= spacing <= MOST_SPACING:
-        raise FormatError(
-            f"{path}: spacing is {spacing:g}; {LEAST_SPACING} to {MOST_SPACING:g} m were expected"
-        )
+    spacing = check_spacing(path, spacing)
     picture, specks = _without_specks(_picture(Path(path)))
     if not picture.free.any():
         raise FormatError(f"{path}: no pixel is free: see negate, free_thresh and the picture")
@@ -54,7 +56,9 @@ def read(
         if islands
         else []
     )
-    return LayoutFile(floor=_trimmed(path, floor), spacing=spacing), told
+    if not (floor == lf.FLOOR).any():
+        raise FormatError(f"{path}: no cell is free; a smaller spacing might find some")
+    return trimmed(LayoutFile(floor=floor, spacing=spacing)), told
 
 
 # --- the file
@@ -148,11 +152,3 @@ def _without_islands(floor: np.ndarray) -> tuple[np.ndarray, int]:
     out = floor.copy()
     out[small] = lf.NO_FLOOR
     return out, int(small.sum())
-
-
-def _trimmed(path: PathName, floor: np.ndarray) -> np.ndarray:
-    """Returns the floor without empty rows and columns at its edges."""
-    if not (floor == lf.FLOOR).any():
-        raise FormatError(f"{path}: no cell is free; a smaller spacing might find some")
-    rows, columns = (np.flatnonzero((floor != lf.NO_FLOOR).any(axis=axis)) for axis in (1, 0))
-    return floor[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]

@@ -7,6 +7,7 @@ import numpy as np
 
 MOST_POINTS = 20_000  # of those that decide about the angle
 GAIN = 1.05  # by which an angle must be better than none
+LEAST = 0.01  # degrees by which drawn lines are off the axes
 
 
 def turned(points: np.ndarray, angle: float) -> np.ndarray:
@@ -31,6 +32,22 @@ def angle_of(points: np.ndarray, grain: float) -> float:
         best = float(angles[np.argmax([_sharpness(points, a, grain) for a in angles])])
     better = _sharpness(points, best, grain) > GAIN * _sharpness(points, 0.0, grain)
     return math.radians(best) if better else 0.0
+
+
+def angle_of_lines(lines: np.ndarray) -> float:
+    """Returns the angle [rad] by which lines x y (n, 2) must be turned: the longest lie along axes.
+
+    Between -45 and 45 degrees.
+    """
+    lengths = np.hypot(*lines.T)
+    angles = np.degrees(np.arctan2(lines[:, 1], lines[:, 0]))
+    bins = np.bincount(np.round(angles % 90 * 10).astype(int) % 900, lengths, minlength=900)
+    most = int(bins.argmax()) / 10
+    off = (angles - most + 45) % 90 - 45
+    near = np.abs(off) < 0.2
+    degrees = most + np.average(off[near], weights=lengths[near]) if lengths.sum() else 0.0
+    turn = -((degrees + 45) % 90 - 45)
+    return math.radians(turn) if abs(turn) > LEAST else 0.0
 
 
 def _sharpness(points: np.ndarray, degrees: float, grain: float) -> float:
