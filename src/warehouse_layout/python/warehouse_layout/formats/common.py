@@ -10,6 +10,7 @@ import numpy as np
 
 from warehouse_layout import layout_file as lf
 from warehouse_layout.layout_file import Cell, LayoutFile, StationEntry
+from warehouse_layout.layout_reader import LEAST_SPACING, MOST_SPACING
 
 PathName = str | os.PathLike[str]
 
@@ -55,6 +56,16 @@ def check_size(path: PathName, what: str, height: int, width: int) -> None:
         )
 
 
+def check_spacing(path: PathName, spacing: float | None) -> float:
+    """Returns the edge of a cell [m], 1 m for None. Raises FormatError."""
+    spacing = 1.0 if spacing is None else spacing
+    if not LEAST_SPACING <= spacing <= MOST_SPACING:
+        raise FormatError(
+            f"{path}: spacing is {spacing:g}; {LEAST_SPACING} to {MOST_SPACING:g} m were expected"
+        )
+    return spacing
+
+
 def cells_of(mask: np.ndarray) -> list[Cell]:
     """Returns the cells (column, row) of a mask (h, w) bool, row by row."""
     return [(column, row) for row, column in np.argwhere(mask).tolist()]
@@ -70,6 +81,25 @@ def named(cells: Sequence[Cell]) -> str:
 def plural(count: int, noun: str) -> str:
     """Returns a count with its noun: '1 cell', '2 cells'."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def trimmed(file: LayoutFile) -> LayoutFile:
+    """Returns the file without rows and columns at its edges that are no floor.
+
+    Its stations have no lanes yet.
+    """
+    rows, columns = (np.flatnonzero((file.floor != lf.NO_FLOOR).any(axis=a)) for a in (1, 0))
+    first, left = int(rows[0]), int(columns[0])
+
+    def moved(cell: Cell) -> Cell:
+        return cell[0] - left, cell[1] - first
+
+    return replace(
+        file,
+        floor=file.floor[first : rows[-1] + 1, left : columns[-1] + 1],
+        stations=tuple(replace(s, service=moved(s.service)) for s in file.stations),
+        robots=tuple(map(moved, file.robots)) if isinstance(file.robots, tuple) else file.robots,
+    )
 
 
 def with_letters(file: LayoutFile) -> LayoutFile:

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the entities of a DXF drawing, by layer, as shapes in metres."""
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from warehouse_layout.formats.common import FormatError, PathName, plural
+from warehouse_layout.formats.dxf_layers import Layers
+
+MILLIMETRE = 0.001
+FINE = 0.02  # how far a curve's parts may be from it [m]
+DEEP = 8  # blocks within blocks, at most
+MOST_SHAPES = 1_000_000
+FAR = 1e6  # [m] from the origin, at most
+PLACES = ("belts", "storage", "parking", "charging", "stations", "replenish", "robots", "keep_out")
+TEXTS = ("TEXT", "MTEXT")
+NAME_TAGS = ("NAME", "STATION", "ID", "LABEL")
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """What is drawn on a layer: a line, an outline, or a place."""
+
+    kind: str  # of dxf_layers.NAMES
+    points: np.ndarray  # (n, 2) x y [m]
+    closed: bool = False
+    filled: bool = False  # walls: the inside belongs to it
+    name: str = ""
+
+    @property
+    def size(self) -> np.ndarray:
+        """Edges along x and y of the rectangle about it [m]."""
+        return np.ptp(self.points, axis=0)
+
+    @property
+    def centre(self) -> np.ndarray:
+        """The middle of that rectangle [m]."""
+        return (self.points.min(axis=0) + self.points.max(axis=0)) / 2
+
+    def along(self, step: float) -> np.ndarray:
+        """Returns points (n, 2) [m] along its lines, at most a step [m] apart."""
+        points = self.points
+        if self.closed and len(points) > 1:
+            points = np.concatenate([points, points[:1]])
+        parts = [points[:1]]
+        for a, b in zip(points, points[1:]):
+            count = max(1, math.ceil(math.dist(a, b) / step))
+            parts.append(a + (b - a) * (np.arange(1, count + 1) / count)[:, None])
+        return np.concatenate(parts)
+
+
+@dataclass
+class Drawing:
+    """The shapes of a drawing, the texts on layers of stations, and what was left out."""
+
+    shapes: list[Shape] = field(default_factory=list)
+    texts: list[tuple[np.ndarray, str]] = field(default_factory=list)  # where [m], what
+    told: list[str] = field(default_factory=list)
+
+
+def read(path: PathName, layers: Layers) -> Drawing:
+    """Returns what a drawing's model space holds. Raises FormatError."""
+    document = _document(Path(path))
+    out = Drawing()
+    scale = _scale(document, out)
+    reader = _Reader(path, layers, scale, out)
+    try:
+        for entity in document.modelspace():
+            reader.take(entity, str(entity.dxf.get("layer", "0")), 0)
+    except FormatError:
+        raise
+    except Exception as error:  # ezdxf raises whatever its reading of a broken entity led to
+        raise FormatError(f"{path}: an entity can't be read: {_sentence(error)}") from error
+    out.told += reader.left_out()
+    return out
+
+
+def _document(path: Path) -> Any:
+    import ezdxf
+    from ezdxf import recover
+
+    try:
+        return ezdxf.readfile(str(path))
+    except OSError as error:
+        raise FormatError(f"{path}: {error.strerror or 'is no DXF drawing'}") from error
+    except Exception:  # a flawed file: ezdxf can mend many
+        try:
+            return recover.readfile(str(path))[0]
+        except Exception as error:
+            raise FormatError(f"{path}: is no DXF drawing: {_sentence(error)}") from error
+
+
+def _sentence(error: Exception) -> str:
+    return " ".join(str(error).split())[:120] or type(error).__name__
+
+
+def _scale(document: Any, out: Drawing) -> float:
+    """Returns the metres of a unit of the drawing."""
+    from ezdxf import units
+
+    unit = document.header.get("$INSUNITS", 0)
+    try:
+        if unit:
+            return float(units.conversion_factor(unit, units.M))
+    except (KeyError, TypeError, ValueError, IndexError):
+        pass
+    out.told.append(f"$INSUNITS is {unit}, no unit of length: millimetres were assumed")
+    return MILLIMETRE
+
+
+class _Reader:
+    def __init__(self, path: PathName, layers: Layers, scale: float, out: Drawing) -> None:
+        self._path, self._layers, self._scale, self._out = path, layers, scale, out
+        self._unknown: Counter[str] = Counter()
+        self._unread: Counter[tuple[str, str]] = Counter()
+
+    def take(self, entity: Any, layer: str, depth: int) -> None:
+        """Adds an entity on a layer, or those of its block."""
+        kind = self._layers.kind(layer)
+        what = entity.dxftype()
+        if what == "INSERT":
+            self._insert(entity, layer, kind, depth)
+        elif not kind:
+            self._unknown[layer] += 1
+        elif what in TEXTS:
+            self._text(entity)
+        else:
+            self._figure(entity, kind, layer)
+        if len(self._out.shapes) > MOST_SHAPES:
+            raise FormatError(f"{self._path}: more than {MOST_SHAPES} shapes")
+
+    def left_out(self) -> Iterator[str]:
+        """Yields a sentence for each layer and each sort of entity that means nothing here."""
+        for layer, count in self._unknown.items():
+            yield f"layer '{layer}': {_entities(count)} left out; --layers can say what it holds"
+        for (layer, what), count in self._unread.items():
+            yield f"layer '{layer}': {plural(count, what)} left out; it has no shape in the plane"
+
+    def _insert(self, insert: Any, layer: str, kind: str, depth: int) -> None:
+        if depth > DEEP:
+            raise FormatError(f"{self._path}: blocks lie in blocks, more than {DEEP} deep")
+        for one in insert.multi_insert() if insert.mcount > 1 else [insert]:
+            parts = list(one.virtual_entities())
+            if kind in PLACES:
+                self._place(one, kind, parts)
+                continue
+            for part in parts:
+                inner = str(part.dxf.get("layer", "0"))
+                # What lies on layer 0 of a block takes the layer of its insert.
+                self.take(part, layer if inner == "0" else inner, depth + 1)
+
+    def _place(self, insert: Any, kind: str, parts: Iterable[Any]) -> None:
+        """Adds a block: the rectangle about what is drawn in it."""
+        from ezdxf import bbox
+
+        drawn = [p for p in parts if p.dxftype() not in (*TEXTS, "ATTDEF")]
+        box = bbox.extents(drawn)
+        if box.has_data:
+            (x, y, _), (u, v, _) = box.extmin, box.extmax
+            corners = [(x, y), (u, y), (u, v), (x, v)]
+        else:
+            corners = [tuple(insert.dxf.insert)[:2]]
+        name = next((a.dxf.text for a in insert.attribs if a.dxf.tag.upper() in NAME_TAGS), "")
+        self._add(Shape(kind, self._metres(corners, insert), closed=True, name=name))
+
+    def _text(self, entity: Any) -> None:
+        text = entity.plain_text() if entity.dxftype() == "MTEXT" else entity.dxf.text
+        at = self._metres([tuple(entity.dxf.insert)[:2]], entity)[0]
+        self._out.texts.append((at, " ".join(text.split())))
+
+    def _figure(self, entity: Any, kind: str, layer: str) -> None:
+        from ezdxf import path as paths
+
+        what = entity.dxftype()
+        if what == "POINT":
+            self._add(Shape(kind, self._metres([tuple(entity.dxf.location)[:2]], entity)))
+            return
+        try:
+            found = list(paths.from_hatch(entity)) if what == "HATCH" else [paths.make_path(entity)]
+        except TypeError:
+            self._unread[layer, what] += 1
+            return
+        for one in found:
+            points = [(p.x, p.y) for p in one.flattening(FINE / self._scale)] if len(one) else []
+            if points:
+                filled = what in ("HATCH", "SOLID", "TRACE")
+                metres = self._metres(points, entity)
+                self._add(Shape(kind, metres, closed=one.is_closed or filled, filled=filled))
+
+    def _metres(self, points: Iterable[Iterable[float]], entity: Any) -> np.ndarray:
+        out = np.array([list(p) for p in points], float) * self._scale
+        if not (np.abs(out) <= FAR).all():
+            raise FormatError(
+                f"{self._path}: {entity.dxftype()} {entity.dxf.get('handle', '')} is not within"
+                f" {FAR:g} m of the origin"
+            )
+        return out
+
+    def _add(self, shape: Shape) -> None:
+        self._out.shapes.append(shape)
+
+
+def _entities(count: int) -> str:
+    return "1 entity" if count == 1 else f"{count} entities"

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Maps of map_server become floors: askew, noisy, black on white or the other way."""
+
+import math
+
+import numpy as np
+import pytest
+
+from warehouse_layout import formats
+from warehouse_layout.formats import FormatError
+
+RESOLUTION = 0.05
+ROOM = (12.0, 8.0)  # inner size [m]
+
+
+def picture(degrees=0.0, noise=0.0, seed=1):
+    """A room with a wall that ends in it and a pillar, seen by SLAM: (h, w) grey values.
+
+    0 is occupied, 205 was never seen, 254 is free; row 0 is the highest.
+    """
+    rng = np.random.default_rng(seed)
+    height, width = 260, 340
+    rows, columns = np.indices((height, width))
+    x, y = (columns - width / 2 + 0.5) * RESOLUTION, (height / 2 - rows - 0.5) * RESOLUTION
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    x, y = c * x + s * y, c * y - s * x  # in the room's frame
+    waver = rng.normal(0, noise, (height, width))
+    inside = np.maximum(abs(x) - ROOM[0] / 2, abs(y) - ROOM[1] / 2)
+    grey = np.where(inside < 0, 254, 205)
+    thick = 2 * RESOLUTION
+    walls = (inside + waver >= 0) & (inside + waver < thick)
+    walls |= (abs(x + 0.5 + waver) < thick / 2) & (y > 0) & (inside < 0)
+    walls |= (abs(x - 3.5) < 0.2) & (abs(y + 1.5) < 0.2)
+    grey[walls] = 0
+    if noise:
+        grey[(rng.random(grey.shape) < 0.002) & (inside < 0)] = 0
+        grey[(rng.random(grey.shape) < 0.01) & (inside > thick)] = 254
+    return grey.astype(np.uint8)
+
+
+def write_map(folder, grey, plain=False, **told):
+    height, width = grey.shape
+    header = f"P{2 if plain else 5}\n# made by a test\n{width} {height}\n255\n"
+    if plain:
+        text = "\n".join(" ".join(map(str, row)) for row in grey.tolist())
+        (folder / "m.pgm").write_text(header + text)
+    else:
+        (folder / "m.pgm").write_bytes(header.encode() + grey.tobytes())
+    values = {
+        "image": "m.pgm",
+        "resolution": RESOLUTION,
+        "origin": "[-3.0, -2.0, 0.0]",
+        "negate": 0,
+        "occupied_thresh": 0.65,
+        "free_thresh": 0.196,
+    } | told
+    path = folder / "map.yaml"
+    path.write_text("".join(f"{k}: {v}\n" for k, v in values.items()))
+    return path
+
+
+EXPECTED = [
+    "##############",
+    "#.....#......#",
+    "#.....#......#",
+    "#.....#......#",
+    "#.....#......#",
+    "#............#",
+    "#.........#..#",
+    "#............#",
+    "#............#",
+    "##############",
+]
+
+
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_clean_map(tmp_path, plain):
+    file, told = formats.read(write_map(tmp_path, picture(), plain))
+    assert told == []
+    assert similar(file.floor) >= 0.97
+
+
+def similar(floor):
+    """The share of cells that are as they are in EXPECTED, whichever way the grid was laid."""
+    best = 0.0
+    for dy in range(-1, 2):
+        for dx in range(-1, 2):
+            same = 0
+            for row, line in enumerate(EXPECTED):
+                for column, character in enumerate(line):
+                    i, j = len(EXPECTED) - 1 - row + dy, column + dx
+                    inside = 0 <= i < floor.shape[0] and 0 <= j < floor.shape[1]
+                    same += (floor[i, j] if inside else "?") == character
+            best = max(best, same / (len(EXPECTED) * len(EXPECTED[0])))
+    return best
+
+
+@pytest.mark.parametrize("degrees", [2.0, -7.0, 31.0])
+def test_a_slam_map_is_straightened(tmp_path, degrees):
+    file, told = formats.read(write_map(tmp_path, picture(degrees, noise=0.015)))
+    turned = float(told[0].split()[2])
+    assert turned == pytest.approx(-degrees, abs=0.3)
+    assert similar(file.floor) > 0.9
+    assert any("of noise left out" in sentence for sentence in told)
+
+
+def test_an_angle_given_and_a_yaw(tmp_path):
+    path = write_map(tmp_path, picture(10.0))
+    file, told = formats.read(path, angle=math.radians(-10))
+    assert told[0] == "turned by -10.00 degrees" and similar(file.floor) > 0.9
+    # With the yaw in the file the map lies along the axes already.
+    path = write_map(tmp_path, picture(10.0), origin=f"[0, 0, {math.radians(-10)}]")
+    file, told = formats.read(path)
+    assert told == [] and similar(file.floor) > 0.9
+
+
+def test_negate_png_and_spacing(tmp_path):
+    from PIL import Image
+
+    path = write_map(tmp_path, picture(), negate=1, image="m.png", free_thresh=0.15)
+    Image.fromarray(255 - picture()).save(tmp_path / "m.png")
+    file, _ = formats.read(path, spacing=0.5)
+    assert file.spacing == 0.5
+    assert (file.floor == ".").sum() == pytest.approx(4 * 96, rel=0.12)
+
+
+def test_a_thousand_cells_square(tmp_path):
+    grey = np.full((1000, 1000), 254, np.uint8)
+    grey[[0, -1]] = grey[:, [0, -1]] = 0
+    path = write_map(tmp_path, grey, resolution=0.5)
+    file, told = formats.read(path, spacing=0.5)
+    assert file.shape == (1000, 1000) and told == []
+    assert (file.floor == "#").sum() == 3996
+
+
+@pytest.mark.parametrize(
+    "told, message",
+    [
+        ({"resolution": -1}, "map.yaml: resolution is -1; a number from"),
+        ({"resolution": ".nan"}, "resolution is nan; a number from"),
+        ({"resolution": "fine"}, "resolution is 'fine'"),
+        ({"origin": "[1, 2]"}, "origin is .*; x, y .m. and yaw .rad. were expected"),
+        ({"image": "none.pgm"}, "none.pgm: No such file"),
+        ({"image": "map.yaml"}, "a PGM .* or PNG was expected"),
+        ({"image": "[1"}, r"map.yaml:\d: is no YAML"),
+        ({"mode": "grey"}, "mode is 'grey'; trinary"),
+        ({"free_thresh": 0.0}, "no pixel is free"),
+        ({"resolution": 9.9}, "1 to 4000000 cells were expected"),
+    ],
+)
+def test_a_wrong_map_is_told(tmp_path, told, message):
+    grey = np.full((900, 900), 254, np.uint8)
+    with pytest.raises(FormatError, match=message):
+        formats.read(write_map(tmp_path, grey, **told))
+
+
+@pytest.mark.parametrize(
+    "data, message",
+    [
+        (b"P5\n4 4\n255\n123", "3 pixels; 4 x 4 were expected"),
+        (b"P5\n99999 99999\n255\n", "99999 x 99999 pixels"),
+        (b"P5\n4 x\n255\n", "height is 'x'"),
+        (b"P2\n2 1\n255\n7 white", "a pixel is no number"),
+        (b"P5", "width is ''"),
+        (b"\x89PNG\r\n\x1a\nabc", "the PNG can't be read"),
+    ],
+)
+def test_a_broken_picture_is_told(tmp_path, data, message):
+    path = write_map(tmp_path, picture())
+    (tmp_path / "m.pgm").write_bytes(data)
+    with pytest.raises(FormatError, match=message) as error:
+        formats.read(path)
+    assert str(tmp_path / "m.pgm") in str(error.value)
