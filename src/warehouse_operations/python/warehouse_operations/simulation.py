@@ -146,14 +146,17 @@ def _check_stations(description: Description, site: Site) -> None:
     count = sum(station.kind == "PICK" for station in site.plan.stations)
     if description.stations > count:
         raise InstanceError(
-            f"stations is {description.stations}; {site.name} has {count} picking stations"
+            f"stations is {description.stations}; {site.name} has {count} for picking"
         )
 
 
 def _open_stations(ops: Operations, count: int) -> None:
     """Opens the first so many picking stations and closes the others."""
-    for i, station in enumerate(ops.shift.picking.stations):
-        ops.shift.set_station(station.name, i < count, station.mode)
+    shift = ops.shift
+    for i, station in enumerate(shift.picking.stations):
+        shift.set_station(station.name, i < count, station.mode)
+    working = count + len(shift.replenishing.stations)
+    shift.units_per_station = shift.settings.units_at(ops.fleet.robot_count, working)
 
 
 def simulate(
