@@ -5,7 +5,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from warehouse_layout import file_check, generator, layout_file, world_file
+from warehouse_layout import file_check, files, generator, layout_file, world_file
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.request import PRESETS
 
@@ -15,6 +15,11 @@ EMPTY = "empty"
 def is_preset(name: str) -> bool:
     """Tells whether it is the name of a preset, not of a file."""
     return name in PRESETS
+
+
+def path_of(name: str | os.PathLike[str], folder: str | Path | None = None) -> Path:
+    """Returns the whole path of a file that a person named; see chosen()."""
+    return Path(folder or os.environ.get("PWD", ".")) / Path(name).expanduser()
 
 
 def chosen(name: str | os.PathLike[str], folder: str | Path | None = None) -> LayoutFile:
@@ -28,8 +33,7 @@ def chosen(name: str | os.PathLike[str], folder: str | Path | None = None) -> La
         raise LayoutFileError("the preset 'empty' has nothing that could be laid out")
     if is_preset(name):
         return generator.of_request(PRESETS[name], name)
-    base = Path(folder) if folder else Path(os.environ.get("PWD", "."))
-    path = base / Path(name).expanduser()
+    path = path_of(name, folder)
     if not path.exists() and not Path(name).suffix and os.sep not in name:
         raise LayoutFileError(
             f"{path}: there is no such layout file, and '{name}' is no preset; known are"
@@ -49,6 +53,20 @@ def check(file: LayoutFile, robots: int | None = None) -> None:
     if faults:
         name = file.path or file.title
         raise LayoutFileError("\n".join(f"{name}: {fault.text}" for fault in faults))
+
+
+def world_named(world: str, folder: str | Path | None = None) -> Path:
+    """Returns the whole path of a world: a file, relative to `folder` (PWD by default), or a name in
+    worlds/. Raises LayoutFileError."""
+    try:
+        return world_file.find(world, files.worlds(), folder).resolve()
+    except world_file.WorldFileError as error:
+        raise LayoutFileError(str(error)) from error
+
+
+def in_building(file: LayoutFile, hall: Path) -> LayoutFile:
+    """Returns a file as it stands in a world of others, which is its building then."""
+    return replace(file, building=str(hall))
 
 
 def building_of(file: LayoutFile, worlds: str | Path) -> Path | None:

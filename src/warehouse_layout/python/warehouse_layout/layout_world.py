@@ -14,7 +14,7 @@ from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.world_file import with_values
 
 NAMED = 6  # cells that a sentence names, at most
-ROUNDING = 1e-6  # [m]
+ROUNDING = 1e-6  # of a spacing: maps have it in single precision
 
 
 def world_of(file: LayoutFile, folder: str | Path) -> Path:
@@ -40,7 +40,7 @@ def world_of(file: LayoutFile, folder: str | Path) -> Path:
 
 def check_grid(file: LayoutFile, spacing: float) -> None:
     """Raises LayoutFileError unless the grid of a world [m] is that of the layout."""
-    if abs(spacing - file.spacing) > ROUNDING:
+    if abs(spacing - file.spacing) > ROUNDING * spacing:
         raise LayoutFileError(
             f"{file.path or file.title}: spacing is {file.spacing:g} m, but the grid of the world"
             f" is {spacing:g} m: only a launch with layout:= begins a world with another grid"

@@ -41,6 +41,15 @@ def policies_of(file: LayoutFile) -> Policies:
     return Policies(dict(file.policies), f"{file.path or file.title}: policies")
 
 
+def merged(file: LayoutFile, told: Policies) -> Policies:
+    """Returns the policies that were told, and for the other roles those of a layout file.
+
+    Raises PolicyError.
+    """
+    policies_of(file)
+    return Policies({**file.policies, **told.given})
+
+
 def fault(file: LayoutFile) -> str:
     """Returns what a shift could not take of a layout file, as a sentence; "" if nothing."""
     try:

@@ -89,9 +89,7 @@ class Description:
         """The policies: those told, and besides them those of the layout. Raises PolicyError."""
         if not self.layout:
             return Policies(self.policies)
-        file = layout_choice.chosen(self.layout)
-        layout_site.policies_of(file)
-        return Policies({**file.policies, **self.policies})
+        return layout_site.merged(layout_choice.chosen(self.layout), Policies(self.policies))
 
 
 def with_settings(description: Description) -> Description:
