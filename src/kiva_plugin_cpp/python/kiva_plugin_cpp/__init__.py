@@ -199,16 +199,33 @@ class World(_core.World):
         return cls.of_layout(plan, own_models=True, **options)
 
     @classmethod
+    def layout(
+        cls, file: AnyPath, *, robots: int | None = None, **options: Any
+    ) -> "World":
+        """Returns the warehouse of a layout file, NAME.layout.yaml, or of a preset's name.
+
+        `seed` places what the file gives as counts; robots: so many instead of the file's. Options
+        as of World, without `world`: that is the file's building, or an empty floor. ValueError
+        with a sentence a line about all that hinders a fleet there.
+        """
+        from kiva_plugin_cpp import layouts
+
+        return layouts.world_of(cls, file, robots, **options)
+
+    @classmethod
     def of_layout(cls, laid: "Layout", *, own_models: bool = False, **options: Any) -> "World":
         """Returns a warehouse as warehouse_layout.layout.plan() lays it out; options as of World.
 
         Models of robots and units in model_paths replace those of worlds/models, unless own_models.
         """
+        from kiva_plugin_cpp import layouts
         from warehouse_layout import models
 
         world = cls(**options)
         if laid.has_own_floor:
             world.delete(models.FLOOR)
+        else:
+            layouts.clear(world)
         text = models.document(models.of_layout(laid))
         world.spawn(_ours(text) if own_models else text)
         world.events()

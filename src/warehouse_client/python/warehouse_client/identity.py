@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the warehouse is called: the parameters /warehouse/name and /warehouse/id."""
+"""What the warehouse is called, and of which layout file it was built: parameters."""
 
 from typing import Any
 
 NAME, NUMBER = "/warehouse/name", "/warehouse/id"
+LAYOUT = "/warehouse/layout"  # the layout file of the warehouse that stands; "" for another one
 INT32 = 2**31
 
 
@@ -18,6 +19,11 @@ def read(ros: Any) -> tuple[str, int]:
     if not is_id:
         ros.logwarn_once(f"{NUMBER} is {number!r}; a whole number of 32 bits was expected")
     return str(name), number if is_id else 0
+
+
+def layout(ros: Any) -> str:
+    """Returns the path of the layout file of which the warehouse was built; "" without one."""
+    return str(ros.get_param(LAYOUT, ""))
 
 
 def write(ros: Any, name: str, number: int) -> None:

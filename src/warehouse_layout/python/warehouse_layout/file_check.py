@@ -13,6 +13,7 @@ from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError
 from warehouse_layout.placement import place, plan_of
 
 NAMED = 6  # cells that a sentence names, at most
+LEAST_SPACING = 0.97  # [m]: a unit that turns sweeps 0.566 m, and its neighbour reaches 0.4 m
 
 
 @dataclass(frozen=True)
@@ -27,11 +28,22 @@ def faults(file: LayoutFile) -> list[Fault]:
     """Returns what hinders a fleet from working there; [] if nothing does."""
     drawn = drawn_floor.areas(file.floor)
     stations, lane_faults = station_lanes.of_file(file, drawn)
-    out = [Fault(fault.text, fault.cells) for fault in lane_faults]
+    out = [*_spacing_faults(file), *(Fault(fault.text, fault.cells) for fault in lane_faults)]
     out += _floor_faults(plan_of(file, drawn, stations))
     if not lane_faults:
         out += _placing_faults(file)
     return out
+
+
+def _spacing_faults(file: LayoutFile) -> list[Fault]:
+    if file.spacing >= LEAST_SPACING:
+        return []
+    return [
+        Fault(
+            f"spacing is {file.spacing:g} m; {LEAST_SPACING:g} m or more were expected: a storage"
+            " unit that turns needs it beside another one"
+        )
+    ]
 
 
 def _placing_faults(file: LayoutFile) -> list[Fault]:

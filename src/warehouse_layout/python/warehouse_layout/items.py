@@ -46,6 +46,19 @@ def spread(
     return unit, np.column_stack([PLACES[place], BOARDS[board]])
 
 
+def stacked(unit: np.ndarray) -> np.ndarray:
+    """Returns the places of items on units `unit` (n,), one after the other on each, (n, 3) [m].
+
+    They are in the frame of their unit, at most CAPACITY on each.
+    """
+    order = np.argsort(unit, kind="stable")
+    first = np.searchsorted(unit[order], unit[order])
+    layer = np.empty(len(unit), int)
+    layer[order] = np.arange(len(unit)) - first
+    board, place = _regular(unit, layer)
+    return np.column_stack([PLACES[place], BOARDS[board]])
+
+
 def _regular(unit: np.ndarray, layer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Returns board and place of a unit's first, second … item."""
     layer, board = np.divmod(layer, len(BOARDS))

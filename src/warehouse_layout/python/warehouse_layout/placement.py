@@ -6,15 +6,17 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from warehouse_layout import drawn_floor, floor_markings, station_lanes
+from warehouse_layout import drawn_floor, station_lanes, stock_file, walls
 from warehouse_layout import items as shelves
 from warehouse_layout.drawn_floor import DrawnFloor
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_layout.layout import SEED, Floor, Layout, chance
 from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError
 from warehouse_layout.stations import PICK, STEPS, Station
+from warehouse_layout.stock_file import StockRow
 
 BELT_CELLS = 2  # of one conveyor belt; a longer one is several, one behind the other
+OFF_GRID = 1e-4  # as much as a cell's centre may be beside the grid [cells]
 HEADINGS = (1, 3, 0, 2)  # in which parked robots face a street, the first that there is
 
 
@@ -26,6 +28,7 @@ def place(file: LayoutFile, seed: int = SEED, robots: int | None = None) -> Layo
     where more is asked than there is room for. Whether a fleet can work there is not checked.
     """
     drawn = drawn_floor.areas(file.floor)
+    _check_at(file)
     stations, faults = station_lanes.of_file(file, drawn)
     if faults:
         raise LayoutFileError(f"{file.path or file.title}: {faults[0].text}")
@@ -54,6 +57,24 @@ def origin(file: LayoutFile) -> tuple[float, float]:
     return -((width - 1) // 2) * file.spacing, -((height - 1) // 2) * file.spacing
 
 
+def stock_of(file: LayoutFile, units: int) -> list[StockRow]:
+    """Returns the rows of a file's stock, one an item; [] without. Raises LayoutFileError."""
+    try:
+        return stock_file.read(file.beside_file(file.stock), units) if file.stock else []
+    except stock_file.StockFileError as error:
+        raise LayoutFileError(str(error)) from error
+
+
+def _check_at(file: LayoutFile) -> None:
+    """Raises LayoutFileError unless cells lie on the grid of `world`, on which robots stop."""
+    cells = np.divide(file.at or (0.0, 0.0), file.spacing)
+    if (np.abs(cells - np.round(cells)) > OFF_GRID).any():
+        raise LayoutFileError(
+            f"{file.path or file.title}: at is {list(file.at or ())}; whole multiples of the"
+            f" spacing, {file.spacing:g} m, were expected"
+        )
+
+
 class _Placement:
     def __init__(self, file: LayoutFile, drawn: DrawnFloor, seed: int) -> None:
         self._file, self._drawn, self._rng = file, drawn, chance(seed)
@@ -66,8 +87,7 @@ class _Placement:
         units = self._units(places)
         if len(parked) < (robots if isinstance(robots, int) else 0):
             parked = np.concatenate([parked, self._beneath(places, units, robots, len(parked))])
-        self._check_items(len(units))
-        item_unit, item_place = shelves.spread(file.items, len(units), self._rng)
+        item_unit, item_place = self._items(len(units))
         belts = list(_belts(drawn, stations))
         return Layout(
             floor=self._floor(),
@@ -144,6 +164,15 @@ class _Placement:
                 raise self._fail(f"{what} is at [{column}, {row}], {otherwise}")
         return np.array(cells, int).reshape(-1, 2)
 
+    def _items(self, units: int) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the unit of each item, an index, and its place there; by the stock file if one is
+        named."""
+        self._check_items(units)
+        if not self._file.stock:
+            return shelves.spread(self._file.items, units, self._rng)
+        unit = np.array([row.unit - 1 for row in stock_of(self._file, units)], int)
+        return unit, shelves.stacked(unit)
+
     def _check_items(self, units: int) -> None:
         most = units * shelves.CAPACITY
         if self._file.items > most:
@@ -175,11 +204,9 @@ class _Placement:
         return self._world(np.array(cells, float))
 
     def _walls(self) -> np.ndarray:
-        """Returns x y size_x size_y [m] of boxes that fill the cells of walls, (n, 4)."""
-        found = floor_markings.rectangles(self._drawn.walls)
-        low, high = np.reshape(found, (-1, 2, 2)).astype(float).transpose(1, 0, 2)
-        centres = self._world((low + high) / 2)
-        return np.column_stack([centres, (high - low + 1) * self._file.spacing])
+        """Returns x y size_x size_y [m] of the boxes of walls, (n, 4)."""
+        found = walls.boxes(self._drawn.walls, self._file.spacing)
+        return found + np.pad(origin(self._file), (0, 2))
 
 
 def _with_belts(

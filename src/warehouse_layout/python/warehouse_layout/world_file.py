@@ -2,6 +2,7 @@
 """World files, read in order to add their models to a running world."""
 
 import os
+import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -127,3 +128,13 @@ def _rename(element: ElementTree.Element, renamed: dict[str, str]) -> None:
     if tag is None:
         tag = ElementTree.SubElement(element, "name")
     tag.text = name
+
+
+def with_values(text: str, **values: float) -> str:
+    """Returns an SDF text with other values in elements of these names, each of which is there
+    once. Raises ValueError for another one."""
+    for name, value in values.items():
+        text, count = re.subn(rf"<{name}>[^<]*</{name}>", f"<{name}>{value!r}</{name}>", text)
+        if count != 1:
+            raise ValueError(f"<{name}> is there {count} times; once was expected")
+    return text

@@ -5,6 +5,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from warehouse_layout.csv_table import shown
+
 MOST_LINES = 1_000  # of one order
 MOST_WAITING = 100_000  # lines of all orders that no station has yet
 REFERENCE_LENGTH = 200  # characters, as the database has room for
@@ -49,9 +51,3 @@ def fault_of_head(reference: str, due: float = 0.0, priority: int = 0) -> str:
     if not 0 <= priority <= 255:
         return f"priority is {priority}; 0 to 255 was expected"
     return ""
-
-
-def shown(text: str, most: int = 80) -> str:
-    """Returns a text from outside as a message can have it."""
-    text = text if len(text) <= most else f"{text[:most]}…"
-    return text if text.isprintable() else ascii(text)[1:-1]

@@ -28,6 +28,26 @@ class Assortment:
         return cls(tuple(f"sku-{i}" for i in range(1, count + 1)), weights / weights.sum())
 
 
+def told(
+    items: Sequence[tuple[str, int]],
+    stock: Sequence[tuple[str, str, int]],
+    rng: np.random.Generator,
+) -> tuple["Assortment", list[tuple[Bin, int]]]:
+    """Returns what stocked() does, of a stock that is told: (item, SKU, pieces) of each bin.
+
+    items: as for stocked(); those of which nothing is told have no bin. A bin has room for CAPACITY
+    pieces, or for as many as it holds. How often a SKU is asked for is drawn.
+    """
+    drawn = Assortment.draw(len({sku for _, sku, _ in stock}), rng)
+    assortment = Assortment(tuple(dict.fromkeys(sku for _, sku, _ in stock)), drawn.popularity)
+    unit_of, result = dict(items), []
+    for item, sku, pieces in stock:
+        if item in unit_of:
+            one = Bin(len(result) + 1, item, unit_of[item], max(CAPACITY, pieces), sku)
+            result.append((one, pieces))
+    return assortment, result
+
+
 def stocked(
     items: Sequence[tuple[str, int]],
     rng: np.random.Generator,

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A Site that came from elsewhere, built as a world with physics."""
 
-import re
 import tempfile
 from collections.abc import Mapping
 from dataclasses import replace
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from warehouse_fleet.kinematics import Kinematics
+from warehouse_layout.world_file import with_values
 
 if TYPE_CHECKING:
     from kiva_plugin_cpp import World
@@ -42,7 +42,7 @@ def world_of(site: "Site", seed: int = 1, realism: str = "") -> "tuple[World, Si
     with tempfile.TemporaryDirectory() as made:
         world_file = Path(made, "instance.sdf")
         text = (folder / "empty.sdf").read_text(encoding="utf-8")
-        world_file.write_text(_with(text, spacing=spacing), encoding="utf-8")
+        world_file.write_text(with_values(text, spacing=spacing), encoding="utf-8")
         robot = Path(made, "kiva")
         robot.mkdir()
         for part in (folder / "models" / "kiva").iterdir():
@@ -55,7 +55,7 @@ def world_of(site: "Site", seed: int = 1, realism: str = "") -> "tuple[World, Si
 
 
 def _set_kinematics(path: Path, kinematics: Kinematics) -> None:
-    text = _with(
+    text = with_values(
         path.read_text(encoding="utf-8"),
         speed=kinematics.speed,
         acceleration=kinematics.acceleration,
@@ -63,13 +63,3 @@ def _set_kinematics(path: Path, kinematics: Kinematics) -> None:
         time=kinematics.lift,
     )
     path.write_text(text, encoding="utf-8")
-
-
-def _with(text: str, **values: float) -> str:
-    """Returns an SDF text with other values in elements of these names, each of which is there
-    once."""
-    for name, value in values.items():
-        text, count = re.subn(rf"<{name}>[^<]*</{name}>", f"<{name}>{value!r}</{name}>", text)
-        if count != 1:
-            raise ValueError(f"<{name}> is there {count} times; once was expected")
-    return text

@@ -86,7 +86,9 @@ def of_shift(shift: "Shift", fleet: Any, kinematics: Kinematics, wall_s: float) 
     """
     tally, elapsed = shift.tally, shift.now - shift.began
     hours = max(elapsed, 1e-9) / 3600
-    picking, replenishing = shift.picking.stations, shift.replenishing.stations
+    # A station that was closed all the time is as if it were not there.
+    picking = [s for s in shift.picking.stations if s.is_open or s.visits]
+    replenishing = shift.replenishing.stations
     picks = sum(len([v for v in s.inbound.values() if v.pieces]) for s in picking)
     pile_on = tally.items_picked / max(tally.pick_visits + picks, 1)
     spacing = shift.floor.plan.spacing

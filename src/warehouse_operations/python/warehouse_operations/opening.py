@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from warehouse_operations.assortment import stocked
+from warehouse_operations.assortment import stocked, told
 from warehouse_operations.demand import make_demand
 from warehouse_operations.policies import Policies
 from warehouse_operations.protocols import Requests
@@ -68,6 +68,8 @@ def open_shift(
         changed = changes(site, stored, database.url)
         assortment = stored.assortment
         stock = [(one, 0) for one in (*stored.bins, *changed.new)]
+    elif site.stock:
+        assortment, stock = told(site.items, site.stock, stock_rng)
     else:
         assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
     kinds = [station.kind for station in site.plan.stations]

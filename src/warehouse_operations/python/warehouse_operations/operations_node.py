@@ -11,13 +11,16 @@ from typing import Any
 import rospy
 from sqlalchemy.engine import Engine
 
+from warehouse_client import identity
 from warehouse_client.build_transaction import is_building
 from warehouse_client.coordinator import Coordinator
 from warehouse_client.unit_messages import unit_ids
 from warehouse_client.warehouse import Warehouse
+from warehouse_layout import layout_file
+from warehouse_layout.layout_file import LayoutFile
 from warehouse_layout.served_part import served_part
 from warehouse_msgs import msg
-from warehouse_operations import kpis, operation_messages, stored
+from warehouse_operations import kpis, layout_site, operation_messages, stored
 from warehouse_operations.changes import ChangeJournal
 from warehouse_operations.database import Database
 from warehouse_operations.demand import DemandError
@@ -58,7 +61,8 @@ class OperationsNode:
         self._orders = _queued("order_changes", msg.OrderStatuses)
         self._stock = _queued("stock_changes", msg.StockPlaces)
         self._events = _queued("order_events", msg.OrderEvent)
-        self._chosen: dict[str, Any] = {"orders": orders, "policies": policies, "seed": seed}
+        self._chosen: dict[str, Any] = {"orders": orders, "seed": seed}
+        self._told_policies = policies or Policies()
         self._wait_for_warehouse()
         self._database = Database(database)
         self._begin()
@@ -80,7 +84,13 @@ class OperationsNode:
         """Begins a shift that goes on with what the database has."""
         now = rospy.get_time()
         self._timeline = self._warehouse.timeline
+        file = self._layout_file()
         self._site = self._read_site()
+        if file:
+            self._site = layout_site.of_file(self._site, file)
+        self._policies = self._told_policies
+        if file:
+            self._policies = layout_site.merged(file, self._told_policies)
         self._transports = RemoteTransports(self._coordinator)
         heat = FloorHeat(self._site.plan, now)
         since = max(0.0, (now // kpis.INTERVAL + 1 - SHOWN) * kpis.INTERVAL)
@@ -108,6 +118,11 @@ class OperationsNode:
             f"{len(self._shift.orders)} orders to go on with"
         )
 
+    def _layout_file(self) -> LayoutFile | None:
+        """Returns the layout file of which the warehouse was built, if it was."""
+        path = identity.layout(rospy)
+        return layout_file.read(path) if path else None
+
     def _read_site(self) -> Site:
         plan, _ = served_part(self._warehouse.plan())
         return Site(
@@ -122,7 +137,7 @@ class OperationsNode:
         """Returns a Shift; without orders where they come from a file with faults."""
 
         def begin(orders: str) -> Shift:
-            chosen: dict[str, Any] = self._chosen | {"orders": orders}
+            chosen: dict[str, Any] = self._chosen | {"orders": orders, "policies": self._policies}
             return open_shift(
                 self._site, self._transports, database=self._database, now=now, **chosen
             )

@@ -12,24 +12,17 @@ be complete (0: at any time), `priority` 0 to 255; these three may be left out. 
 commas, semicolons or tabs; the text is UTF-8, with a byte order mark or without.
 """
 
-import codecs
-import csv
-import io
 import os
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
+from warehouse_layout.csv_table import CsvTable, fields, shown
 from warehouse_operations import acceptance
-from warehouse_operations.acceptance import shown
 
 NEEDED, OPTIONAL = ("reference", "sku", "quantity"), ("at", "due", "priority")
-SEPARATORS = ",;\t"
-MOST_BYTES, MOST_ROWS, MOST_FAULTS = 64 * 2**20, 500_000, 20
-UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
-SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')"
+MOST_FAULTS = 20
 
 
 class DemandError(ValueError):
@@ -56,80 +49,19 @@ def read_csv(
 
     skus: the known SKUs; None: any. capacity: pieces that all bins of the warehouse can hold.
     """
-    text = _text(path)
-    reader = _reader(path, text)
+    table = CsvTable(path, NEEDED, OPTIONAL, DemandError)
     wrong: list[str] = []
     orders = _Orders(skus, capacity)
-    try:
-        for count, row in enumerate(reader):
-            if count == MOST_ROWS:
-                raise DemandError(f"{path}: more than {MOST_ROWS} rows; split the file")
-            try:
-                orders.add(row, reader.decimal_comma)
-            except ValueError as error:
-                wrong.append(f"{path}:{reader.line_num}: {error}")
-            if len(wrong) == MOST_FAULTS:
-                break
-    except csv.Error as error:
-        raise DemandError(f"{path}:{reader.line_num}: {error}") from error
+    for row in table:
+        try:
+            orders.add(row, table.decimal_comma)
+        except ValueError as error:
+            wrong.append(f"{path}:{table.line}: {error}")
+        if len(wrong) == MOST_FAULTS:
+            break
     if wrong:
         raise DemandError("\n".join(wrong))
     return orders.wanted()
-
-
-def _text(path: str | os.PathLike[str]) -> str:
-    path = Path(path)
-    try:
-        if path.exists() and not path.is_file():
-            raise DemandError(f"{path}: is no file")
-        if (size := path.stat().st_size) > MOST_BYTES:
-            raise DemandError(
-                f"{path}: has {size >> 20} MB; {MOST_BYTES >> 20} MB or less were expected; "
-                "split the file"
-            )
-        data = path.read_bytes()
-    except OSError as error:
-        raise DemandError(f"{path}: {error.strerror}") from error
-    if data.startswith(UTF_16) or b"\0" in data[:200]:
-        raise DemandError(f"{path}: is in UTF-16, or no text; {SAVE_AS}")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        byte = data[error.start]
-        raise DemandError(f"{path}:{line}: byte {byte:#x} is not UTF-8; {SAVE_AS}") from error
-
-
-class _Rows(csv.DictReader):
-    decimal_comma = False  # 1,5 is one and a half
-
-
-def _reader(path: str | os.PathLike[str], text: str) -> _Rows:
-    """Returns a reader of the rows, by names of columns. Raises DemandError if one is missing."""
-    first = text.partition("\n")[0].lower()
-
-    def known(separator: str) -> list[str]:
-        return [c for c in (*NEEDED, *OPTIONAL) if c in _names(first.split(separator))]
-
-    separator = max(SEPARATORS, key=lambda one: (len(known(one)), first.count(one)))
-    rows = _Rows(io.StringIO(text, newline=""), delimiter=separator)
-    rows.decimal_comma = separator == ";"
-    names = rows.fieldnames = _names(rows.fieldnames or ())
-    lacking = [name for name in NEEDED if name not in names]
-    if lacking:
-        found = shown(", ".join(filter(None, names))) or "none"
-        raise DemandError(
-            f"{path}:1: there is no column {', '.join(lacking)}; the first line has to name the "
-            f"columns, those in it are: {found}"
-        )
-    twice = [name for name in (*NEEDED, *OPTIONAL) if names.count(name) > 1]
-    if twice:
-        raise DemandError(f"{path}:1: there are two columns {twice[0]}")
-    return rows
-
-
-def _names(fields: Iterable[str]) -> list[str]:
-    return [field.strip().strip('"').lower() for field in fields]
 
 
 class _Orders:
@@ -142,10 +74,8 @@ class _Orders:
 
     def add(self, row: Mapping[Any, Any], decimal_comma: bool) -> None:
         """Adds a row. Raises ValueError, which says what is wrong with it."""
-        if None in row:
-            raise ValueError("there are more fields than columns")
-        row = {name: (text or "").strip() for name, text in row.items()}
-        if not any(row.values()):
+        row = fields(row)
+        if not row:
             return
         reference, sku = row["reference"], row["sku"]
         if not reference:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The settings of a shift's stations."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -19,7 +20,7 @@ class Settings:
     hours: tuple[tuple[float, float], ...] = ()  # when it is open, from the begin [h]; (): always
     bundle_s: float = 10.0
     units_per_station: int | None = None  # at it or on their way; None: by the number of robots
-    by_station: dict[str, dict[str, Any]] = field(default_factory=dict)  # exceptions, by name
+    by_station: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # exceptions, by name
 
     def of(self, station: str) -> "Settings":
         """Returns the settings of the station of that name."""

@@ -2,13 +2,15 @@
 """A whole shift from a description to its folder: what simulate and sweep run."""
 
 import contextlib
+import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from warehouse_layout import FloorError
-from warehouse_operations import check, report, runs
+from warehouse_layout import FloorError, layout_choice
+from warehouse_layout.layout_file import LayoutFileError, text_of
+from warehouse_operations import check, layout_site, report, runs
 from warehouse_operations.building import world_of
 from warehouse_operations.database import DatabaseError
 from warehouse_operations.demand import DemandError
@@ -31,6 +33,7 @@ ERRORS = (
     DemandError,
     InUseError,
     InstanceError,
+    LayoutFileError,
     PolicyError,
     SiteError,
     runs.RunError,
@@ -39,10 +42,13 @@ ERRORS = (
 
 @dataclass(frozen=True)
 class Description:
-    """A shift to be simulated. size: a preset; else instance, an .xinst file."""
+    """A shift to be simulated. size: a preset; else layout, a file or a preset, or instance."""
 
     size: str = "medium"
-    instance: str = ""
+    layout: str = ""  # a .layout.yaml file
+    robots: int = 0  # instead of the layout's or the preset's; 0: as many as it has
+    stations: int = 0  # picking stations that are open, the first ones; 0: all
+    instance: str = ""  # an .xinst file
     settings: str = ""  # an .xsett file
     seconds: float = 3600.0
     orders: str = "fill"
@@ -55,13 +61,36 @@ class Description:
     def config(self) -> dict[str, Any]:
         """The part of run.json that, with the seed, decides the outcome."""
         return {
-            "site": Path(self.instance).stem if self.instance else self.size,
+            "site": self.site_name,
             "orders": self.orders,
-            "policies": Policies(self.policies).chosen,
+            "policies": self.chosen_policies.chosen,
             "physics": self.physics,
             "seconds": self.seconds,
+            **({"robots": self.robots} if self.robots else {}),
+            **({"stations": self.stations} if self.stations else {}),
             **({"realism": self.realism} if self.realism else {}),
+            **({"layout": self._fingerprint} if self.layout else {}),
         }
+
+    @property
+    def site_name(self) -> str:
+        """The name of the warehouse."""
+        if self.layout:
+            return layout_choice.chosen(self.layout).title
+        return Path(self.instance).stem if self.instance else self.size
+
+    @property
+    def _fingerprint(self) -> str:
+        """The hash of the layout: a sweep goes on only with what has not changed."""
+        text = text_of(layout_choice.chosen(self.layout))
+        return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
+
+    @property
+    def chosen_policies(self) -> Policies:
+        """The policies: those told, and besides them those of the layout. Raises PolicyError."""
+        if not self.layout:
+            return Policies(self.policies)
+        return layout_site.merged(layout_choice.chosen(self.layout), Policies(self.policies))
 
 
 def with_settings(description: Description) -> Description:
@@ -101,6 +130,9 @@ def _jams(path: str, site: Site) -> str:
 
 def open_operations(description: Description, database: str | None = None) -> Operations:
     """Opens the shift of a Description; raises one of ERRORS."""
+    world: World | None
+    if description.robots and description.instance:
+        raise InstanceError("robots: an instance has its own; a layout or a size was expected")
     if description.instance:
         site = read_instance(description.instance)
         if description.settings:
@@ -112,18 +144,43 @@ def open_operations(description: Description, database: str | None = None) -> Op
                 raise InstanceError(jams)
             with _told_as_ours():
                 world, site = world_of(site, description.seed, description.realism)
+    elif description.layout or description.robots:
+        file = layout_choice.chosen(description.layout or description.size)
+        world = _of_layout(description)
+        site = layout_site.of_file(Site.of_world(world, file.title), file)
     else:
         world = _preset(description)
         site = Site.of_world(world, description.size)
-    return Operations(
+    _check_stations(description, site)
+    ops = Operations(
         world,
         site=site,
         orders=description.orders,
         seed=description.seed,
-        policies=Policies(description.policies),
+        policies=description.chosen_policies,
         database=database,
         physics=description.physics,
     )
+    if description.stations:
+        _open_stations(ops, description.stations)
+    return ops
+
+
+def _check_stations(description: Description, site: Site) -> None:
+    count = sum(station.kind == "PICK" for station in site.plan.stations)
+    if description.stations > count:
+        raise InstanceError(
+            f"stations is {description.stations}; {site.name} has {count} for picking"
+        )
+
+
+def _open_stations(ops: Operations, count: int) -> None:
+    """Opens the first so many picking stations and closes the others."""
+    shift = ops.shift
+    for i, station in enumerate(shift.picking.stations):
+        shift.set_station(station.name, i < count, station.mode)
+    working = count + len(shift.replenishing.stations)
+    shift.units_per_station = shift.settings.units_at(ops.fleet.robot_count, working)
 
 
 def simulate(
@@ -185,6 +242,18 @@ def _simulate(
     return run, faults
 
 
+def _of_layout(description: Description) -> "World":
+    from kiva_plugin_cpp import World
+
+    with _told_as_ours():
+        return World.layout(
+            description.layout or description.size,
+            robots=description.robots or None,
+            seed=description.seed,
+            realism=description.realism or None,
+        )
+
+
 def _preset(description: Description) -> "World":
     from kiva_plugin_cpp import World
 
@@ -199,5 +268,7 @@ def _told_as_ours() -> Iterator[None]:
     """Turns errors of an unknown preset, or of a wrong file of realism, into one of ERRORS."""
     try:
         yield
+    except LayoutFileError:
+        raise
     except (ValueError, FileNotFoundError) as error:
         raise InstanceError(str(error)) from error

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A warehouse before a shift: its floor, and who stands where."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.floor_plan import FloorPlan
@@ -12,6 +12,14 @@ from warehouse_operations.settings import Settings
 
 if TYPE_CHECKING:
     from kiva_plugin_cpp import World
+
+
+class Stock(NamedTuple):
+    """Pieces of a SKU in the bin of that item."""
+
+    item: str
+    sku: str
+    pieces: int
 
 
 @dataclass(frozen=True)
@@ -27,6 +35,7 @@ class Site:
     settings: Settings = field(default_factory=Settings)
     skus: int | None = None  # how many; None: by the number of bins
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
+    stock: Sequence[Stock] = ()  # at first, bin by bin; (): drawn by chance
 
     @classmethod
     def of_world(cls, world: "World", name: str = "") -> "Site":

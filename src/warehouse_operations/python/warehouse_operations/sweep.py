@@ -2,7 +2,7 @@
 """A grid of configurations and seeds, each shift in a process of its own.
 
 out: results                  # folder; beside the file
-size: medium                  # or instance: FILE.xinst, settings: FILE.xsett
+size: medium                  # or layout: FILE.layout.yaml; or instance: FILE.xinst, settings: FILE.xsett
 minutes: 60
 physics: false
 seeds: 10                     # 1 to 10, or a list
@@ -23,6 +23,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
+from warehouse_layout import layout_choice
 from warehouse_operations import runs
 from warehouse_operations.locks import FileLock, InUseError
 from warehouse_operations.policies import ROLES
@@ -38,8 +39,11 @@ from warehouse_operations.yaml_file import read_yaml
 KINDS: dict[str, tuple[Any, str]] = {
     "out": (str, "the name of a folder"),
     "size": (str, "the name of a preset"),
+    "layout": (str, "a file"),
     "instance": (str, "a file"),
     "settings": (str, "a file"),
+    "robots": (int, "a whole number above 0"),
+    "stations": (int, "a whole number above 0"),
     "minutes": ((int, float), "a number above 0"),
     "physics": (bool, "true or false"),
     "orders": (str, "fill, fill:N, poisson:PER_HOUR, FILE.csv or none"),
@@ -156,6 +160,7 @@ def _check(path: Path, key: str, value: Any) -> None:
         is_other
         or not isinstance(value, kind)
         or (key == "minutes" and not 0 < value < MOST_MINUTES)
+        or (key in ("robots", "stations") and value < 1)
     ):
         raise SweepError(f"{path}: {key} is {value!r}; {expected} was expected")
 
@@ -182,9 +187,12 @@ def _description(path: Path, data: dict[str, Any], point: Mapping[str, Any]) -> 
             policies[key.removeprefix("policies.")] = value
     known = {one.name for one in fields(Description)}
     given = {key: merged[key] for key in merged.keys() & known}
-    for key in ("instance", "settings"):
-        if given.get(key):
+    for key in ("layout", "instance", "settings"):
+        if given.get(key) and not (key == "layout" and layout_choice.is_preset(given[key])):
             given[key] = str(path.parent / given[key])
+    sites = [key for key in ("size", "layout", "instance") if key in given]
+    if len(sites) > 1:
+        raise SweepError(f"{path}: {' and '.join(sites)}: one of them was expected")
     try:
         given |= {"seconds": 60 * float(merged.get("minutes", 60)), "policies": policies}
         one = with_settings(Description(**given))

@@ -15,7 +15,8 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from warehouse_layout import world_file
-from warehouse_layout.request import FIT, PRESETS
+from warehouse_layout.request import FIT, LIMITS, PRESETS
+from warehouse_sim import layout_argument
 from warehouse_viewer.server import token
 
 MOST_PORT, MOST_THREADS, MOST_CHECKPOINTS = 65535, 256, 100_000
@@ -37,6 +38,11 @@ def faults(values: Mapping[str, str], place: Place) -> list[str]:
     """Returns a sentence for each of the arguments {name: text} that is wrong."""
     checked = ((name, text, ARGUMENTS[name](text, place)) for name, text in values.items())
     return [f"{name}:={_without_password(text)}: {wrong}" for name, text, wrong in checked if wrong]
+
+
+def conflicts(values: Mapping[str, str], place: Place) -> list[str]:
+    """Returns sentences about arguments {name: text} that are right, but contradict each other."""
+    return layout_argument.conflicts(values, place.worlds, place.cwd)
 
 
 def value(name: str, text: str, place: Place) -> str:
@@ -114,6 +120,15 @@ def _file(what: str) -> Check:
         return f"{what} was expected; {path} is {'no file' if path.exists() else 'not there'}"
 
     return check
+
+
+def _layout(text: str, place: Place) -> str:
+    return layout_argument.fault(text, place.cwd)
+
+
+def _count(text: str, place: Place) -> str:
+    """Accepts a number of robots, and ""."""
+    return _whole(LIMITS["robots"])(text, place) if text else ""
 
 
 def _new_file(text: str, place: Place) -> str:
@@ -204,6 +219,8 @@ ARGUMENTS: dict[str, Check] = {
     "replay": _file("a recording"),
     "size": _one_of("none", *PRESETS, FIT),
     "at": _point,
+    "layout": _layout,
+    "robots": _count,
     "rviz": _flag,
     "rtf": _number(lambda rtf: rtf >= 0, "a factor above 0, or 0 (as fast as possible)"),
     "seed": _whole(MOST_WHOLE),

@@ -100,7 +100,7 @@ def check_arguments(given: Mapping[str, str], caller: Caller, place: Place) -> N
     typed = caller.typed if is_ours else {}
     checked = launch_arguments.ARGUMENTS.keys() & (known or ())
     values = {**given, **{name: text for name, text in typed.items() if name in checked}}
-    texts += launch_arguments.faults(values, place)
+    texts += launch_arguments.faults(values, place) or launch_arguments.conflicts(values, place)
     if texts:
         raise LaunchError("\n  ".join(texts))
 

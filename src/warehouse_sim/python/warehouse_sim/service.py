@@ -15,10 +15,12 @@ from warehouse_client.warehouse_builder import UndoneError, WarehouseBuilder
 from warehouse_layout import models
 from warehouse_layout.cells import Cells
 from warehouse_layout.fit import fit, fit_largest
-from warehouse_layout.layout import SEED, plan
-from warehouse_layout.request import FIT, RequestError, resolve
+from warehouse_layout.layout import SEED, Layout, plan
+from warehouse_layout.layout_file import LayoutFileError
+from warehouse_layout.request import FIT, Request, RequestError, resolve
 from warehouse_msgs.srv import CreateWarehouseResponse
 from warehouse_sim import hints
+from warehouse_sim.layout_building import LayoutBuilding
 
 GREETED = "~greeted"
 
@@ -28,7 +30,7 @@ class WarehouseService:
 
     In a world of another origin, `keeps_floor`, a warehouse stands on the free cells of the floor
     that is there, if there is one: in its largest room, or where the point `at`, (x, y) [m], is.
-    `seed` decides what in a layout is left to chance.
+    `seed` decides what in a layout is left to chance. `layouts` places those of layout files.
     """
 
     def __init__(
@@ -38,9 +40,11 @@ class WarehouseService:
         keeps_floor: bool = False,
         seed: int = SEED,
         at: Any = None,
+        layouts: LayoutBuilding | None = None,
     ) -> None:
         self._ros, self._tell, self._lock = ros, tell, threading.Lock()
         self._keeps_floor, self._seed, self._at = keeps_floor, seed, at
+        self._layouts = layouts or LayoutBuilding(seed)
 
     def handle(self, request: Any) -> Any:
         """Answers a CreateWarehouse request; a refused one changes nothing."""
@@ -51,17 +55,25 @@ class WarehouseService:
                 (request.robots, request.items, request.shelves),
             )
             success = True
-        except (RequestError, EngineError) as error:
+        except (RequestError, LayoutFileError, EngineError) as error:
             message, success = str(error), False
         header = Header(stamp=self._ros.Time.now(), frame_id="world")
         return CreateWarehouseResponse(header, success, message)
 
     def create(self, name: str, number: int = 0, counts: tuple[int, int, int] = (0, 0, 0)) -> str:
-        """Builds a warehouse and returns a description of it. Raises RequestError, EngineError."""
-        fits = name == FIT and not any(counts)
-        wanted = None if fits else resolve(name, *counts)
+        """Builds a warehouse and returns a description of it.
+
+        name: a preset, or a layout file, where counts are 0. Raises RequestError, LayoutFileError,
+        EngineError.
+        """
+        path = ""
         with self._lock, Engine(self._ros) as engine:
-            wanted, layout = self._layout(wanted, engine)
+            if self._layouts.takes(name) and not any(counts):
+                name, path, layout = self._layouts.place(name, engine)
+                wanted: Any = _counted(layout)
+            else:
+                fits = name == FIT and not any(counts)
+                wanted, layout = self._layout(None if fits else resolve(name, *counts), engine)
             transaction = BuildTransaction(self._ros, engine)
             transaction.begin(name)
             try:
@@ -69,7 +81,7 @@ class WarehouseService:
             except UndoneError:
                 self._finish(transaction, "", 0, layout.floor)
                 raise
-            self._finish(transaction, name, number, layout.floor)
+            self._finish(transaction, name, number, layout.floor, path)
         title = f"{name}: " if name else ""
         return f"{title}{wanted} {_where(layout)}"
 
@@ -84,19 +96,21 @@ class WarehouseService:
             return fit_largest(cells, self._seed, self._at)
         return wanted, fit(wanted, cells, self._seed, self._at)
 
-    def _finish(self, transaction, name, number, floor):
+    def _finish(self, transaction, name, number, floor, path=""):
         identity.write(self._ros, name, number)
+        self._ros.set_param(identity.LAYOUT, path)
         self._ros.set_param("/warehouse/floor", [float(edge) for edge in astuple(floor)])
         transaction.commit()
 
     def start(self, size: str) -> None:
-        """Finds the warehouse as it stands; builds the preset `size`, if any, where none does.
+        """Finds the warehouse as it stands; builds the preset or layout `size`, if any, where none
+        does.
 
         What a node that died has left half-built is taken away first, and its pause with it.
         """
         try:
             self._find_or_build("" if size == "none" else size)
-        except RequestError as error:
+        except (RequestError, LayoutFileError) as error:
             self._tell(f"nothing was built: {error}")
 
     def _find_or_build(self, size):
@@ -126,6 +140,12 @@ class WarehouseService:
         title = title or f"{identity.read(self._ros)[0] or 'world'}: {found}"
         self._tell(hints.greeting(title, hints.commands(found)))
         self._ros.set_param(GREETED, True)
+
+
+def _counted(layout: Layout) -> Request:
+    """Returns the counts of a Layout."""
+    rows = (layout.robots, layout.units, layout.item_unit, layout.belts)
+    return Request(*map(len, rows))
 
 
 def _where(layout):

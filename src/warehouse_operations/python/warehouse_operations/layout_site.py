@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a layout file says about a shift: how its stations work, its policies and initial stock."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from warehouse_layout.layout_file import LayoutFile, StationEntry
+from warehouse_layout.placement import stock_of
+from warehouse_operations.policies import Policies, PolicyError
+from warehouse_operations.site import Site, Stock
+
+
+def of_file(site: Site, file: LayoutFile) -> Site:
+    """Returns the Site of a warehouse that was built of a layout file, with what else that says.
+
+    Raises LayoutFileError for a stock file that is wrong.
+    """
+    by_station = {entry.name: _settings(entry) for entry in file.stations if entry.settings}
+    rows = stock_of(file, max(site.units, default=0))
+    # Each row of the stock was made an item, in their order.
+    stock = [Stock(f"item{i}", row.sku, row.quantity) for i, row in enumerate(rows, start=1)]
+    return replace(
+        site,
+        name=site.name or file.title,
+        settings=replace(site.settings, by_station=by_station),
+        stock=stock,
+    )
+
+
+def _settings(entry: StationEntry) -> Mapping[str, Any]:
+    """Returns Settings of a station that differ from the defaults."""
+    told = entry.settings
+    piece = "piece_s" if entry.kind == "pick" else "bundle_s"
+    names = {"capacity": "slots", "seconds_a_piece": piece, "pick_seconds": "pick_s"}
+    return {names[name]: int(v) if name == "capacity" else float(v) for name, v in told.items()}
+
+
+def policies_of(file: LayoutFile) -> Policies:
+    """Returns the policies of a layout file. Raises PolicyError with its name."""
+    return Policies(dict(file.policies), f"{file.path or file.title}: policies")
+
+
+def merged(file: LayoutFile, told: Policies) -> Policies:
+    """Returns the policies that were told, and for the other roles those of a layout file.
+
+    Raises PolicyError.
+    """
+    policies_of(file)
+    return Policies({**file.policies, **told.given})
+
+
+def fault(file: LayoutFile) -> str:
+    """Returns what a shift could not take of a layout file, as a sentence; "" if nothing."""
+    try:
+        policies_of(file)
+    except PolicyError as error:
+        return str(error)
+    return ""

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Places the warehouses of layout files in the running world."""
+
+import os
+from pathlib import Path
+
+from warehouse_client.engine import Engine
+from warehouse_layout import files, layout_choice, layout_file, layout_world, models, placement
+from warehouse_layout.floor_plan import UNIT, occupancy_of
+from warehouse_layout.layout import SEED, Layout
+from warehouse_layout.layout_file import LayoutFile, LayoutFileError
+
+TAKEN = 100  # in the world's map: by what belongs to no warehouse
+
+
+def is_file(name: str) -> bool:
+    """Tells whether a warehouse's name is that of a layout file."""
+    if layout_choice.is_preset(name):
+        return False
+    return name.endswith(layout_file.SUFFIX) or os.sep in name
+
+
+def _whole(name: str) -> str:
+    """Returns the whole path of a layout file, and the name of a preset as it is."""
+    return str(layout_choice.path_of(name)) if is_file(name) else name
+
+
+class LayoutBuilding:
+    """`world` is the world's file, if one was named; `seed` decides what is left to chance.
+
+    `launched`: the layout with which the launch began, a file or a preset. It has `robots` robots,
+    if that is a number.
+    """
+
+    def __init__(
+        self, seed: int = SEED, world: str = "", launched: str = "", robots: str = ""
+    ) -> None:
+        self._seed, self._world = seed, world
+        self._launched = _whole(launched)
+        self._robots = int(robots) if robots else None
+
+    def takes(self, name: str) -> bool:
+        """Tells whether a warehouse of that name is to be placed here."""
+        return is_file(name) or bool(name and name == self._launched and self._robots)
+
+    def place(self, name: str, engine: Engine) -> tuple[str, str, Layout]:
+        """Returns a warehouse's name, the path of its file, and its Layout.
+
+        The path of a preset is "". Raises LayoutFileError.
+        """
+        name = _whole(name)
+        file = self._in_hall(layout_choice.chosen(name))
+        robots = self._robots if name == self._launched else None
+        layout_choice.check(file, robots)
+        laid = placement.place(file, self._seed, robots)
+        self._check_room(file, laid, engine)
+        return file.title, name if is_file(name) else "", laid
+
+    def _in_hall(self, file: LayoutFile) -> LayoutFile:
+        """Returns the file as it stands in the hall of this world, if there is one."""
+        hall = self._hall()
+        own = layout_choice.building_of(file, files.worlds())
+        if own and not (hall and own.samefile(hall)):
+            raise LayoutFileError(
+                f"{file.path}: it stands in {own}, which is not this world: launch it by layout:="
+            )
+        return layout_choice.in_building(file, hall) if hall and not own else file
+
+    def _hall(self) -> Path | None:
+        if self._world:
+            return layout_choice.world_named(self._world)
+        if is_file(self._launched):
+            return layout_choice.building_of(layout_choice.chosen(self._launched), files.worlds())
+        return None
+
+    def _check_room(self, file: LayoutFile, laid: Layout, engine: Engine) -> None:
+        grid = engine.map()
+        info, corner = grid.info, grid.info.origin.position
+        occupancy = occupancy_of(grid)
+        # Belts and units go with the warehouse that stands; its walls can't be told from the hall's.
+        occupancy[occupancy < TAKEN] = UNIT
+        if f"{models.WALLS}1" in engine.names():
+            occupancy[:] = UNIT
+        half = info.resolution / 2
+        layout_world.check_room(
+            file, laid, corner.x + half, corner.y + half, info.resolution, occupancy
+        )
