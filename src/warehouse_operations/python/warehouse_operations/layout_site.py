@@ -30,10 +30,13 @@ def of_file(site: Site, file: LayoutFile) -> Site:
 
 def _settings(entry: StationEntry) -> Mapping[str, Any]:
     """Returns Settings of a station that differ from the defaults."""
-    told = entry.settings
-    piece = "piece_s" if entry.kind == "pick" else "bundle_s"
-    names = {"capacity": "slots", "seconds_a_piece": piece, "pick_seconds": "pick_s"}
-    return {names[name]: int(v) if name == "capacity" else float(v) for name, v in told.items()}
+    names = {
+        "capacity": "slots",
+        "seconds_a_piece": "piece_s" if entry.kind == "pick" else "bundle_s",
+        "pick_seconds": "pick_s",
+        "seconds_a_line": "line_s",
+    }
+    return {names.get(name, name): value for name, value in entry.settings.items()}
 
 
 def policies_of(file: LayoutFile) -> Policies:
