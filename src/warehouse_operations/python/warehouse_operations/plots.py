@@ -23,6 +23,7 @@ ACTIVITY_COLOURS = {
     "back": "#9a9ac9",
     "idle": "#d8d8d8",
 }
+GREYS = {"s": 0.88, "p": 0.94, "l": 0.97, "#": 0.62}  # of cells, beneath a heat map
 BLOCKS = 12  # most parts of a shift: shorter ones show little but chance
 _ids = count()
 mpl.rcParams.update({"font.size": 9, "svg.hashsalt": "report", "svg.fonttype": "none"})
@@ -107,18 +108,32 @@ def robots(groups: Sequence[Group]) -> str:
     return _svg(figure, axes, False)
 
 
-def heat_map(values: Any, title: str) -> str:
-    """Returns a picture of values over the floor, (h, w)."""
+def heat_map(values: Any, title: str, floor: Sequence[str] = ()) -> str:
+    """Returns a picture of values over the floor, (h, w).
+
+    floor: its rows as runs.floor_rows() tells them, the lowest first; they lie beneath the values.
+    """
     values = np.asarray(values, float)
     height, width = values.shape
     figure, axes = _figure(3.7, min(max(3.7 * height / width, 1.5), 5))
     top = np.percentile(values[values > 0], 99) if (values > 0).any() else 1.0
+    if len(floor) == height:
+        axes.imshow(_ground(floor), origin="lower")
     shown = np.ma.masked_equal(values, 0)
     image = axes.imshow(shown, origin="lower", cmap="YlOrRd", vmin=0, vmax=top)
     axes.set(title=title, xticks=[], yticks=[])
     axes.spines[:].set_visible(True)
     figure.colorbar(image, shrink=0.7)
     return _svg(figure, axes, False)
+
+
+def _ground(floor: Sequence[str]) -> np.ndarray:
+    """Returns the colours of a floor's cells, (h, w, 3)."""
+    rows = np.array([list(row) for row in floor])
+    colours = np.ones((*rows.shape, 3))
+    for character, grey in GREYS.items():
+        colours[rows == character] = grey
+    return colours
 
 
 def comparison(groups: Sequence[Group], kpi: str, label: str) -> str:

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_operations import comparison, plots
+from warehouse_operations import comparison, plots, report_exports
 from warehouse_operations.comparison import Estimate, Group
+from warehouse_operations.report_front import assumptions, opening
 from warehouse_operations.runs import REPORT, Run
 
 # The figures of kpis.json in the table: name, words, unit, factor, digits.
@@ -77,7 +78,9 @@ text-align: right; vertical-align: top } td:first-child, th:first-child { text-a
 tr:nth-child(even) { background: #f6f6f4 } .big { display: flex; gap: 2.5em; margin: 1.2em 0 }
 .big b { display: block; font-size: 1.9em } .note { color: #666; font-size: .9em }
 .row { display: flex; flex-wrap: wrap; gap: 1em } svg { max-width: 100%; height: auto }
-.bad { color: #b00 }
+.bad { color: #b00 } .answer { font-size: 1.25em } h2, svg, tr { break-inside: avoid }
+h2 { break-after: avoid } @media print { body { margin: 0 } .export { display: none }
+.rest { break-before: page } }
 """
 
 
@@ -85,10 +88,14 @@ def page(runs: Sequence[Run]) -> str:
     """Returns the HTML of the report about runs."""
     groups = comparison.grouped(runs)
     first = groups[0]
-    parts = [_head(runs, groups), _headline(first) if len(groups) == 1 else _verdicts(groups)]
+    parts = [_head(runs, groups)]
+    alone = len(groups) == 1
+    parts += [opening(first, _headline(first)) if alone else _verdicts(groups)]
     note = "Bands reach from the least to the most of the runs." if _several(groups) else ""
     parts += [_section("Throughput over the shift", plots.throughput(groups), note)]
-    parts += [_section("Figures", _table(groups))]
+    parts += [_section("Assumptions", assumptions(first))] if alone else []
+    exports = report_exports.links(groups, (name for name, *_ in ROWS))
+    parts += ['<div class="rest">', _section("Figures", _table(groups) + exports)]
     if len(groups) > 1:
         pictures = [plots.comparison(groups, kpi, label) for kpi, label in COMPARED]
         note = INTERVALS if all(len(group.runs) > 1 for group in groups) else NO_INTERVALS
@@ -108,7 +115,7 @@ def page(runs: Sequence[Run]) -> str:
         maps = _maps(group.runs[0])
         if maps:
             parts += [_section(f"The floor{escape(name)}", _row(maps))]
-    return "\n".join(parts) + "</body></html>\n"
+    return "\n".join(parts) + "</div></body></html>\n"
 
 
 def write(path: str | os.PathLike[str], runs: Sequence[Run]) -> Path:
@@ -268,7 +275,10 @@ def _number(estimate: Estimate, factor: float, digits: int, unit: str) -> str:
 
 def _maps(run: Run) -> list[str]:
     names = {"traffic": "Loaded robots through a cell", "waiting": "Waiting [robot-seconds]"}
-    return [plots.heat_map(run.data[key], name) for key, name in names.items() if run.data[key]]
+    floor = run.data.get("floor") or []  # runs of before have none
+    return [
+        plots.heat_map(run.data[key], name, floor) for key, name in names.items() if run.data[key]
+    ]
 
 
 def _several(groups: Iterable[Group]) -> bool:

@@ -3,7 +3,8 @@
 
 run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
 stored, completed: a list each}, stations [{name, kind, busy_fraction, pieces, visits}], turnover_s
-and throughput_s of each order, robots {activity: seconds}, traffic and waiting (h, w) or null,
+and throughput_s of each order, robots {activity: seconds}, floor [a text a row], traffic and
+waiting (h, w) or null,
 failures [{kind, count, repairs, mean_repair_s}],
 lateness.
 """
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from warehouse_layout.floor_plan import FloorPlan
 from warehouse_operations.kpis import INTERVAL
 from warehouse_operations.stations import WorkStation
 
@@ -100,12 +102,24 @@ def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, 
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
         "robots": ops.fleet.activities(),
+        "floor": floor_rows(shift.floor.plan),
         "traffic": _map(ops.fleet, "passages"),
         "waiting": _map(ops.fleet, "waiting_map"),
         "failures": log.by_kind() if log else [],
         "mishaps": dict(log.mishaps) if log else {},
         "robot_h": log.robot_s / 3600 if log else 0.0,
     }
+
+
+def floor_rows(plan: FloorPlan) -> list[str]:
+    """Returns a text for each row of cells, the lowest first.
+
+    s is storage, p parking, l a lane, # where no robot drives, . any other street.
+    """
+    cells = np.full(plan.shape, ".")
+    cells[plan.lane], cells[plan.parking], cells[plan.storage] = "l", "p", "s"
+    cells[~plan.passable] = "#"
+    return ["".join(row) for row in cells.tolist()]
 
 
 def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What simulate, report, check and sweep write and say."""
 
+import base64
+import csv
 import json
 import re
 import signal
@@ -315,3 +317,40 @@ def test_what_ideal_robots_have_none_of_is_no_figure_of_theirs():
 def test_ideal_and_simulated_robots_are_told_apart():
     one, other = (Description(physics=physics).config for physics in (True, False))
     assert one != other
+
+
+@pytest.mark.parametrize(
+    "robots, orders, limit",
+    [
+        (1, "fill", "the robots"),
+        (12, "fill", "the picking stations"),
+        (12, "poisson:60", "the orders and the stock"),
+    ],
+)
+def test_the_report_begins_with_the_answer_and_what_limits_it(tmp_path, robots, orders, limit):
+    path = write_instance(tmp_path / "a.xinst", bots=robots, picking=1, replenishing=1, rows=3)
+    description = Description(instance=str(path), orders=orders, seconds=3600, physics=False)
+    run, _ = simulate(description, tmp_path / "out")
+    html = (tmp_path / "out" / "report.html").read_text()
+    pieces = f"{run.kpis['item_throughput_per_hour']:,.0f}"
+    with_robots = "1 robot" if robots == 1 else f"{robots} robots"
+    answer = f"With {with_robots} and 1 picking station the warehouse picks {pieces} pieces and"
+    assert html.index(answer) < html.index("Throughput over the shift")
+    assert f"What limits it: {limit}." in html
+    assert html.index("Assumptions") < html.index('<div class="rest">')
+
+
+def test_the_reports_figures_open_in_a_spreadsheet(tmp_path, instance):
+    description = Description(instance=str(instance), seconds=600, physics=False)
+    run, _ = simulate(description, tmp_path / "out")
+    html = (tmp_path / "out" / "report.html").read_text()
+    found = dict(re.findall(r'download="([a-z.]+)" href="data:text/csv;base64,([^"]+)"', html))
+    files = {
+        name: list(csv.DictReader(base64.b64decode(content).decode().splitlines()))
+        for name, content in found.items()
+    }
+    (row,) = files["figures.csv"]
+    assert float(row["item_throughput_per_hour"]) == run.kpis["item_throughput_per_hour"]
+    picked = sum(int(row["pieces_picked"]) for row in files["throughput.csv"])
+    assert picked == run.kpis["items_picked"]
+    assert [row["name"] for row in files["stations.csv"]] == ["pick1", "replenish1"]
