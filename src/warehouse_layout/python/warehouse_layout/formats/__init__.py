@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads and writes layouts in the formats of others, told apart by the names of files.
+
+    told = formats.convert(Path("hall.dxf"), Path("hall.layout.yaml"))
+    for sentence in told:                          # what could not be carried over
+        print(sentence)
+
+In: .layout.yaml, .sdf, .world, .xinst, .xlayo, .map, map.yaml, .lif.json, .dxf.
+Out: .layout.yaml, .sdf, .map, .lif.json, .svg, .png.
+"""
+
+import importlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from warehouse_layout import layout_file as lf
+from warehouse_layout.formats.common import FormatError
+from warehouse_layout.layout_file import LayoutFile
+
+__all__ = ["FormatError", "convert", "read", "write"]
+
+LAYOUT = lf.SUFFIX
+# By the end of a file's name, the longest first: the module that reads it, and that which writes.
+READERS = {
+    LAYOUT: "layout_file",
+    ".lif.json": "formats.lif",
+    ".xinst": "formats.xinst",
+    ".xlayo": "formats.xlayo",
+    ".world": "from_world",
+    ".yaml": "formats.ros_map",
+    ".yml": "formats.ros_map",
+    ".sdf": "from_world",
+    ".map": "formats.grid_map",
+    ".dxf": "formats.dxf",
+}
+WRITERS = {
+    LAYOUT: "layout_file",
+    ".lif.json": "formats.lif_writer",
+    ".sdf": "world_export",
+    ".map": "formats.grid_map",
+    ".svg": "draw",
+    ".png": "draw",
+}
+
+
+def convert(
+    source: Path,
+    target: Path,
+    layers: Path | None = None,
+    spacing: float | None = None,
+    angle: float | None = None,
+) -> list[str]:
+    """Reads a layout in one format and writes it in another; see read() for the options.
+
+    Returns sentences about what could not be carried over. Raises FormatError, and writes nothing,
+    for a file that can't be read.
+    """
+    _module(target, WRITERS, "written")
+    file, told = read(source, layers, spacing, angle)
+    return [*told, *write(file, target)]
+
+
+def read(
+    path: Path, layers: Path | None = None, spacing: float | None = None, angle: float | None = None
+) -> tuple[LayoutFile, list[str]]:
+    """Returns the layout in a file, and sentences about what could not be carried over.
+
+    `layers` is a YAML file that maps layers of a .dxf to ours. `spacing` is the edge of a cell [m]
+    for drawings and maps without cells (1 m by default), `angle` [rad] by which they are turned
+    about z to lie along the axes (by default as their walls are). Raises FormatError.
+    """
+    path = Path(path)
+    module = _module(path, READERS, "read")
+    options: dict[str, Any] = {}
+    if module.__name__.endswith((".dxf", ".ros_map")):
+        options = {"spacing": spacing, "angle": angle}
+        options |= {"layers": layers} if path.suffix.lower() == ".dxf" else {}
+    return _checked(path, lambda: _with_told(module.read(path, **options)))
+
+
+def write(file: LayoutFile, path: Path) -> list[str]:
+    """Writes a layout; returns what the format can't hold. Raises FormatError."""
+    path = Path(path)
+    module = _module(path, WRITERS, "written")
+    writer = module.draw if module.__name__.endswith(".draw") else module.write
+    return _checked(path, lambda: list(writer(file, path) or []))
+
+
+def _with_told(answer: Any) -> tuple[LayoutFile, list[str]]:
+    return (answer, []) if isinstance(answer, LayoutFile) else answer
+
+
+def _checked(path: Path, action: Callable[[], Any]) -> Any:
+    """Returns what the action does; what is wrong with the file becomes a FormatError."""
+    try:
+        return action()
+    except FormatError:
+        raise
+    except (MemoryError, RecursionError) as error:
+        raise FormatError(f"{path}: it is too large or too deep to be read") from error
+    except (ValueError, OSError) as error:
+        text = str(error)
+        raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from error
+
+
+def _module(path: Path, modules: dict[str, str], verb: str) -> Any:
+    name = Path(path).name.lower()
+    for suffix, module in modules.items():
+        if name.endswith(suffix):
+            return importlib.import_module(f"warehouse_layout.{module}")
+    known = ", ".join(modules)
+    raise FormatError(f"{path}: no format that can be {verb}: known are {known}")
