@@ -202,9 +202,7 @@ def _bar(x: float, y: float, length: float, colour: str) -> Any:
     return Rectangle((x, y), length, 0.07, facecolor=colour, edgecolor="#2f3640", linewidth=0.6)
 
 
-def _dimension(
-    axes: Any, begin: tuple[float, float], end: tuple[float, float], text: str
-) -> None:
+def _dimension(axes: Any, begin: tuple[float, float], end: tuple[float, float], text: str) -> None:
     """Draws a dimension line with strokes at its ends and the length in its middle [in]."""
     (x, y), (to_x, to_y) = begin, end
     is_upright = x == to_x
@@ -214,7 +212,10 @@ def _dimension(
         ends = [px - across[0], px + across[0]], [py - across[1], py + across[1]]
         axes.plot(*ends, color="#2f3640", linewidth=0.7)
         axes.plot([px - 0.04, px + 0.04], [py - 0.04, py + 0.04], color="#2f3640", linewidth=1.1)
-    middle = (x + to_x) / 2 - (0.09 if is_upright else 0), (y + to_y) / 2 - (0 if is_upright else 0.09)
+    middle = (
+        (x + to_x) / 2 - (0.09 if is_upright else 0),
+        (y + to_y) / 2 - (0 if is_upright else 0.09),
+    )
     style = _text(9, "center") | {"ha": "center", "rotation": 90 if is_upright else 0}
     axes.text(*middle, text, **style)
 

@@ -6,7 +6,7 @@ a lane. A world that world_export wrote gives the same drawing, as long as it st
 """
 
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from warehouse_layout import drawn_floor, floor_markings, placement, station_lan
 from warehouse_layout import layout_file as lf
 from warehouse_layout.floor_plan import BELT, UNIT, FloorError, FloorPlan
 from warehouse_layout.formats import arrows
-from warehouse_layout.formats.common import named, with_letters
+from warehouse_layout.formats.common import with_letters
 from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError, StationEntry
 from warehouse_layout.masks import labelled
 from warehouse_layout.models import FLOOR, WALLS, kind_and_number
@@ -30,13 +30,11 @@ TURNING, HIGH, STEP = 0.57, 2.5, 0.03  # [m]: as the world takes them for its ma
 ROUNDING = 1e-6  # [m]
 
 
-def read(path: str | Path) -> LayoutFile:
-    """Returns the layout of a world file. Raises LayoutFileError."""
-    return read_with_losses(path)[0]
+def read(path: str | Path) -> tuple[LayoutFile, list[str]]:
+    """Returns the layout of a world file, and sentences about what a layout can't hold.
 
-
-def read_with_losses(path: str | Path) -> tuple[LayoutFile, list[str]]:
-    """Returns the layout of a world file, and sentences about what a layout can't hold."""
+    Raises LayoutFileError.
+    """
     try:
         return _Drawing(read_sdf(path), str(path)).file()
     except (WorldError, FloorError) as error:
@@ -61,41 +59,42 @@ class _Raster:
         """Returns which cells (n, 2) are on the drawing, (n,) bool."""
         return ((cells >= 0) & (cells < self.shape[::-1])).all(axis=1)
 
-    def covered(self, solid: Solid, turning: float) -> np.ndarray:
-        """Returns the cells that a solid reaches into, (h, w) bool.
-
-        A robot that turns in one needs that far from its middle [m]; 0: the middle alone counts.
-        """
+    def cover(self, mask: np.ndarray, solid: Solid, turning: float, half_cell: float) -> None:
+        """Adds to a mask (h, w) the cells that a solid reaches into, or in which a robot that needs
+        `turning` [m] from the middle can't turn. Of a cell counts what is within `half_cell` [m] of
+        its middle."""
         x, y, half_x, half_y, angle = solid.rectangle()
         reach = np.hypot(half_x, half_y) + max(turning, self.spacing)
         low = np.floor((np.array([x, y]) - reach - self.origin) / self.spacing).astype(int)
         high = np.ceil((np.array([x, y]) + reach - self.origin) / self.spacing).astype(int) + 1
         columns, rows = (
-            np.arange(max(0, first), min(last, size))
+            np.arange(max(0, first), max(0, min(last, size)))
             for first, last, size in zip(low, high, self.shape[::-1])
         )
         dx = self.origin[0] + columns * self.spacing - x
         dy = (self.origin[1] + rows * self.spacing - y)[:, None]
-        out = np.zeros(self.shape, bool)
-        inside = _reached(dx, dy, half_x, half_y, angle, turning, turning and self.spacing / 2)
-        out[np.ix_(rows, columns)] = inside
-        return out
+        mask[np.ix_(rows, columns)] |= _reached(dx, dy, half_x, half_y, angle, turning, half_cell)
 
 
 def _reached(
-    dx: np.ndarray, dy: np.ndarray, half_x: float, half_y: float, angle: float, turning: float,
+    dx: np.ndarray,
+    dy: np.ndarray,
+    half_x: float,
+    half_y: float,
+    angle: float,
+    turning: float,
     half_cell: float,
 ) -> np.ndarray:
     """Returns where a rectangle about (0, 0) is nearer than `turning` to the middle of a cell, or
     reaches into the cell."""
     cos, sin = np.cos(angle), np.sin(angle)
     along, across = np.abs(cos * dx + sin * dy) - half_x, np.abs(cos * dy - sin * dx) - half_y
-    near = np.hypot(np.maximum(along, 0), np.maximum(across, 0)) < max(turning, ROUNDING)
-    half = half_cell - ROUNDING
+    near = np.hypot(np.maximum(along, 0), np.maximum(across, 0)) < turning
+    half = max(half_cell - ROUNDING, 0.0)
     slanted = half * (abs(cos) + abs(sin))
     wide, deep = (abs(cos) * a + abs(sin) * b for a, b in ((half_x, half_y), (half_y, half_x)))
-    within = (along < slanted) & (across < slanted)
-    within &= (np.abs(dx) < wide + half) & (np.abs(dy) < deep + half)
+    within = (along <= slanted) & (across <= slanted)
+    within &= (np.abs(dx) <= wide + half) & (np.abs(dy) <= deep + half)
     return near | within
 
 
@@ -111,9 +110,13 @@ class _Drawing:
 
     def file(self) -> tuple[LayoutFile, list[str]]:
         """Returns the layout, and sentences about what it can't hold."""
-        belts, walls = self._covered("conveyor_belt"), self._covered(WALLS)
-        plan = self._plan(belts, walls | self._obstacles())
-        floor = self._floor(plan, belts, walls)
+        half = self._raster.spacing / 2
+        belts = self._covered(self._kinds.get("conveyor_belt", ()), 0.0, half)
+        # Walls of a layout are as wide as leaves robots room beside them; their middles tell.
+        walls = self._covered(self._kinds.get(WALLS, ()), 0.0, 0.0)
+        walls |= self._covered(self._obstacles(), TURNING, half)
+        plan = self._plan(belts, walls)
+        floor, unsaid = self._floor(plan, belts, walls)
         file = LayoutFile(
             floor=floor,
             name=self._world.name,
@@ -127,7 +130,12 @@ class _Drawing:
         centred = np.allclose(placement.origin(file), plan.origin)
         file = file if centred else replace(file, at=plan.origin)
         self._told += [f"belt {text}" for text in plan.without_lane]
-        return (self._as_drawn(file, plan) if self._hint else with_letters(file)), self._told
+        if self._hint and _same(self._hint, file, plan):
+            file = replace(file, floor=self._hint.floor, stations=self._hint.stations)
+        else:
+            self._told += unsaid
+            file = with_letters(file)
+        return (self._as_told(file, self._hint) if self._hint else file), self._told
 
     def _find_raster(self) -> _Raster:
         if self._hint:
@@ -159,29 +167,29 @@ class _Drawing:
         corners = np.stack([x - reach, y - reach]), np.stack([x + reach, y + reach])
         return corners[0].min(axis=1), corners[1].max(axis=1)
 
-    def _covered(self, kind: str) -> np.ndarray:
-        """Returns the cells whose middle models of a kind cover, (h, w) bool."""
+    def _covered(
+        self, solids: Iterable[Model | Solid], turning: float, half_cell: float
+    ) -> np.ndarray:
+        """Returns the cells that solids, or those of models, cover, (h, w) bool; see cover()."""
         out = np.zeros(self._raster.shape, bool)
-        for model in self._kinds.get(kind, ()):
-            for solid in model.solids:
-                out |= self._raster.covered(solid, 0.0)
+        for one in solids:
+            for solid in one.solids if isinstance(one, Model) else [one]:
+                self._raster.cover(out, solid, turning, half_cell)
         return out
 
-    def _obstacles(self) -> np.ndarray:
-        """Returns the cells in which robots can't drive for other models, (h, w) bool."""
-        out = np.zeros(self._raster.shape, bool)
+    def _obstacles(self) -> Iterator[Solid]:
+        """Yields what else robots can't drive through or beneath."""
         if self._hint and self._hint.building:
-            return out  # the hall around is not part of the drawing
+            return  # the hall around is not part of the drawing
         for model in self._kinds.get(None, ()):
             if model.name == FLOOR or model.plane:
                 continue
             for solid in model.solids:
                 low, high = solid.span()
                 if high > STEP and low < HIGH:
-                    out |= self._raster.covered(solid, TURNING)
+                    yield solid
             if model.has_meshes:
                 self._told.append(f"{model.name}: its mesh is not drawn")
-        return out
 
     def _plan(self, belts: np.ndarray, taken: np.ndarray) -> FloorPlan:
         raster = self._raster
@@ -198,24 +206,20 @@ class _Drawing:
         at = {m.name: m.pose[:2].tolist() for m in self._kinds.get("conveyor_belt", ())}
         return FloorPlan.of_parts(*raster.origin, raster.spacing, occupancy, marks, at)
 
-    def _floor(self, plan: FloorPlan, belts: np.ndarray, walls: np.ndarray) -> np.ndarray:
-        """Returns the drawing (h, w) of a plan."""
+    def _floor(
+        self, plan: FloorPlan, belts: np.ndarray, walls: np.ndarray
+    ) -> tuple[np.ndarray, list[str]]:
+        """Returns the drawing (h, w) of a plan, and sentences about what it can't say."""
+        closed = ~plan.passable & ~walls & ~belts
         floor = np.full(plan.shape, lf.FLOOR, "<U1")
-        floor[~plan.passable] = lf.NO_FLOOR
-        inside = ~plan.passable & ~_from_edge(~plan.passable)
-        floor[inside] = lf.KEEP_OUT
+        floor[~plan.passable] = lf.WALL
+        floor[closed] = lf.KEEP_OUT
+        floor[closed & _from_edge(closed)] = lf.NO_FLOOR
+        floor[belts & ~plan.passable] = lf.BELT
         floor[plan.parking] = lf.PARKING
         floor.flat[list(plan.charging)] = lf.CHARGING
         floor[plan.storage] = lf.STORAGE
-        floor[belts & ~plan.passable] = lf.BELT
-        solid = (walls | self._obstacles()) & ~belts & ~plan.passable
-        floor[solid] = lf.WALL
-        if plan.obstructed.any():
-            cells = [(int(c), int(r)) for r, c in np.argwhere(plan.obstructed)]
-            self._told.append(f"something stands on the marked floor at {named(cells)}")
-        drawn, told = arrows.draw(plan, floor)
-        self._told += told
-        return drawn
+        return arrows.draw(plan, floor)
 
     def _standing(self, kind: str, allowed: np.ndarray, where: str) -> tuple[Cell, ...]:
         """Returns the cells in which models of a kind stand; tells of those that are elsewhere."""
@@ -232,18 +236,11 @@ class _Drawing:
                 out[column, row] = None
         return tuple(out)
 
-    def _as_drawn(self, file: LayoutFile, plan: FloorPlan) -> LayoutFile:
-        """Returns the file with what the hint says in other words, as far as it says the same."""
-        hint = self._hint
-        assert hint is not None
+    def _as_told(self, file: LayoutFile, hint: LayoutFile) -> LayoutFile:
+        """Returns the file with what the hint knows and a world doesn't tell."""
         settings = {s.name: s.settings for s in hint.stations}
         stations = tuple(replace(s, settings=settings.get(s.name, {})) for s in file.stations)
         file = replace(file, stations=stations, name=hint.name, at=hint.at, building=hint.building)
-        if _same(hint, file, plan):
-            file = replace(file, floor=hint.floor, stations=hint.stations)
-        else:
-            self._told.append("the floor was changed since it was drawn; it is drawn as it is now")
-            file = with_letters(file)
         return self._with_counts(replace(file, policies=hint.policies), hint)
 
     def _with_counts(self, file: LayoutFile, hint: LayoutFile) -> LayoutFile:

@@ -43,7 +43,9 @@ ARROW_ROOM = 0.19  # [in]: arrows are this far apart, at least
 FINE = 0.06  # [in]: smaller cells have no grid
 LETTER = 0.62  # width of a letter, of its size
 LANE = 3  # cells that a lane is wide
-_ALIGNMENT = dict(zip(STEPS, (("left", "center"), ("center", "bottom"), ("right", "center"), ("center", "top"))))
+_ALIGNMENT = dict(
+    zip(STEPS, (("left", "center"), ("center", "bottom"), ("right", "center"), ("center", "top")))
+)
 
 
 @dataclass(frozen=True)

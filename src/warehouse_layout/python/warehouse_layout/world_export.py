@@ -41,7 +41,9 @@ def text_of(file: LayoutFile) -> str:
     world.set("name", file.title)
     # The models are many and texts already: they are not parsed for it.
     head, end, tail = ElementTree.tostring(root, encoding="unicode").rpartition("</world>")
-    drawing = f"<warehouse:drawing>{escape(lf.text_of(_with_whole_paths(file)))}</warehouse:drawing>"
+    drawing = (
+        f"<warehouse:drawing>{escape(lf.text_of(_with_whole_paths(file)))}</warehouse:drawing>"
+    )
     body = "\n".join([drawing, *(part.xml for part in parts)])
     head = head.replace("<sdf ", f'<sdf xmlns:warehouse="{NAMESPACE}" ', 1)
     return f'<?xml version="1.0"?>\n{head}{body}\n{end}{tail}\n'
@@ -71,6 +73,7 @@ def _surroundings(file: LayoutFile, keep_floor: bool) -> ElementTree.Element:
 def _with_whole_paths(file: LayoutFile) -> LayoutFile:
     """Returns the file with paths that hold from every folder."""
     building, stock = (
-        str(file.beside_file(name).resolve()) if name else "" for name in (file.building, file.stock)
+        str(file.beside_file(name).resolve()) if name else ""
+        for name in (file.building, file.stock)
     )
     return replace(file, building=building, stock=stock, name=file.title)
