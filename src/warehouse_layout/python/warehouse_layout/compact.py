@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generates compact floors: blocks of storage between streets, stations on one side to four.
 
-    v < < < < < < <         one-way: neighboured streets are opposed, and the outermost go round
-    v s s ^ s s v ^ q q     two-way: every street is driven any way
-    v s s ^ s s v ^ x A = =
-    > > > > > > > ^ x x     a side with stations has two streets along it
+v < < < < < < <         one-way: neighboured streets are opposed, and the outermost go round
+v s s ^ s s v ^ q q     two-way: every street is driven any way
+v s s ^ s s v ^ x A = =
+> > > > > > > ^ x x     a side with stations has two streets along it
 """
 
 import math
@@ -52,9 +52,7 @@ class Style:
             )
 
 
-def of_request(
-    request: Request, replenish: int, style: Style, name: str = ""
-) -> LayoutFile:
+def of_request(request: Request, replenish: int, style: Style, name: str = "") -> LayoutFile:
     """Returns the file of a compact warehouse with `request.belts` picking stations.
 
     Raises RequestError for counts and styles of which no fleet could make use.

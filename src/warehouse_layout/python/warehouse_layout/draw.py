@@ -13,9 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from warehouse_layout import layout_file as lf
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
-from warehouse_layout.stations import PICK
 
 SUFFIXES = (".svg", ".png")
 DPI = 200
@@ -23,7 +21,6 @@ LONGEST = 14.0  # [in]: edge of the plan, unless cells get too small
 LEAST_CELL, MOST_CELL = 0.02, 0.42  # [in]
 LEGEND, LEGEND_HEIGHT = 2.5, 5.2  # [in]
 EDGE, TITLE, DIMENSIONS = 0.35, 0.85, 0.75  # [in]: around the page, above, below and at the left
-LETTER = 0.62  # width of a letter, of its size
 
 
 def draw(file: LayoutFile, out: str | Path) -> None:
@@ -54,16 +51,17 @@ class _Page:
     """A page with the plan, dimensions beside it, the title above, and the legend at the right."""
 
     def __init__(self, subject: Any, figure: Any) -> None:
-        from warehouse_layout.plan_layers import name_size
+        from warehouse_layout.plan_layers import is_wide, name_width
 
         self._subject, self.figure = subject, figure
         file: LayoutFile = subject.file
         height, width = file.shape
         self._cell = min(MOST_CELL, max(LEAST_CELL, LONGEST / max(width, height)))
-        longest = max((len(station.name) for station in subject.stations), default=0)
+        longest = max((station.name for station in subject.stations), key=len, default="")
         # Names may reach beyond the floor.
-        self._beside = longest * LETTER * name_size(self._cell) / 72 + 0.1
-        self._plan = width * self._cell + 2 * self._beside, height * self._cell + 0.5
+        self._beside = name_width(longest, self._cell) + 0.1
+        self._above = self._beside if is_wide(longest, self._cell) else 0.25
+        self._plan = width * self._cell + 2 * self._beside, height * self._cell + 2 * self._above
         self._size = (
             self._plan[0] + LEGEND + DIMENSIONS + 2 * EDGE,
             max(self._plan[1], LEGEND_HEIGHT) + TITLE + DIMENSIONS + 2 * EDGE,
@@ -76,7 +74,7 @@ class _Page:
 
         axes = self._axes_at(EDGE + DIMENSIONS, self._plan_bottom(), *self._plan)
         height, width = self._subject.file.shape
-        beside, above = self._beside / self._cell, 0.25 / self._cell
+        beside, above = self._beside / self._cell, self._above / self._cell
         axes.set_xlim(-0.5 - beside, width - 0.5 + beside)
         axes.set_ylim(-0.5 - above, height - 0.5 + above)
         Layers(axes, self._subject, self._cell).draw()
@@ -142,7 +140,7 @@ class _Page:
         height, width = self._subject.file.shape
         spacing = self._subject.file.spacing
         left = EDGE + DIMENSIONS + self._beside
-        bottom = self._plan_bottom() + 0.25
+        bottom = self._plan_bottom() + self._above
         along = width * self._cell, height * self._cell
         y, x = self._plan_bottom() - 0.3, EDGE + DIMENSIONS - 0.3
         _dimension(axes, (left, y), (left + along[0], y), _metres(width * spacing))
@@ -186,12 +184,7 @@ class _Page:
         for i in range(4):
             colour = "#2f3640" if i % 2 == 0 else "white"
             begin = left + i * length * a_metre / 4
-            axes.fill(
-                [begin, begin + length * a_metre / 4] * 2,
-                [y, y, y + 0.07, y + 0.07],
-            ) if False else axes.add_patch(
-                _bar(begin, y, length * a_metre / 4, colour)
-            )
+            axes.add_patch(_bar(begin, y, length * a_metre / 4, colour))
         axes.text(left, y - 0.1, "0", **_text(7, "top") | {"ha": "center"})
         at = left + length * a_metre
         axes.text(at, y - 0.1, f"{length} m", **_text(7, "top") | {"ha": "center"})
@@ -209,9 +202,7 @@ def _bar(x: float, y: float, length: float, colour: str) -> Any:
     return Rectangle((x, y), length, 0.07, facecolor=colour, edgecolor="#2f3640", linewidth=0.6)
 
 
-def _dimension(
-    axes: Any, begin: tuple[float, float], end: tuple[float, float], text: str
-) -> None:
+def _dimension(axes: Any, begin: tuple[float, float], end: tuple[float, float], text: str) -> None:
     """Draws a dimension line with strokes at its ends and the length in its middle [in]."""
     (x, y), (to_x, to_y) = begin, end
     is_upright = x == to_x
@@ -221,7 +212,10 @@ def _dimension(
         ends = [px - across[0], px + across[0]], [py - across[1], py + across[1]]
         axes.plot(*ends, color="#2f3640", linewidth=0.7)
         axes.plot([px - 0.04, px + 0.04], [py - 0.04, py + 0.04], color="#2f3640", linewidth=1.1)
-    middle = (x + to_x) / 2 - (0.09 if is_upright else 0), (y + to_y) / 2 - (0 if is_upright else 0.09)
+    middle = (
+        (x + to_x) / 2 - (0.09 if is_upright else 0),
+        (y + to_y) / 2 - (0 if is_upright else 0.09),
+    )
     style = _text(9, "center") | {"ha": "center", "rotation": 90 if is_upright else 0}
     axes.text(*middle, text, **style)
 

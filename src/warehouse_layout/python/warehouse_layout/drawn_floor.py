@@ -7,6 +7,7 @@ cells run through a column's.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -27,7 +28,7 @@ class DrawnFloor:
     walls: np.ndarray
     belts: np.ndarray
 
-    @property
+    @cached_property
     def streets(self) -> np.ndarray:
         """Passable cells that are neither storage nor parking, (h, w) bool."""
         return self.passable & ~self.storage & ~self.parking

@@ -41,6 +41,11 @@ COLOURS = {
 }
 ARROW_ROOM = 0.19  # [in]: arrows are this far apart, at least
 FINE = 0.06  # [in]: smaller cells have no grid
+LETTER = 0.62  # width of a letter, of its size
+LANE = 3  # cells that a lane is wide
+_ALIGNMENT = dict(
+    zip(STEPS, (("left", "center"), ("center", "bottom"), ("right", "center"), ("center", "top")))
+)
 
 
 @dataclass(frozen=True)
@@ -102,14 +107,14 @@ class Layers:
     def _floor(self) -> None:
         drawn = self._subject.drawn
         is_floor = self._subject.file.floor != lf.NO_FLOOR
-        self._add(shapes.boxes(is_floor), "floor")
+        self._add(shapes.boxes(is_floor), "floor", zorder=0.5)
         if self._cell >= FINE:
             height, width = is_floor.shape
             # Lines between the cells of the floor: those of one row's columns, and of both.
             mesh = [shapes.borders(is_floor & (np.arange(width) % 2 == i)) for i in (0, 1)]
             mesh += [shapes.borders(is_floor & (np.arange(height)[:, None] % 2 == 0))]
-            lines = LineCollection(np.concatenate(mesh), colors=COLOURS["grid"], linewidths=0.4)
-            self._axes.add_collection(lines)
+            style = {"colors": COLOURS["grid"], "linewidths": 0.4, "zorder": 0.6}
+            self._axes.add_collection(LineCollection(np.concatenate(mesh), **style))
         keep_out = self._subject.file.floor == lf.KEEP_OUT
         self._add(shapes.boxes(keep_out), "keep_out")
         self._add(shapes.stripes(keep_out), "stripe")
@@ -171,8 +176,9 @@ class Layers:
         if layout and len(layout.units):
             cells = self._subject.cells(layout.units)
             self._add(shapes.placed(shapes.SQUARE, cells, 0.36), "unit", zorder=2.5)
-            self._add(shapes.placed(shapes.SQUARE, cells, 0.27), "storage", zorder=2.5)
-            self._add(shapes.placed(shapes.SQUARE, cells, 0.2), "unit", zorder=2.5)
+            if self._cell >= 2 * FINE:
+                self._add(shapes.placed(shapes.SQUARE, cells, 0.27), "storage", zorder=2.5)
+                self._add(shapes.placed(shapes.SQUARE, cells, 0.2), "unit", zorder=2.5)
 
     def _robots(self) -> None:
         layout = self._subject.layout
@@ -185,24 +191,18 @@ class Layers:
 
     def _name(self, station: Station) -> None:
         """Writes a station's name beyond its service cell and belt, off its lane."""
-        cells = self._lane_cells(station)
-        service = cells[station.service]
-        away = service - cells.mean(axis=0)
-        axis = int(abs(away[1]) > abs(away[0]))
-        toward = int(np.sign(away[axis]) or 1)
-        out = np.array(STEPS[axis if toward > 0 else axis + 2])
-        at = service + out
+        out = _outward(self._lane_cells(station), station.service)
+        row, column = divmod(station.service_cell, self._subject.file.shape[1])
+        at = np.array([column, row]) + out
         while self._is_belt(at):
             at = at + out
-        x, y = at - out * 0.3
-        horizontal = {1: "left", -1: "right"}[toward] if axis == 0 else "center"
-        vertical = {1: "bottom", -1: "top"}[toward] if axis == 1 else "center"
+        horizontal, vertical = _ALIGNMENT[tuple(out.tolist())]
         self._axes.text(
-            x,
-            y,
+            *(at - out * 0.3),
             station.name,
             ha=horizontal,
             va=vertical,
+            rotation=90 if out[1] and is_wide(station.name, self._cell) else 0,
             fontsize=name_size(self._cell),
             fontweight="bold",
             color=INK,
@@ -212,6 +212,23 @@ class Layers:
     def _is_belt(self, cell: np.ndarray) -> bool:
         (x, y), belts = cell, self._subject.drawn.belts
         return 0 <= x < belts.shape[1] and 0 <= y < belts.shape[0] and bool(belts[y, x])
+
+
+def _outward(lane: np.ndarray, service: int) -> np.ndarray:
+    """Returns the step (x, y) from a lane's service cell away from its other cells (n, 2)."""
+    away = lane[service] - lane.mean(axis=0)
+    axis = int(abs(away[1]) > abs(away[0]))
+    return np.array(STEPS[axis if away[axis] >= 0 else axis + 2])
+
+
+def name_width(name: str, cell: float) -> float:
+    """Returns about how wide a station's name is [in] where cells have so many inches."""
+    return len(name) * LETTER * name_size(cell) / 72
+
+
+def is_wide(name: str, cell: float) -> bool:
+    """Tells whether a name reaches over the lanes beside its own."""
+    return name_width(name, cell) > LANE * cell
 
 
 def name_size(cell: float) -> float:

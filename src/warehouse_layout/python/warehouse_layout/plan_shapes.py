@@ -34,7 +34,8 @@ def add(axes: Axes, outlines: np.ndarray, **style: Any) -> None:
         codes = np.full(closed.shape[:2], Path.LINETO, Path.code_type)
         codes[:, 0], codes[:, -1] = Path.MOVETO, Path.CLOSEPOLY
         path = Path(closed.reshape(-1, 2), codes.ravel())
-        axes.add_patch(PathPatch(path, **{"linewidth": 0, **style}))
+        # The limits of the axes are known: add_patch() would search all shapes for them.
+        axes.add_artist(PathPatch(path, **{"linewidth": 0, **style}))
 
 
 def placed(outline: np.ndarray, at: np.ndarray, size: float, yaw: Any = 0.0) -> np.ndarray:
