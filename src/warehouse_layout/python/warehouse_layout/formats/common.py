@@ -102,6 +102,15 @@ def trimmed(file: LayoutFile) -> LayoutFile:
     )
 
 
+def on_grid(corner: np.ndarray, spacing: float) -> tuple[float, float] | None:
+    """Returns where cell (0, 0) lies [m], if that is on the grid points of a world; else None."""
+    whole = np.round(corner / spacing)
+    if np.abs(corner / spacing - whole).max() > 1e-6:
+        return None
+    x, y = np.round(whole * spacing, 6).tolist()
+    return x, y
+
+
 def with_letters(file: LayoutFile) -> LayoutFile:
     """Returns the file with its service cells drawn as letters, if there are enough of them."""
     if len(file.stations) > len(lf.SERVICE):
