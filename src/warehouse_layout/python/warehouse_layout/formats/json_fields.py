@@ -32,7 +32,7 @@ class Fields:
 
     def number(self, name: str) -> float:
         """Returns a number of metres. Raises FormatError."""
-        value = self._values.get(name)
+        value: Any = self._values.get(name)
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if not is_number or not math.isfinite(value) or abs(value) > FAR:
             self.fail(name, f"is {_short(value)}; a number of metres up to {FAR:g} was expected")
