@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from warehouse_layout import layout_file as lf
-from warehouse_layout.formats.common import FormatError
+from warehouse_layout.formats.common import FormatError, within_limits
 from warehouse_layout.layout_file import LayoutFile
 
 __all__ = ["FormatError", "convert", "read", "write"]
@@ -76,7 +76,8 @@ def read(
     if module.__name__.endswith((".dxf", ".ros_map")):
         options = {"spacing": spacing, "angle": angle}
         options |= {"layers": layers} if path.suffix.lower() == ".dxf" else {}
-    return _checked(path, lambda: _with_told(module.read(path, **options)))
+    file, told = _checked(path, lambda: _with_told(module.read(path, **options)))
+    return (file, told) if path.name.endswith(LAYOUT) else within_limits(file, told)
 
 
 def write(file: LayoutFile, path: Path) -> list[str]:
@@ -99,6 +100,8 @@ def _checked(path: Path, action: Callable[[], Any]) -> Any:
         raise
     except (MemoryError, RecursionError) as error:
         raise FormatError(f"{path}: it is too large or too deep to be read") from error
+    except ModuleNotFoundError as error:
+        raise FormatError(f"{path}: for this format the package {error.name} is missing") from error
     except (ValueError, OSError) as error:
         text = str(error)
         raise FormatError(text if text.startswith(str(path)) else f"{path}: {text}") from error
@@ -108,6 +111,6 @@ def _module(path: Path, modules: dict[str, str], verb: str) -> Any:
     name = Path(path).name.lower()
     for suffix, module in modules.items():
         if name.endswith(suffix):
-            return importlib.import_module(f"warehouse_layout.{module}")
+            return _checked(path, lambda: importlib.import_module(f"warehouse_layout.{module}"))  # noqa: B023
     known = ", ".join(modules)
     raise FormatError(f"{path}: no format that can be {verb}: known are {known}")

@@ -3,10 +3,11 @@
 
 What a character says depends on the next cell's too (see drawn_floor). So the cells of the two
 colours of a checkerboard choose in turn, each the character with which it and its neighbours are
-wrong least often, until no cell changes.
+wrong least often, until no cell changes. Where one is wrong still, it and its neighbours choose
+together.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 
 import numpy as np
@@ -15,10 +16,11 @@ from warehouse_layout import drawn_floor
 from warehouse_layout import layout_file as lf
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_layout.formats.common import cells_of, named, plural
-from warehouse_layout.stations import Station, lane_mask, neighbour, with_lanes
+from warehouse_layout.stations import STEPS, Station, lane_mask, neighbour, with_lanes
 
 CODES = lf.FLOOR + lf.ONE_WAY + lf.ALONG_X + lf.ALONG_Y  # the characters of streets
 ROUNDS = 20  # most choices of a cell
+MENDED = 2000  # most cells that choose together with their neighbours, in a round
 
 
 def draw(plan: FloorPlan, floor: np.ndarray) -> tuple[np.ndarray, list[str]]:
@@ -65,6 +67,7 @@ def _codes(exits: np.ndarray, streets: np.ndarray) -> np.ndarray:
             break
         chosen = better & (colour == step % 2)
         codes = np.where(chosen, best, codes)
+    _Mending(codes, exits, streets).run()
     return codes
 
 
@@ -94,6 +97,62 @@ def _wrong(code: int, codes: np.ndarray, exits: np.ndarray, streets: np.ndarray)
         out += beside & leaves
         out += beside & enters
     return out
+
+
+class _Mending:
+    """Lets a cell and its neighbours choose together.
+
+    With the cell's code given, the best codes of its neighbours do not depend on each other.
+    """
+
+    def __init__(self, codes: np.ndarray, exits: np.ndarray, streets: np.ndarray) -> None:
+        self._codes, self._exits, self._streets = codes, exits, streets
+
+    def run(self) -> None:
+        for _ in range(ROUNDS):
+            wrong = np.zeros(self._codes.shape, np.uint8)
+            for code in range(len(CODES)):
+                here = self._codes == code
+                wrong[here] = _wrong(code, self._codes, self._exits, self._streets)[here]
+            cells = np.argwhere((wrong > 0) & self._streets)[:MENDED].tolist()
+            if not sum([self._mend((row, column)) for row, column in cells]):
+                return
+
+    def _mend(self, cell: tuple[int, int]) -> bool:
+        """Changes the codes of a cell and its neighbours; returns whether that made it better."""
+        beside = list(self._beside(cell))
+        costs = [self._costs(cell, other, heading) for heading, other in beside]
+        total = sum(cost.min(axis=1) for cost in costs)
+        codes = [self._codes[other] for _, other in beside]
+        now = sum(cost[self._codes[cell], code] for cost, code in zip(costs, codes))
+        if total.min() >= now:
+            return False
+        best = int(total.argmin())
+        self._codes[cell] = best
+        for (_, other), cost in zip(beside, costs):
+            self._codes[other] = cost[best].argmin()
+        return True
+
+    def _costs(self, cell: tuple[int, int], other: tuple[int, int], heading: int) -> np.ndarray:
+        """Returns what is wrong at a neighbour, (7, 7) by the codes of the cell and its own."""
+        out = self._between(cell, other, heading)
+        for further, third in self._beside(other):
+            if third != cell:
+                out = out + self._between(other, third, further)[:, self._codes[third]]
+        return out
+
+    def _between(self, cell: tuple[int, int], other: tuple[int, int], heading: int) -> np.ndarray:
+        """Returns what is wrong between two cells, (7, 7) by their codes."""
+        table, back = _leaves(), (heading + 2) % 4
+        there = table[:, :, heading] != (self._exits[cell] >> heading & 1)
+        return there.astype(int) + ((self._exits[other] >> back & 1) != table[:, :, back].T)
+
+    def _beside(self, cell: tuple[int, int]) -> Iterator[tuple[int, tuple[int, int]]]:
+        height, width = self._streets.shape
+        for heading, (dx, dy) in enumerate(STEPS):
+            row, column = cell[0] + dy, cell[1] + dx
+            if 0 <= row < height and 0 <= column < width and self._streets[row, column]:
+                yield heading, (row, column)
 
 
 def _unsaid(plan: FloorPlan, floor: np.ndarray, streets: np.ndarray) -> list[str]:

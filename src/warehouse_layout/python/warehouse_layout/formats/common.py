@@ -5,12 +5,14 @@ import os
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from warehouse_layout import layout_file as lf
 from warehouse_layout.layout_file import Cell, LayoutFile, StationEntry
 from warehouse_layout.layout_reader import LEAST_SPACING, MOST_SPACING
+from warehouse_layout.request import LIMITS
 
 PathName = str | os.PathLike[str]
 
@@ -83,6 +85,24 @@ def plural(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
+def within_limits(file: LayoutFile, told: list[str]) -> tuple[LayoutFile, list[str]]:
+    """Returns the file with no more in it than a layout file may have, and what was left out."""
+    told = list(told)
+    counts: dict[str, Any] = {}
+    for name, most in (
+        ("robots", LIMITS["robots"]),
+        ("storage_units", LIMITS["shelves"]),
+        ("items", LIMITS["items"]),
+    ):
+        value = getattr(file, name)
+        count = len(value) if isinstance(value, tuple) else value
+        if count > most:
+            told.append(f"{count} {name.replace('_', ' ')}; a layout has {most} at most")
+            counts[name] = value[:most] if isinstance(value, tuple) else most
+    name = " ".join("".join(c if c.isprintable() else " " for c in file.name).split())[:60]
+    return replace(file, name=name, **counts), told
+
+
 def trimmed(file: LayoutFile) -> LayoutFile:
     """Returns the file without rows and columns at its edges that are no floor.
 
@@ -100,6 +120,15 @@ def trimmed(file: LayoutFile) -> LayoutFile:
         stations=tuple(replace(s, service=moved(s.service)) for s in file.stations),
         robots=tuple(map(moved, file.robots)) if isinstance(file.robots, tuple) else file.robots,
     )
+
+
+def on_grid(corner: np.ndarray, spacing: float) -> tuple[float, float] | None:
+    """Returns where cell (0, 0) lies [m], if that is on the grid points of a world; else None."""
+    whole = np.round(corner / spacing)
+    if np.abs(corner / spacing - whole).max() > 1e-6:
+        return None
+    x, y = np.round(whole * spacing, 6).tolist()
+    return x, y
 
 
 def with_letters(file: LayoutFile) -> LayoutFile:

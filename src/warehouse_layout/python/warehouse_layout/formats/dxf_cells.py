@@ -6,6 +6,7 @@ enclose is floor, or what the layer `floor` outlines.
 """
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -16,7 +17,6 @@ from warehouse_layout.formats import straight
 from warehouse_layout.formats.common import (
     FormatError,
     PathName,
-    cells_of,
     check_size,
     named,
     station_entries,
@@ -129,13 +129,13 @@ class _Cells:
         walls = np.zeros(self._floor.shape, bool)
         for shape in self._of("walls"):
             if shape.filled:
-                walls |= self._inside(shape)
+                walls[self._inside(shape)] = True
             column, row = self._cells(shape.along(self._spacing / 4))
             walls[row, column] = True
         outlines = [s for s in self._of("floor") if s.closed]
-        inside = self._within(walls)
-        if outlines:
-            inside = np.any([self._inside(s) for s in outlines], axis=0)
+        inside = np.zeros_like(walls) if outlines else self._within(walls)
+        for outline in outlines:
+            inside[self._inside(outline)] = True
         self._floor[inside & ~walls] = lf.FLOOR
         self._floor[walls] = lf.WALL
 
@@ -167,9 +167,8 @@ class _Cells:
     def _of(self, kind: str) -> list[Shape]:
         return [s for s in self._drawing.shapes if s.kind == kind]
 
-    def _inside(self, shape: Shape) -> np.ndarray:
-        """Returns the cells whose middles a closed line encloses, (h, w) bool."""
-        out = np.zeros(self._floor.shape, bool)
+    def _inside(self, shape: Shape) -> tuple[np.ndarray, np.ndarray]:
+        """Returns rows and columns of the cells whose middles a closed line encloses."""
         (left, right), (low, high) = (
             (int(a.min()), int(a.max()) + 1) for a in self._cells(shape.points)
         )
@@ -180,35 +179,37 @@ class _Cells:
             if y0 != y1:
                 crossed = (y0 <= y) != (y1 <= y)
                 part ^= crossed & (x < x0 + (y - y0) * (x1 - x0) / (y1 - y0))
-        out[low:high, left:right] = part
-        return out
+        rows, columns = np.nonzero(part)
+        return rows + low, columns + left
 
     # --- what stands in it
 
     def _paint(self, kind: str, character: str) -> None:
         twice: list[Cell] = []
+        blocked: list[Cell] = []
         for shape in self._of(kind):
-            mask = self._mask(shape)
+            row, column = self._taken(shape)
+            there = self._floor[row, column]
+            is_free = there != lf.WALL
+            blocked += zip(column[~is_free].tolist(), row[~is_free].tolist())
             if self._is_one(shape):
-                twice += cells_of(mask & (self._floor == character))
-            blocked = cells_of(mask & (self._floor == lf.WALL))
-            if blocked:
-                self._drawing.told.append(f"{kind} left out where a wall is: {named(blocked)}")
-            self._floor[mask & (self._floor != lf.WALL)] = character
+                again = there == character
+                twice += zip(column[again].tolist(), row[again].tolist())
+            self._floor[row[is_free], column[is_free]] = character
+        if blocked:
+            self._drawing.told.append(f"{kind} left out where a wall is: {named(blocked)}")
         if twice:
             self._drawing.told.append(f"{kind}: two fall into one cell at {named(twice)}")
 
-    def _mask(self, shape: Shape) -> np.ndarray:
-        """Returns the cells of a place, an area or a line, (h, w) bool."""
-        if shape.closed and not self._is_one(shape):
+    def _taken(self, shape: Shape) -> tuple[np.ndarray, np.ndarray]:
+        """Returns rows and columns of the cells of a place, an area or a line, each but once."""
+        if self._is_one(shape):
+            column, row = self._cells(shape.centre[None])
+            return row, column
+        if shape.closed:
             return self._inside(shape)
-        mask = np.zeros(self._floor.shape, bool)
-        points = shape.centre[None] if shape.closed else shape.along(self._spacing / 4)
-        if not shape.closed and self._is_one(shape):
-            points = shape.centre[None]
-        column, row = self._cells(points)
-        mask[row, column] = True
-        return mask
+        column, row = np.unique(self._cells(shape.along(self._spacing / 4)), axis=1)
+        return row, column
 
     def _draw_streets(self) -> None:
         """Draws one-way streets along lines, in the direction in which these are drawn."""
@@ -221,7 +222,7 @@ class _Cells:
                     self._floor[row, column] = lf.ONE_WAY[heading]
 
     def _distinct(self, what: str, cells: list[Cell]) -> list[Cell]:
-        twice = sorted({cell for cell in cells if cells.count(cell) > 1})
+        twice = sorted(cell for cell, count in Counter(cells).items() if count > 1)
         if twice:
             raise FormatError(f"{self._path}: two {what}s fall into one cell: {named(twice)}")
         return cells

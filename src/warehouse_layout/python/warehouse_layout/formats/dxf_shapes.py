@@ -119,6 +119,7 @@ class _Reader:
         self._path, self._layers, self._scale, self._out = path, layers, scale, out
         self._unknown: Counter[str] = Counter()
         self._unread: Counter[tuple[str, str]] = Counter()
+        self._extents: dict[tuple[str, ...], np.ndarray] = {}  # of blocks, about their places
 
     def take(self, entity: Any, layer: str, depth: int) -> None:
         """Adds an entity on a layer, or those of its block."""
@@ -146,28 +147,24 @@ class _Reader:
         if depth > DEEP:
             raise FormatError(f"{self._path}: blocks lie in blocks, more than {DEEP} deep")
         for one in insert.multi_insert() if insert.mcount > 1 else [insert]:
-            parts = list(one.virtual_entities())
             if kind in PLACES:
-                self._place(one, kind, parts)
+                self._place(one, kind)
                 continue
-            for part in parts:
+            for part in one.virtual_entities():
                 inner = str(part.dxf.get("layer", "0"))
                 # What lies on layer 0 of a block takes the layer of its insert.
                 self.take(part, layer if inner == "0" else inner, depth + 1)
 
-    def _place(self, insert: Any, kind: str, parts: Iterable[Any]) -> None:
+    def _place(self, insert: Any, kind: str) -> None:
         """Adds a block: the rectangle about what is drawn in it."""
-        from ezdxf import bbox
-
-        drawn = [p for p in parts if p.dxftype() not in (*TEXTS, "ATTDEF")]
-        box = bbox.extents(drawn)
-        if box.has_data:
-            (x, y, _), (u, v, _) = box.extmin, box.extmax
-            corners = [(x, y), (u, y), (u, v), (x, v)]
-        else:
-            corners = [tuple(insert.dxf.insert)[:2]]
+        at = np.array(tuple(insert.dxf.insert)[:2])
+        how = (insert.dxf.xscale, insert.dxf.yscale, insert.dxf.rotation, insert.dxf.extrusion)
+        key = (insert.dxf.name, *map(str, how))
+        if key not in self._extents:  # thousands of shelves are of one block
+            self._extents[key] = _extent(insert) - at
+        metres = self._metres(self._extents[key] + at, insert)
         name = next((a.dxf.text for a in insert.attribs if a.dxf.tag.upper() in NAME_TAGS), "")
-        self._add(Shape(kind, self._metres(corners, insert), closed=True, name=name))
+        self._add(Shape(kind, metres, closed=True, name=name))
 
     def _text(self, entity: Any) -> None:
         text = entity.plain_text() if entity.dxftype() == "MTEXT" else entity.dxf.text
@@ -204,6 +201,16 @@ class _Reader:
 
     def _add(self, shape: Shape) -> None:
         self._out.shapes.append(shape)
+
+
+def _extent(insert: Any) -> np.ndarray:
+    """Returns the corners (4, 2) of the rectangle about a block, where it is inserted."""
+    from ezdxf import bbox
+
+    drawn = [p for p in insert.virtual_entities() if p.dxftype() not in (*TEXTS, "ATTDEF")]
+    box = bbox.extents(drawn)
+    (x, y, _), (u, v, _) = (box.extmin, box.extmax) if box.has_data else 2 * (insert.dxf.insert,)
+    return np.array([(x, y), (u, y), (u, v), (x, v)])
 
 
 def _entities(count: int) -> str:

@@ -9,7 +9,7 @@ from warehouse_layout import items as shelves
 from warehouse_layout import layout_file as lf
 from warehouse_layout.floor_plan import FloorPlan
 from warehouse_layout.formats import arrows, rawsim_stations
-from warehouse_layout.formats.common import PathName, cells_of, named, with_letters
+from warehouse_layout.formats.common import PathName, cells_of, named, on_grid, with_letters
 from warehouse_layout.formats.rawsim_instance import Instance, read_floor
 from warehouse_layout.formats.rawsim_xml import InstanceError, number_of
 from warehouse_layout.layout_file import Cell, LayoutFile, StationEntry
@@ -40,7 +40,7 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
         storage_units=_cells(instance.units.values(), plan),
         robots=_cells(instance.robots.values(), plan),
         items=_items(path, instance),
-        at=(round(plan.origin[0], 4), round(plan.origin[1], 4)),
+        at=on_grid(np.array(plan.origin), plan.spacing),
     )
     return with_letters(file), [*told, *_unsaid(path, instance)]
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 from xml.etree.ElementTree import Element
 
+from warehouse_layout import items as shelves
 from warehouse_layout.formats import arrows, rawsim_stations, xlayo_floor
 from warehouse_layout.formats.common import PathName, check_size, with_letters
 from warehouse_layout.formats.rawsim_xml import InstanceError, read_root
@@ -82,14 +83,14 @@ def read(path: PathName) -> tuple[LayoutFile, list[str]]:
     drawn, told = arrows.draw(floor.plan, floor.drawing)
     places = int(floor.plan.storage.sum())
     units = int(numbers.number("PodAmount", 0.85, 0, 1) * places + 1e-9)
-    bin_count = max(1, round(numbers.number("PodCapacity", 5 * BIN, 0, 1e9) / BIN))
+    held = round(numbers.number("PodCapacity", 5 * BIN, 0, 1e9) / BIN)
     file = LayoutFile(
         floor=drawn,
         name=numbers.root.findtext("NameLayout", "").strip(),
         stations=tuple(_entry(numbers, one, parameters.shape[1]) for one in floor.plan.stations),
         storage_units=units,
         robots=numbers.count("BotCount", 32),
-        items=units * bin_count,
+        items=units * min(max(1, held), shelves.CAPACITY),
     )
     return with_letters(file), [*told, *_unsaid(numbers, parameters)]
 

@@ -246,7 +246,8 @@ class _Floor:
         first += (block + p.lanes if second else 0) + (1 if second and not p.single else 0)
         close = p.two_way and p.turn < BLOCK_DEPTH + p.lanes
         room = aisles if close else aisles // 2
-        begin = (room - p.count(side)) // 2
+        # Where the generator counts on more room than there is, those that fit are taken.
+        begin = min((room - p.count(side)) // 2, aisles // 2 - p.count(side))
         return [first + 2 * (block + p.lanes) * i for i in range(begin, room)]
 
     def _lane(self, side: str, exit_: int) -> list[tuple[int, int]]:

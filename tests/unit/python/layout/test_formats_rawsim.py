@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Instances and layout configurations of RAWSim-O become layout files."""
+
+import sys
+
+import numpy as np
+import pytest
+from paths import ROOT
+
+from warehouse_layout import drawn_floor, file_check, formats, layout_file, station_lanes
+from warehouse_layout.formats import FormatError
+from warehouse_layout.formats.rawsim_instance import read_floor
+from warehouse_layout.placement import plan_of
+
+sys.path.append(str(ROOT / "tests/unit/python/operations"))
+from instance_file import write_hall_instance, write_instance  # noqa: E402
+
+
+def plan(file):
+    drawn = drawn_floor.areas(file.floor)
+    return plan_of(file, drawn, station_lanes.of_file(file, drawn)[0])
+
+
+@pytest.mark.parametrize(
+    "write, told",
+    [
+        (write_instance, []),
+        (lambda path: write_instance(path, spacing=1.04, old=True), []),
+        (
+            write_hall_instance,
+            ["a layout does not say how robots move: MaxAcceleration 0.5, PodTransferTime 3"],
+        ),
+    ],
+)
+def test_an_instance(tmp_path, write, told):
+    """The drawing says for every cell by which headings it may be left, as the file does."""
+    path = write(tmp_path / "a.xinst")
+    instance = read_floor(path)
+    layout = tmp_path / "a.layout.yaml"
+    short = [text for text in formats.convert(path, layout) if "a lane has one way in" not in text]
+    assert short == told
+    file = layout_file.read(layout)
+    before, after = instance.plan, plan(file)
+    lanes = before.lane
+    for name in ("passable", "storage", "lane"):
+        assert (getattr(before, name) == getattr(after, name)).all()
+    streets = before.passable & ~before.storage & ~lanes
+    assert (before.exits[streets] == after.exits[streets]).all()
+    assert file_check.faults(file) == []
+    assert file.spacing == pytest.approx(before.spacing, abs=1e-3)
+    assert len(file.storage_units) == len(instance.units) and len(file.robots) == 16
+    names = [(s.name, s.kind, s.service, s.cells.tolist()) for s in before.stations]
+    assert names == [(s.name, s.kind, s.service, s.cells.tolist()) for s in after.stations]
+    pick = file.stations[0]
+    assert pick.settings == {"capacity": 12, "seconds_a_piece": 10.0, "pick_seconds": 3.0}
+    assert file.items == 5 * len(instance.units)
+
+
+def test_a_short_cut_in_a_queue_is_told(tmp_path):
+    told = formats.convert(write_hall_instance(tmp_path / "a.xinst"), tmp_path / "a.layout.yaml")
+    assert any("a lane has one way in and one out; others end at [" in text for text in told)
+
+
+CONFIGURATION = """<?xml version="1.0" encoding="utf-8"?>
+<LayoutConfiguration xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
+{}</LayoutConfiguration>
+"""
+SMALL = {
+    "TierCount": 1,
+    "BotCount": 8,
+    "PodAmount": 0.85,
+    "PodCapacity": 500,
+    "OStationCapacity": 18,
+    "AisleLayoutType": "Tim",
+    "AislesTwoDirectional": "false",
+    "SingleLane": "true",
+    "NameLayout": "1-2-2-8-0.85",
+    "NrHorizontalAisles": 4,
+    "NrVerticalAisles": 4,
+    "HorizontalLengthBlock": 4,
+    "WidthHall": 6,
+    "WidthBuffer": 4,
+    "DistanceEntryExitStation": 3,
+    "CounterClockwiseRingwayDirection": "true",
+    "NPickStationEast": 2,
+    "NReplenishmentStationWest": 2,
+}
+
+
+@pytest.fixture
+def write(tmp_path):
+    def _write(**values):
+        path = tmp_path / "a.xlayo"
+        elements = "".join(f"  <{k}>{v}</{k}>\n" for k, v in {**SMALL, **values}.items())
+        path.write_text(CONFIGURATION.format(elements))
+        return path
+
+    return _write
+
+
+def test_a_configuration(write, tmp_path):
+    """It makes the floor that an instance of those parameters has: with halls and buffers."""
+    file, _ = formats.read(write())
+    instance, _ = formats.read(write_hall_instance(tmp_path / "a.xinst"))
+    assert (plan(file).exits == plan(instance).exits).all()
+    assert {(s.kind, s.queue, s.service, s.exit) for s in file.stations} == {
+        (s.kind, s.queue, s.service, s.exit) for s in instance.stations
+    }
+    assert (file.name, file.robots, file.storage_units) == ("1-2-2-8-0.85", 8, 170)
+    assert file.stations[0].settings["capacity"] == 18
+
+
+@pytest.mark.parametrize("counter_clockwise", ["true", "false"])
+@pytest.mark.parametrize("kind", ["Tim", "HighwayHallway"])
+@pytest.mark.parametrize("single", ["true", "false"])
+@pytest.mark.parametrize("two_way", ["true", "false"])
+def test_all_kinds_of_halls(write, counter_clockwise, kind, single, two_way):
+    """A fleet can work in each, with stations on all sides, and all streets say where they lead."""
+    path = write(
+        AisleLayoutType=kind,
+        SingleLane=single,
+        AislesTwoDirectional=two_way,
+        CounterClockwiseRingwayDirection=counter_clockwise,
+        NPickStationNorth=1,
+        NReplenishmentStationSouth=2,
+    )
+    file, told = formats.read(path)
+    if two_way == "false":
+        assert told == [
+            "a lane has one way in and one out: the buffers' short cuts and further entries are"
+            " left out"
+        ]
+    assert len(file.stations) == 7
+    # The halls' streets of the kind HighwayHallway and two-way aisles make no good floor there
+    # either: they meet head-on.
+    if (kind, two_way) != ("HighwayHallway", "true"):
+        assert file_check.faults(file) == []
+    assert np.count_nonzero(file.floor == "s") == 4 * 2 * 25
+
+
+@pytest.mark.parametrize(
+    "values, message",
+    [
+        ({"NrHorizontalAisles": 5}, "one-way aisles ask for even numbers"),
+        ({"NrHorizontalAisles": "many"}, "NrHorizontalAisles is 'many'; a number from 2 to 10000"),
+        ({"NrVerticalAisles": 1e9}, r"NrVerticalAisles is '1000000000.0'; a number"),
+        ({"NrVerticalAisles": 9998, "NrHorizontalAisles": 9998}, "1 to 4000000 cells"),
+        ({"WidthHall": 3}, "WidthHall is 3; an even number"),
+        ({"WidthBuffer": 1}, "WidthBuffer is '1'; a number from 2"),
+        ({"WidthBuffer": 2.5}, "WidthBuffer is '2.5'; a whole number"),
+        ({"DistanceEntryExitStation": 7}, "an odd number up to 5 was expected"),
+        ({"AisleLayoutType": "Star"}, "AisleLayoutType is 'Star'; Tim or HighwayHallway"),
+        ({"SingleLane": "maybe"}, "SingleLane is 'maybe'; true or false"),
+        ({"NPickStationEast": 3}, "3 stations East; there is room for 2"),
+        ({"NPickStationEast": 0}, "a station to pick and one to replenish, or more"),
+        ({"TierCount": 2}, "robots here drive on one floor"),
+        ({"NElevatorsWest": 1}, "robots here drive on one floor"),
+        ({"PodAmount": "nan"}, "PodAmount is 'nan'"),
+    ],
+)
+def test_a_wrong_configuration_is_told(write, values, message):
+    path = write(**values)
+    with pytest.raises(FormatError, match=message) as error:
+        formats.read(path)
+    assert str(error.value).startswith(str(path))
