@@ -30,8 +30,7 @@ QUEUE = 6  # cells, the entry and a corner among them
 
 Point = Sequence[float]  # x, y [m]
 Cell = tuple[int, int]  # x, y
-Vector = np.ndarray  # x, y in cells
-Shape = Callable[[Vector, Vector, int, int], list[Vector]]  # service, towards, side, queue
+Shape = Callable[[np.ndarray, np.ndarray, int, int], list[np.ndarray]]  # see _straight
 
 
 def find(plan: FloorPlan, belts: Mapping[str, Point], belt_cells: np.ndarray) -> FloorPlan:
@@ -148,20 +147,20 @@ def _both_ways(shape: Shape, service: Cell, heading: int, queue: int) -> Iterato
         yield [(int(x), int(y)) for x, y in points]
 
 
-def _straight(service: Vector, towards: Vector, side: int, queue: int) -> list[Vector]:
+def _straight(service: np.ndarray, towards: np.ndarray, side: int, queue: int) -> list[np.ndarray]:
     """Returns a lane on which units pass the belt without turning."""
     along = side * towards[::-1]
     return [service + i * along for i in range(-queue, 2)]
 
 
-def _back(service: Vector, towards: Vector, side: int, queue: int) -> list[Vector]:
+def _back(service: np.ndarray, towards: np.ndarray, side: int, queue: int) -> list[np.ndarray]:
     """Returns a lane on which units turn before the belt and after it."""
     along = side * towards[::-1]
     there = [service - along - i * towards for i in range(queue)]
     return [*there[::-1], service, *(point + 2 * along for point in there)]
 
 
-def _corner(service: Vector, towards: Vector, side: int, queue: int) -> list[Vector]:
+def _corner(service: np.ndarray, towards: np.ndarray, side: int, queue: int) -> list[np.ndarray]:
     """Returns a lane on which units turn before the belt and go straight on after it."""
     along = side * towards[::-1]
     there = [service - along - i * towards for i in range(queue)]

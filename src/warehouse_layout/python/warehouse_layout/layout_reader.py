@@ -9,15 +9,16 @@ from typing import Any, NoReturn
 import numpy as np
 import yaml
 
-from warehouse_layout import layout_file as lf
-from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError, StationEntry
+from warehouse_layout import layout_data as lf
+from warehouse_layout.layout_data import Cell, LayoutFile, LayoutFileError, StationEntry
 from warehouse_layout.request import LIMITS
-from warehouse_layout.station_settings import StationSettingError, check_setting, SETTINGS
+from warehouse_layout.station_settings import SETTINGS, StationSettingError, check_setting
 
+VERSION = 1
 MOST_CELLS = 4_000_000
 LEAST_SPACING, MOST_SPACING = 0.1, 10.0  # [m], as the world takes them
 
-Node = yaml.nodes.Node
+Node = Any  # of PyYAML, which has no types: a ScalarNode, SequenceNode or MappingNode
 
 _KEYS = (
     "layout",
@@ -197,14 +198,16 @@ class LayoutReader:
 
     def _version(self, top: dict[str, Node]) -> None:
         if "layout" not in top:
-            self._fail(None, f"'layout: {lf.VERSION}' is missing: the version of the format")
-        if self._value(top["layout"]) != lf.VERSION:
+            self._fail(None, f"'layout: {VERSION}' is missing: the version of the format")
+        if self._value(top["layout"]) != VERSION:
             told = self._value(top["layout"])
-            self._fail(top["layout"], f"layout is {told!r}; this reads version {lf.VERSION}")
+            self._fail(top["layout"], f"layout is {told!r}; this reads version {VERSION}")
 
     def _spacing(self, node: Node | None) -> float:
-        return 1.0 if node is None else float(
-            self._number(node, "spacing", LEAST_SPACING, MOST_SPACING)
+        return (
+            1.0
+            if node is None
+            else float(self._number(node, "spacing", LEAST_SPACING, MOST_SPACING))
         )
 
     def _at(self, node: Node | None) -> tuple[float, float] | None:

@@ -137,5 +137,3 @@ def _shapes(drawn: DrawnFloor, entry: StationEntry) -> Iterator[list[Cell]]:
                 yield lane
             else:
                 yield [*lane[: queue + 1], *entry.exit]
-
-
