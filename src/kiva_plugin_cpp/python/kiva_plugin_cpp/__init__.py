@@ -199,9 +199,7 @@ class World(_core.World):
         return cls.of_layout(plan, own_models=True, **options)
 
     @classmethod
-    def layout(
-        cls, file: AnyPath, *, robots: int | None = None, **options: Any
-    ) -> "World":
+    def layout(cls, file: AnyPath, *, robots: int | None = None, **options: Any) -> "World":
         """Returns the warehouse of a layout file, NAME.layout.yaml, or of a preset's name.
 
         `seed` places what the file gives as counts; robots: so many instead of the file's. Options

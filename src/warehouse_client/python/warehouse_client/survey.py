@@ -21,6 +21,7 @@ class Survey:
     item: dict = field(default_factory=dict)
     conveyor_belt: dict = field(default_factory=dict)
     floor_markings: dict = field(default_factory=dict)
+    layout_walls: dict = field(default_factory=dict)
     others: dict = field(default_factory=dict)
     taken: set | None = None  # grid points in the way of which others are; None: not known
 

@@ -19,7 +19,8 @@ def is_preset(name: str) -> bool:
 
 def path_of(name: str | os.PathLike[str], folder: str | Path | None = None) -> Path:
     """Returns the whole path of a file that a person named; see chosen()."""
-    return Path(folder or os.environ.get("PWD", ".")) / Path(name).expanduser()
+    base = Path(folder) if folder else Path(os.environ.get("PWD", "."))
+    return base / Path(name).expanduser()
 
 
 def chosen(name: str | os.PathLike[str], folder: str | Path | None = None) -> LayoutFile:
@@ -56,8 +57,10 @@ def check(file: LayoutFile, robots: int | None = None) -> None:
 
 
 def world_named(world: str, folder: str | Path | None = None) -> Path:
-    """Returns the whole path of a world: a file, relative to `folder` (PWD by default), or a name in
-    worlds/. Raises LayoutFileError."""
+    """Returns the whole path of a world: a file, or a name in worlds/. Raises LayoutFileError.
+
+    A relative path starts at `folder`: PWD by default.
+    """
     try:
         return world_file.find(world, files.worlds(), folder).resolve()
     except world_file.WorldFileError as error:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from warehouse_layout import files, placement
-from warehouse_layout.floor_plan import FloorPlan, is_taken
+from warehouse_layout.floor_plan import is_taken
 from warehouse_layout.layout import Layout
 from warehouse_layout.layout_choice import building_of
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError

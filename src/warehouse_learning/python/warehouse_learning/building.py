@@ -4,26 +4,40 @@ for, all alike."""
 
 import tempfile
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from kiva_plugin_cpp import World, Worlds, worlds_folder
-from warehouse_layout import layout, request
+from kiva_plugin_cpp import World, Worlds, layouts, worlds_folder
+from warehouse_layout import layout, layout_choice, layout_world, placement, request
 from warehouse_learning.options import Options
 
 
 def build(n: int, options: Options, threads: int = 0) -> tuple[Worlds, Any]:
     """Returns (Worlds, checkpoint): n worlds before an episode, and that state to return to."""
-    wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
     with tempfile.TemporaryDirectory() as folder:
         _write_kiva(Path(folder), options)
-        first = World.of_layout(layout.plan(wanted), model_paths=[folder])
+        laid, hall = _laid_out(options, folder)
+        first = World.of_layout(laid, world=hall, model_paths=[folder])
     first.step_size = options.physics_step
     checkpoint = first.checkpoint()
     others = [World() for _ in range(n - 1)]
     for world in others:
         world.restore(checkpoint)
     return Worlds.of([first, *others], threads), checkpoint
+
+
+def _laid_out(options: Options, folder: str) -> tuple[layout.Layout, str | Path]:
+    """Returns a Layout without items, which nothing asks for here, and the world around it."""
+    if not options.layout:
+        wanted = request.resolve("", robots=options.robots, shelves=options.shelves)
+        return layout.plan(wanted), "empty"
+    file = replace(layout_choice.chosen(options.layout), items=0, stock="")
+    laid = placement.place(file, robots=options.robots)
+    hall = layout_world.world_of(file, folder)
+    if not laid.has_own_floor:
+        layouts.check_hall(World(hall), file, laid)
+    return laid, hall
 
 
 def _part(element: ElementTree.Element, tag: str) -> ElementTree.Element:

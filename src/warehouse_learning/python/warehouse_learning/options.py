@@ -7,6 +7,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from warehouse_layout import layout_choice, placement
+from warehouse_layout.layout_file import LayoutFileError
+
 REWARDS = {
     "delivered": 1.0,  # a requested unit stands at a station: its robot
     "lifted": 0.0,  # a robot has lifted a requested unit
@@ -43,8 +46,10 @@ class OptionError(ValueError):
 class Options:
     """Of an environment; all by name.
 
-    size: of SIZES, or robots and shelves (storage units) as counts. requests: units that are asked
-    for at any time; as many as robots, unless it is told. max_cycles: decisions an episode.
+    size: of SIZES, or robots and shelves (storage units) as counts, or layout: a layout file,
+    NAME.layout.yaml, with its own shelves, and its own robots unless `robots` says how many.
+    requests: units that are asked for at any time; as many as robots, unless it is told.
+    max_cycles: decisions an episode.
 
     decision: "action", a decision lasts until every robot has ended its action, or so many
     simulated seconds, in which those that are still at an action go on with it. continuous: actions
@@ -60,6 +65,7 @@ class Options:
     size: str = "small"
     robots: int = 0
     shelves: int = 0
+    layout: str = ""
     requests: int = 0
     max_cycles: int = 500
     decision: float | str = "action"
@@ -73,7 +79,9 @@ class Options:
     rewards: dict = field(default_factory=dict)
 
     def __post_init__(self):
-        if self.robots or self.shelves:
+        if self.layout:
+            self._count_of_layout()
+        elif self.robots or self.shelves:
             _whole("robots", self.robots, 1, 5000)
             _whole("shelves", self.shelves, 2, 20000)
         elif self.size not in SIZES:
@@ -100,9 +108,25 @@ class Options:
             _real(f"rewards[{name!r}]", value, -1e9, 1e9)
         object.__setattr__(self, "rewards", REWARDS | self.rewards)
 
+    def _count_of_layout(self):
+        if self.shelves:
+            raise OptionError(f"shelves is {self.shelves}; those of the layout are taken")
+        try:
+            file = layout_choice.chosen(self.layout)
+            layout_choice.check(file, self.robots or None)
+            laid = placement.place(file, robots=self.robots or None)
+        except LayoutFileError as error:
+            raise OptionError(f"layout: {error}") from error
+        object.__setattr__(self, "robots", len(laid.robots))
+        object.__setattr__(self, "shelves", len(laid.units))
+        _whole("the layout's number of robots", self.robots, 1, 5000)
+        _whole("the layout's number of storage units", self.shelves, 2, 20000)
+
     @property
     def title(self) -> str:
         """What the page calls the warehouse."""
+        if self.layout:
+            return layout_choice.chosen(self.layout).title
         own = SIZES.get(self.size) == Size(self.robots, self.shelves)
         return self.size if own else f"{self.robots} robots, {self.shelves} units"
 

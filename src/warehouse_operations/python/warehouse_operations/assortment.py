@@ -40,7 +40,8 @@ def told(
     """
     drawn = Assortment.draw(len({sku for _, sku, _ in stock}), rng)
     assortment = Assortment(tuple(dict.fromkeys(sku for _, sku, _ in stock)), drawn.popularity)
-    unit_of, result = dict(items), []
+    unit_of = dict(items)
+    result: list[tuple[Bin, int]] = []
     for item, sku, pieces in stock:
         if item in unit_of:
             one = Bin(len(result) + 1, item, unit_of[item], max(CAPACITY, pieces), sku)

@@ -2,7 +2,8 @@
 """A grid of configurations and seeds, each shift in a process of its own.
 
 out: results                  # folder; beside the file
-size: medium                  # or layout: FILE.layout.yaml; or instance: FILE.xinst, settings: FILE.xsett
+size: medium                  # or layout: FILE, or instance: FILE.xinst, settings: FILE.xsett
+robots: 30                    # instead of as many as the layout or size has; also stations
 minutes: 60
 physics: false
 seeds: 10                     # 1 to 10, or a list

@@ -32,7 +32,7 @@ def _fault_of_shift(file: LayoutFile) -> str:
 
 
 def conflicts(values: Mapping[str, str], worlds: Path, cwd: Path) -> list[str]:
-    """Returns sentences about arguments {name: text}, each right alone, that contradict layout:=."""
+    """Returns sentences about arguments {name: text}, right alone, that contradict layout:=."""
     layout, robots = values.get("layout", ""), values.get("robots", "")
     if not layout:
         return [f"robots:={robots}: it is for layout:="] if robots else []

@@ -4,6 +4,8 @@
 import os
 from pathlib import Path
 
+import numpy as np
+
 from warehouse_client.engine import Engine
 from warehouse_layout import files, layout_choice, layout_file, layout_world, models, placement
 from warehouse_layout.floor_plan import UNIT, occupancy_of
@@ -56,6 +58,12 @@ class LayoutBuilding:
         self._check_room(file, laid, engine)
         return file.title, name if is_file(name) else "", laid
 
+    def check_grid(self, engine: Engine) -> None:
+        """Raises LayoutFileError where the world began with another grid than that of presets."""
+        if self._launched:
+            grid = engine.map().info.resolution
+            layout_world.check_grid(LayoutFile(np.zeros((1, 1)), name="a preset"), grid)
+
     def _in_hall(self, file: LayoutFile) -> LayoutFile:
         """Returns the file as it stands in the hall of this world, if there is one."""
         hall = self._hall()
@@ -77,7 +85,7 @@ class LayoutBuilding:
         grid = engine.map()
         info, corner = grid.info, grid.info.origin.position
         occupancy = occupancy_of(grid)
-        # Belts and units go with the warehouse that stands; its walls can't be told from the hall's.
+        # Belts and units go with their warehouse; its walls can't be told from the hall's.
         occupancy[occupancy < TAKEN] = UNIT
         if f"{models.WALLS}1" in engine.names():
             occupancy[:] = UNIT

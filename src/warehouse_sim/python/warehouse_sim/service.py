@@ -91,6 +91,7 @@ class WarehouseService:
         if cells is None or not cells.taken.size:
             if wanted is None:
                 raise RequestError(f"size {FIT} is for a world that is given (world:=…)")
+            self._layouts.check_grid(engine)
             return wanted, plan(wanted, self._seed)
         if wanted is None:
             return fit_largest(cells, self._seed, self._at)

@@ -131,6 +131,8 @@ class _Drawing:
 
 def _moved(station):
     """Returns the station on a floor with a margin."""
-    queue, leave = (tuple((x + 1, y + 1) for x, y in part) for part in (station.queue, station.exit))
+    queue, leave = (
+        tuple((x + 1, y + 1) for x, y in part) for part in (station.queue, station.exit)
+    )
     x, y = station.service
     return StationEntry(station.key, (x + 1, y + 1), station.name, station.kind, queue, leave)

@@ -12,7 +12,7 @@ from warehouse_layout import file_check, layout_file
 from warehouse_operations import layout_site
 from warehouse_operations.site import Site
 
-LAYOUTS = int(os.environ.get("LAYOUTS", 30))
+LAYOUTS = int(os.environ.get("LAYOUTS", "30"))
 WITH_PHYSICS = 10 if LAYOUTS <= 30 else 1  # of so many, one is run with physics too
 MINUTES = 10
 

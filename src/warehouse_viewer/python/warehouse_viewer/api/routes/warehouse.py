@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """The warehouse as a whole: its state, and building another one."""
 
+import asyncio
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, HTTPException
 
+from warehouse_layout.layout_file import LayoutFileError
 from warehouse_layout.request import LIMITS, PRESETS
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.warehouse import NewWarehouse, Sizes, Warehouse
+from warehouse_viewer.ros import layout_store
 
 router = APIRouter()
 
@@ -42,8 +45,20 @@ async def get_sizes(backend: ApiBackend = BACKEND) -> Any:
     return {"presets": presets, "limits": LIMITS}
 
 
+async def _build_layout(wanted: NewWarehouse, backend: ApiBackend) -> Any:
+    if wanted.robots or wanted.items or wanted.shelves:
+        raise HTTPException(422, "counts beside a layout: it says itself what stands there")
+    try:
+        path = await asyncio.to_thread(layout_store.kept, wanted.layout, wanted.name)
+    except LayoutFileError as error:
+        raise HTTPException(422, str(error)) from error
+    return await backend.change("create", path, wanted.id, 0, 0, 0)
+
+
 @router.post("/warehouse", response_model=Done, responses=problems(*SENT))
 async def create_warehouse(wanted: NewWarehouse, backend: ApiBackend = BACKEND) -> Any:
     """Builds a warehouse in place of the one that stands."""
+    if wanted.layout:
+        return {"message": await _build_layout(wanted, backend)}
     counts = (wanted.robots, wanted.items, wanted.shelves)
     return {"message": await backend.change("create", wanted.name, wanted.id, *counts)}

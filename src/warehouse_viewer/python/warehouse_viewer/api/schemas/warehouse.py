@@ -6,22 +6,27 @@ from typing import TYPE_CHECKING
 from pydantic import BaseModel, Field, StrictBool
 
 from warehouse_viewer.api.schemas.base import Int32, Label, Name
-from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, number
+from warehouse_viewer.api.schemas.pydantic_versions import Body, integer, number, text
+
+MOST_TEXT = 1_000_000  # characters of a layout
 
 if TYPE_CHECKING:
     Steps = int
     Factor = float
     Seconds = float
+    LayoutText = str
 else:
     Steps = integer(1, 100000)  # of the physics
     Factor = number(0, 1000)  # simulated seconds a wall second
     Seconds = number(0.001, 1e6)  # simulated
+    LayoutText = text("", MOST_TEXT)
 
 
 class NewWarehouse(Body):
-    """Counts of 0 everywhere with a preset's name mean that preset."""
+    """Counts of 0 everywhere with a preset's name mean that preset. A layout needs no name."""
 
-    name: Name = Field(description="a preset (empty, small, medium, large, huge), or any name")
+    name: Name = Field("", description="a preset (empty, small, medium, large, huge), or any name")
+    layout: LayoutText = Field("", description="the content of a layout file, NAME.layout.yaml")
     id: Int32 = 0
     robots: Int32 = 0
     items: Int32 = 0
