@@ -87,27 +87,27 @@ def page(runs: Sequence[Run]) -> str:
     first = groups[0]
     parts = [_head(runs, groups), _headline(first) if len(groups) == 1 else _verdicts(groups)]
     note = "Bands reach from the least to the most of the runs." if _several(groups) else ""
-    parts += [_section("Throughput over the shift", plots.throughput(groups), note)]
-    parts += [_section("Figures", _table(groups))]
+    parts += [section("Throughput over the shift", plots.throughput(groups), note)]
+    parts += [section("Figures", _table(groups))]
     if len(groups) > 1:
         pictures = [plots.comparison(groups, kpi, label) for kpi, label in COMPARED]
         note = INTERVALS if all(len(group.runs) > 1 for group in groups) else NO_INTERVALS
-        parts += [_section("Side by side", _row(pictures), note)]
-    parts += [_section("Orders: how long they take", plots.turnover(groups))]
-    parts += [_section("Where the robots' time goes", plots.robots(groups), QUEUES)]
+        parts += [section("Side by side", _row(pictures), note)]
+    parts += [section("Orders: how long they take", plots.turnover(groups))]
+    parts += [section("Where the robots' time goes", plots.robots(groups), QUEUES)]
     for group in groups[:4]:
         name = f": {group.label}" if len(groups) > 1 else ""
-        parts += [_section(f"Stations{escape(name)}", plots.stations(group))]
+        parts += [section(f"Stations{escape(name)}", plots.stations(group))]
         troubles = _troubles(group)
         if troubles:
             note = (
                 "Pieces not picked are estimated from those picked in the robot hours at work: what"
                 " is lost if stations wait for robots."
             )
-            parts += [_section(f"Troubles of the day{escape(name)}", troubles, note)]
+            parts += [section(f"Troubles of the day{escape(name)}", troubles, note)]
         maps = _maps(group.runs[0])
         if maps:
-            parts += [_section(f"The floor{escape(name)}", _row(maps))]
+            parts += [section(f"The floor{escape(name)}", _row(maps))]
     return "\n".join(parts) + "</body></html>\n"
 
 
@@ -279,6 +279,7 @@ def _row(pictures: Iterable[str]) -> str:
     return f'<div class="row">{"".join(f"<div>{one}</div>" for one in pictures)}</div>'
 
 
-def _section(title: str, content: str, note: str = "") -> str:
+def section(title: str, content: str, note: str = "") -> str:
+    """Returns a part of a page, HTML, below its title."""
     note = f'<p class="note">{note}</p>' if note else ""
     return f"<h2>{title}</h2>{note}{content}"
