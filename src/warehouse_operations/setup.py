@@ -4,5 +4,5 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-packages = ["warehouse_operations", "warehouse_operations.policies"]
-setup(**generate_distutils_setup(packages=packages, package_dir={"": "python"}))
+names = ("warehouse_operations", "warehouse_operations.policies", "warehouse_operations.sizing")
+setup(**generate_distutils_setup(packages=list(names), package_dir={"": "python"}))

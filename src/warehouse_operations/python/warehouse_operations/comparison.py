@@ -37,13 +37,17 @@ class Estimate:
 class Difference:
     """How much the second of two configurations is above the first, and how likely by chance.
 
-    paired: seeds that both have are compared one by one.
+    estimate: with its confidence interval. paired: seeds that both have are compared one by one.
+    effect: over the standard deviation of the pairs' differences, else of the runs (Hedges' g);
+    inf where all pairs differ alike.
     """
 
     estimate: Estimate
     relative: float
     p_value: float
     paired: bool
+    effect: float = float("nan")
+    base: float = float("nan")  # mean of the first
 
     @property
     def significant(self) -> bool:
@@ -90,23 +94,66 @@ def grouped(runs: Iterable[Run]) -> list[Group]:
 
 def difference(first: Group, second: Group, kpi: str) -> Difference | None:
     """Returns the Difference between two Groups; None if there are too few runs."""
-    a, b = first.values(kpi), second.values(kpi)
+    return difference_of(first.values(kpi), second.values(kpi))
+
+
+def difference_of(a: dict[int, float], b: dict[int, float]) -> Difference | None:
+    """Returns the Difference of figures by seed; None if there are too few."""
     common = sorted(a.keys() & b.keys())
-    base = np.mean(list(a.values()))
     if len(common) > 1:
-        deltas = np.array([b[seed] - a[seed] for seed in common])
-        estimate = Estimate.of(deltas)
-        certain = deltas.std() < 1e-12
-        p_value = float(deltas.mean() == 0) if certain else stats.ttest_1samp(deltas, 0).pvalue
-        paired = True
+        estimate, p_value, effect = _of_pairs(np.array([b[seed] - a[seed] for seed in common]))
     elif len(a) > 1 and len(b) > 1:
-        found = stats.ttest_ind(list(b.values()), list(a.values()), equal_var=False)
-        estimate = Estimate(np.mean(list(b.values())) - base, float("nan"), len(b))
-        p_value, paired = found.pvalue, False
+        estimate, p_value, effect = _of_samples(np.array([*a.values()]), np.array([*b.values()]))
     else:
         return None
+    base = float(np.mean(list(a.values())))
     relative = estimate.mean / base if base else float("nan")
-    return Difference(estimate, float(relative), float(p_value), paired)
+    return Difference(estimate, relative, p_value, len(common) > 1, effect, base)
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """Returns p-values corrected for their number (Holm, Scand. J. Statist. 6, 1979)."""
+    corrected, highest = [0.0] * len(p_values), 0.0
+    for rank, at in enumerate(np.argsort(p_values, kind="stable").tolist()):
+        highest = max(highest, (len(p_values) - rank) * p_values[at])
+        corrected[at] = min(highest, 1.0)
+    return corrected
+
+
+def _of_pairs(deltas: np.ndarray) -> tuple[Estimate, float, float]:
+    """Returns the mean of differences, its p-value and effect.
+
+    Where all are the same, t says nothing: their signs alone are tested, of which all are alike
+    with a chance of 2 / 2^n.
+    """
+    estimate, count = Estimate.of(deltas), len(deltas)
+    if not deltas.any():
+        return estimate, 1.0, 0.0
+    deviation = deltas.std(ddof=1)
+    if deviation <= 1e-12 * np.abs(deltas).max():
+        return estimate, 2.0 ** (1 - count), float(np.copysign(np.inf, estimate.mean))
+    p_value = float(stats.ttest_1samp(deltas, 0).pvalue)
+    return estimate, p_value, estimate.mean / deviation * _small_sample(count - 1)
+
+
+def _of_samples(a: np.ndarray, b: np.ndarray) -> tuple[Estimate, float, float]:
+    """Returns the difference of two means by Welch's t, its p-value and effect."""
+    mean = float(b.mean() - a.mean())
+    errors = np.array([one.var(ddof=1) / len(one) for one in (a, b)])
+    if not errors.any():
+        nothing = Estimate(mean, float("nan"), len(b))
+        return nothing, 1.0, float(np.copysign(np.inf, mean)) if mean else 0.0
+    freedom = errors.sum() ** 2 / (errors**2 / [len(a) - 1, len(b) - 1]).sum()
+    half = float(stats.t.ppf((1 + CONFIDENCE) / 2, freedom) * np.sqrt(errors.sum()))
+    p_value = float(stats.ttest_ind(b, a, equal_var=False).pvalue)
+    spread = np.sqrt((a.var(ddof=1) + b.var(ddof=1)) / 2)
+    small = _small_sample(len(a) + len(b) - 2)
+    return Estimate(mean, half, len(b)), p_value, float(mean / spread * small)
+
+
+def _small_sample(freedom: int) -> float:
+    """Returns Hedges' factor, by which small samples overstate an effect."""
+    return 1 - 3 / (4 * freedom - 1)
 
 
 def _flat(config: dict[str, Any], before: str = "") -> dict[str, Any]:

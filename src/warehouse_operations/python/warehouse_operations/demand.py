@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where orders and bundles come from: `fill`, `fill:N`, `poisson:PER_HOUR`, a CSV file (see
-order_file), or `none`."""
+order_file), `mix:…` (see order_mix), or `none`."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from warehouse_operations.acceptance import MOST_WAITING
+from warehouse_operations import order_mix
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.inventory import ROOMY
 from warehouse_operations.order_file import DemandError, Wanted, read_csv
+from warehouse_operations.order_mix import DUE_LATER, DUE_SOON, DUE_SOON_SHARE, MOST_PER_HOUR
 from warehouse_operations.orders import Backlog
 
 FILL = 200  # orders that wait at any time
@@ -18,10 +20,16 @@ POISSON = 160.0  # orders a picking station and hour
 BUNDLES = 45.0  # bundles a replenishing station and hour, with poisson
 LINES, LINE_SHARES = (1, 2, 3, 4), np.array([0.554, 0.350, 0.088, 0.009])
 PIECES_MEAN, PIECES_DEVIATION, PIECES_LEAST, PIECES_MOST = 1.0, 0.3, 1, 3
-DUE_SOON, DUE_SOON_SHARE, DUE_LATER = 30 * 60.0, 0.2, 2 * 3600.0
 BUNDLE_LEAST, BUNDLE_MOST = 4, ROOMY
-MOST_FILL, MOST_PER_HOUR = 10_000, 1e6
+MOST_FILL = 10_000
 AT_ONCE, PAUSE = 1_000, 1.0  # orders of a file that come together at most, until the next [s]
+
+
+class DrawsOrders(Protocol):
+    """Draws orders, one after the other."""
+
+    def order(self, now: float, in_stock: Callable[[str], int]) -> Wanted | None:
+        """Returns the order that comes now; None if there is none."""
 
 
 class Customers:
@@ -80,7 +88,7 @@ class Poisson:
 
     def __init__(
         self,
-        customers: Customers,
+        customers: DrawsOrders,
         per_hour: float,
         bundles_per_hour: float,
         rng: np.random.Generator,
@@ -155,6 +163,9 @@ def make_demand(
     if name == "poisson":
         per_hour = _number(text, value, POISSON * stations[0], MOST_PER_HOUR)
         return Poisson(customers, per_hour, BUNDLES * stations[1], rng, now)
+    if name == "mix":
+        per_hour, mixed = order_mix.make(str(text), assortment, rng, capacity)
+        return Poisson(mixed, per_hour, BUNDLES * stations[1], rng, now)
     if str(text).endswith(".csv"):
         return FromFile(read_csv(text, set(assortment.skus) if assortment else None, capacity))
     raise DemandError(

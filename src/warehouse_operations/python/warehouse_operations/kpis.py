@@ -28,6 +28,7 @@ class Tally:
         self.trips = self.pick_visits = 0  # units that were at a station, at a picking one
         self.turnover_s: list[float] = []
         self.throughput_s: list[float] = []
+        self.completed_s: list[float] = []  # when each of these orders was complete
         self.picked_in: dict[int, int] = defaultdict(int)  # by INTERVAL
         self.stored_in: dict[int, int] = defaultdict(int)
         self.completed_in: dict[int, int] = defaultdict(int)
@@ -50,6 +51,7 @@ class Tally:
         self.late_orders += bool(order.due) and order.completed > order.due
         self.turnover_s.append(order.completed - order.created)
         self.throughput_s.append(order.completed - order.assigned)
+        self.completed_s.append(order.completed)
         self.completed_in[int(order.completed // INTERVAL)] += 1
 
     def visited(self, visit: Visit) -> None:

@@ -64,6 +64,7 @@ class Operations:
             unless_open.pop_all()
         self.fleet.set_hooks(self.shift.hooks)
         self.wall_s = 0.0
+        self.driven_m: dict[int, float] = {}  # by all robots up to the end of each kpis.INTERVAL
 
     def _fleet(self, world: Any, physics: bool, seed: int) -> "IdealFleet | WorldFleet":
         if physics and world is not None:
@@ -111,6 +112,7 @@ class Operations:
             self.shift.fallen.update(self.fleet.fallen_items)
             # A world counts steps: times that differ by rounding alone are the same.
             self.shift.advance(until if abs(now - until) < ROUNDING else min(now, end))
+            self.driven_m[int(self.shift.now // kpis.INTERVAL)] = self.fleet.distance_m
             count += 1
             if progress and count % 256 == 0 and progress(self):
                 break

@@ -34,7 +34,7 @@ def throughput(groups: Sequence[Group]) -> str:
 
     A band reaches from the least to the most where there are several runs.
     """
-    figure, axes = _figure(7.5, 2.8)
+    figure, axes = new_figure(7.5, 2.8)
     bounds = [group.estimate("item_upper_bound_per_hour").mean for group in groups]
     top, end = max(bounds), 0.0
     for colour, group, bound in zip(_colours(), groups, bounds):
@@ -50,7 +50,7 @@ def throughput(groups: Sequence[Group]) -> str:
     axes.text(0, max(bounds), " upper bound of picking", va="bottom", color="#777")
     axes.set(xlabel="time of the shift [min]", ylabel="pieces an hour")
     axes.set(xlim=(0, end or 1), ylim=(0, top * 1.15 or 1))
-    return _svg(figure, axes, len(groups) > 1)
+    return as_svg(figure, axes, len(groups) > 1)
 
 
 def _in_blocks(group: Group) -> tuple[np.ndarray, np.ndarray]:
@@ -69,30 +69,30 @@ def _in_blocks(group: Group) -> tuple[np.ndarray, np.ndarray]:
 def stations(group: Group) -> str:
     """Returns a picture of how busy each station is, in the first run of a group."""
     rows = group.runs[0].data["stations"]
-    figure, axes = _figure(7.5, 2.4)
+    figure, axes = new_figure(7.5, 2.4)
     colours = [COLOURS[0] if row["kind"] == "PICK" else COLOURS[2] for row in rows]
     axes.bar(range(len(rows)), [100 * row["busy_fraction"] for row in rows], color=colours)
     axes.set(ylabel="busy [%]", ylim=(0, 105), xlabel="stations: picking blue, replenishing green")
     if len(rows) <= 24:
         axes.set_xticks(range(len(rows)), [row["name"] for row in rows], rotation=60, ha="right")
-    return _svg(figure, axes, False)
+    return as_svg(figure, axes, False)
 
 
 def turnover(groups: Sequence[Group]) -> str:
     """Returns a picture of the share of orders that are completed within a time of arrival."""
-    figure, axes = _figure(3.7, 2.6)
+    figure, axes = new_figure(3.7, 2.6)
     for colour, group in zip(_colours(), groups):
         minutes = np.sort(np.concatenate([run.data["turnover_s"] for run in group.runs])) / 60
         if len(minutes):
             share = np.arange(1, len(minutes) + 1) / len(minutes) * 100
             axes.plot(*_thinned(minutes, share), color=colour, label=group.label)
     axes.set(xlabel="minutes from arrival to completion", ylabel="orders [%]", ylim=(0, 102))
-    return _svg(figure, axes, False)
+    return as_svg(figure, axes, False)
 
 
 def robots(groups: Sequence[Group]) -> str:
     """Returns a picture of the activities that robots spend their time on."""
-    figure, axes = _figure(7.5, 0.9 + 0.4 * len(groups))
+    figure, axes = new_figure(7.5, 0.9 + 0.4 * len(groups))
     for row, group in enumerate(groups):
         totals = _sum([run.data["robots"] for run in group.runs])
         whole, left = sum(totals.values()) or 1.0, 0.0
@@ -105,7 +105,7 @@ def robots(groups: Sequence[Group]) -> str:
     axes.invert_yaxis()
     axes.set(xlabel="share of the robots' time [%]", xlim=(0, 100))
     axes.legend(ncol=7, loc="lower center", bbox_to_anchor=(0.5, 1.0), frameon=False, fontsize=8)
-    return _svg(figure, axes, False)
+    return as_svg(figure, axes, False)
 
 
 def heat_map(values: Any, title: str, floor: Sequence[str] = ()) -> str:
@@ -115,7 +115,7 @@ def heat_map(values: Any, title: str, floor: Sequence[str] = ()) -> str:
     """
     values = np.asarray(values, float)
     height, width = values.shape
-    figure, axes = _figure(3.7, min(max(3.7 * height / width, 1.5), 5))
+    figure, axes = new_figure(3.7, min(max(3.7 * height / width, 1.5), 5))
     top = np.percentile(values[values > 0], 99) if (values > 0).any() else 1.0
     if len(floor) == height:
         axes.imshow(_ground(floor), origin="lower")
@@ -124,7 +124,7 @@ def heat_map(values: Any, title: str, floor: Sequence[str] = ()) -> str:
     axes.set(title=title, xticks=[], yticks=[])
     axes.spines[:].set_visible(True)
     figure.colorbar(image, shrink=0.7)
-    return _svg(figure, axes, False)
+    return as_svg(figure, axes, False)
 
 
 def _ground(floor: Sequence[str]) -> np.ndarray:
@@ -141,7 +141,7 @@ def comparison(groups: Sequence[Group], kpi: str, label: str) -> str:
 
     The axis begins at zero: a difference looks as large as it is.
     """
-    figure, axes = _figure(3.7, 0.8 + 0.3 * len(groups))
+    figure, axes = new_figure(3.7, 0.8 + 0.3 * len(groups))
     found = [group.estimate(kpi) for group in groups]
     half = [0 if np.isnan(one.half) else one.half for one in found]
     rows = range(len(groups))
@@ -152,7 +152,7 @@ def comparison(groups: Sequence[Group], kpi: str, label: str) -> str:
     top = max(one.mean + more for one, more in zip(found, half))
     axes.set(xlabel=label, xlim=(0, 1.08 * top or 1), ylim=(len(groups) - 0.5, -0.5))
     axes.grid(axis="x", color="#eee")
-    return _svg(figure, axes, False)
+    return as_svg(figure, axes, False)
 
 
 def _colours() -> Iterator[str]:
@@ -160,14 +160,16 @@ def _colours() -> Iterator[str]:
         yield from COLOURS
 
 
-def _figure(width: float, height: float) -> tuple[Figure, Any]:
+def new_figure(width: float, height: float) -> tuple[Figure, Any]:
+    """Returns an empty figure of that size [in] and its axes."""
     figure = Figure(figsize=(width, height), layout="constrained")
     axes = figure.subplots()
     axes.spines[["top", "right"]].set_visible(False)
     return figure, axes
 
 
-def _svg(figure: Figure, axes: Any, legend: bool) -> str:
+def as_svg(figure: Figure, axes: Any, legend: bool) -> str:
+    """Returns a figure as SVG to be put inside a page, with a legend or without."""
     if legend:
         axes.legend(frameon=False, fontsize=8)
     file = io.StringIO()

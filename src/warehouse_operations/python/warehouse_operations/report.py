@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from warehouse_operations import comparison, plots, report_exports
+from warehouse_operations import verdicts as differences
 from warehouse_operations.comparison import Estimate, Group
 from warehouse_operations.report_front import assumptions, opening
 from warehouse_operations.runs import REPORT, Run
@@ -92,29 +93,29 @@ def page(runs: Sequence[Run]) -> str:
     alone = len(groups) == 1
     parts += [opening(first, _headline(first)) if alone else _verdicts(groups)]
     note = "Bands reach from the least to the most of the runs." if _several(groups) else ""
-    parts += [_section("Throughput over the shift", plots.throughput(groups), note)]
-    parts += [_section("Assumptions", assumptions(first))] if alone else []
+    parts += [section("Throughput over the shift", plots.throughput(groups), note)]
+    parts += [section("Assumptions", assumptions(first))] if alone else []
     exports = report_exports.links(groups, (name for name, *_ in ROWS))
-    parts += ['<div class="rest">', _section("Figures", _table(groups) + exports)]
+    parts += ['<div class="rest">', section("Figures", _table(groups) + exports)]
     if len(groups) > 1:
         pictures = [plots.comparison(groups, kpi, label) for kpi, label in COMPARED]
         note = INTERVALS if all(len(group.runs) > 1 for group in groups) else NO_INTERVALS
-        parts += [_section("Side by side", _row(pictures), note)]
-    parts += [_section("Orders: how long they take", plots.turnover(groups))]
-    parts += [_section("Where the robots' time goes", plots.robots(groups), QUEUES)]
+        parts += [section("Side by side", _row(pictures), note)]
+    parts += [section("Orders: how long they take", plots.turnover(groups))]
+    parts += [section("Where the robots' time goes", plots.robots(groups), QUEUES)]
     for group in groups[:4]:
         name = f": {group.label}" if len(groups) > 1 else ""
-        parts += [_section(f"Stations{escape(name)}", plots.stations(group))]
+        parts += [section(f"Stations{escape(name)}", plots.stations(group))]
         troubles = _troubles(group)
         if troubles:
             note = (
                 "Pieces not picked are estimated from those picked in the robot hours at work: what"
                 " is lost if stations wait for robots."
             )
-            parts += [_section(f"Troubles of the day{escape(name)}", troubles, note)]
+            parts += [section(f"Troubles of the day{escape(name)}", troubles, note)]
         maps = _maps(group.runs[0])
         if maps:
-            parts += [_section(f"The floor{escape(name)}", _row(maps))]
+            parts += [section(f"The floor{escape(name)}", _row(maps))]
     return "\n".join(parts) + "</div></body></html>\n"
 
 
@@ -150,26 +151,20 @@ def table(runs: Sequence[Run]) -> str:
 
 
 def verdicts(groups: Sequence[Group]) -> Iterator[str]:
-    """Yields sentences about how much each configuration differs from the first in throughput."""
+    """Yields sentences about how much each configuration differs from the first."""
+    told = differences.verdicts(groups)
+    yield from map(str, told)
     for group in groups[1:]:
-        found = comparison.difference(groups[0], group, "item_throughput_per_hour")
-        if found is None:
-            ratio = (
-                group.estimate("item_throughput_per_hour").mean
-                / max(groups[0].estimate("item_throughput_per_hour").mean, 1e-9)
-                - 1
-            )
+        if all(one.group is not group for one in told):
             yield (
-                f"{group.label}: {100 * ratio:+.1f} % pieces an hour against {groups[0].label} "
-                "(too few runs to tell it from chance)"
+                f"{group.label}: {100 * _ratio(groups[0], group):+.1f} % pieces an hour against"
+                f" {groups[0].label} (too few runs to tell it from chance)"
             )
-            continue
-        sure = "significant" if found.significant else "not significant"
-        yield (
-            f"{group.label}: {100 * found.relative:+.1f} % pieces an hour against "
-            f"{groups[0].label} ({sure}, p = {found.p_value:.2g}, {found.estimate.count} runs"
-            f"{', seed by seed' if found.paired else ''})"
-        )
+
+
+def _ratio(first: Group, second: Group) -> float:
+    a, b = (one.estimate("item_throughput_per_hour").mean for one in (first, second))
+    return b / max(a, 1e-9) - 1
 
 
 def _head(runs: Sequence[Run], groups: Sequence[Group]) -> str:
@@ -211,7 +206,13 @@ def _headline(group: Group) -> str:
 
 
 def _verdicts(groups: Sequence[Group]) -> str:
-    return "".join(f"<p>{escape(text)}</p>" for text in verdicts(groups))
+    cut = differences.warm_up(groups) * groups[0].runs[0].data["intervals"]["seconds"] / 60
+    note = (
+        f'<p class="note">After a warm-up of {cut:.0f} min (MSER-5 on the pieces picked); p is'
+        " corrected for the number of differences (Holm); effect: over the standard deviation of"
+        " the pairs (Hedges' g).</p>"
+    )
+    return "".join(f"<p>{escape(text)}</p>" for text in verdicts(groups)) + note
 
 
 def _table(groups: Sequence[Group]) -> str:
@@ -289,6 +290,7 @@ def _row(pictures: Iterable[str]) -> str:
     return f'<div class="row">{"".join(f"<div>{one}</div>" for one in pictures)}</div>'
 
 
-def _section(title: str, content: str, note: str = "") -> str:
+def section(title: str, content: str, note: str = "") -> str:
+    """Returns a part of a page, HTML, below its title."""
     note = f'<p class="note">{note}</p>' if note else ""
     return f"<h2>{title}</h2>{note}{content}"

@@ -2,9 +2,9 @@
 """The files that a shift leaves in its folder: kpis.json, and run.json with data for the report.
 
 run.json: config {site, orders, policies, physics, settings}, seed, intervals {seconds, picked,
-stored, completed: a list each}, stations [{name, kind, busy_fraction, pieces, visits}], turnover_s
-and throughput_s of each order, robots {activity: seconds}, floor [a text a row], traffic and
-waiting (h, w) or null,
+stored, completed: a list each}, driven_m [metres in each of these], stations [{name, kind,
+busy_fraction, pieces, visits}], completed_s, turnover_s and throughput_s of each order,
+robots {activity: seconds}, floor [a text a row], traffic and waiting (h, w) or null,
 failures [{kind, count, repairs, mean_repair_s}],
 lateness.
 """
@@ -99,6 +99,8 @@ def describe(ops: "Operations", config: dict[str, Any], seed: int) -> dict[str, 
         "intervals": {"seconds": INTERVAL}
         | {name: [values.get(i, 0) for i in range(count)] for name, values in series.items()},
         "stations": [_station(station, shift) for station in shift.stations],
+        "driven_m": _driven(ops, count),
+        "completed_s": [round(value - shift.began, 1) for value in tally.completed_s],
         "turnover_s": [round(value, 1) for value in tally.turnover_s],
         "throughput_s": [round(value, 1) for value in tally.throughput_s],
         "robots": ops.fleet.activities(),
@@ -120,6 +122,16 @@ def floor_rows(plan: FloorPlan) -> list[str]:
     cells[plan.lane], cells[plan.parking], cells[plan.storage] = "l", "p", "s"
     cells[~plan.passable] = "#"
     return ["".join(row) for row in cells.tolist()]
+
+
+def _driven(ops: "Operations", count: int) -> list[float]:
+    """Returns the metres of all robots in each interval."""
+    out, last = [], 0.0
+    for i in range(count):
+        total = ops.driven_m.get(i, last)
+        out.append(round(total - last, 1))
+        last = total
+    return out
 
 
 def _station(station: WorkStation, shift: "Shift") -> dict[str, Any]:

@@ -233,7 +233,9 @@ def test_a_wrong_sweep_is_told(tmp_path, text, message):
 
 def fake(label, seed, value):
     kpis = dict.fromkeys(KPIS, 0.0) | {"item_throughput_per_hour": value}
-    data = {"config": {"site": "x", "orders": label}, "seed": seed}
+    kpis["order_turnover_s"] = {"median": 60.0}
+    intervals = {"seconds": 60.0, "picked": []}
+    data = {"config": {"site": "x", "orders": label}, "seed": seed, "intervals": intervals}
     return runs.Run(Path(label), kpis, data)
 
 

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The answer of a sizing, in words and figures: how many, how sure, and what limits it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from warehouse_operations.comparison import CONFIDENCE
+from warehouse_operations.sizing.study import Study
+from warehouse_operations.sizing.verdict import Verdict, difference
+from warehouse_operations.sizing.wish import named
+
+KNEE = 0.99  # of the most orders an hour of any number of robots
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The chosen point of a Study, with what was found around it.
+
+    verdict: of ideal robots. check: of simulated ones, None if that was not asked for; its robots
+    may be more.
+    """
+
+    study: Study
+    verdict: Verdict
+    check: Verdict | None = None
+
+    @property
+    def robots(self) -> int:
+        """How many robots are needed: simulated ones, if they were checked."""
+        return self.check.robots if self.check and self.check.met else self.verdict.robots
+
+    @property
+    def stations(self) -> int:
+        """How many picking stations have to be open."""
+        return self.verdict.stations
+
+    @property
+    def names(self) -> str:
+        """The names of these stations."""
+        return named(self.study.wish.stations[: self.stations])
+
+    @property
+    def measured(self) -> Verdict:
+        """The Verdict that the answer rests on: on simulated robots, if they were checked."""
+        return self.check or self.verdict
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether simulated robots met the wish, or were not asked for."""
+        return self.check is None or self.check.met
+
+    def headline(self) -> str:
+        """Returns the answer as a sentence."""
+        wish = self.study.wish
+        robots = count(self.robots, "robot")
+        stations = count(self.stations, "open picking station")
+        if not self.confirmed:
+            return (
+                f"{robots} and {stations} would meet {wish.orders_per_hour:,.0f} orders an hour"
+                " without traffic; simulated robots were not shown to."
+            )
+        return (
+            f"{robots} and {stations} ({self.names}) meet {wish.orders_per_hour:,.0f} orders an"
+            f" hour: at most {100 * self.measured.at_most:.2f} % of them are not done in time,"
+            f" where {100 * wish.late:g} % may be ({100 * CONFIDENCE:.0f} % confidence,"
+            f" {len(self.measured.records)} shifts)."
+        )
+
+    @property
+    def limit(self) -> str:
+        """What limits the answer: stations, replenishing, robots or streets."""
+        verdict = self.measured
+        if not self.confirmed or self.robots > self.verdict.robots:
+            return "streets"
+        use = {
+            "stations": verdict.estimate("of_bound").mean,
+            "replenishing": verdict.estimate("replenishing").mean,
+            "robots": verdict.estimate("robots_at_work").mean,
+        }
+        return max(use, key=lambda one: use[one])
+
+    def reasons(self) -> Iterator[str]:
+        """Yields sentences about what limits the answer."""
+        verdict = self.measured
+        yield (
+            f"At work: robots {percent(verdict, 'robots_at_work')} of their time (before stations"
+            f" {percent(verdict, 'robots_queue')}), picking stations {percent(verdict, 'picking')},"
+            f" replenishing ones {percent(verdict, 'replenishing')}; the open stations pick"
+            f" {percent(verdict, 'of_bound')} of what they can at most."
+        )
+        yield from self._streets()
+        yield from self._fewer_robots()
+        yield from self._fewer_stations()
+        yield from self._more_stations()
+
+    def _streets(self) -> Iterator[str]:
+        check = self.check
+        if check is None:
+            yield "Traffic is not in it: ideal robots do not meet. Check it with --physics."
+            return
+        more = check.robots - self.verdict.robots
+        if not check.met:
+            yield (
+                f"Simulated robots miss {percent(check, 'missed')} of the orders with"
+                f" {count(check.robots, 'robot')}: more of them get in each other's way."
+            )
+        elif more:
+            yield f"Traffic takes {count(more, 'robot')} more than ideal robots would be."
+        else:
+            yield "Simulated robots meet it too: traffic takes no robot more."
+        for fault in sorted({text for one in check.records for text in one.faults}):
+            yield f"With physics: {fault}."
+
+    def _fewer_robots(self) -> Iterator[str]:
+        fewer = self.study.verdicts.get((self.verdict.robots - 1, self.stations))
+        if fewer:
+            more = difference(self.verdict, fewer, "missed")
+            yield (
+                f"With {count(fewer.robots, 'robot')} the wish is {fewer.word}:"
+                f" {100 * more.mean:+.2f} ± {100 * more.half:.2f} points of orders missed, seed by"
+                " seed."
+            )
+
+    def _fewer_stations(self) -> Iterator[str]:
+        wish, fewer = self.study.wish, self.stations - 1
+        if not fewer:
+            return
+        name, bound = named(wish.stations[:fewer]), wish.bound(fewer)
+        if bound < wish.pieces_per_hour:
+            yield (
+                f"{name} can do {bound:,.0f} pieces an hour; {wish.pieces_per_hour:,.0f} are asked."
+            )
+        elif self.study.frontier.get(fewer, 0) is None:
+            yield f"With {name} alone no number of robots meets it."
+        elif robots := self.study.frontier.get(fewer):
+            yield f"With {name} alone {count(robots, 'robot')} would do."
+
+    def _more_stations(self) -> Iterator[str]:
+        more = self.stations + 1
+        if more > len(self.study.wish.stations):
+            return
+        robots = self.study.frontier.get(more)
+        word = count(more, "picking station")
+        yield f"With {word} {count(robots, 'robot')} would do." if robots else (
+            f"With {word} no robot is saved."
+        )
+
+
+def knee(verdicts: list[Verdict]) -> int | None:
+    """Returns the fewest robots with nearly as many orders an hour as any of these points have."""
+    hourly = {one.robots: one.estimate("orders_per_hour").mean for one in verdicts}
+    if len(hourly) < 2:
+        return None
+    return min(robots for robots, orders in hourly.items() if orders >= KNEE * max(hourly.values()))
+
+
+def percent(verdict: Verdict, name: str) -> str:
+    """Returns a share as text."""
+    return f"{100 * verdict.estimate(name).mean:.1f} %"
+
+
+def count(number: int, noun: str) -> str:
+    """Returns a number with its noun."""
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What robots, stations and units cost, for the cost of a piece.
+
+    robot: 25000      # one of them [money]
+    station: 40000
+    unit: 150         # a storage unit
+    hour: 28          # of a person at a picking station
+    hours: 20000      # in which what is bought is used up: 5 years of two shifts, if left out
+
+Each may be left out: it costs nothing then.
+"""
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+from warehouse_operations.yaml_file import read_yaml
+
+
+class PriceError(Exception):
+    """Says what is wrong in a file of prices, with its name and the key."""
+
+
+@dataclass(frozen=True)
+class Prices:
+    """Prices in one currency. hours: in which robots, stations and units are used up."""
+
+    robot: float = 0.0
+    station: float = 0.0
+    unit: float = 0.0
+    hour: float = 0.0
+    hours: float = 20_000.0
+
+    def per_hour(self, robots: int, stations: int, units: int) -> float:
+        """Returns what so many of each cost an hour."""
+        bought = self.robot * robots + self.station * stations + self.unit * units
+        return bought / self.hours + self.hour * stations
+
+
+def read(path: str | Path) -> Prices:
+    """Reads a YAML file of prices. Raises PriceError."""
+    data = read_yaml(path, PriceError)
+    names = [one.name for one in fields(Prices)]
+    if not isinstance(data, dict):
+        raise PriceError(f"{path}: keys with prices were expected: {', '.join(names)}")
+    for key, value in data.items():
+        if key not in names:
+            raise PriceError(f"{path}: '{key}' is unknown; {', '.join(names)} were expected")
+        number = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if not number or not 0 <= value < 1e12 or (key == "hours" and not value):
+            raise PriceError(f"{path}: {key} is {value!r}; a number of 0 or more was expected")
+    return Prices(**data)

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shows how far a sizing is: on one line of a terminal, elsewhere a line a shift."""
+
+import sys
+import time
+from typing import TYPE_CHECKING, TextIO
+
+from warehouse_operations.sizing.point import Point, Record
+from warehouse_operations.sizing.verdict import figures_of
+
+if TYPE_CHECKING:
+    from warehouse_operations.sizing.study import Study
+
+
+class Shown:
+    """Shows each shift that was simulated; to be given to a Study as on_shift."""
+
+    def __init__(self, stream: TextIO = sys.stderr) -> None:
+        self._stream, self._began = stream, time.monotonic()
+
+    def __call__(self, study: "Study", point: Point, record: Record) -> None:
+        """Shows a shift, and what was simulated so far."""
+        kind = " with physics" if point.physics else ""
+        in_time = 1 - figures_of(record, point.minutes // 4)["missed"]
+        text = (
+            f"{point.stations} stations, {point.robots} robots, seed {point.seed}{kind}:"
+            f" {100 * in_time:.1f} % in time; {study.shifts} shifts, {study.simulated_h:,.0f} h"
+            f" simulated in {time.monotonic() - self._began:,.0f} s"
+        )
+        self._stream.write(f"\r{text}\033[K" if self._stream.isatty() else f"{text}\n")
+        self._stream.flush()
+
+    def end(self) -> None:
+        """Ends the line."""
+        if self._stream.isatty():
+            self._stream.write("\n")

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Keeps the shifts of points in a folder, each under what decides its outcome."""
+
+import hashlib
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+from warehouse_operations.sizing.point import SERIES, Point, Record
+
+VERSION = 1  # of what is kept; another one is simulated again
+
+
+class Store:
+    """The shifts in a folder. orders_file: the CSV file of the orders, whose content counts."""
+
+    def __init__(self, folder: Path, orders_file: str = "") -> None:
+        self._folder = folder
+        self._orders = Path(orders_file).read_bytes() if orders_file else b""
+
+    def get(self, point: Point) -> Record | None:
+        """Returns the Record of a Point; None if there is none, or none that can be read."""
+        try:
+            text = self._path(point).read_text(encoding="utf-8")
+            record = Record(**json.loads(text))
+            complete = all(len(record.series[name]) == point.minutes for name in SERIES)
+        except (OSError, ValueError, TypeError, KeyError):
+            return None
+        return record if complete else None
+
+    def put(self, point: Point, record: Record) -> None:
+        """Keeps the Record of a Point: all of it, or nothing. Raises OSError."""
+        path = self._path(point)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        unfinished = path.with_suffix(".new")
+        unfinished.write_text(json.dumps(record.to_json()), encoding="utf-8")
+        unfinished.replace(path)
+
+    def _path(self, point: Point) -> Path:
+        decisive = json.dumps([VERSION, asdict(point)], sort_keys=True).encode() + self._orders
+        key = hashlib.sha256(decisive).hexdigest()[:16]
+        kind = "physics" if point.physics else "ideal"
+        name = f"{point.stations}-stations-{point.robots}-robots-{kind}-seed-{point.seed}-{key}"
+        return self._folder / f"{name}.json"

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A whole sizing: from a wish to its answer, with all points that were judged on the way."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, wait
+from dataclasses import dataclass, field
+
+from warehouse_operations.sizing import point as shift
+from warehouse_operations.sizing.point import Point, Record
+from warehouse_operations.sizing.prices import Prices
+from warehouse_operations.sizing.search import Search
+from warehouse_operations.sizing.store import Store
+from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
+from warehouse_operations.sizing.wish import ImpossibleError, Wish, named
+
+STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
+TRIES = 4  # numbers of simulated robots
+
+OnShift = Callable[["Study", Point, Record], object]
+
+
+@dataclass(eq=False)
+class Study:
+    """Judges points of a wish. Shifts run on an Executor, and are kept in a Store.
+
+    on_shift is called after each shift that was simulated. verdicts: by (robots, stations), of
+    ideal robots; checks: the same of simulated ones. simulated_h, wall_s: of the shifts that were
+    simulated by this Study, not taken from the Store.
+    """
+
+    wish: Wish
+    store: Store
+    executor: Executor
+    on_shift: OnShift = lambda *_: None
+    verdicts: dict[tuple[int, int], Verdict] = field(default_factory=dict)
+    checks: dict[tuple[int, int], Verdict] = field(default_factory=dict)
+    frontier: dict[int, int | None] = field(default_factory=dict)
+    shifts: int = 0
+    simulated_h: float = 0.0
+    wall_s: float = 0.0
+
+    def search(self) -> dict[int, int | None]:
+        """Returns the fewest robots for each number of stations. Raises ImpossibleError."""
+        wish = self.wish
+        least, most = wish.least_stations(), len(wish.stations)
+        self.frontier = Search(self.judge, wish.robots).run(least, most)
+        if not any(self.frontier.values()):
+            raise ImpossibleError(self._why_not(most))
+        return self.frontier
+
+    def judge(self, robots: int, stations: int) -> Verdict:
+        """Returns the Verdict on ideal robots at so many stations."""
+        return self._judge(self.verdicts, robots, stations, 0.0)
+
+    def check(self, robots: int, stations: int, hours: float) -> int | None:
+        """Returns how many simulated robots meet the wish, `robots` or a few more; or None.
+
+        Shifts have so many hours.
+        """
+        most, add = self.wish.robots(stations), 0
+        for _ in range(TRIES):
+            if self._judge(self.checks, robots + add, stations, hours).met:
+                return robots + add
+            if robots + add >= most:
+                return None
+            add = min(max(2 * add, round(STEP * robots), 1), most - robots)
+        return None
+
+    def _judge(
+        self,
+        found: dict[tuple[int, int], Verdict],
+        robots: int,
+        stations: int,
+        physics_hours: float,
+    ) -> Verdict:
+        records: list[Record] = []
+        seeds = self.wish.seeds
+        for count in sorted({FIRST, *looks(seeds)}):
+            numbers = range(len(records) + 1, max(count, len(records)) + 1)
+            records += self._shifts(self.wish.points(robots, stations, numbers, physics_hours))
+            verdict = Verdict(robots, stations, tuple(records), self.wish.late, seeds)
+            found[robots, stations] = verdict
+            if verdict.decided:
+                break
+        return verdict
+
+    def _shifts(self, points: Sequence[Point]) -> list[Record]:
+        """Returns the Record of each Point, simulating those that are not kept."""
+        records = {point.seed: self.store.get(point) for point in points}
+        left = [point for point in points if records[point.seed] is None]
+        pending = {self.executor.submit(shift.simulate, point): point for point in left}
+        try:
+            while pending:
+                for future in wait(pending, return_when=FIRST_COMPLETED).done:
+                    point = pending.pop(future)
+                    records[point.seed] = record = future.result()
+                    self._keep(point, record)
+        finally:
+            for future in pending:
+                future.cancel()
+        return [record for point in points if (record := records[point.seed]) is not None]
+
+    def _keep(self, point: Point, record: Record) -> None:
+        self.store.put(point, record)
+        self.shifts += 1
+        self.simulated_h += point.minutes / 60
+        self.wall_s += record.wall_s
+        self.on_shift(self, point, record)
+
+    def _why_not(self, stations: int) -> str:
+        wish = self.wish
+        verdict = self.judge(wish.robots(stations), stations)
+        pieces = verdict.estimate("pieces_per_hour").mean
+        return (
+            f"{verdict.robots} robots and {named(wish.stations)} pick {pieces:,.0f} pieces an hour"
+            f" where {wish.pieces_per_hour:,.0f} are asked, and miss"
+            f" {100 * verdict.estimate('missed').mean:.1f} % of the orders;"
+            f" {100 * wish.late:g} % may be late"
+        )
+
+
+def choose(frontier: dict[int, int | None], prices: Prices | None, units: int) -> tuple[int, int]:
+    """Returns the (robots, stations) of a frontier that are wanted.
+
+    With prices the cheapest; without, the fewest stations, each of which takes a person, and as
+    few robots as they do with.
+    """
+    able = [(robots, stations) for stations, robots in frontier.items() if robots]
+    if prices is None:
+        return min(able, key=lambda one: (one[1], one[0]))
+    return min(able, key=lambda one: prices.per_hour(*one, units))

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is asked of a warehouse, and the points that are simulated for it."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from warehouse_layout import file_check, layout_file, placement
+from warehouse_layout.layout_file import LayoutFile
+from warehouse_operations import kpis, order_mix
+from warehouse_operations.order_file import read_csv
+from warehouse_operations.settings import UNITS_MOST
+from warehouse_operations.sizing import sites
+from warehouse_operations.sizing.point import Point
+
+LINES, PIECES = 1.55, 1.05  # of an order, of a line: those of simulate's own orders
+AT_WORK = 2  # robots a unit that may be on its way to stations: another one is on its way back
+MANY = 1e6  # pieces from a unit: a bound on all that picking could reach
+
+
+class WishError(ValueError):
+    """Says what is wrong with a wish."""
+
+
+class ImpossibleError(Exception):
+    """Says why no number of robots and stations meets a wish."""
+
+
+@dataclass(frozen=True)
+class Wish:
+    """So many orders an hour on a floor, of which a share `late` may be late.
+
+    lines, pieces: means, of an order and of a line. orders_file: a CSV file whose orders come
+    instead. hours: of each shift. seeds: shifts of a point, at least. Raises WishError.
+    """
+
+    file: LayoutFile
+    orders_per_hour: float
+    lines: float = LINES
+    pieces: float = PIECES
+    orders_file: str = ""
+    late: float = 0.01
+    hours: float = 8.0
+    seeds: int = 5
+    most_robots: int = 0  # 0: as many as could be of use, and there is room for
+
+    def __post_init__(self) -> None:
+        if faults := file_check.faults(self.file):
+            raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
+        if not self.stations:
+            raise WishError(f"{self.file.title}: there is no picking station")
+        if not self.file.items:
+            raise WishError(f"{self.file.title}: items is 0; there is nothing to pick")
+
+    @cached_property
+    def stations(self) -> list[str]:
+        """The names of the picking stations, in the order in which they are opened."""
+        return sites.picking_stations(self.file)
+
+    @cached_property
+    def units(self) -> int:
+        """How many storage units there are."""
+        return len(placement.place(self.file).units)
+
+    @property
+    def orders(self) -> str:
+        """The orders text of order_mix."""
+        return order_mix.text_of(
+            self.orders_per_hour, self.lines, self.pieces, self.orders_file
+        )
+
+    @cached_property
+    def pieces_per_order(self) -> float:
+        """Pieces of an order, on the average. Raises DemandError for a file that is wrong."""
+        if not self.orders_file:
+            return self.lines * self.pieces
+        orders = read_csv(self.orders_file)
+        return float(np.mean([sum(n for _, n in one.lines) for one in orders] or [0.0]))
+
+    @property
+    def pieces_per_hour(self) -> float:
+        """Pieces that are asked for an hour."""
+        return self.orders_per_hour * self.pieces_per_order
+
+    def bound(self, stations: int) -> float:
+        """Returns the pieces an hour that the first `stations` can do at most."""
+        settings = sites.settings_of(self.file)
+        return sum(self._bound_of(settings.of(name)) for name in self.stations[:stations])
+
+    def _bound_of(self, settings: Any) -> float:
+        return kpis.upper_bound(MANY, settings, kpis.Kinematics(), self.file.spacing)
+
+    def least_stations(self) -> int:
+        """Returns how many picking stations there must be. Raises ImpossibleError."""
+        for count in range(1, len(self.stations) + 1):
+            if self.bound(count) >= self.pieces_per_hour:
+                return count
+        raise ImpossibleError(
+            f"{named(self.stations)} can do {self.bound(len(self.stations)):,.0f} pieces an hour;"
+            f" {self.pieces_per_hour:,.0f} are asked"
+        )
+
+    def robots(self, stations: int) -> int:
+        """Returns the most robots that are tried with so many open picking stations."""
+        replenishing = len(self.file.stations) - len(self.stations)
+        useful = AT_WORK * UNITS_MOST * (stations + replenishing)
+        return min(self.most_robots or self.room, useful)
+
+    @cached_property
+    def room(self) -> int:
+        """How many robots have room on the floor: on parking, and beneath storage units."""
+        floor = self.file.floor
+        parking = np.isin(floor, list(layout_file.PARKING + layout_file.CHARGING)).sum()
+        return int(parking) + self.units
+
+    def points(
+        self, robots: int, stations: int, seeds: Sequence[int], physics_hours: float = 0.0
+    ) -> list[Point]:
+        """Returns the Point of each seed; physics_hours: of simulated robots, 0: ideal ones."""
+        file = replace(self.file, robots=robots)
+        return [
+            Point(
+                robots,
+                stations,
+                seed,
+                bool(physics_hours),
+                layout_file.text_of(file),
+                self.orders,
+                math.ceil(60 * (physics_hours or self.hours)),
+                dict(self.file.policies),
+            )
+            for seed in seeds
+        ]
+
+
+def named(stations: Sequence[str]) -> str:
+    """Returns names for people: `pick1…pick4`."""
+    if len(stations) < 3:
+        return " and ".join(stations)
+    return f"{stations[0]}…{stations[-1]}"
