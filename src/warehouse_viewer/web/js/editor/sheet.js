@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lower of the two canvases: the cells as they are drawn.
+
+import { CHARACTERS, isLetter, lookOf, NOTHING, POINTS } from './characters.js';
+
+const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs can be told
+export const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
+
+/** Colours by the names of the style sheet's --cell-…, --editor-…. */
+export function coloursOf(root = document.documentElement) {
+  const style = getComputedStyle(root), read = (name) => style.getPropertyValue(name).trim();
+  const out = Object.fromEntries(LOOKS.map((look) => [look, read(`--cell-${look}`)]));
+  for (const name of ['grid', 'sign', 'on-storage', 'on-station', 'queue', 'exit', 'fault', 'select', 'ruler', 'ruler-text', 'robot']) {
+    out[name] = read(`--editor-${name}`);
+  }
+  return out;
+}
+
+export class Sheet {
+  constructor(canvas, view) {
+    Object.assign(this, { canvas, view, pen: canvas.getContext('2d', { alpha: false }), colours: {} });
+  }
+
+  /** Draws all that is in sight. */
+  draw(drawing) {
+    const { pen, view, colours } = this, { ratio } = view;
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.fillStyle = colours.nothing;
+    pen.fillRect(0, 0, view.width, view.height);
+    const seen = clipped(view.seen, drawing);
+    this.fill(drawing, seen);
+    if (view.scale >= GRID_FROM) this.grid(view.seen);
+    if (view.scale >= SIGNS_FROM) this.signs(drawing, seen);
+  }
+
+  /** Each look is one path of the runs of its cells. */
+  fill(drawing, { left, bottom, right, top }) {
+    const paths = {}, { pen, view } = this, { scale } = view;
+    for (let row = bottom; row < top; row++) {
+      const y = Math.round(view.y - (row + 1) * scale), height = Math.round(view.y - row * scale) - y;
+      for (let column = left, begin = left; column < right; column++) {
+        const char = drawing.get(column, row);
+        if (column + 1 < right && drawing.get(column + 1, row) === char) continue;
+        if (char !== NOTHING) {
+          const x = Math.round(view.x + begin * scale);
+          (paths[lookOf(char)] ??= new Path2D()).rect(x, y, Math.round(view.x + (column + 1) * scale) - x, height);
+        }
+        begin = column + 1;
+      }
+    }
+    for (const [look, path] of Object.entries(paths)) {
+      pen.fillStyle = this.colours[look];
+      pen.fill(path);
+    }
+  }
+
+  grid({ left, bottom, right, top }) {
+    const { pen, view } = this, { scale } = view;
+    pen.fillStyle = this.colours.grid;
+    for (let column = left; column <= right; column++) pen.fillRect(Math.round(view.x + column * scale), 0, 1, view.height);
+    for (let row = bottom; row <= top; row++) pen.fillRect(0, Math.round(view.y - row * scale), view.width, 1);
+  }
+
+  /** Arrows, letters, and what tells places, charging and keep-out apart without colours. */
+  signs(drawing, { left, bottom, right, top }) {
+    const arrows = new Path2D(), frames = new Path2D(), crosses = new Path2D(), { pen, view } = this;
+    const words = [];
+    for (let row = bottom; row < top; row++) {
+      for (let column = left; column < right; column++) {
+        const char = drawing.get(column, row);
+        if (char === '.' || char === NOTHING || char === '#' || char === '=') continue;
+        const centre = view.centreOf([column, row]);
+        if (POINTS[char]) POINTS[char].forEach((heading) => arrow(arrows, centre, heading, view.scale));
+        else if (char === 's') frames.rect(centre[0] - view.scale * 0.3, centre[1] - view.scale * 0.3, view.scale * 0.6, view.scale * 0.6);
+        else if (char === 'x') cross(crosses, centre, view.scale * 0.25);
+        else words.push([isLetter(char) ? char : char.toUpperCase(), centre, isLetter(char)]);
+      }
+    }
+    pen.lineWidth = Math.max(1, view.scale / 14);
+    pen.strokeStyle = this.colours.sign;
+    pen.stroke(arrows);
+    pen.stroke(crosses);
+    pen.strokeStyle = this.colours['on-storage'];
+    pen.stroke(frames);
+    pen.textAlign = 'center';
+    pen.textBaseline = 'middle';
+    pen.font = `600 ${Math.round(view.scale * 0.55)}px system-ui, sans-serif`;
+    for (const [word, [x, y], isStation] of words) {
+      pen.fillStyle = this.colours[isStation ? 'on-station' : 'sign'];
+      pen.fillText(word, x, y + view.scale * 0.04);
+    }
+  }
+}
+
+/** The part of a rectangle that is on the paper. */
+function clipped({ left, bottom, right, top }, drawing) {
+  return {
+    left: Math.max(left, drawing.left),
+    bottom: Math.max(bottom, drawing.bottom),
+    right: Math.min(right, drawing.left + drawing.width),
+    top: Math.min(top, drawing.bottom + drawing.height),
+  };
+}
+
+/** An arrow of half a cell, its head towards [dx, dy]. */
+export function arrow(path, [x, y], [dx, dy], scale) {
+  const long = scale * 0.3, head = scale * 0.15, tip = [x + dx * long, y - dy * long];
+  path.moveTo(x - dx * long, y + dy * long);
+  path.lineTo(...tip);
+  path.moveTo(tip[0] - dx * head - dy * head, tip[1] + dy * head - dx * head);
+  path.lineTo(...tip);
+  path.lineTo(tip[0] - dx * head + dy * head, tip[1] + dy * head + dx * head);
+}
+
+function cross(path, [x, y], half) {
+  path.moveTo(x - half, y - half);
+  path.lineTo(x + half, y + half);
+  path.moveTo(x - half, y + half);
+  path.lineTo(x + half, y - half);
+}
