@@ -7,12 +7,12 @@ export const NEXT_STATION = 'A–Z'; // as a brush: a station with the next lett
 /** In the order of the palette; `look` names the colour, --cell-…. */
 export const CHARACTERS = [
   { char: '.', word: 'floor', hint: 'floor, driven any way', look: 'floor' },
-  { char: '>', word: 'right', hint: 'one-way street to the right', look: 'street' },
-  { char: '<', word: 'left', hint: 'one-way street to the left', look: 'street' },
-  { char: '^', word: 'up', hint: 'one-way street up', look: 'street' },
-  { char: 'v', word: 'down', hint: 'one-way street down', look: 'street' },
-  { char: '-', word: 'left and right', hint: 'street driven both ways, left and right', look: 'street' },
-  { char: '|', word: 'up and down', hint: 'street driven both ways, up and down', look: 'street' },
+  { char: '>', word: 'one way right', hint: 'one-way street to the right', look: 'street' },
+  { char: '<', word: 'one way left', hint: 'one-way street to the left', look: 'street' },
+  { char: '^', word: 'one way up', hint: 'one-way street up', look: 'street' },
+  { char: 'v', word: 'one way down', hint: 'one-way street down', look: 'street' },
+  { char: '-', word: 'both ways ↔', hint: 'street driven both ways, left and right', look: 'street' },
+  { char: '|', word: 'both ways ↕', hint: 'street driven both ways, up and down', look: 'street' },
   { char: 's', word: 'storage place', hint: 'a storage unit can stand here', look: 'storage' },
   { char: 'p', word: 'parking', hint: 'robots without work wait here', look: 'parking' },
   { char: 'c', word: 'charging', hint: 'a charging place, also parking', look: 'charging' },

@@ -50,7 +50,7 @@ export class Checker {
 
   show(faults, lanesFound) {
     Object.assign(this.editor, { faults, lanesFound });
-    $('faults-state').textContent = !this.editor.bounds ? 'nothing drawn yet' : faults.length ? '' : 'none: a fleet can work here';
+    $('faults-state').textContent = !this.editor.bounds ? 'nothing drawn yet' : faults.length ? '' : 'none';
     $('faults-count').textContent = faults.length || '';
     $('faults').replaceChildren(...faults.slice(0, MOST).map((fault) => (
       make('li', {}, make('button', { type: 'button', textContent: fault.text, click: () => this.editor.showCells(fault.cells) })))));

@@ -84,7 +84,7 @@ async function main() {
   store.follow();
   enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
   on($('build'), 'click', () => build(editor, post));
-  window.page = Object.assign(editor, parts, { store });
+  window.page = { editor, store, ...parts };
 }
 
 main();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The upper of the two canvases: lanes, names, faults, the selection, what is about to be drawn.
 
-import { lookOf, NEXT_STATION } from './characters.js';
+import { isLetter, lookOf, NEXT_STATION } from './characters.js';
 import { drawHeat } from './heat_layer.js';
 import { drawRulers, metres } from './rulers.js';
-import { arrow } from './sheet.js';
+import { head } from './sheet.js';
 
 const NAMES_FROM = 7; // [px a cell]
 const FLASH = 1200; // [ms] that a fault's cells are shown when it is chosen
@@ -24,6 +24,7 @@ export class Overlay {
     const { pen, view } = this;
     pen.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     pen.clearRect(0, 0, view.width, view.height);
+    this.services(state.drawing);
     if (state.heat) drawHeat(pen, view, state.heat);
     this.lanes(state);
     this.robots(state.drawing);
@@ -36,6 +37,14 @@ export class Overlay {
   }
 
   // --- stations
+
+  /** Service cells of stations whose letter is not drawn. */
+  services(drawing) {
+    const { pen } = this, path = new Path2D();
+    for (const { key, service } of drawing.stations) if (!isLetter(key)) this.mark(path, service, 1);
+    pen.fillStyle = this.colours.station;
+    pen.fill(path);
+  }
 
   lanes({ drawing, lanesFound, station }) {
     for (const one of drawing.stations) {
@@ -52,7 +61,7 @@ export class Overlay {
     const { pen, view } = this, path = new Path2D(), points = cells.map((c) => view.centreOf(c));
     points.forEach((p, i) => (i ? path.lineTo(...p) : path.moveTo(...p)));
     const last = cells.at(-1), before = cells.at(-2);
-    if (before) arrow(path, points.at(-1), [last[0] - before[0], last[1] - before[1]], view.scale * 0.8);
+    if (before) head(path, points.at(-1), [last[0] - before[0], last[1] - before[1]], view.scale * 0.3);
     pen.setLineDash(isDashed ? [view.scale * 0.25, view.scale * 0.2] : []);
     pen.lineWidth = Math.max(1.5, view.scale * wide);
     pen.strokeStyle = colour;
@@ -70,7 +79,8 @@ export class Overlay {
     for (const one of drawing.stations) {
       const [x, y] = view.centreOf(one.service), words = [one.name, ...(told?.[one.name] ?? [])];
       const width = Math.max(...words.map((word) => pen.measureText(word).width)) + 10;
-      const height = 15 * words.length + 4, left = x + view.scale * 0.55, top = y - view.scale * 0.4 - height;
+      const height = 15 * words.length + 4, top = y - view.scale * 0.4 - height;
+      const left = Math.min(x + view.scale * 0.55, Math.max(x, view.width - 4) - width);
       pen.fillStyle = colours.ruler;
       pen.fillRect(left, top, width, height);
       pen.fillStyle = one === station ? colours.select : colours['ruler-text'];

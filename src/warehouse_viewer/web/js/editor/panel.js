@@ -57,17 +57,12 @@ export class Panel {
     $('own-units').value = unitsText(drawing);
     $('own-robots').value = drawing.robotCount;
     $('own-items').value = drawing.stock || (drawing.items === null ? '' : drawing.items);
-    $('own-items').placeholder = `${drawing.itemCount}: four a unit`;
+    $('own-items').placeholder = `${drawing.itemCount} (4 a unit)`;
     $('own-items').disabled = Boolean(drawing.stock);
-    const parking = drawing.count('p') + drawing.count('c');
-    $('count-robots').textContent = drawing.robotCount;
-    $('count-parking').textContent = `${parking} parking`;
-    $('count-units').textContent = drawing.unitCount;
-    $('count-places').textContent = `on ${drawing.places} places`;
-    $('count-stations').textContent = drawing.stations.length;
     const size = bounds ? [bounds.right - bounds.left, bounds.top - bounds.bottom] : [0, 0];
-    $('count-size').textContent = `${metres(size[0] * spacing)} × ${metres(size[1] * spacing)}`;
-    $('count-cells').textContent = `m, ${size[0]} × ${size[1]} cells`;
+    const counts = { robots: drawing.robotCount, parking: drawing.count('p') + drawing.count('c'), units: drawing.unitCount,
+      places: drawing.places, stations: drawing.stations.length, size: size.map((n) => metres(n * spacing)).join(' × ') };
+    for (const [what, count] of Object.entries(counts)) $(`count-${what}`).textContent = count;
     $('undo').disabled = !history.past.length;
     $('redo').disabled = !history.future.length;
     document.title = `${drawing.name || 'Layout'} – Kiva warehouse`;

@@ -103,13 +103,18 @@ function clipped({ left, bottom, right, top }, drawing) {
 }
 
 /** An arrow of half a cell, its head towards [dx, dy]. */
-export function arrow(path, [x, y], [dx, dy], scale) {
-  const long = scale * 0.3, head = scale * 0.15, tip = [x + dx * long, y - dy * long];
+function arrow(path, [x, y], [dx, dy], scale) {
+  const long = scale * 0.3, tip = [x + dx * long, y - dy * long];
   path.moveTo(x - dx * long, y + dy * long);
   path.lineTo(...tip);
-  path.moveTo(tip[0] - dx * head - dy * head, tip[1] + dy * head - dx * head);
+  head(path, tip, [dx, dy], scale * 0.15);
+}
+
+/** The head of an arrow that points to [dx, dy]. */
+export function head(path, tip, [dx, dy], size) {
+  path.moveTo(tip[0] - (dx + dy) * size, tip[1] + (dy - dx) * size);
   path.lineTo(...tip);
-  path.lineTo(tip[0] - dx * head + dy * head, tip[1] + dy * head + dx * head);
+  path.lineTo(tip[0] - (dx - dy) * size, tip[1] + (dy + dx) * size);
 }
 
 function cross(path, [x, y], half) {
