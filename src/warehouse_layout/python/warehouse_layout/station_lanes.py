@@ -4,9 +4,8 @@
 See lane_finder for the shapes that a lane without a drawn queue can have.
 """
 
-import functools
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -40,29 +39,13 @@ def of_file(file: LayoutFile, drawn: DrawnFloor) -> tuple[list[Station], list[La
     """Returns the stations of a file that have lanes, and why the others have none.
 
     Drawn lanes come first, so that lanes which are looked for keep out of them; the stations are in
-    the order of the file. `drawn` are the areas of the file's floor.
+    the order of the file.
     """
-    stations, faults = _of_file(_Identical(file, drawn))
-    return list(stations), list(faults)
-
-
-@dataclass(frozen=True)
-class _Identical:
-    """A file, the same as another one if it is the very object."""
-
-    file: LayoutFile
-    drawn: DrawnFloor = field(compare=False)
-
-
-@functools.lru_cache(2)  # it is asked for to check, to show and to place the same file
-def _of_file(asked: _Identical) -> tuple[list[Station], list[LaneFault]]:
-    file, drawn = asked.file, asked.drawn
-    search = _Search(file, drawn)
     found: dict[str, Station] = {}
     faults: list[LaneFault] = []
     for entry in sorted(file.stations, key=lambda e: not (e.queue and e.exit)):
         try:
-            cells, service = search.lane(entry, list(found.values()))
+            cells, service = _lane(file, drawn, entry, found.values())
             check_lane(f"station {entry.name}", cells, drawn.passable)
             _check_apart(entry, cells, drawn, found.values())
             found[entry.key] = Station(entry.name, KINDS[entry.kind], cells, service)
@@ -95,37 +78,29 @@ def _check_apart(
         )
 
 
-class _Search:
-    """Looks for the lanes of a file's stations."""
+def _lane(
+    file: LayoutFile, drawn: DrawnFloor, entry: StationEntry, others: Iterable[Station]
+) -> tuple[np.ndarray, int]:
+    """Returns the cells of a lane (n,) int32 in driving order, and the index of the service cell.
 
-    def __init__(self, file: LayoutFile, drawn: DrawnFloor) -> None:
-        self._file, self._drawn = file, drawn
-        self._before: set[str] | None = None  # faults of the floor with the lanes found so far
-
-    def lane(self, entry: StationEntry, others: list[Station]) -> tuple[np.ndarray, int]:
-        """Returns the cells of a lane (n,) int32 in driving order, and the index of the service
-        cell.
-
-        Raises FloorError where there is no room for one.
-        """
-        if entry.queue and entry.exit:
-            return _numbers(_cells_of(entry), self._drawn), len(entry.queue)
-        if self._before is None:
-            self._before = _faults(self._file, self._drawn, others)
-        for cells in _candidates(self._file, self._drawn, entry, others):
-            numbers, service = _numbers(cells, self._drawn), cells.index(entry.service)
-            station = Station(entry.name, KINDS[entry.kind], numbers, service)
-            after = _faults(self._file, self._drawn, [*others, station])
-            if after <= self._before:
-                self._before = after
-                return numbers, service
-        column, row = entry.service
-        what = "queue" if entry.exit else "exit" if entry.queue else "lane"
-        raise FloorError(
-            f"station {entry.name} at [{column}, {row}] has no room for a {what}: a lane enters"
-            " from a street, passes the service cell and leaves to a street, and must not cut"
-            " others off; draw queue and exit, or leave more floor around it"
-        )
+    Raises FloorError where there is no room for one.
+    """
+    others = list(others)
+    if entry.queue and entry.exit:
+        return _numbers(_cells_of(entry), drawn), len(entry.queue)
+    before = _faults(file, drawn, others)
+    for cells in _candidates(file, drawn, entry, others):
+        numbers, service = _numbers(cells, drawn), cells.index(entry.service)
+        station = Station(entry.name, KINDS[entry.kind], numbers, service)
+        if _faults(file, drawn, [*others, station]) <= before:
+            return numbers, service
+    column, row = entry.service
+    what = "queue" if entry.exit else "exit" if entry.queue else "lane"
+    raise FloorError(
+        f"station {entry.name} at [{column}, {row}] has no room for a {what}: a lane enters from a"
+        " street, passes the service cell and leaves to a street, and must not cut others off;"
+        " draw queue and exit, or leave more floor around it"
+    )
 
 
 def _numbers(cells: Iterable[Cell], drawn: DrawnFloor) -> np.ndarray:
@@ -149,8 +124,7 @@ def _candidates(
 ) -> Iterator[list[Cell]]:
     """Yields lanes on streets that no other station has, those with long queues first.
 
-    The first ones leave room beside the service cells of the other stations, whose lanes may still
-    have to be found.
+    The first ones leave room beside the service cells of stations whose lanes come later.
     """
     free = drawn.streets & ~lane_mask(others, drawn.passable.shape)
     services = np.zeros_like(free)
@@ -163,6 +137,7 @@ def _candidates(
 
 
 def _fitting(free: np.ndarray, drawn: DrawnFloor, entry: StationEntry) -> Iterator[list[Cell]]:
+    """Yields lanes on these cells, (h, w) bool."""
     for cells in _shapes(drawn, entry):
         rows, columns = [row for _, row in cells], [column for column, _ in cells]
         height, width = free.shape
@@ -183,5 +158,3 @@ def _shapes(drawn: DrawnFloor, entry: StationEntry) -> Iterator[list[Cell]]:
                 yield lane
             else:
                 yield [*lane[: queue + 1], *entry.exit]
-
-

@@ -3,10 +3,10 @@
 
 import base64
 import binascii
+import importlib
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path, PurePath
-from typing import Any
 
 from warehouse_layout import layout_file
 from warehouse_layout.layout_file import SUFFIX, LayoutFile, LayoutFileError
@@ -14,24 +14,25 @@ from warehouse_layout.layout_file import SUFFIX, LayoutFile, LayoutFileError
 COMPANIONS = (".pgm", ".png", ".csv")  # of files that name them: never what is opened itself
 
 
-def read(path: str | Path) -> LayoutFile:
-    """Reads a layout file, or one of another format. Raises LayoutFileError."""
+def read(path: str | Path) -> tuple[LayoutFile, list[str]]:
+    """Reads a layout file, or one of another format, of which the sentences tell what could not be
+    carried over. Raises LayoutFileError, or a ValueError for other formats."""
     if str(path).endswith(SUFFIX):
-        return layout_file.read(path)
+        return layout_file.read(path), []
     try:
-        from warehouse_layout import formats
+        formats = importlib.import_module("warehouse_layout.formats")
     except ImportError as error:
         raise LayoutFileError(
             f"{PurePath(path).name}: only {SUFFIX} files can be opened here: {error}"
         ) from error
-    found: Any = formats.read(path)
+    found: tuple[LayoutFile, list[str]] = formats.read(Path(path))
     return found
 
 
-def opened(files: Mapping[str, str]) -> LayoutFile:
+def opened(files: Mapping[str, str]) -> tuple[LayoutFile, list[str]]:
     """Reads files by name, in base64: one to open, and those that it names (the picture of a map).
 
-    Raises LayoutFileError, in which files have their names alone.
+    Returns what read() does. Raises LayoutFileError, in which files have their names alone.
     """
     with tempfile.TemporaryDirectory() as folder:
         paths = [_put(Path(folder), name, content) for name, content in files.items()]

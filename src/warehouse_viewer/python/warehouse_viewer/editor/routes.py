@@ -5,6 +5,7 @@ import asyncio
 import json
 import os
 import sys
+import typing
 from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Any
@@ -57,7 +58,8 @@ class Editor:
         }
         if self._file and self._file.exists():
             try:
-                about["drawing"] = drawing_json.of_file(opening.read(self._file))
+                file, about["told"] = opening.read(self._file)
+                about["drawing"] = drawing_json.of_file(file)
             except (OSError, ValueError) as error:
                 about["error"] = str(error)
         return JSONResponse(about, headers={"cache-control": "no-store"})
@@ -125,8 +127,8 @@ def _answering(work: Callable[..., Answer]) -> Callable[[Request], Any]:
 
     async def endpoint(request: Request) -> Response:
         try:
-            asked = await request.json()
-            return JSONResponse(await asyncio.to_thread(work, **asked))
+            fields = _fields(await request.json(), work)
+            return JSONResponse(await asyncio.to_thread(work, **fields))
         except (LayoutFileError, RequestError) as error:
             told = checking.told(error) if isinstance(error, LayoutFileError) else str(error)
             return JSONResponse({"detail": told}, 409)
@@ -136,13 +138,26 @@ def _answering(work: Callable[..., Answer]) -> Callable[[Request], Any]:
     return endpoint
 
 
+def _fields(asked: Any, work: Callable[..., Answer]) -> Answer:
+    """Returns the arguments of `work` from a request's body. Raises TypeError."""
+    kinds = typing.get_type_hints(work)
+    kinds.pop("return")
+    if not isinstance(asked, dict) or asked.keys() != kinds.keys():
+        raise TypeError(f"the fields {', '.join(kinds)} were expected")
+    for name, kind in kinds.items():
+        if not isinstance(asked[name], typing.get_origin(kind) or kind):
+            raise TypeError(f"{name} is {asked[name]!r}")
+    return asked
+
+
 def _check(text: str) -> Answer:
     return checking.checked(text)
 
 
-def _read(files: dict[str, str] | None = None, text: str = "") -> Answer:
-    file = opening.opened(files) if files else layout_file.parse(text, checking.NAME)
-    return drawing_json.of_file(file)
+def _read(files: dict[str, str]) -> Answer:
+    """Returns the drawing of files in base64, by name, and what could not be carried over."""
+    file, told = opening.opened(files)
+    return {"drawing": drawing_json.of_file(file), "told": told}
 
 
 def _new(robots: int, units: int, items: int, stations: int) -> Answer:

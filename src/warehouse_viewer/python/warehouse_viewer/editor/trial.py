@@ -19,6 +19,7 @@ from warehouse_layout.layout import Layout
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.placement import place
 from warehouse_operations import Operations, Policies, PolicyError, Site
+from warehouse_operations.ideal import IdealFleet
 
 SECONDS = 600.0  # that robots work, simulated
 SLICE = 5.0  # after which the progress can be told, simulated [s]
@@ -76,19 +77,24 @@ def _check(file: LayoutFile, site: Site) -> None:
         raise TrialError(f"robots can't work there yet: {found[0].text}")
 
 
+def _ideal(ops: Operations) -> IdealFleet:
+    assert isinstance(ops.fleet, IdealFleet)
+    return ops.fleet
+
+
 def _progress(ops: Operations) -> dict[str, Any]:
     stations = ops.site.plan.stations
     return {
         "time": ops.time,
         "of": SECONDS,
         "pieces": ops.shift.tally.items_picked,
-        "waiting": {s.name: ops.fleet.waiting(s.name) for s in stations},
+        "waiting": {s.name: _ideal(ops).waiting(s.name) for s in stations},
     }
 
 
 def _result(ops: Operations) -> dict[str, Any]:
     kpis, tally = ops.kpis(), ops.shift.tally
-    waited = ops.fleet.waiting_map()
+    waited = _ideal(ops).waiting_map()
     return {
         "seconds": ops.time,
         "pieces": tally.items_picked,
@@ -100,13 +106,16 @@ def _result(ops: Operations) -> dict[str, Any]:
             {
                 "name": station.name,
                 "kind": station.kind,
-                "cell": [station.service_cell % waited.shape[1], station.service_cell // waited.shape[1]],
+                "cell": [
+                    station.service_cell % waited.shape[1],
+                    station.service_cell // waited.shape[1],
+                ],
                 "queue": float(waited.flat[station.queue].sum()) / ops.time,
                 "busy": ops.shift.station(station.name).busy_s / ops.time,
             }
             for station in ops.site.plan.stations
         ],
-        "traffic": ops.fleet.passages().ravel().astype(int).tolist(),
+        "traffic": _ideal(ops).passages().ravel().astype(int).tolist(),
         "waiting": waited.ravel().round(1).tolist(),
         "width": int(waited.shape[1]),
     }

@@ -74,17 +74,23 @@ export class Drawing {
 
   /** What was at a cell makes way for a character. */
   leave(cell, char) {
-    const owner = this.ownerOf(cell);
-    if (owner?.part === 'service' && char !== owner.station.key && !isKept(owner.station, char)) {
-      this.remove(owner.station);
-    } else if (owner && owner.part !== 'service' && !(isStreet(char) && !isLetter(char))) {
-      const { station, part } = owner, lane = station[part];
-      const at = lane.findIndex((c) => same(c, cell));
-      station[part] = part === 'queue' ? lane.slice(at + 1) : lane.slice(0, at);
-      this.owners = null;
-    }
+    const owner = this.ownerOf(cell), isLaneStill = isStreet(char) && !isLetter(char);
+    if (owner?.part === 'service') {
+      if (char !== owner.station.key && !(isLaneStill && !isLetter(owner.station.key))) this.remove(owner.station);
+    } else if (owner && !isLaneStill) this.cut(owner, cell);
+    this.prune(cell, char);
+  }
+
+  /** Lists of robots and units keep to cells where these can be. */
+  prune(cell, char) {
     if (Array.isArray(this.robots) && !isPassable(char)) this.robots = without(this.robots, cell);
     if (Array.isArray(this.units) && char !== PLACE) this.units = without(this.units, cell);
+  }
+
+  /** Takes a cell out of a lane, and what lies beyond it as the station sees it. */
+  cut({ station, part }, cell) {
+    const lane = station[part], at = lane.findIndex((c) => same(c, cell));
+    this.setLane(station, part, part === 'queue' ? lane.slice(at + 1) : lane.slice(0, at));
   }
 
   // --- stations
@@ -138,7 +144,7 @@ export class Drawing {
     if (!key || !this.set(column, row, FLOOR)) return null;
     const old = this.ownerOf(cell);
     if (old?.part === 'service') this.remove(old.station);
-    else if (old) this.leave(cell, isLetter(key) ? key : 'x');
+    else if (old) this.cut(old, cell);
     const station = this.station(key, cell, like);
     if (isLetter(key)) this.cells[this.index(column, row)] = key.charCodeAt(0);
     return station;
@@ -197,6 +203,4 @@ export class Drawing {
   }
 }
 
-/** Whether a station whose letter is not drawn stays where a character comes. */
-const isKept = ({ key }, char) => isStreet(char) && !isLetter(char) && !isLetter(key);
 const without = (cells, cell) => cells.filter((c) => !same(c, cell));

@@ -188,6 +188,7 @@ export class Editor {
     if (!this.selection) return;
     this.clipboard = copied(this.drawing, this.selection);
     this.say(`Copied ${this.clipboard.width} × ${this.clipboard.height} cells; paste them by Ctrl+V`);
+    this.tell('state');
   }
 
   cut() {

@@ -49,7 +49,9 @@ export class Files {
     await this.attempt(async () => {
       if (files.some((file) => file.size > MOST)) throw new Error('a file of up to 5 MB was expected');
       const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
-      this.editor.open(await ask('/read', { files: Object.fromEntries(contents) }));
+      const { drawing, told } = await ask('/read', { files: Object.fromEntries(contents) });
+      this.editor.open(drawing);
+      tellLost(told);
       this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
     });
   }
@@ -87,6 +89,13 @@ export class Files {
       this.editor.say(error.message, 'refused');
     }
   }
+}
+
+/** Lists what could not be carried over from a file of another format. */
+export function tellLost(told) {
+  if (!told?.length) return;
+  $('lost').replaceChildren(...told.map((text) => make('li', { textContent: text })));
+  $('loser').showModal();
 }
 
 /** Builds the drawing in place of the warehouse that runs. */

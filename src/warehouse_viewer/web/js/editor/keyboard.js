@@ -21,16 +21,16 @@ export class Keyboard {
   }
 
   take(event) {
-    const { key, target } = event;
+    const { key, target } = event, isTyping = target.matches(TYPED);
     if (document.querySelector('dialog[open]') || event.altKey) return;
     if (event.ctrlKey || event.metaKey) {
-      if (!target.matches(TYPED) || key === 's') this.command(event);
-      return;
-    }
-    if (target.matches(TYPED)) {
-      if (key === 'Escape') target.blur();
-      return;
-    }
+      if (!isTyping || key === 's') this.command(event);
+    } else if (!isTyping) this.plain(event);
+    else if (key === 'Escape') target.blur();
+  }
+
+  plain(event) {
+    const { key, target } = event;
     const isPressing = (key === ' ' || key === 'Enter') && target.matches('button, summary, a');
     if (!isPressing && this.obey(key, event.shiftKey)) event.preventDefault();
   }

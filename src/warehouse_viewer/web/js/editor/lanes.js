@@ -45,8 +45,9 @@ export function drawLane(drawing, station, part, cells) {
   drawing.setLane(station, part, []);
   for (const cell of cells) {
     const owner = drawing.ownerOf(cell);
-    if (owner) drawing.leave(cell, 'x');
-    if (owner?.part === 'service' || !isStreet(drawing.get(...cell))) drawing.set(...cell, FLOOR);
+    if (owner?.part === 'service') drawing.remove(owner.station);
+    else if (owner) drawing.cut(owner, cell);
+    if (!isStreet(drawing.get(...cell))) drawing.set(...cell, FLOOR);
   }
   drawing.setLane(station, part, cells);
 }

@@ -5,7 +5,7 @@ import { post, reloadIfLockedOut } from '../api.js';
 import { $, enable, make, on } from '../dom.js';
 import { Checker } from './checker.js';
 import { Editor } from './editor.js';
-import { build, Files } from './files.js';
+import { build, Files, tellLost } from './files.js';
 import { Keyboard, KEYS } from './keyboard.js';
 import { Palette } from './palette.js';
 import { Panel } from './panel.js';
@@ -40,6 +40,7 @@ function begin(editor, store, about) {
   const kept = store.kept();
   editor.open(kept?.drawing ?? about.drawing ?? null, true);
   if (about.error) say(about.error, 'refused');
+  if (!kept) tellLost(about.told);
   if (!kept || (about.drawing && Store.isSame(kept.drawing, about.drawing))) return;
   const when = new Date(kept.time).toLocaleString([], { dateStyle: 'medium', timeStyle: 'short' });
   $('notice-text').textContent = `What you drew here last is back, from ${when}.`;

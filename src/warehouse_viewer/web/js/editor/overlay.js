@@ -4,7 +4,7 @@
 import { isLetter, lookOf, NEXT_STATION } from './characters.js';
 import { drawHeat } from './heat_layer.js';
 import { drawRulers, metres } from './rulers.js';
-import { head } from './sheet.js';
+import { filled, head } from './sheet.js';
 
 const NAMES_FROM = 7; // [px a cell]
 const FLASH = 1200; // [ms] that a fault's cells are shown when it is chosen
@@ -42,8 +42,7 @@ export class Overlay {
   services(drawing) {
     const { pen } = this, path = new Path2D();
     for (const { key, service } of drawing.stations) if (!isLetter(key)) this.mark(path, service, 1);
-    pen.fillStyle = this.colours.station;
-    pen.fill(path);
+    filled(pen, path, this.colours.station);
   }
 
   lanes({ drawing, lanesFound, station }) {
@@ -96,8 +95,7 @@ export class Overlay {
       path.moveTo(x + radius, y);
       path.arc(x, y, radius, 0, 2 * Math.PI);
     }
-    pen.fillStyle = this.colours.robot;
-    pen.fill(path);
+    filled(pen, path, this.colours.robot);
   }
 
   // --- faults
@@ -109,8 +107,7 @@ export class Overlay {
     pen.lineWidth = 2.5;
     pen.stroke(path);
     pen.globalAlpha = 0.22;
-    pen.fillStyle = this.colours.fault;
-    pen.fill(path);
+    filled(pen, path, this.colours.fault);
     pen.globalAlpha = 1;
     if (this.chosen && performance.now() < this.chosen.until) {
       const around = new Path2D();
@@ -130,13 +127,12 @@ export class Overlay {
 
   pending({ ghost, brush, drawing }) {
     if (!ghost) return;
-    const { pen, view } = this;
+    const { pen } = this;
     pen.globalAlpha = 0.6;
     if (ghost.cells) {
       const look = lookOf(ghost.char ?? (brush === NEXT_STATION ? 'A' : brush)), path = new Path2D();
       for (const cell of ghost.cells) this.mark(path, cell, 0);
-      pen.fillStyle = ghost.colour ? this.colours[ghost.colour] : this.colours[look];
-      pen.fill(path);
+      filled(pen, path, this.colours[ghost.colour ?? look]);
     }
     if (ghost.block) this.block(ghost.block, ghost.at);
     pen.globalAlpha = 1;
@@ -149,8 +145,7 @@ export class Overlay {
       if (char === ' ') return;
       const path = new Path2D();
       this.mark(path, [column + x, row + y], 0);
-      pen.fillStyle = this.colours[lookOf(char)];
-      pen.fill(path);
+      filled(pen, path, this.colours[lookOf(char)]);
     }));
   }
 

@@ -5,7 +5,7 @@ import { reasonOf } from '../api.js';
 
 /** The answer's body; throws an Error with the reason. */
 export async function ask(path, body = undefined, method = 'POST') {
-  const answer = await send(path, body && JSON.stringify(body), body ? method : 'GET');
+  const answer = await send(path, body && JSON.stringify(body), method);
   return await answer.json();
 }
 
@@ -13,7 +13,8 @@ export async function ask(path, body = undefined, method = 'POST') {
 export async function send(path, body, method, signal = undefined) {
   let answer;
   try {
-    answer = await fetch(`/layout${path}`, { method, body, signal, headers: { 'content-type': 'application/json' } });
+    const sent = body === undefined ? {} : { method, body, headers: { 'content-type': 'application/json' } };
+    answer = await fetch(`/layout${path}`, { signal, ...sent });
   } catch (error) {
     if (error.name === 'AbortError') throw error;
     throw new Error('the server does not answer', { cause: error });

@@ -4,6 +4,7 @@
 import { CHARACTERS, isLetter, lookOf, NOTHING, POINTS } from './characters.js';
 
 const GRID_FROM = 7, SIGNS_FROM = 9; // [px a cell] from which lines and signs can be told
+const BLANK = new Set(['.', NOTHING, '#', '=']);
 export const LOOKS = [...new Set(CHARACTERS.map(({ look }) => look))];
 
 /** Colours by the names of the style sheet's --cell-…, --editor-…. */
@@ -49,8 +50,7 @@ export class Sheet {
       }
     }
     for (const [look, path] of Object.entries(paths)) {
-      pen.fillStyle = this.colours[look];
-      pen.fill(path);
+      filled(pen, path, this.colours[look]);
     }
   }
 
@@ -63,33 +63,46 @@ export class Sheet {
 
   /** Arrows, letters, and what tells places, charging and keep-out apart without colours. */
   signs(drawing, { left, bottom, right, top }) {
-    const arrows = new Path2D(), frames = new Path2D(), crosses = new Path2D(), { pen, view } = this;
-    const words = [];
+    const signs = { arrows: new Path2D(), frames: new Path2D(), crosses: new Path2D(), words: [] };
     for (let row = bottom; row < top; row++) {
       for (let column = left; column < right; column++) {
         const char = drawing.get(column, row);
-        if (char === '.' || char === NOTHING || char === '#' || char === '=') continue;
-        const centre = view.centreOf([column, row]);
-        if (POINTS[char]) POINTS[char].forEach((heading) => arrow(arrows, centre, heading, view.scale));
-        else if (char === 's') frames.rect(centre[0] - view.scale * 0.3, centre[1] - view.scale * 0.3, view.scale * 0.6, view.scale * 0.6);
-        else if (char === 'x') cross(crosses, centre, view.scale * 0.25);
-        else words.push([isLetter(char) ? char : char.toUpperCase(), centre, isLetter(char)]);
+        if (!BLANK.has(char)) this.sign(signs, char, this.view.centreOf([column, row]));
       }
     }
+    const { pen, view, colours } = this;
     pen.lineWidth = Math.max(1, view.scale / 14);
-    pen.strokeStyle = this.colours.sign;
-    pen.stroke(arrows);
-    pen.stroke(crosses);
-    pen.strokeStyle = this.colours['on-storage'];
-    pen.stroke(frames);
+    pen.strokeStyle = colours.sign;
+    pen.stroke(signs.arrows);
+    pen.stroke(signs.crosses);
+    pen.strokeStyle = colours['on-storage'];
+    pen.stroke(signs.frames);
+    this.words(signs.words);
+  }
+
+  sign({ arrows, frames, crosses, words }, char, centre) {
+    const { scale } = this.view, [x, y] = centre;
+    if (POINTS[char]) POINTS[char].forEach((heading) => arrow(arrows, centre, heading, scale));
+    else if (char === 's') frames.rect(x - scale * 0.3, y - scale * 0.3, scale * 0.6, scale * 0.6);
+    else if (char === 'x') cross(crosses, centre, scale * 0.25);
+    else words.push([char, centre]);
+  }
+
+  words(words) {
+    const { pen, view, colours } = this;
     pen.textAlign = 'center';
     pen.textBaseline = 'middle';
     pen.font = `600 ${Math.round(view.scale * 0.55)}px system-ui, sans-serif`;
-    for (const [word, [x, y], isStation] of words) {
-      pen.fillStyle = this.colours[isStation ? 'on-station' : 'sign'];
-      pen.fillText(word, x, y + view.scale * 0.04);
+    for (const [char, [x, y]] of words) {
+      pen.fillStyle = colours[isLetter(char) ? 'on-station' : 'sign'];
+      pen.fillText(char.toUpperCase(), x, y + view.scale * 0.04);
     }
   }
+}
+
+export function filled(pen, path, colour) {
+  pen.fillStyle = colour;
+  pen.fill(path);
 }
 
 /** The part of a rectangle that is on the paper. */
