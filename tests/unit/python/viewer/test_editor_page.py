@@ -307,7 +307,11 @@ def ordinary(edge):
     for i in range(12):
         column, row = edge - 8, 6 + 7 * i
         floor[row, column] = chr(65 + i)
-        stations.append(StationEntry(chr(65 + i), (column, row), f"pick{i + 1}"))
+        queue = ((column, row + 2), (column, row + 1))
+        station = StationEntry(
+            chr(65 + i), (column, row), f"pick{i + 1}", queue=queue, exit=((column, row - 1),)
+        )
+        stations.append(station)
     return LayoutFile(floor=floor, stations=tuple(stations), robots=40, items=2000)
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One key a character, one a tool; the arrow keys move a cursor that draws as a pointer does.
 
-import { on } from '../dom.js';
+import { $, on } from '../dom.js';
 import { isCharacter } from './characters.js';
 import { rectOf } from './shapes.js';
 import { TOOLS } from './tools.js';
@@ -18,6 +18,10 @@ export class Keyboard {
   constructor(editor) {
     this.editor = editor;
     on(window, 'keydown', (event) => this.take(event));
+    // What was clicked keeps no keys to itself: the next one is meant for the drawing.
+    on(document, 'click', ({ detail, target }) => {
+      if (detail && target.closest('button') && !target.closest('dialog')) $('overlay').focus({ preventScroll: true });
+    });
   }
 
   take(event) {
@@ -84,6 +88,6 @@ export class Keyboard {
 }
 
 function press(id) {
-  const button = document.getElementById(id);
+  const button = $(id);
   if (button && !button.disabled && !button.hidden) button.click();
 }

@@ -2,11 +2,13 @@
 // The upper of the two canvases: lanes, names, faults, the selection, what is about to be drawn.
 
 import { isLetter, lookOf, NEXT_STATION } from './characters.js';
+import { same } from './drawing.js';
 import { drawHeat } from './heat_layer.js';
 import { drawRulers, metres } from './rulers.js';
 import { filled, head } from './sheet.js';
 
 const NAMES_FROM = 7; // [px a cell]
+const EDGE = 0.45; // [cells] from a service cell's centre, where lanes end
 const FLASH = 1200; // [ms] that a fault's cells are shown when it is chosen
 
 export class Overlay {
@@ -45,25 +47,31 @@ export class Overlay {
     filled(pen, path, this.colours.station);
   }
 
+  /** Queues end and exits begin at the edge of the service cell: its letter stays free. */
   lanes({ drawing, lanesFound, station }) {
     for (const one of drawing.stations) {
-      const { key, queue, exit, service } = one, found = lanesFound[key];
-      const wide = one === station ? 0.16 : 0.1;
-      if (found) this.way(found, this.colours.queue, wide, true);
-      if (queue.length) this.way([...queue, service], this.colours.queue, wide);
-      if (exit.length) this.way([service, ...exit], this.colours.exit, wide);
+      const { key, service } = one, found = lanesFound[key] ?? [];
+      const at = found.findIndex((c) => same(c, service)), wide = one === station ? 0.16 : 0.1;
+      for (const part of ['queue', 'exit']) {
+        const isDrawn = one[part].length > 0;
+        const cells = isDrawn ? one[part] : part === 'queue' ? found.slice(0, Math.max(at, 0)) : found.slice(at + 1);
+        const way = part === 'queue' ? [...cells, service] : [service, ...cells];
+        if (cells.length) this.way(way, part, wide, !isDrawn);
+      }
     }
   }
 
-  /** A line through cells with a head at its end. */
-  way(cells, colour, wide, isDashed = false) {
+  /** A line through the cells of a lane with a head at its end. */
+  way(cells, part, wide, isDashed) {
     const { pen, view } = this, path = new Path2D(), points = cells.map((c) => view.centreOf(c));
+    const [from, to] = part === 'queue' ? [points.length - 1, points.length - 2] : [0, 1];
+    points[from] = [0, 1].map((i) => points[from][i] + EDGE * (points[to][i] - points[from][i]));
     points.forEach((p, i) => (i ? path.lineTo(...p) : path.moveTo(...p)));
     const last = cells.at(-1), before = cells.at(-2);
-    if (before) head(path, points.at(-1), [last[0] - before[0], last[1] - before[1]], view.scale * 0.3);
+    head(path, points.at(-1), [last[0] - before[0], last[1] - before[1]], view.scale * 0.25);
     pen.setLineDash(isDashed ? [view.scale * 0.25, view.scale * 0.2] : []);
     pen.lineWidth = Math.max(1.5, view.scale * wide);
-    pen.strokeStyle = colour;
+    pen.strokeStyle = this.colours[part];
     pen.lineJoin = 'round';
     pen.stroke(path);
     pen.setLineDash([]);
