@@ -4,7 +4,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { ratesOf, ticksOf } from '../../../src/warehouse_viewer/web/js/chart.js';
-import { coloursOf, topOf } from '../../../src/warehouse_viewer/web/js/heat.js';
+import { coloursOf } from '../../../src/warehouse_viewer/web/js/heat.js';
+import { topOf } from '../../../src/warehouse_viewer/web/js/heat_scale.js';
 import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
 import { waitingOf } from '../../../src/warehouse_viewer/web/js/stations.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';

@@ -14,7 +14,14 @@ from warehouse_layout._core import Floor, FloorError, check_layout
 from warehouse_layout.drawn_floor import DrawnFloor
 from warehouse_layout.lane_finder import lanes_past
 from warehouse_layout.layout_file import KINDS, Cell, LayoutFile, StationEntry
-from warehouse_layout.stations import STEPS, Station, check_lane, lane_mask, with_lanes
+from warehouse_layout.stations import (
+    STEPS,
+    Station,
+    check_lane,
+    lane_mask,
+    neighbour,
+    with_lanes,
+)
 
 QUEUES = (6, 5, 4, 3, 2, 1)  # cells of a queue that is not drawn, the longest first
 
@@ -82,7 +89,7 @@ def _lane(
     if entry.queue and entry.exit:
         return _numbers(_cells_of(entry), drawn), len(entry.queue)
     before = _faults(file, drawn, others)
-    for cells in _candidates(drawn, entry, others):
+    for cells in _candidates(file, drawn, entry, others):
         numbers, service = _numbers(cells, drawn), cells.index(entry.service)
         station = Station(entry.name, KINDS[entry.kind], numbers, service)
         if _faults(file, drawn, [*others, station]) <= before:
@@ -113,10 +120,24 @@ def _faults(file: LayoutFile, drawn: DrawnFloor, stations: list[Station]) -> set
 
 
 def _candidates(
-    drawn: DrawnFloor, entry: StationEntry, others: Iterable[Station]
+    file: LayoutFile, drawn: DrawnFloor, entry: StationEntry, others: Iterable[Station]
 ) -> Iterator[list[Cell]]:
-    """Yields lanes on streets that no other station has, those with long queues first."""
+    """Yields lanes on streets that no other station has, those with long queues first.
+
+    The first ones leave room beside the service cells of stations whose lanes come later.
+    """
     free = drawn.streets & ~lane_mask(others, drawn.passable.shape)
+    services = np.zeros_like(free)
+    for other in file.stations:
+        services[other.service[::-1]] = other.key != entry.key
+    beside = np.any([neighbour(services, heading) for heading in range(4)], axis=0)
+    roomy = list(_fitting(free & ~services & ~beside, drawn, entry))
+    yield from roomy
+    yield from (cells for cells in _fitting(free & ~services, drawn, entry) if cells not in roomy)
+
+
+def _fitting(free: np.ndarray, drawn: DrawnFloor, entry: StationEntry) -> Iterator[list[Cell]]:
+    """Yields lanes on these cells, (h, w) bool."""
     for cells in _shapes(drawn, entry):
         rows, columns = [row for _, row in cells], [column for column, _ in cells]
         height, width = free.shape

@@ -3,20 +3,12 @@
 
 import * as THREE from '/three/build/three.module.js';
 import { Changes } from './changes.js';
-import { $, make, on, press } from './dom.js';
+import { $, on, press } from './dom.js';
+import { STOPS, swatches, topOf } from './heat_scale.js';
 import { behind } from './paint.js';
 
 const HEIGHT = 0.004; // over the floor, beneath robots [m]
 const TOLD = { traffic: 'robots through a cell', waiting: 'seconds that robots waited in a cell' };
-// From yellow to dark red, as in reports (ColorBrewer's YlOrRd).
-const STOPS = [[255, 255, 178], [254, 204, 92], [253, 141, 60], [240, 59, 32], [189, 0, 38]];
-
-/** What of the values is shown as the most: all but a hundredth are below. */
-export function topOf(values) {
-  const some = values.filter((value) => value > 0).sort((a, b) => a - b);
-  return some.length ? some[Math.floor(0.99 * (some.length - 1))] : 1;
-}
-
 /** RGBA bytes of each value; nothing at all is transparent. */
 export function coloursOf(values, top) {
   const out = new Uint8Array(4 * values.length);
@@ -33,11 +25,7 @@ export function coloursOf(values, top) {
 export class HeatMap {
   constructor(stage) {
     Object.assign(this, { stage, kind: 'traffic', heat: null, changes: null, object: null });
-    $('heat-scale').append(...STOPS.map((stop) => {
-      const step = make('i');
-      step.style.background = `rgb(${stop})`;
-      return step;
-    }));
+    $('heat-scale').append(...swatches());
     for (const button of $('heat-kinds').children) {
       on(button, 'click', () => {
         this.kind = button.dataset.heat;

@@ -20,6 +20,7 @@ from warehouse_viewer.api.metrics import Metrics
 from warehouse_viewer.api.routes import prometheus, sockets
 from warehouse_viewer.api.schemas.pydantic_versions import faults_of
 from warehouse_viewer.api.transport_book import TransportBook
+from warehouse_viewer.editor.routes import Editor
 from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
@@ -115,6 +116,7 @@ class Viewer:
         page = PageFiles(self._web)
         for path, name in PAGES.items():
             app.get(path, include_in_schema=False)(page.endpoint(name))
+        app.router.routes.extend(Editor(page, builds=True).routes())
         app.mount("/three", Files(directory=THREE, check_dir=False))
         app.mount("/web", page.files)
 

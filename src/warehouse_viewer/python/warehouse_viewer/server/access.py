@@ -12,7 +12,9 @@ from urllib.parse import parse_qs, urlsplit
 
 from warehouse_viewer.server import token_page
 
-MOST_BODY = 1024 * 1024  # [bytes]: a layout of a thousand cells a side
+MOST_BODY = 64 * 1024  # [bytes]
+MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts are sent
+LAYOUT_PATHS = ("/layout/", "/api/v1/warehouse")
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
@@ -28,6 +30,12 @@ def is_local(host: str) -> bool:
         return host == "localhost" or ipaddress.ip_address(host).is_loopback
     except ValueError:
         return False
+
+
+def most_body(scope: Any) -> int:
+    """Returns how long a request's body may be [bytes]."""
+    path = scope.get("path", "")
+    return MOST_LAYOUT if path.startswith(LAYOUT_PATHS[0]) or path in LAYOUT_PATHS else MOST_BODY
 
 
 class RateLimit:
@@ -95,8 +103,8 @@ class AccessControl:
         address = scope["client"][0] if scope.get("client") else ""
         if not self._limit.allows(address):
             raise Refusal(429, "too many requests; slow down", [(b"retry-after", b"1")])
-        if int(headers.get("content-length", "0") or 0) > MOST_BODY:
-            raise Refusal(413, f"the body is larger than {MOST_BODY} bytes")
+        if int(headers.get("content-length", "0") or 0) > most_body(scope):
+            raise Refusal(413, f"the body is larger than {most_body(scope)} bytes")
         self._check_origin(headers)
         if not self._is_form(scope):
             self._check_token(scope, headers)
@@ -202,7 +210,7 @@ async def _limited(app, scope, receive, send):
         nonlocal size
         message = await receive()
         size += len(message.get("body", b""))
-        if size > MOST_BODY:
+        if size > most_body(scope):
             return {"type": "http.disconnect"}
         return message
 

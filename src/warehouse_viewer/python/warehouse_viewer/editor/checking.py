@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is wrong with a drawing, and the lanes that its stations get where none is drawn."""
+
+from typing import Any
+
+from warehouse_layout import drawn_floor, layout_file, station_lanes
+from warehouse_layout.file_check import faults
+from warehouse_layout.layout_file import Cell, LayoutFile, LayoutFileError
+
+NAME = "layout"  # of the text, in errors
+
+
+def checked(text: str) -> dict[str, Any]:
+    """Returns {faults: [{text, cells}], lanes: {station's key: [cells]}} of a layout file's text."""
+    try:
+        file = layout_file.parse(text, NAME)
+    except LayoutFileError as error:
+        return {"faults": [{"text": told(error), "cells": []}], "lanes": {}}
+    found = [{"text": fault.text, "cells": fault.cells} for fault in faults(file)]
+    return {"faults": found, "lanes": _lanes_found(file)}
+
+
+def told(error: LayoutFileError) -> str:
+    """Returns what an error says, without the name of a text that has none."""
+    return str(error).removeprefix(f"{NAME}:").strip()
+
+
+def _lanes_found(file: LayoutFile) -> dict[str, list[Cell]]:
+    """Returns the lanes of stations of which queue or exit is not drawn, in driving order."""
+    open_ended = {s.name: s.key for s in file.stations if not (s.queue and s.exit)}
+    if not open_ended:
+        return {}
+    stations, _ = station_lanes.of_file(file, drawn_floor.areas(file.floor))
+    width = file.shape[1]
+    return {
+        open_ended[s.name]: [(int(c) % width, int(c) // width) for c in s.cells]
+        for s in stations
+        if s.name in open_ended
+    }

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A layout file as the page takes it."""
+
+from typing import Any
+
+from warehouse_layout import layout_file
+from warehouse_layout.layout_file import LayoutFile, StationEntry
+
+
+def of_file(file: LayoutFile) -> dict[str, Any]:
+    """Returns what a layout file says, in JSON: the highest line first, cells as [column, row]."""
+    return {
+        "name": file.name,
+        "spacing": file.spacing,
+        "floor": layout_file.lines_of(file.floor),
+        "stations": [_station(station) for station in file.stations],
+        "storage_units": _places(file.storage_units),
+        "is_share": isinstance(file.storage_units, float),  # in JSON 1.0 would be a count
+        "robots": _places(file.robots),
+        "items": file.items,
+        "stock": file.stock,
+        "policies": dict(file.policies),
+        "building": file.building,
+        "at": file.at,
+    }
+
+
+def _station(station: StationEntry) -> dict[str, Any]:
+    return {
+        "key": station.key,
+        "service": station.service,
+        "name": station.name,
+        "kind": station.kind,
+        "queue": station.queue,
+        "exit": station.exit,
+        "settings": dict(station.settings),
+    }
+
+
+def _places(value: Any) -> Any:
+    return [list(cell) for cell in value] if isinstance(value, tuple) else value

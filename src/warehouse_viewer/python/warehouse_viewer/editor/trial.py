@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lets ideal robots work in a drawing: `python3 -m warehouse_viewer.editor.trial < F.layout.yaml`.
+
+A process of its own, so that it can be ended at once and takes no time from a viewer. Prints JSON, a
+line each: {time, of, pieces, waiting: {station: units}} now and then, and as the last {result} or
+{error}.
+"""
+
+import json
+import signal
+import sys
+import time as clock
+from collections.abc import Iterator
+from typing import Any
+
+from warehouse_layout import layout_file
+from warehouse_layout.file_check import faults
+from warehouse_layout.layout import Layout
+from warehouse_layout.layout_file import LayoutFile, LayoutFileError
+from warehouse_layout.placement import place
+from warehouse_operations import Operations, Policies, PolicyError, Site
+from warehouse_operations.ideal import IdealFleet
+
+SECONDS = 600.0  # that robots work, simulated
+SLICE = 5.0  # after which the progress can be told, simulated [s]
+PERIOD = 0.1  # between two lines, wall [s]
+
+
+class TrialError(ValueError):
+    """Says why no robot can work there."""
+
+
+def site_of(laid: Layout, name: str) -> Site:
+    """Returns the Site of a Layout before a shift."""
+    plan = laid.plan
+    assert plan is not None
+    robots = plan.cell_of(laid.robots[:, 0], laid.robots[:, 1])
+    units = plan.cell_of(laid.units[:, 0], laid.units[:, 1])
+    return Site(
+        plan,
+        dict(enumerate(robots.tolist(), start=1)),
+        dict(enumerate(units.tolist(), start=1)),
+        [(f"item{i}", int(unit) + 1) for i, unit in enumerate(laid.item_unit, start=1)],
+        name,
+    )
+
+
+def lines(text: str) -> Iterator[dict[str, Any]]:
+    """Yields what happens in the warehouse of a layout file's text. Raises LayoutFileError,
+    TrialError, PolicyError."""
+    file = layout_file.parse(text)
+    site = site_of(place(file), file.title)
+    _check(file, site)
+    policies = Policies(file.policies)
+    with Operations(site=site, orders="fill", policies=policies, physics=False) as ops:
+        told = 0.0
+        while ops.time < SECONDS:
+            ops.run(seconds=min(SLICE, SECONDS - ops.time))
+            if clock.monotonic() - told > PERIOD:
+                told = clock.monotonic()
+                yield _progress(ops)
+        yield {"result": _result(ops)}
+
+
+def _check(file: LayoutFile, site: Site) -> None:
+    lacks = {
+        "a robot": not site.robots,
+        "a storage unit": not site.units,
+        "an item in stock": not site.items,
+        "a picking station": not any(s.kind == "PICK" for s in site.plan.stations),
+    }
+    missing = [what for what, lacks_it in lacks.items() if lacks_it]
+    if missing:
+        raise TrialError(f"to work there, it lacks {', '.join(missing)}")
+    found = faults(file)
+    if found:
+        raise TrialError(f"robots can't work there yet: {found[0].text}")
+
+
+def _ideal(ops: Operations) -> IdealFleet:
+    assert isinstance(ops.fleet, IdealFleet)
+    return ops.fleet
+
+
+def _progress(ops: Operations) -> dict[str, Any]:
+    stations = ops.site.plan.stations
+    return {
+        "time": ops.time,
+        "of": SECONDS,
+        "pieces": ops.shift.tally.items_picked,
+        "waiting": {s.name: _ideal(ops).waiting(s.name) for s in stations},
+    }
+
+
+def _result(ops: Operations) -> dict[str, Any]:
+    kpis, tally = ops.kpis(), ops.shift.tally
+    waited = _ideal(ops).waiting_map()
+    return {
+        "seconds": ops.time,
+        "pieces": tally.items_picked,
+        "pieces_per_hour": kpis["item_throughput_per_hour"],
+        "most_pieces_per_hour": kpis["item_upper_bound_per_hour"],
+        "orders": tally.orders_completed,
+        "per_minute": [tally.picked_in.get(i, 0) for i in range(int(SECONDS // 60))],
+        "stations": [
+            {
+                "name": station.name,
+                "kind": station.kind,
+                "cell": [
+                    station.service_cell % waited.shape[1],
+                    station.service_cell // waited.shape[1],
+                ],
+                "queue": float(waited.flat[station.queue].sum()) / ops.time,
+                "busy": ops.shift.station(station.name).busy_s / ops.time,
+            }
+            for station in ops.site.plan.stations
+        ],
+        "traffic": _ideal(ops).passages().ravel().astype(int).tolist(),
+        "waiting": waited.ravel().round(1).tolist(),
+        "width": int(waited.shape[1]),
+    }
+
+
+def main() -> None:
+    """Reads the text from stdin and prints lines."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        for line in lines(sys.stdin.read()):
+            print(json.dumps(line), flush=True)
+    except (LayoutFileError, TrialError, PolicyError) as error:
+        print(json.dumps({"error": str(error).removeprefix("layout:").strip()}), flush=True)
+
+
+if __name__ == "__main__":
+    main()

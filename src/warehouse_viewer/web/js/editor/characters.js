@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The characters of a layout file, as doc/editor.md lists them.
+
+export const NOTHING = ' ', FLOOR = '.', PLACE = 's';
+export const NEXT_STATION = 'A–Z'; // as a brush: a station with the next letter that is free
+
+/** In the order of the palette; `look` names the colour, --cell-…. */
+export const CHARACTERS = [
+  { char: '.', word: 'floor', hint: 'floor, driven any way', look: 'floor' },
+  { char: '>', word: 'one way right', hint: 'one-way street to the right', look: 'street' },
+  { char: '<', word: 'one way left', hint: 'one-way street to the left', look: 'street' },
+  { char: '^', word: 'one way up', hint: 'one-way street up', look: 'street' },
+  { char: 'v', word: 'one way down', hint: 'one-way street down', look: 'street' },
+  { char: '-', word: 'both ways ↔', hint: 'street driven both ways, left and right', look: 'street' },
+  { char: '|', word: 'both ways ↕', hint: 'street driven both ways, up and down', look: 'street' },
+  { char: 's', word: 'storage place', hint: 'a storage unit can stand here', look: 'storage' },
+  { char: 'p', word: 'parking', hint: 'robots without work wait here', look: 'parking' },
+  { char: 'c', word: 'charging', hint: 'a charging place, also parking', look: 'charging' },
+  { char: NEXT_STATION, word: 'station', hint: 'where units are served; the next free letter', look: 'station' },
+  { char: '=', word: 'conveyor belt', hint: 'a conveyor belt, beside a picking station', look: 'belt' },
+  { char: '#', word: 'wall', hint: 'a wall or pillar, a metre high', look: 'wall' },
+  { char: 'x', word: 'keep out', hint: 'floor where no robot drives', look: 'keepout' },
+  { char: ' ', word: 'no floor', hint: 'erases', look: 'nothing', key: 'space' },
+];
+
+const LOOKS = Object.fromEntries(CHARACTERS.map(({ char, look }) => [char, look]));
+const CLOSED = new Set(['#', '=', ' ', 'x']);
+const KEPT = new Set(['s', 'p', 'c']); // passable, but no street
+
+export const isLetter = (char) => char.length === 1 && char >= 'A' && char <= 'Z';
+export const isCharacter = (char) => char in LOOKS || isLetter(char);
+export const isPassable = (char) => !CLOSED.has(char);
+export const isStreet = (char) => !CLOSED.has(char) && !KEPT.has(char);
+export const lookOf = (char) => LOOKS[char] ?? 'station';
+
+/** Headings [dx, dy] in which an arrow points; none for others. */
+export const POINTS = {
+  '>': [[1, 0]], '<': [[-1, 0]], '^': [[0, 1]], 'v': [[0, -1]],
+  '-': [[1, 0], [-1, 0]], '|': [[0, 1], [0, -1]],
+};
+
+const swapped = (pairs) => Object.fromEntries(pairs.flatMap(([a, b]) => [[a, b], [b, a]]));
+/** What an arrow becomes in a mirror, and by a quarter turn to the left. */
+export const MIRRORED = { x: swapped(['<>']), y: swapped(['^v']) };
+export const TURNED = { '>': '^', '^': '<', '<': 'v', 'v': '>', '-': '|', '|': '-' };

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens, saves and downloads files, and generates new ones.
+
+import { $, make, on } from '../dom.js';
+import { ask as question, confirmed } from '../question.js';
+import { ask } from './server.js';
+import { textOf } from './text.js';
+
+const COUNTS = ['robots', 'units', 'items', 'stations'];
+const MOST = 5e6; // [bytes] of a file
+
+export class Files {
+  constructor(editor, about) {
+    Object.assign(this, { editor, about });
+    on($('open'), 'click', () => $('file').click());
+    on($('file'), 'change', () => this.open($('file').files));
+    on($('save'), 'click', () => this.save());
+    on($('new'), 'click', () => this.create());
+    on(window, 'dragover', (event) => event.preventDefault());
+    on(window, 'drop', (event) => {
+      event.preventDefault();
+      if (event.dataTransfer?.files.length) this.open(event.dataTransfer.files);
+    });
+    this.prepare();
+  }
+
+  prepare() {
+    const sizes = this.about.presets;
+    $('new-size').append(...Object.keys(sizes).map((name) => make('option', { value: name, textContent: name })),
+      make('option', { value: '', textContent: 'own counts' }));
+    on($('new-size'), 'change', () => this.showCounts());
+    for (const what of COUNTS) {
+      $(`new-${what}`).max = this.about.limits[what === 'units' ? 'shelves' : what];
+      on($(`new-${what}`), 'input', () => { $('new-size').value = ''; });
+    }
+    this.showCounts();
+    const { file, saves } = this.about;
+    $('save').title = saves ? `Save to ${file} (Ctrl+S)` : 'Download as NAME.layout.yaml (Ctrl+S)';
+  }
+
+  showCounts() {
+    const preset = this.about.presets[$('new-size').value];
+    for (const what of COUNTS) if (preset) $(`new-${what}`).value = preset[what];
+  }
+
+  async open(list) {
+    const files = [...list];
+    $('file').value = '';
+    await this.attempt(async () => {
+      if (files.some((file) => file.size > MOST)) throw new Error('a file of up to 5 MB was expected');
+      const contents = await Promise.all(files.map(async (file) => [file.name, await base64(file)]));
+      const { drawing, told } = await ask('/read', { files: Object.fromEntries(contents) });
+      this.editor.open(drawing);
+      tellLost(told);
+      this.editor.say(`Opened ${files.map((f) => f.name).join(', ')}`, 'done');
+    });
+  }
+
+  async save() {
+    const { text } = textOf(this.editor.drawing);
+    if (!this.about.saves) {
+      this.download(text);
+      return;
+    }
+    await this.attempt(async () => this.editor.say((await ask('/file', { text }, 'PUT')).message, 'done'));
+  }
+
+  download(text) {
+    const name = `${this.editor.drawing.name.replace(/[^\w.-]+/g, '_') || 'warehouse'}.layout.yaml`;
+    const href = URL.createObjectURL(new Blob([text], { type: 'text/yaml' }));
+    make('a', { href, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 10000);
+    this.editor.say(`Downloaded ${name}`, 'done');
+  }
+
+  async create() {
+    const answer = await question($('creator'));
+    if (answer === 'empty') this.editor.open(null);
+    else if (answer === 'yes') {
+      const counts = Object.fromEntries(COUNTS.map((what) => [what, $(`new-${what}`).valueAsNumber || 0]));
+      await this.attempt(async () => this.editor.open(await ask('/new', counts)));
+    }
+  }
+
+  async attempt(act) {
+    try {
+      await act();
+    } catch (error) {
+      this.editor.say(error.message, 'refused');
+    }
+  }
+}
+
+/** Lists what could not be carried over from a file of another format. */
+export function tellLost(told) {
+  if (!told?.length) return;
+  $('lost').replaceChildren(...told.map((text) => make('li', { textContent: text })));
+  $('loser').showModal();
+}
+
+/** Builds the drawing in place of the warehouse that runs. */
+export async function build(editor, post) {
+  const name = editor.drawing.name || 'this layout';
+  const isSure = await confirmed(`Build ${name}?`, 'It takes the place of the warehouse that runs; robots and stock there are gone.', 'Build');
+  if (!isSure) return;
+  try {
+    editor.say('building …');
+    const { message } = await post('/warehouse', { layout: textOf(editor.drawing).text });
+    editor.say(message || 'built', 'done');
+  } catch (error) {
+    editor.say(error.message, 'refused');
+  }
+}
+
+async function base64(file) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
+  return btoa(text);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stations: which there are, and the chosen one's name, kind and lane.
+
+import { $, make, on } from '../dom.js';
+
+export class StationPanel {
+  constructor(editor) {
+    this.editor = editor;
+    on($('station-name'), 'change', () => this.rename());
+    on($('station-kind'), 'change', () => this.alter((s) => { s.kind = $('station-kind').value; }));
+    on($('station-lane'), 'click', () => this.alter((s, drawing) => {
+      drawing.setLane(s, 'queue', []);
+      drawing.setLane(s, 'exit', []);
+    }));
+    on($('station-remove'), 'click', () => this.alter((s, drawing) => drawing.remove(s)));
+    editor.on('change', () => this.show());
+    editor.on('state', () => this.show());
+  }
+
+  /** Changes the chosen station in the drawing that is kept from now on. */
+  alter(act) {
+    const { station, stationKey } = this.editor;
+    if (!station) return;
+    this.editor.change((drawing) => { act(drawing.stations.find((s) => s.key === stationKey), drawing); });
+  }
+
+  rename() {
+    const name = $('station-name').value.trim(), { station, drawing } = this.editor;
+    const isTaken = drawing.stations.some((s) => s !== station && s.name === name);
+    if (!name || name.includes('/') || name.length > 60 || isTaken) {
+      this.editor.say(isTaken ? `another station is called ${name}` : 'a name of up to 60 characters without / was expected', 'refused');
+      $('station-name').value = station?.name ?? '';
+    } else this.alter((s) => { s.name = name; });
+  }
+
+  show() {
+    const { drawing, station, stationKey, lanesFound } = this.editor;
+    const told = JSON.stringify([drawing.stations.map((s) => [s.key, s.name, s.kind]), stationKey]);
+    if (told !== this.told) {
+      $('stations').replaceChildren(...drawing.stations.map((s) => this.row(s, s === station)));
+      this.told = told;
+    }
+    $('no-stations').hidden = drawing.stations.length > 0;
+    $('station').hidden = !station;
+    if (!station) return;
+    if (document.activeElement !== $('station-name')) $('station-name').value = station.name;
+    $('station-kind').value = station.kind;
+    $('station-told').textContent = laneText(station, lanesFound[station.key]);
+    $('station-lane').disabled = !station.queue.length && !station.exit.length;
+  }
+
+  row(station, isChosen) {
+    const out = make('button', { type: 'button', click: () => this.editor.choose(isChosen ? null : station) },
+      make('b', { textContent: station.key.length === 1 ? station.key : '•' }), make('span', { textContent: station.name }),
+      make('small', { textContent: station.kind, className: 'dim' }));
+    out.setAttribute('aria-pressed', String(isChosen));
+    return make('li', {}, out);
+  }
+}
+
+function laneText({ queue, exit }, found) {
+  const drawn = [queue.length && `queue of ${queue.length}`, exit.length && `exit of ${exit.length}`].filter(Boolean);
+  const parts = drawn.length ? `${drawn.join(', ')} cells drawn` : 'no lane drawn';
+  if (queue.length && exit.length) return parts;
+  return found ? `${parts}; the rest is found by itself, dashed` : `${parts}; draw it: choose queue or exit, then drag`;
+}

@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The layout editor in a real browser, drawn in by mouse, fingers and keys; no ROS runs.
+
+`pytest -s` shows how long frames take, and how large the page is.
+"""
+
+import contextlib
+import re
+import subprocess
+import sys
+
+import numpy as np
+import paths
+import pytest
+
+sys.path.append(str(paths.ROOT / "tests" / "rostest"))
+
+from browser import browser  # noqa: E402
+
+from warehouse_layout import file_check, generator, layout_file  # noqa: E402
+from warehouse_layout.layout_file import LayoutFile, StationEntry  # noqa: E402
+from warehouse_layout.request import PRESETS  # noqa: E402
+
+PATIENCE = 60.0  # with a machine that has much to do [s, wall]
+EDIT = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "edit"
+WHERE = """(() => {{
+  const [x, y] = page.editor.view.centreOf([{}, {}]);
+  const box = document.getElementById('overlay').getBoundingClientRect();
+  return [box.left + x, box.top + y];
+}})()"""
+LINES = """(() => {
+  const b = page.editor.bounds, row = (r) => Array.from({ length: b.right - b.left },
+    (_, i) => page.editor.drawing.get(b.left + i, r)).join('');
+  return b && Array.from({ length: b.top - b.bottom }, (_, i) => row(b.top - 1 - i));
+})()"""
+
+
+@contextlib.contextmanager
+def editor(file=None):
+    """The address of `edit FILE`."""
+    command = ["/usr/bin/python3", EDIT, *([file] if file else []), "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            yield re.search(r"http://\S+", process.stdout.readline())[0]
+        finally:
+            process.terminate()
+
+
+@pytest.fixture(scope="module")
+def address():
+    with editor() as where:
+        yield where
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser(PATIENCE, (1280, 800)) as one:
+        yield one
+
+
+@pytest.fixture
+def page(chromium, address):
+    """Empty paper."""
+    paper(chromium, address)
+    yield chromium
+    assert chromium.complaints() == []
+
+
+def paper(chromium, address):
+    chromium.open(address)
+    chromium.read("localStorage.clear()")
+    # What the page keeps as it is left is not to come back.
+    chromium.read("(page && (page.store.keep = () => {}))")
+    chromium.open(address)
+    chromium.until("Boolean(page.store) && page.editor.view.width > 0")
+
+
+def at(page, cell):
+    """Where in the window a cell is [px]."""
+    return page.read(WHERE.format(*cell))
+
+
+def mouse(page, kind, cell, pressed=1):
+    x, y = at(page, cell)
+    event = {"type": kind, "x": x, "y": y, "button": "left", "buttons": pressed, "clickCount": 1}
+    page.driver.execute_cdp_cmd("Input.dispatchMouseEvent", event)
+
+
+def drag(page, *cells):
+    mouse(page, "mouseMoved", cells[0], 0)
+    mouse(page, "mousePressed", cells[0])
+    for cell in cells[1:]:
+        mouse(page, "mouseMoved", cell)
+    mouse(page, "mouseReleased", cells[-1], 0)
+
+
+def touch(page, kind, *points):
+    """Fingers at points of the window [px]."""
+    touches = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+    event = {"type": kind, "touchPoints": touches}
+    page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", event)
+
+
+def keys(page, text):
+    page.driver.switch_to.active_element.send_keys(text)
+
+
+def press(page, key, control=False):
+    """A key that is no character, or one with control, where the focus is."""
+    page.driver.execute_script(
+        "document.activeElement.dispatchEvent(new KeyboardEvent('keydown',"
+        " {key: arguments[0], ctrlKey: arguments[1], bubbles: true, cancelable: true}))",
+        key,
+        control,
+    )
+
+
+def lines(page):
+    """The drawing, the highest line first; None if there is none."""
+    return page.read(LINES)
+
+
+def checked(page):
+    """Waits until the present drawing is checked; returns the sentences."""
+    page.until("!page.checker.isAsking && !page.checker.isStale")
+    return page.read("page.editor.faults.map((fault) => fault.text)")
+
+
+def draw_first(page):
+    """The layout of doc/editor.md: two aisles, two stations, six robots."""
+    keys(page, "r.")
+    drag(page, (0, 0), (15, 10))
+    keys(page, "s")
+    drag(page, (3, 2), (11, 3))
+    drag(page, (3, 5), (11, 6))
+    keys(page, "p")
+    drag(page, (2, 9), (9, 9))
+    page.driver.find_element("css selector", "[data-char='A–Z']").click()
+    keys(page, "d")
+    drag(page, (14, 3))
+    drag(page, (14, 7))
+    field = page.driver.find_element("id", "own-robots")
+    field.clear()
+    field.send_keys("6\n")
+
+
+def test_a_first_layout_is_drawn_tried_and_saved(chromium, tmp_path):
+    file = tmp_path / "first.layout.yaml"
+    with editor(file) as address:
+        paper(chromium, address)
+        draw_first(chromium)
+        assert checked(chromium) == []
+        chromium.click_on("try")
+        chromium.until("document.getElementById('trial').dataset.phase === 'done'")
+        assert int(chromium.text("trial-pieces").replace(",", "")) > 100
+        assert chromium.read("page.editor.heat.values.some((value) => value > 0)")
+        chromium.click_on("save")
+        chromium.until("document.getElementById('said').textContent.startsWith('saved')")
+        assert chromium.complaints() == []
+    drawn = layout_file.read(file)
+    assert file_check.faults(drawn) == []
+    assert (drawn.robots, len(drawn.stations), np.sum(drawn.floor == "s")) == (6, 2, 36)
+
+
+def test_a_closed_tab_loses_nothing(page, address):
+    keys(page, "r#")
+    drag(page, (2, 2), (6, 4))
+    kept = lines(page)
+    first = page.driver.current_window_handle
+    page.driver.switch_to.new_window("tab")
+    second = page.driver.current_window_handle
+    page.driver.switch_to.window(first)
+    page.driver.close()
+    page.driver.switch_to.window(second)
+    page.open(address)
+    page.until("Boolean(page.store)")
+    assert lines(page) == kept
+    page.until("document.getElementById('notice').checkVisibility()")
+    page.click_on("notice-button")
+    assert page.read("page.editor.drawing.bounds()") is None
+    page.click_on("undo")
+    assert lines(page) == kept
+
+
+def test_tools_keys_and_lanes(page):
+    keys(page, "l>")
+    drag(page, (0, 0), (9, 1))
+    keys(page, "o#")
+    drag(page, (0, 2), (4, 5))
+    keys(page, "fx")
+    drag(page, (2, 3))
+    wall, inside, none, street = "#####     ", "#xxx#     ", " " * 10, ">" * 10
+    assert lines(page) == [wall, inside, inside, wall, none, street]
+    keys(page, "B")
+    keys(page, "d")
+    drag(page, (9, 3))
+    keys(page, "q")
+    drag(page, (6, 3), (8, 3))
+    keys(page, "e")
+    drag(page, (9, 3), (9, 5))
+    told = page.read("page.editor.station")
+    assert told["queue"] == [[6, 3], [7, 3], [8, 3]] and told["exit"] == [[9, 4], [9, 5]]
+
+
+def test_keys_alone_draw(page):
+    page.read("document.getElementById('overlay').focus()")
+    for key in ("ArrowRight", "s", "ArrowRight", "s", "ArrowUp", "p", "r", "#", "Enter"):
+        press(page, key)
+    for key in ("ArrowRight", "ArrowRight", "ArrowUp", "Enter"):
+        press(page, key)
+    drawn = lines(page)
+    assert drawn == [" ###", " ###", "ss  "], drawn
+    for _ in range(3):
+        press(page, "z", control=True)
+    assert lines(page) == ["ss"]
+    press(page, "y", control=True)
+    assert lines(page) == [" p", "ss"]
+
+
+def test_a_block_is_copied_mirrored_and_repeated(page):
+    keys(page, "d>")
+    drag(page, (0, 0))
+    keys(page, "s")
+    drag(page, (1, 0))
+    keys(page, "m")
+    drag(page, (0, 0), (1, 0))
+    assert page.read("document.getElementById('block').checkVisibility()")
+    press(page, "c", control=True)
+    press(page, "v", control=True)
+    press(page, "j")
+    drag(page, (3, 0))
+    assert lines(page) == [">s s<"]
+    keys(page, "m")
+    drag(page, (0, 0), (4, 0))
+    page.driver.execute_script(
+        "document.getElementById('repeat-columns').value = 1;"
+        "document.getElementById('repeat-rows').value = 3;"
+    )
+    page.click_on("repeat")
+    assert lines(page) == [">s s<"] * 3
+    press(page, "z", control=True)
+    assert lines(page) == [">s s<"]
+
+
+def test_fingers_draw_and_two_zoom(chromium, address):
+    chromium.be_phone(1024, 768)
+    try:
+        paper(chromium, address)
+        keys(chromium, "d.")
+        start, end = at(chromium, (3, 3)), at(chromium, (8, 3))
+        touch(chromium, "touchStart", start)
+        touch(chromium, "touchMove", end)
+        touch(chromium, "touchEnd")
+        chromium.until("page.editor.drawing.count('.') === 6")
+        before = chromium.read("page.editor.view.scale")
+        a, b = at(chromium, (4, 8)), at(chromium, (6, 8))
+        touch(chromium, "touchStart", a)
+        touch(chromium, "touchStart", a, b)
+        touch(chromium, "touchMove", (a[0] - 60, a[1]), (b[0] + 60, b[1]))
+        touch(chromium, "touchEnd")
+        chromium.until(f"page.editor.view.scale > {before} * 1.5")
+        assert lines(chromium) == ["......"]
+        assert chromium.complaints() == []
+    finally:
+        chromium.be_desktop()
+
+
+def test_a_trial_can_be_given_up(page):
+    open_drawing(page, "huge")
+    page.click_on("try")
+    page.until("document.getElementById('trial').dataset.phase === 'running'")
+    page.click_on("trial-cancel")
+    page.until("document.getElementById('trial-told').textContent === 'cancelled'")
+
+
+def open_drawing(page, preset):
+    counts = vars(PRESETS[preset])
+    fields = {"robots": "robots", "units": "shelves", "items": "items", "stations": "belts"}
+    asked = {name: counts[count] for name, count in fields.items()}
+    page.driver.set_script_timeout(PATIENCE)
+    page.driver.execute_async_script(
+        "const done = arguments[1]; fetch('/layout/new', {method: 'POST', body:"
+        " JSON.stringify(arguments[0])}).then((r) => r.json()).then((d) => { page.editor.open(d);"
+        " done(); })",
+        asked,
+    )
+
+
+def test_files_are_opened_and_wrong_ones_told(page, tmp_path):
+    good, bad = tmp_path / "a.layout.yaml", tmp_path / "b.layout.yaml"
+    layout_file.write(generator.of_request(PRESETS["small"], "from a file"), good)
+    bad.write_text("layout: 1\nfloor: |\n  .\n  ..\n")
+    page.driver.find_element("id", "file").send_keys(str(good))
+    page.until("page.editor.drawing.name === 'from a file'")
+    page.driver.find_element("id", "file").send_keys(str(bad))
+    page.until("document.getElementById('said').textContent.includes('b.layout.yaml:4')")
+    assert page.read("page.editor.drawing.name") == "from a file"
+
+
+def ordinary(edge):
+    """A floor of so many cells along x and y, with streets driven both ways and twelve stations."""
+    floor = np.full((edge, edge), ".")
+    for y in range(3, edge - 10, 3):
+        floor[y : y + 2, 4 : edge - 20] = "s"
+    floor[-4, 10:60] = "p"
+    stations = []
+    for i in range(12):
+        column, row = edge - 8, 6 + 7 * i
+        floor[row, column] = chr(65 + i)
+        queue = ((column, row + 2), (column, row + 1))
+        station = StationEntry(
+            chr(65 + i), (column, row), f"pick{i + 1}", queue=queue, exit=((column, row - 1),)
+        )
+        stations.append(station)
+    return LayoutFile(floor=floor, stations=tuple(stations), robots=40, items=2000)
+
+
+def test_a_hundred_by_a_hundred_cells_are_no_burden(page, tmp_path, capsys):
+    file = tmp_path / "large.layout.yaml"
+    layout_file.write(ordinary(100), file)
+    page.driver.find_element("id", "file").send_keys(str(file))
+    page.until("page.editor.drawing.places > 1000")
+    assert checked(page) == []
+    page.read("(page.editor.frames.length = 0)")
+    keys(page, "d#")
+    drag(page, *((2 + 2 * i, 1) for i in range(30)))
+    assert page.until("page.editor.drawing.count('#') >= 59")
+    faults = checked(page)
+    frames = sorted(page.read("page.editor.frames"))
+    size = page.read(
+        "performance.getEntriesByType('resource').reduce((sum, r) => sum + r.encodedBodySize, 0)"
+        " + performance.getEntriesByType('navigation')[0].encodedBodySize"
+    )
+    with capsys.disabled():
+        print(
+            f"\n100 x 100 cells: frame {frames[len(frames) // 2]:.1f} ms in the median of"
+            f" {len(frames)}, {frames[-1]:.1f} ms at most; check {page.read('page.checker.took'):.0f}"
+            f" ms, {len(faults)} faults; page {size / 1024:.0f} KiB"
+        )
+
+
+def test_a_fault_leads_to_its_cells(page):
+    keys(page, "r.")
+    drag(page, (0, 0), (5, 3))
+    keys(page, "l.")
+    drag(page, (6, 1), (14, 1))
+    assert checked(page)
+    cells = page.read("page.editor.faults[0].cells")
+    assert [14, 1] in cells and [2, 2] not in cells
+    page.driver.find_element("css selector", "#faults button").click()
+    page.until("page.editor.overlay.chosen")
+    keys(page, "r ")
+    drag(page, (6, 1), (14, 1))
+    assert checked(page) == []
