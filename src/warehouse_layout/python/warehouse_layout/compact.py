@@ -9,7 +9,7 @@ v s s ^ s s v ^ x A = =
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -125,7 +125,6 @@ class _Plan:
     kinds: dict[int, list[_Kind]]
     rows: int
     columns: int
-    stations: list[StationEntry] = field(default_factory=list)
 
     @cached_property
     def street_x(self) -> np.ndarray:
@@ -196,7 +195,7 @@ class _Plan:
             inside[self.street_y] = lf.FLOOR
             inside[:, self.street_x] = lf.FLOOR
             return
-        right, up, left, down = lf.ONE_WAY
+        right, up, left, down = list(lf.ONE_WAY)
         rows = set(self.street_y.tolist())
         for y, is_ahead in zip(self.street_y, _directions(len(self.street_y), True)):
             inside[y] = right if is_ahead else left
@@ -272,8 +271,6 @@ class _Plan:
 
 
 def _keyed(stations: Sequence[StationEntry], letters: str) -> Iterator[StationEntry]:
-    from dataclasses import replace
-
     for i, station in enumerate(stations):
         yield replace(station, key=letters[i]) if letters else station
 

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The check of a layout file: what robots may do on a drawing, and sentences about its faults."""
+
+import time
+
+import numpy as np
+import pytest
+
+from warehouse_layout import Floor, drawn_floor, file_check, layout_faults
+from warehouse_layout import layout_file as lf
+
+
+def drawn(*lines, stations="", more=""):
+    floor = "".join(f"  {line}\n" for line in lines)
+    text = f"layout: 1\nfloor: |2\n{floor}"
+    return lf.parse(text + (f"stations:\n{stations}" if stations else "") + more)
+
+
+def exits(*lines):
+    floor = drawn(*lines).floor
+    return drawn_floor.exits(floor, drawn_floor.areas(floor), [])[::-1]
+
+
+def faults(*lines, **more):
+    return file_check.faults(drawn(*lines, **more))
+
+
+RIGHT, UP, LEFT, DOWN = 1, 2, 4, 8
+
+
+def test_a_one_way_street_is_left_ahead_alone():
+    assert exits(".>.")[0, 1] & (RIGHT | LEFT) == RIGHT
+    assert exits(".<.")[0, 1] & (RIGHT | LEFT) == LEFT
+    assert exits(".", "^", ".")[1, 0] & (UP | DOWN) == UP
+    assert exits(".", "v", ".")[1, 0] & (UP | DOWN) == DOWN
+
+
+def test_a_street_is_not_entered_against_its_direction():
+    ways = exits(".<.")[0]
+    assert not ways[0] & RIGHT
+    assert ways[2] & LEFT
+
+
+def test_places_beside_a_one_way_street_are_reached_from_it():
+    assert exits("s", ">", "s")[1, 0] & (UP | DOWN) == UP | DOWN
+
+
+def test_both_ways_along_an_axis_means_that_axis():
+    assert exits("...", ".-.", "...")[1, 1] == RIGHT | LEFT
+    assert exits("...", ".|.", "...")[1, 1] == UP | DOWN
+
+
+def test_streets_cross_where_a_row_runs_through_a_column():
+    ways = exits(".^.", ">^>", ".^.")
+    assert ways[1, 1] & (RIGHT | UP) == RIGHT | UP
+    assert not ways[1, 1] & (LEFT | DOWN)
+
+
+def test_a_fleet_works_on_blocks_with_streets_around():
+    assert faults(".....", ".sss.", ".....", more="robots: 1\n") == []
+
+
+def test_no_street_is_a_fault():
+    (fault,) = faults("ss", "ss", more="storage_units: 0\n")
+    assert fault.text.startswith("there is no street for a loaded robot")
+
+
+def test_a_blind_alley_is_named_with_its_cells():
+    (fault,) = faults("....", "....", "#.##", "#.##")
+    assert "can't pass each other" in fault.text
+    assert set(fault.cells) == {(1, 0), (1, 1), (1, 2)}
+    assert "[1, 0]" in fault.text
+
+
+def test_a_place_without_a_street_is_named():
+    found = faults(".....", ".sss.", ".sss.", ".sss.", ".....")
+    assert [fault.cells for fault in found] == [((2, 2),)]
+    assert "storage places at [2, 2]" in found[0].text
+
+
+def test_streets_that_only_lead_in_are_named():
+    found = faults("...>..", "...>..")
+    assert "can't get from the streets at [3, 0], [4, 0], [5, 0]" in found[0].text
+
+
+def test_a_lane_that_does_not_join_is_named():
+    lane = "  A: {name: pick1, queue: [[1, 1]], exit: [[4, 1]]}\n"
+    found = faults(".....", "..A..", ".....", stations=lane)
+    assert "the lane of station pick1: cells in a row, each but once" in found[0].text
+    assert (4, 1) in found[0].cells
+
+
+def test_two_stations_in_one_cell_are_named():
+    lanes = (
+        "  A: {name: pick1, queue: [[1, 1]], exit: [[3, 1]]}\n"
+        "  B: {name: pick2, queue: [[3, 1], [3, 2]], exit: [[5, 2]]}\n"
+    )
+    found = faults(".......", "....B..", "..A....", ".......", stations=lanes)
+    assert any("pick2 and pick1 share the cell [3, 1]" in fault.text for fault in found)
+
+
+def test_a_station_without_room_says_so():
+    found = faults("....", ".A..", "....", stations="  A: {name: pick1}\n")
+    assert "station pick1 at [1, 1] has no room for a lane" in found[0].text
+
+
+def test_a_station_without_a_drawn_lane_gets_one():
+    rows = ["." * 14] * 9 + ["......A......."] + ["." * 14] * 4
+    assert faults(*rows, stations="  A: {name: pick1}\n") == []
+
+
+def test_more_robots_than_there_is_room_for_are_a_fault():
+    (fault,) = faults("....", ".p..", "....", more="robots: 2\nstorage_units: 0\n")
+    assert "2 robots, but there is room for 1" in fault.text
+
+
+@pytest.mark.parametrize("kind", ["ring in a ring", "one way back and forth"])
+def test_a_million_cells_are_checked_within_seconds(kind):
+    size = 1000
+    if kind == "ring in a ring":
+        passable = np.ones((size, size), bool)
+        passable[1:-1:2, 1:-1] = False
+    else:  # the longest way there is, without a way round
+        passable = np.zeros((size, size), bool)
+        passable[::2] = passable[1::4, -1] = passable[3::4, 0] = True
+    begin = time.monotonic()
+    found = layout_faults(Floor(passable))
+    assert time.monotonic() - begin < 10  # a search for each edge would take hours
+    assert [name for name, _ in found] == (["dead end"] if "back" in kind else [])
+
+
+def ways_round(passable, exits):
+    """Yields each edge (from, to) between passable cells without another way back."""
+    height, width = passable.shape
+    steps = ((0, 1), (1, 0), (0, -1), (-1, 0))
+
+    def after(cell):
+        for heading, (dy, dx) in enumerate(steps):
+            y, x = cell[0] + dy, cell[1] + dx
+            inside = 0 <= y < height and 0 <= x < width
+            if inside and passable[y, x] and exits[cell] >> heading & 1:
+                yield y, x
+
+    for start in map(tuple, np.argwhere(passable).tolist()):
+        for end in after(start):
+            reached = [end]
+            for cell in reached:  # grows meanwhile
+                reached += [
+                    to for to in after(cell) if to not in reached and (cell, to) != (end, start)
+                ]
+            if start not in reached:
+                yield start[0] * width + start[1], end[0] * width + end[1]
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_dead_ends_are_the_edges_without_another_way_back(seed):
+    rng = np.random.default_rng(seed)
+    shape = tuple(rng.integers(1, 7, 2))
+    passable = rng.random(shape) < 0.85
+    exits = (rng.integers(0, 16, shape) | rng.integers(0, 16, shape)).astype(np.uint8)
+    found = dict(layout_faults(Floor(passable, exits=exits))).get("dead end", [])
+    pairs = set(zip(found[::2], found[1::2]))
+    assert pairs == set(ways_round(passable, exits))
