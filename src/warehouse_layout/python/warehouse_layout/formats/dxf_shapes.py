@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the entities of a DXF drawing, by layer, as shapes in metres."""
 
+import logging
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -66,8 +67,8 @@ class Drawing:
 
 def read(path: PathName, layers: Layers) -> Drawing:
     """Returns what a drawing's model space holds. Raises FormatError."""
-    document = _document(Path(path))
     out = Drawing()
+    document = _document(Path(path), out)
     scale = _scale(document, out)
     reader = _Reader(path, layers, scale, out)
     try:
@@ -81,19 +82,24 @@ def read(path: PathName, layers: Layers) -> Drawing:
     return out
 
 
-def _document(path: Path) -> Any:
+def _document(path: Path, out: Drawing) -> Any:
     import ezdxf
     from ezdxf import recover
 
+    # What it mends it writes to the log, which goes to the terminal unless there is a handler.
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
         return ezdxf.readfile(str(path))
     except OSError as error:
         raise FormatError(f"{path}: {error.strerror or 'is no DXF drawing'}") from error
     except Exception:  # a flawed file: ezdxf can mend many
         try:
-            return recover.readfile(str(path))[0]
+            document, auditor = recover.readfile(str(path))
         except Exception as error:
             raise FormatError(f"{path}: is no DXF drawing: {_sentence(error)}") from error
+    faults = len(auditor.errors) + len(auditor.fixes)
+    out.told.append(f"the file is flawed: {plural(faults, 'fault')} mended or left out")
+    return document
 
 
 def _sentence(error: Exception) -> str:
