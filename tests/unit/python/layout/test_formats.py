@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grid maps, and what all formats share: names of files, errors, and what broken files lead to."""
 
+import re
 import time
 
 import numpy as np
@@ -176,3 +177,41 @@ def test_nothing_but_a_format_error_comes_of_rubbish(write, suffix):
         with pytest.raises(FormatError) as error:
             formats.read(write(data, f"rubbish{suffix}"))
         assert "rubbish" in str(error.value) and "\n" not in str(error.value)
+
+
+XLAYO = "<LayoutConfiguration><BotCount>3</BotCount><WidthHall>6</WidthHall></LayoutConfiguration>"
+XINST = """<Instance Name="tiny"><Bots><Bot ID="0" X="0.5" Y="0.5"/></Bots><Waypoints>
+<Waypoint ID="0" X="0.5" Y="0.5"><Paths><Waypoint>1</Waypoint></Paths></Waypoint>
+<Waypoint ID="1" X="1.5" Y="0.5"><Paths><Waypoint>0</Waypoint></Paths></Waypoint>
+</Waypoints></Instance>"""
+LIF = """{"layouts": [{"layoutId": "L", "nodes": [
+{"nodeId": "a", "nodePosition": {"x": 1.5, "y": 2}},
+{"nodeId": "b", "nodePosition": {"x": 2.5, "y": 2}}],
+"edges": [{"edgeId": "ab", "startNodeId": "a", "endNodeId": "b"}]}]}"""
+WHOLE = {
+    ".map": LEAGUE,
+    ".layout.yaml": LAYOUT,
+    ".xlayo": XLAYO,
+    ".xinst": XINST,
+    ".lif.json": LIF,
+}
+NUMBERS = ("nan", "-1", "0", "1e308", "99999999999", "", "true", "[", "<", '"')
+
+
+@pytest.mark.parametrize("suffix", WHOLE)
+def test_a_damaged_file_is_told_or_read(write, tmp_path, suffix):
+    """Cut short, or with another value in the place of a number."""
+    text = WHOLE[suffix]
+    formats.read(write(text, f"a{suffix}"))
+    damaged = [text[: int(len(text) * share)] for share in np.linspace(0.05, 0.99, 20)]
+    for found in re.finditer(r"\d+(\.\d+)?", text):
+        damaged += [text[: found.start()] + value + text[found.end() :] for value in NUMBERS]
+    told = 0
+    for one in damaged:
+        try:
+            formats.convert(write(one, f"a{suffix}"), tmp_path / "b.layout.yaml")
+            formats.read(tmp_path / "b.layout.yaml")
+        except FormatError as error:
+            told += 1
+            assert str(error).startswith(str(tmp_path / "a.")) and "\n" not in str(error)
+    assert told > len(damaged) / 4

@@ -77,11 +77,12 @@ def test_a_hall(path, unit, insunits):
     )
 
 
-def test_a_drawing_that_lies_askew_and_one_without_units(path):
-    drawing(turn=math.radians(3), insunits=0).saveas(path)
+@pytest.mark.parametrize("unit, name", [(1000.0, "millimetres"), (1.0, "metres")])
+def test_a_drawing_that_lies_askew_and_names_no_unit(path, unit, name):
+    drawing(turn=math.radians(3), insunits=0, unit=unit).saveas(path)
     file, told = formats.read(path)
     assert told == [
-        "$INSUNITS is 0, no unit of length: millimetres were assumed",
+        f"$INSUNITS names no unit of length: {name} were assumed",
         "turned by -3.00 degrees",
     ]
     assert lines_of(file.floor) == FLOOR

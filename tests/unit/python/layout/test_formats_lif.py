@@ -201,6 +201,18 @@ def test_what_is_wrong_is_told(write, values, message):
     assert str(error.value).startswith(str(path)) and "\n" not in str(error.value)
 
 
+@pytest.mark.parametrize(
+    "edge, spacing", [(0.8, 0.8), (1.4, 1.4), (2.0, 1.0), (5.0, 1.0), (2.6, 2.6 / 3)]
+)
+def test_long_edges_are_divided(write, edge, spacing):
+    values = lif()
+    for one in values["layouts"][0]["nodes"]:
+        one["nodePosition"] = {axis: v / 1.4 * edge for axis, v in one["nodePosition"].items()}
+    file, _ = formats.read(write(values))
+    assert file.spacing == pytest.approx(spacing, abs=1e-3)
+    assert file.shape[1] == round(6 * edge / spacing) + 1
+
+
 def test_nodes_that_lie_on_no_grid(write):
     values = changed(**{"0__nodes__2__nodePosition": {"x": 4.9, "y": 3.3}})
     file, told = formats.read(write(values))

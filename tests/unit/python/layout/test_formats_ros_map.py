@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from warehouse_layout import formats
 from warehouse_layout.formats import FormatError
@@ -93,6 +94,15 @@ def similar(floor):
                     same += (floor[i, j] if inside else "?") == character
             best = max(best, same / (len(EXPECTED) * len(EXPECTED[0])))
     return best
+
+
+@pytest.mark.parametrize("spacing", [0.5, 1.0, 2.0])
+def test_a_wall_of_one_pixel_closes(tmp_path, spacing):
+    grey = np.full((400, 400), 254, np.uint8)
+    grey[[0, -1]] = grey[:, [0, -1]] = grey[:, 137] = 0
+    file, _ = formats.read(write_map(tmp_path, grey), spacing=spacing)
+    labels, parts = ndimage.label(file.floor == ".")
+    assert parts == 2
 
 
 @pytest.mark.parametrize("degrees", [2.0, -7.0, 31.0])

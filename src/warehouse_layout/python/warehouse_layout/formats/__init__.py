@@ -11,6 +11,7 @@ Out: .layout.yaml, .sdf, .map, .lif.json, .svg, .png.
 
 import importlib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +78,10 @@ def read(
         options = {"spacing": spacing, "angle": angle}
         options |= {"layers": layers} if path.suffix.lower() == ".dxf" else {}
     file, told = _checked(path, lambda: _with_told(module.read(path, **options)))
-    return (file, told) if path.name.endswith(LAYOUT) else within_limits(file, told)
+    if module is lf:
+        return file, told
+    file = replace(file, name=file.name or path.name.split(".")[0])
+    return within_limits(file, told)
 
 
 def write(file: LayoutFile, path: Path) -> list[str]:

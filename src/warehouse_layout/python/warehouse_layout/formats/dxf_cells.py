@@ -8,7 +8,6 @@ enclose is floor, or what the layer `floor` outlines.
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable
-from pathlib import Path
 
 import numpy as np
 
@@ -82,7 +81,6 @@ class _Cells:
             raise FormatError(f"{self._path}: nothing in it makes a floor: walls enclose none")
         file = LayoutFile(
             floor=self._floor,
-            name=Path(self._path).stem,
             spacing=self._spacing,
             stations=entries,
             robots=tuple(robots) or 0,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the entities of a DXF drawing, by layer, as shapes in metres."""
 
+import logging
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -14,6 +15,7 @@ from warehouse_layout.formats.common import FormatError, PathName, plural
 from warehouse_layout.formats.dxf_layers import Layers
 
 MILLIMETRE = 0.001
+SMALL = 2.0  # edge of a hall that was not drawn in millimetres [m]
 FINE = 0.02  # how far a curve's parts may be from it [m]
 DEEP = 8  # blocks within blocks, at most
 MOST_SHAPES = 1_000_000
@@ -66,9 +68,25 @@ class Drawing:
 
 def read(path: PathName, layers: Layers) -> Drawing:
     """Returns what a drawing's model space holds. Raises FormatError."""
-    document = _document(Path(path))
+    flaws: list[str] = []
+    document = _document(Path(path), flaws)
+    scale = _scale(document)
+    out = _drawing(path, document, layers, scale or MILLIMETRE)
+    if not scale:
+        unit = "millimetres"
+        if (
+            out.shapes
+            and np.ptp(np.concatenate([s.points for s in out.shapes]), axis=0).max() < SMALL
+        ):
+            out, unit = _drawing(path, document, layers, 1.0), "metres"
+        flaws.append(f"$INSUNITS names no unit of length: {unit} were assumed")
+    out.told[:0] = flaws
+    return out
+
+
+def _drawing(path: PathName, document: Any, layers: Layers, scale: float) -> Drawing:
+    """Returns what a drawing holds; scale: metres of a unit. Raises FormatError."""
     out = Drawing()
-    scale = _scale(document, out)
     reader = _Reader(path, layers, scale, out)
     try:
         for entity in document.modelspace():
@@ -81,37 +99,39 @@ def read(path: PathName, layers: Layers) -> Drawing:
     return out
 
 
-def _document(path: Path) -> Any:
+def _document(path: Path, told: list[str]) -> Any:
     import ezdxf
     from ezdxf import recover
 
+    # What it mends it writes to the log, which goes to the terminal unless there is a handler.
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
         return ezdxf.readfile(str(path))
     except OSError as error:
         raise FormatError(f"{path}: {error.strerror or 'is no DXF drawing'}") from error
     except Exception:  # a flawed file: ezdxf can mend many
         try:
-            return recover.readfile(str(path))[0]
+            document, auditor = recover.readfile(str(path))
         except Exception as error:
             raise FormatError(f"{path}: is no DXF drawing: {_sentence(error)}") from error
+    faults = len(auditor.errors) + len(auditor.fixes)
+    told.append(f"the file is flawed: {plural(faults, 'fault')} mended or left out")
+    return document
 
 
 def _sentence(error: Exception) -> str:
     return " ".join(str(error).split())[:120] or type(error).__name__
 
 
-def _scale(document: Any, out: Drawing) -> float:
-    """Returns the metres of a unit of the drawing."""
+def _scale(document: Any) -> float:
+    """Returns the metres of a unit of the drawing, 0 where it names none."""
     from ezdxf import units
 
     unit = document.header.get("$INSUNITS", 0)
     try:
-        if unit:
-            return float(units.conversion_factor(unit, units.M))
+        return float(units.conversion_factor(unit, units.M)) if unit else 0.0
     except (KeyError, TypeError, ValueError, IndexError):
-        pass
-    out.told.append(f"$INSUNITS is {unit}, no unit of length: millimetres were assumed")
-    return MILLIMETRE
+        return 0.0
 
 
 class _Reader:

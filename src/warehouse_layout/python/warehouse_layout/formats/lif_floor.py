@@ -24,6 +24,7 @@ from warehouse_layout.stations import STEPS
 AGREE = 0.95  # of nodes that lie on a grid
 OFF = 0.25  # cells that a node may be off the middle of its own, without a word
 LONGEST = 50  # cells of a lane
+LONG = 2.0  # edges from this length on are several cells [m]
 DRAWN = {"storage": lf.STORAGE, "parking": lf.PARKING, "charging": lf.CHARGING}
 
 
@@ -102,7 +103,10 @@ class _Floor:
     # --- the grid
 
     def _found_spacing(self, at: np.ndarray) -> float:
-        """Returns the length of the shortest edges if all nodes lie on such a grid, or 1 m."""
+        """Returns the length of the shortest edges if all nodes lie on such a grid, or 1 m.
+
+        Edges of 2 m and more are divided into cells of about 1 m.
+        """
         place = dict(zip(self._graph.nodes, at))
         vectors = [place[e.end] - place[e.start] for e in self._graph.edges]
         lengths = np.abs(np.array(vectors).reshape(-1, 2)).max(axis=1)
@@ -111,7 +115,7 @@ class _Floor:
             shortest = float(np.median(lengths[lengths < 1.25 * lengths.min()]))
             agreed = [straight.phase_of_centres(axis, shortest)[1] for axis in at.T]
             if min(agreed) > AGREE and LEAST_SPACING <= shortest <= MOST_SPACING:
-                return shortest
+                return shortest / (round(shortest) if shortest >= LONG else 1)
         return 1.0
 
     def _tell_of_snapped(self, at: np.ndarray) -> None:

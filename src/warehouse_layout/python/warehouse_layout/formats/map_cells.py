@@ -11,7 +11,8 @@ from warehouse_layout import layout_file as lf
 from warehouse_layout.formats import straight
 from warehouse_layout.formats.common import PathName, check_size
 
-WALL = 0.04  # share of a cell that is occupied where a wall goes through it
+WALL = 0.8  # of a cell's length that a wall of one pixel goes through it
+MOST = 0.3  # share of a cell that is occupied, which makes it a wall in any case
 SEEN = 0.5  # share of a cell that was seen to be free, of floor
 PHASES = 20  # places of the cells' edges that are tried along an axis, at most
 SAMPLE = 300_000  # free pixels that decide about those
@@ -92,7 +93,8 @@ class _Cells:
         free = self._counts(self._picture.free, corner, every)
         floor[free * every >= SEEN * self._in_a_cell] = lf.FLOOR
         walls = self._counts(self._picture.occupied, corner, 1)
-        floor[walls >= max(1, WALL * self._in_a_cell)] = lf.WALL
+        share = min(WALL * self._picture.resolution / self._spacing, MOST)
+        floor[walls >= max(1, share * self._in_a_cell)] = lf.WALL
         return floor
 
     def _counts(self, mask: np.ndarray, corner: np.ndarray, every: int) -> np.ndarray:
