@@ -12,7 +12,7 @@ from urllib.parse import parse_qs, urlsplit
 
 from warehouse_viewer.server import token_page
 
-MOST_BODY = 1024 * 1024  # [bytes]: a layout of a thousand cells a side
+MOST_BODY = 1024 * 1024  # [bytes]: a layout may have hundreds of cells a side
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
