@@ -42,6 +42,7 @@ test: deps build lint  ## build and run every test; make test ARGS="-L unit" onl
 test-long: build  ## fleets at work, with and without faults, seed after seed; hours. make test-long SEEDS=2
 	@export SOAK_SEEDS=$(SEEDS) FAULT_SEEDS=$(SEEDS) INSTANCE_SEEDS=$(SEEDS) KILLS=$(SEEDS); . devel/setup.bash; cd tests; \
 	/usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/fleet/test_soak.py unit/python/fleet/test_faults.py unit/python/operations/test_rawsim.py unit/python/operations/test_kills.py $(ARGS); \
+	LAYOUTS=$${LAYOUTS:-200} /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_random_layouts.py; \
 	JUMP_MINUTES=10 rostest rostest/time_jumps.test; \
 	MUTATIONS=2000 /usr/bin/python3 -m pytest -q -p no:cacheprovider unit/python/operations/test_mutations.py; \
 	FAILURE_MINUTES=60 CHARGING_MINUTES=60 CROSSINGS=1000 exec /usr/bin/python3 -m pytest -q -s -p no:cacheprovider unit/python/fleet/test_failures.py unit/python/fleet/test_charging.py unit/python/fleet/test_people.py

@@ -23,6 +23,7 @@ class Survey:
     floor_markings: dict = field(default_factory=dict)
     layout_walls: dict = field(default_factory=dict)
     others: dict = field(default_factory=dict)
+    spacing: float = 1.0  # of the grid [m]
     taken: set | None = None  # grid points in the way of which others are; None: not known
 
     def __str__(self) -> str:
@@ -61,6 +62,7 @@ def of_engine(engine: Engine, without: Sequence[str] = ("item",)) -> Survey:
     kinds = {name: models.kind_and_number(name)[0] for name in engine.names()}
     survey = of_models({n: None if k in without else engine.pose(n) for n, k in kinds.items()})
     grid = engine.map()
-    if abs(grid.info.resolution - 1) < 1e-6:
+    survey.spacing = grid.info.resolution
+    if abs(survey.spacing - 1) < 1e-6:
         survey.taken = Cells.of_map(grid).points()
     return survey

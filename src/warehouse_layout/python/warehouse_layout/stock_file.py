@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The initial stock of a warehouse, from a CSV file: a row for each item, which is a bin of one SKU.
+"""The initial stock of a warehouse, from a CSV file: a row an item, which is a bin of one SKU.
 
     sku,quantity,storage_unit
     bolt-m8,20,1

@@ -21,6 +21,8 @@ def commands(survey: Survey) -> list[tuple[str, str]]:
     """Returns three pairs (shell command, what it does) for a Survey."""
     if not survey.kiva:
         return _WITHOUT_ROBOTS
+    if abs(survey.spacing - 1) > 1e-6:
+        return _WITHOUT_ROBOTS[1:]  # ways are looked for on whole metres
     return _fetch(survey) or _stroll(survey)
 
 

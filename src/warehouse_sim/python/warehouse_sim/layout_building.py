@@ -2,7 +2,6 @@
 """Places the warehouses of layout files in the running world."""
 
 import os
-from pathlib import Path
 
 import numpy as np
 
@@ -31,15 +30,34 @@ class LayoutBuilding:
     """`world` is the world's file, if one was named; `seed` decides what is left to chance.
 
     `launched`: the layout with which the launch began, a file or a preset. It has `robots` robots,
-    if that is a number.
+    if that is a number. Raises LayoutFileError for a layout that can't be read.
     """
 
     def __init__(
         self, seed: int = SEED, world: str = "", launched: str = "", robots: str = ""
     ) -> None:
-        self._seed, self._world = seed, world
-        self._launched = _whole(launched)
+        self._seed = seed
+        is_path = launched and not layout_choice.is_preset(launched)
+        self._launched = str(layout_choice.path_of(launched)) if is_path else launched
         self._robots = int(robots) if robots else None
+        self._world = world or self._building()
+
+    def _building(self) -> str:
+        """Returns the hall of the launched layout; "" if it names none."""
+        if not is_file(self._launched):
+            return ""
+        hall = layout_choice.building_of(layout_choice.chosen(self._launched), files.worlds())
+        return str(hall or "")
+
+    @property
+    def launched(self) -> str:
+        """The preset or the whole path of the layout with which the launch began."""
+        return self._launched
+
+    @property
+    def has_hall(self) -> bool:
+        """Whether the world is one of others, on whose floor warehouses stand."""
+        return bool(self._world)
 
     def takes(self, name: str) -> bool:
         """Tells whether a warehouse of that name is to be placed here."""
@@ -66,20 +84,13 @@ class LayoutBuilding:
 
     def _in_hall(self, file: LayoutFile) -> LayoutFile:
         """Returns the file as it stands in the hall of this world, if there is one."""
-        hall = self._hall()
+        hall = layout_choice.world_named(self._world) if self._world else None
         own = layout_choice.building_of(file, files.worlds())
         if own and not (hall and own.samefile(hall)):
             raise LayoutFileError(
                 f"{file.path}: it stands in {own}, which is not this world: launch it by layout:="
             )
         return layout_choice.in_building(file, hall) if hall and not own else file
-
-    def _hall(self) -> Path | None:
-        if self._world:
-            return layout_choice.world_named(self._world)
-        if is_file(self._launched):
-            return layout_choice.building_of(layout_choice.chosen(self._launched), files.worlds())
-        return None
 
     def _check_room(self, file: LayoutFile, laid: Layout, engine: Engine) -> None:
         grid = engine.map()

@@ -24,6 +24,7 @@ class FakeWorld(FakeRos):
         self.refuses, self.pause = refuses, paused
         self.spawned_while_running = []
         self.floor_map = GetMapResponse()
+        self.floor_map.map.info.resolution = 1.0
 
     def set_param(self, name, value):
         self.parameters[name] = value

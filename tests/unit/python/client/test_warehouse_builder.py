@@ -236,3 +236,32 @@ def test_a_world_that_does_not_answer(method, error, words):
 def test_engine_names_what_can_not_be_deleted():
     with Engine(FakeWorld()) as engine, pytest.raises(EngineError, match="kiva1: .*not exist"):
         engine.delete("kiva1")
+
+
+def test_a_layout_file_takes_the_place_of_the_last(tmp_path):
+    path = tmp_path / "one.layout.yaml"
+    path.write_text("layout: 1\nname: mine\nfloor: |\n  ....\n  .ss.\n  ....\nrobots: 1\nitems: 2\n")
+    world = FakeWorld(standing=["kiva9", "layout_walls1"])
+    answer = ask(world, str(path))
+    assert answer.success, answer.message
+    assert answer.message.startswith("mine: 1 robot, 2 storage units, 2 items, 0 conveyor belts")
+    assert counts(world)["kiva"] == 1 and "layout_walls1" not in world.standing
+    assert world.parameters["/warehouse/name"] == "mine"
+    assert world.parameters["/warehouse/layout"] == str(path)
+    ask(world, "small")
+    assert world.parameters["/warehouse/layout"] == ""
+
+
+def test_a_layout_file_that_is_none_changes_nothing(tmp_path):
+    world = FakeWorld(standing=["kiva9"])
+    path = tmp_path / "one.layout.yaml"
+    path.write_text("layout: 1\nfloor: |\n  ...\n  .s.\nspacing: 1.2\n")
+    for text, message in (
+        (path.read_text(), "loaded robots that meet at"),
+        (path.read_text().replace("  .s.", "  .s.\n  ..."), "only a launch with layout:="),
+        ("layout: 2", "one.layout.yaml:1:9: layout is 2; this reads version 1"),
+    ):
+        path.write_text(text)
+        answer = ask(world, str(path))
+        assert not answer.success and message in answer.message, answer.message
+    assert set(world.standing) == {"kiva9"}

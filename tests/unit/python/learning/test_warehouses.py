@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 from warehouse_learning import (
     Action,
@@ -15,6 +16,7 @@ from warehouse_learning import (
 )
 from warehouse_learning.observing import Observer
 
+LAYOUTS = ROOT / "tests" / "layouts"
 TURNS = {0: [], 1: [Action.LEFT], 2: [Action.LEFT, Action.LEFT], 3: [Action.RIGHT]}
 DELIVERY = {"lifted": 0.5, "stored": 0.25, "approached": 0.0}
 
@@ -300,3 +302,31 @@ def test_bad_options_are_named():
     ):
         with pytest.raises(OptionError, match=said):
             Options.of(given)
+
+
+@pytest.mark.parametrize(("name", "units"), [("north", 20), ("in_hall", 14)])
+def test_a_layout_file_is_learned_in(name, units):
+    options = Options(layout=str(LAYOUTS / f"{name}.layout.yaml"), robots=1, requests=1)
+    warehouses = Warehouses(1, options, 1)
+    assert (warehouses.robots, warehouses.units) == (1, units)
+    warehouses.reset([0], [3])
+    drive_to_goal(warehouses)
+    assert act(warehouses, Action.LIFT)[1]["lifted"].all()
+    rng = np.random.default_rng(1)
+    for _ in range(100):
+        action = rng.choice(np.flatnonzero(warehouses.masks()[0, 0]))
+        _, happened = act(warehouses, action)
+        assert not happened["refused"].any() and not happened["collided"].any()
+    cells = {name: warehouses.grid.point_of(warehouses.cell[0])[i] for i, name in enumerate("xy")}
+    for name, at in cells.items():
+        assert getattr(warehouses.worlds, name)[0] == pytest.approx(at, abs=0.01)
+
+
+def test_a_layout_that_is_none_is_told():
+    for given, message in (
+        ({"layout": "nix.layout.yaml"}, "layout: .*nix.layout.yaml: No such file"),
+        ({"layout": str(LAYOUTS / "blocked.layout.yaml")}, "can't pass each other"),
+        ({"layout": "small", "shelves": 3}, "shelves is 3; those of the layout are taken"),
+    ):
+        with pytest.raises(OptionError, match=message):
+            Options(**given)

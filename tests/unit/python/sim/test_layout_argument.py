@@ -74,6 +74,6 @@ def test_the_world_of_a_layout(tmp_path):
     assert world("medium") == ""
     assert world("in_hall.layout.yaml") == str(files.worlds() / "hall.sdf")
     assert world("in_hall.layout.yaml", "hall") == "hall"
-    made = world("north.layout.yaml")
-    assert made == str(tmp_path / "warehouse" / "empty-1.2.sdf")
-    assert "<spacing>1.2</spacing>" in open(made, encoding="utf-8").read()
+    made = tmp_path / "warehouse" / "empty-1.2.sdf"
+    assert world("north.layout.yaml") == str(made)
+    assert "<spacing>1.2</spacing>" in made.read_text()
