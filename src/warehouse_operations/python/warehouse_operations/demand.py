@@ -7,8 +7,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from warehouse_operations.acceptance import MOST_WAITING
 from warehouse_operations import order_mix
+from warehouse_operations.acceptance import MOST_WAITING
 from warehouse_operations.assortment import Assortment
 from warehouse_operations.inventory import ROOMY
 from warehouse_operations.order_file import DemandError, Wanted, read_csv

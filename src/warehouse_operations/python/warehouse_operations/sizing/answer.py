@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from warehouse_operations.comparison import CONFIDENCE
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict, difference
-from warehouse_operations.sizing.wish import named
+from warehouse_operations.sizing.wish import count, named
 
+SHOWN = {"met": "met", "missed": "missed", "undecided": "not shown to be met"}
 KNEE = 0.99  # of the most orders an hour of any number of robots
 
 
@@ -116,7 +117,7 @@ class Answer:
         if fewer:
             more = difference(self.verdict, fewer, "missed")
             yield (
-                f"With {count(fewer.robots, 'robot')} the wish is {fewer.word}:"
+                f"With {count(fewer.robots, 'robot')} it is {SHOWN[fewer.word]}:"
                 f" {100 * more.mean:+.2f} ± {100 * more.half:.2f} points of orders missed, seed by"
                 " seed."
             )
@@ -141,8 +142,10 @@ class Answer:
             return
         robots = self.study.frontier.get(more)
         word = count(more, "picking station")
-        yield f"With {word} {count(robots, 'robot')} would do." if robots else (
-            f"With {word} no robot is saved."
+        yield (
+            f"With {word} {count(robots, 'robot')} would do."
+            if robots
+            else (f"With {word} no robot is saved.")
         )
 
 
@@ -157,8 +160,3 @@ def knee(verdicts: list[Verdict]) -> int | None:
 def percent(verdict: Verdict, name: str) -> str:
     """Returns a share as text."""
     return f"{100 * verdict.estimate(name).mean:.1f} %"
-
-
-def count(number: int, noun: str) -> str:
-    """Returns a number with its noun."""
-    return f"{number:,} {noun}{'' if number == 1 else 's'}"

@@ -2,21 +2,48 @@
 """The pictures of a sizing's report, as SVG."""
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from warehouse_operations.plots import COLOURS, as_svg, new_figure
 from warehouse_operations.sizing.answer import knee
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict
 
+FAR = 2.5  # times the robots of the answer
 Chosen = tuple[int, int] | None  # robots and stations of the answer
 
 
 def throughput(study: Study, chosen: Chosen) -> str:
     """Returns orders an hour over robots, a line for each number of stations with its knee."""
-    figure, axes = new_figure(5.2, 3.4)
+    figure, axes = new_figure(4.6, 3.2)
+    _draw_throughput(axes, study, chosen)
+    return as_svg(figure, axes, True)
+
+
+def lateness(study: Study, chosen: Chosen) -> str:
+    """Returns the share of late and of missed orders over robots, for each number of stations."""
+    figure, axes = new_figure(4.6, 3.2)
+    _draw_lateness(axes, study, chosen)
+    return as_svg(figure, axes, False)
+
+
+def write_png(path: Path, study: Study, chosen: Chosen) -> None:
+    """Writes both of these side by side, for slides."""
+    figure = Figure(figsize=(10.4, 3.4), layout="constrained", dpi=120)
+    left, right = figure.subplots(1, 2)
+    for axes in (left, right):
+        axes.spines[["top", "right"]].set_visible(False)
+    _draw_throughput(left, study, chosen)
+    _draw_lateness(right, study, chosen)
+    left.legend(frameon=False, fontsize=8)
+    figure.savefig(path)
+
+
+def _draw_throughput(axes: Any, study: Study, chosen: Chosen) -> None:
     for colour, stations, verdicts in _by_stations(study):
         _band(axes, verdicts, "orders_per_hour", 1.0, colour, _stations(stations))
         at = knee(verdicts)
@@ -27,13 +54,12 @@ def throughput(study: Study, chosen: Chosen) -> str:
     axes.text(0, study.wish.orders_per_hour, " asked", va="bottom", color="#777")
     _checks(axes, study, "orders_per_hour", 1.0)
     _mark(axes, chosen)
-    axes.set(xlabel="robots", ylabel="orders completed an hour", ylim=(0, None), xlim=(0, None))
-    return as_svg(figure, axes, True)
+    top = 1.15 * study.wish.orders_per_hour
+    axes.set(xlabel="robots", ylabel="orders completed an hour", ylim=(0, top))
+    axes.set(xlim=(0, _most(chosen)))
 
 
-def lateness(study: Study, chosen: Chosen) -> str:
-    """Returns the share of late and of missed orders over robots, for each number of stations."""
-    figure, axes = new_figure(5.2, 3.4)
+def _draw_lateness(axes: Any, study: Study, chosen: Chosen) -> None:
     for colour, _, verdicts in _by_stations(study):
         _band(axes, verdicts, "late", 100.0, colour, "")
         _band(axes, verdicts, "missed", 100.0, colour, "", ls=":")
@@ -43,8 +69,7 @@ def lateness(study: Study, chosen: Chosen) -> str:
     _mark(axes, chosen)
     top = min(max(10 * late, 5.0), 100.0)
     axes.set(xlabel="robots", ylabel="orders late (line), missed (dotted) [%]")
-    axes.set(ylim=(0, top), xlim=(0, None))
-    return as_svg(figure, axes, False)
+    axes.set(ylim=(0, top), xlim=(0, _most(chosen)))
 
 
 def use(study: Study, chosen: Chosen) -> str:
@@ -54,8 +79,13 @@ def use(study: Study, chosen: Chosen) -> str:
         _band(axes, verdicts, "robots_at_work", 100.0, colour, f"robots, {_stations(stations)}")
         _band(axes, verdicts, "picking", 100.0, colour, "stations", ls=":")
     _mark(axes, chosen)
-    axes.set(xlabel="robots", ylabel="at work [%]", ylim=(0, 102), xlim=(0, None))
+    axes.set(xlabel="robots", ylabel="at work [%]", ylim=(0, 102), xlim=(0, _most(chosen)))
     return as_svg(figure, axes, True)
+
+
+def _most(chosen: Chosen) -> float | None:
+    """Returns the robots up to which is drawn: where little changes any more is left out."""
+    return FAR * chosen[0] if chosen else None
 
 
 def _by_stations(study: Study) -> list[tuple[str, int, list[Verdict]]]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the report of a sizing: report.html, points.csv and points.txt.
+"""Writes the report of a sizing: report.html, figure.png, points.csv and points.txt.
 
 The first page is to be handed on: the answer, its figure, what limits it, what was assumed.
 """
@@ -12,12 +12,12 @@ from warehouse_operations.policies import Policies
 from warehouse_operations.report import STYLE, section
 from warehouse_operations.runs import REPORT
 from warehouse_operations.sizing import figures, table
-from warehouse_operations.sizing.answer import Answer, count
+from warehouse_operations.sizing.answer import Answer
 from warehouse_operations.sizing.prices import Prices
 from warehouse_operations.sizing.study import Study
-from warehouse_operations.sizing.wish import Wish
+from warehouse_operations.sizing.wish import Wish, count
 
-PRINT = ".first { break-after: page } .answer { font-size: 1.15em } li { margin: .2em 0 }"
+PRINT = ".wide { overflow-x: auto } .first { break-after: page } .answer { font-size: 1.15em } li { margin: .2em 0 }"
 KNEES = (
     "Bands are 95 % confidence intervals of the mean (Student's t over seeds). A triangle is the"
     " knee: the fewest robots with 99 % of the most orders an hour that so many stations complete."
@@ -48,13 +48,18 @@ def write(
     }
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
+    figures.write_png(folder / "figure.png", study, _chosen(answer))
     return folder / REPORT
+
+
+def _chosen(answer: Answer | None) -> tuple[int, int] | None:
+    return (answer.robots, answer.stations) if answer else None
 
 
 def page(study: Study, answer: Answer | None, why: str, prices: Prices | None) -> str:
     """Returns the HTML of the report."""
     title = f"How many robots? {study.wish.file.title}"
-    chosen = (answer.robots, answer.stations) if answer else None
+    chosen = _chosen(answer)
     pictures = figures.throughput(study, chosen), figures.lateness(study, chosen)
     parts = [
         f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
@@ -165,4 +170,4 @@ def _table(study: Study, prices: Prices | None) -> str:
         cells += [table.cell_of(verdict, *one) for one in table.FIGURES]
         cells += [table.cost_of(study, prices, verdict)] if prices else []
         lines.append(f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>")
-    return f'<table class="note">{"".join(lines)}</table>'
+    return f'<div class="wide"><table class="note">{"".join(lines)}</table></div>'

@@ -11,9 +11,10 @@ from warehouse_operations.sizing.prices import Prices
 from warehouse_operations.sizing.search import Search
 from warehouse_operations.sizing.store import Store
 from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
-from warehouse_operations.sizing.wish import ImpossibleError, Wish, named
+from warehouse_operations.sizing.wish import ImpossibleError, Wish, count, named
 
 STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
+CURVE = (0.3, 0.5, 0.7, 0.85, 1.15, 1.4, 1.8)  # of the fewest robots: points of the figure
 TRIES = 4  # numbers of simulated robots
 
 OnShift = Callable[["Study", Point, Record], object]
@@ -52,6 +53,15 @@ class Study:
         """Returns the Verdict on ideal robots at so many stations."""
         return self._judge(self.verdicts, robots, stations, 0.0)
 
+    def draw(self) -> None:
+        """Judges points around the fewest robots for each number of stations, for the figure."""
+        for stations, fewest in self.frontier.items():
+            for share in CURVE if fewest else ():
+                robots = round(share * (fewest or 0))
+                if 0 < robots <= self.wish.robots(stations):
+                    points = self.wish.points(robots, stations, range(1, self.wish.seeds + 1))
+                    self._judged(self.verdicts, robots, stations, self._shifts(points))
+
     def check(self, robots: int, stations: int, hours: float) -> int | None:
         """Returns how many simulated robots meet the wish, `robots` or a few more; or None.
 
@@ -78,10 +88,23 @@ class Study:
         for count in sorted({FIRST, *looks(seeds)}):
             numbers = range(len(records) + 1, max(count, len(records)) + 1)
             records += self._shifts(self.wish.points(robots, stations, numbers, physics_hours))
-            verdict = Verdict(robots, stations, tuple(records), self.wish.late, seeds)
-            found[robots, stations] = verdict
+            verdict = self._judged(found, robots, stations, records)
             if verdict.decided:
                 break
+        return verdict
+
+    def _judged(
+        self,
+        found: dict[tuple[int, int], Verdict],
+        robots: int,
+        stations: int,
+        records: Sequence[Record],
+    ) -> Verdict:
+        """Returns the Verdict on these shifts, and adds it to those that were found."""
+        verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds)
+        known = found.get((robots, stations))
+        if known is None or len(known.records) <= len(records):
+            found[robots, stations] = verdict
         return verdict
 
     def _shifts(self, points: Sequence[Point]) -> list[Record]:
@@ -93,8 +116,8 @@ class Study:
             while pending:
                 for future in wait(pending, return_when=FIRST_COMPLETED).done:
                     point = pending.pop(future)
-                    records[point.seed] = record = future.result()
-                    self._keep(point, record)
+                    records[point.seed] = future.result()
+                    self._keep(point, future.result())
         finally:
             for future in pending:
                 future.cancel()
@@ -112,7 +135,7 @@ class Study:
         verdict = self.judge(wish.robots(stations), stations)
         pieces = verdict.estimate("pieces_per_hour").mean
         return (
-            f"{verdict.robots} robots and {named(wish.stations)} pick {pieces:,.0f} pieces an hour"
+            f"{count(verdict.robots, 'robot')} and {named(wish.stations)} pick {pieces:,.0f} pieces an hour"
             f" where {wish.pieces_per_hour:,.0f} are asked, and miss"
             f" {100 * verdict.estimate('missed').mean:.1f} % of the orders;"
             f" {100 * wish.late:g} % may be late"
@@ -128,4 +151,4 @@ def choose(frontier: dict[int, int | None], prices: Prices | None, units: int) -
     able = [(robots, stations) for stations, robots in frontier.items() if robots]
     if prices is None:
         return min(able, key=lambda one: (one[1], one[0]))
-    return min(able, key=lambda one: prices.per_hour(*one, units))
+    return min(able, key=lambda one: prices.per_hour(one[0], one[1], units))

@@ -69,9 +69,7 @@ class Wish:
     @property
     def orders(self) -> str:
         """The orders text of order_mix."""
-        return order_mix.text_of(
-            self.orders_per_hour, self.lines, self.pieces, self.orders_file
-        )
+        return order_mix.text_of(self.orders_per_hour, self.lines, self.pieces, self.orders_file)
 
     @cached_property
     def pieces_per_order(self) -> float:
@@ -79,7 +77,8 @@ class Wish:
         if not self.orders_file:
             return self.lines * self.pieces
         orders = read_csv(self.orders_file)
-        return float(np.mean([sum(n for _, n in one.lines) for one in orders] or [0.0]))
+        pieces = sum(n for one in orders for _, n in one.lines)
+        return pieces / max(len(orders), 1)
 
     @property
     def pieces_per_hour(self) -> float:
@@ -121,7 +120,7 @@ class Wish:
         self, robots: int, stations: int, seeds: Sequence[int], physics_hours: float = 0.0
     ) -> list[Point]:
         """Returns the Point of each seed; physics_hours: of simulated robots, 0: ideal ones."""
-        file = replace(self.file, robots=robots)
+        file = replace(self.file, robots=robots, name="")
         return [
             Point(
                 robots,
@@ -142,3 +141,8 @@ def named(stations: Sequence[str]) -> str:
     if len(stations) < 3:
         return " and ".join(stations)
     return f"{stations[0]}…{stations[-1]}"
+
+
+def count(number: int, noun: str) -> str:
+    """Returns a number with its noun."""
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"
