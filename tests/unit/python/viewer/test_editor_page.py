@@ -8,6 +8,7 @@ import contextlib
 import re
 import subprocess
 import sys
+import time
 import urllib.request
 
 import numpy as np
@@ -293,6 +294,7 @@ def test_files_are_opened_and_wrong_ones_told(page, tmp_path):
     bad.write_text("layout: 1\nfloor: |\n  .\n  ..\n")
     page.driver.find_element("id", "file").send_keys(str(good))
     page.until("page.editor.drawing.name === 'from a file'")
+    assert saved(page, tmp_path) == good.read_text()
     page.driver.find_element("id", "file").send_keys(str(bad))
     page.until("document.getElementById('said').textContent.includes('b.layout.yaml:4')")
     assert page.read("page.editor.drawing.name") == "from a file"
@@ -320,6 +322,20 @@ def packed(url):
     request = urllib.request.Request(url, headers={"accept-encoding": "gzip"})
     with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
         return answer.read()
+
+
+def saved(page, folder):
+    """The text of the file that the page downloads, in our own hand."""
+    allowed = {"behavior": "allow", "downloadPath": str(folder)}
+    page.driver.execute_cdp_cmd("Page.setDownloadBehavior", allowed)
+    page.click_on("save")
+    page.until("document.getElementById('said').textContent.startsWith('Downloaded')")
+    name = page.text("said").removeprefix("Downloaded ")
+    end = time.monotonic() + PATIENCE
+    while not (folder / name).exists():
+        assert time.monotonic() < end, f"{name} does not come"
+        time.sleep(0.05)
+    return layout_file.text_of(layout_file.read(folder / name))
 
 
 def ordinary(edge):
