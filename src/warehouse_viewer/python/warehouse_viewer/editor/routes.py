@@ -108,6 +108,7 @@ async def _trial(text: bytes) -> AsyncIterator[bytes]:
             yield last
         if not last.startswith((b'{"result"', b'{"error"')):
             yield json.dumps({"error": "the trial ended early"}).encode() + b"\n"
+        await process.wait()
     finally:
         if process.returncode is None:
             process.kill()

@@ -30,7 +30,7 @@ export class Keyboard {
     if (event.ctrlKey || event.metaKey) {
       if (!isTyping || key === 's') this.command(event);
     } else if (!isTyping) this.plain(event);
-    else if (key === 'Escape') target.blur();
+    else if (key === 'Escape' || key === 'Enter') target.blur(); // what was written is taken
   }
 
   plain(event) {

@@ -84,6 +84,7 @@ async function main() {
   begin(editor, store, about);
   store.follow();
   enable($('build'), about.builds ? '' : 'no warehouse runs here; roslaunch warehouse_sim warehouse.launch layout:=FILE builds the saved file');
+  $('floor').hidden = !about.builds;
   on($('build'), 'click', () => build(editor, post));
   window.page = { editor, store, ...parts };
 }

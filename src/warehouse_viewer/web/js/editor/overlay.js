@@ -68,13 +68,15 @@ export class Overlay {
     points[from] = [0, 1].map((i) => points[from][i] + EDGE * (points[to][i] - points[from][i]));
     points.forEach((p, i) => (i ? path.lineTo(...p) : path.moveTo(...p)));
     const last = cells.at(-1), before = cells.at(-2);
-    head(path, points.at(-1), [last[0] - before[0], last[1] - before[1]], view.scale * 0.25);
     pen.setLineDash(isDashed ? [view.scale * 0.25, view.scale * 0.2] : []);
     pen.lineWidth = Math.max(1.5, view.scale * wide);
     pen.strokeStyle = this.colours[part];
     pen.lineJoin = 'round';
     pen.stroke(path);
     pen.setLineDash([]);
+    const tip = new Path2D();
+    head(tip, points.at(-1), [last[0] - before[0], last[1] - before[1]], view.scale * 0.25);
+    pen.stroke(tip);
   }
 
   names({ drawing, station, told }) {

@@ -59,8 +59,7 @@ export class StationPanel {
 }
 
 function laneText({ queue, exit }, found) {
-  const drawn = [queue.length && `queue of ${queue.length}`, exit.length && `exit of ${exit.length}`].filter(Boolean);
-  const parts = drawn.length ? `${drawn.join(', ')} cells drawn` : 'no lane drawn';
-  if (queue.length && exit.length) return parts;
-  return found ? `${parts}; the rest is found by itself, dashed` : `${parts}; draw it: choose queue or exit, then drag`;
+  if (queue.length && exit.length) return `queue of ${queue.length} and exit of ${exit.length} cells`;
+  const drawn = queue.length ? `queue of ${queue.length} cells, no exit drawn` : exit.length ? `exit of ${exit.length} cells, no queue drawn` : 'no lane drawn';
+  return found ? `${drawn}: found by itself, dashed` : `${drawn}: choose queue or exit, then drag`;
 }

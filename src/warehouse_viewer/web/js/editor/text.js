@@ -70,12 +70,14 @@ export function textOf(drawing) {
   if (json.at) lines.push(`at: ${flow(json.at)}`);
   // YAML takes the first line's leading spaces for indentation, unless it is told how much.
   lines.push(json.floor[0].startsWith(NOTHING) ? 'floor: |2' : 'floor: |', ...json.floor.map((line) => `  ${line}`));
-  if (json.stations.length) lines.push('stations:', ...json.stations.map((s) => `  ${s.key}: ${flow(entryOf(s))}`));
+  if (json.stations.length) lines.push('stations:', ...json.stations.map((s) => `  ${keyText(s.key)}: ${flow(entryOf(s))}`));
   lines.push(`storage_units: ${unitsOf(json)}`, `robots: ${flow(json.robots)}`);
   lines.push(json.stock ? `items: {stock: ${flow(json.stock)}}` : `items: ${json.items}`);
   if (Object.keys(json.policies).length) lines.push(`policies: ${flow(json.policies)}`);
   return { text: `${lines.join('\n')}\n`, origin: json.origin };
 }
+
+const keyText = (key) => (/^[A-Za-z]\w*$/.test(key) ? key : JSON.stringify(key));
 
 /** A share of 1 is no count of 1. */
 function unitsOf({ storage_units: units, is_share: isShare }) {
