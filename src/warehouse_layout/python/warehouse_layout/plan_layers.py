@@ -207,6 +207,7 @@ class Layers:
             fontweight="bold",
             color=INK,
             zorder=5,
+            bbox={"facecolor": PAPER, "alpha": 0.8, "linewidth": 0, "pad": 0.8},
         )
 
     def _is_belt(self, cell: np.ndarray) -> bool:
@@ -216,9 +217,10 @@ class Layers:
 
 def _outward(lane: np.ndarray, service: int) -> np.ndarray:
     """Returns the step (x, y) from a lane's service cell away from its other cells (n, 2)."""
+    taken = set(map(tuple, lane.tolist()))
     away = lane[service] - lane.mean(axis=0)
-    axis = int(abs(away[1]) > abs(away[0]))
-    return np.array(STEPS[axis if away[axis] >= 0 else axis + 2])
+    free = [step for step in STEPS if (*(lane[service] + step),) not in taken]
+    return max(map(np.array, free or STEPS), key=lambda step: float(step @ away))
 
 
 def name_width(name: str, cell: float) -> float:

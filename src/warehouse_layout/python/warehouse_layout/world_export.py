@@ -76,4 +76,4 @@ def _with_whole_paths(file: LayoutFile) -> LayoutFile:
         str(file.beside_file(name).resolve()) if name else ""
         for name in (file.building, file.stock)
     )
-    return replace(file, building=building, stock=stock, name=file.title)
+    return replace(file, building=building, stock=stock)
