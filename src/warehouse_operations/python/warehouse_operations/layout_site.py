@@ -7,6 +7,7 @@ from typing import Any
 
 from warehouse_layout.layout_file import LayoutFile, StationEntry
 from warehouse_layout.placement import stock_of
+from warehouse_layout.request import LIMITS
 from warehouse_operations.policies import Policies, PolicyError
 from warehouse_operations.site import Site, Stock
 
@@ -17,7 +18,8 @@ def of_file(site: Site, file: LayoutFile) -> Site:
     Raises LayoutFileError for a stock file that is wrong.
     """
     by_station = {entry.name: _settings(entry) for entry in file.stations if entry.settings}
-    rows = stock_of(file, max(site.units, default=0))
+    # A unit of it may be gone by now: bins of items that are not here are left out.
+    rows = stock_of(file, LIMITS["shelves"])
     # Each row of the stock was made an item, in their order.
     stock = [Stock(f"item{i}", row.sku, row.quantity) for i, row in enumerate(rows, start=1)]
     return replace(

@@ -240,7 +240,9 @@ def test_engine_names_what_can_not_be_deleted():
 
 def test_a_layout_file_takes_the_place_of_the_last(tmp_path):
     path = tmp_path / "one.layout.yaml"
-    path.write_text("layout: 1\nname: mine\nfloor: |\n  ....\n  .ss.\n  ....\nrobots: 1\nitems: 2\n")
+    path.write_text(
+        "layout: 1\nname: mine\nfloor: |\n  ....\n  .ss.\n  ....\nrobots: 1\nitems: 2\n"
+    )
     world = FakeWorld(standing=["kiva9", "layout_walls1"])
     answer = ask(world, str(path))
     assert answer.success, answer.message

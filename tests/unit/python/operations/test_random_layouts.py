@@ -43,3 +43,8 @@ def works(path, file, physics):
         assert not kpis["collisions"] and not ops.fleet.stuck
         # Orders wait all the time: pieces are picked in the second half as in the first.
         assert sum(n for minute, n in ops.shift.tally.picked_in.items() if minute >= MINUTES / 2)
+
+
+def test_enough_of_them_pass_for_that_to_mean_something():
+    passing = [seed for seed in range(LAYOUTS) if not file_check.faults(layout(seed))]
+    assert len(passing) >= LAYOUTS / 10 and len(passing) < LAYOUTS / 2
