@@ -53,6 +53,11 @@ class Wish:
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
             raise WishError(f"{self.file.title}: there is no picking station")
+        if self.file.stock:
+            raise WishError(
+                f"{self.file.title}: stock {self.file.stock} is not taken; items: a count was"
+                " expected, whose stock is drawn by each seed"
+            )
         if not self.file.items:
             raise WishError(f"{self.file.title}: items is 0; there is nothing to pick")
 
