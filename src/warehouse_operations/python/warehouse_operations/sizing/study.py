@@ -103,7 +103,7 @@ class Study:
         """Returns the Verdict on these shifts, and adds it to those that were found."""
         verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds)
         known = found.get((robots, stations))
-        if known is None or len(known.records) <= len(records):
+        if known is None or len(known.records) < len(records):
             found[robots, stations] = verdict
         return verdict
 
