@@ -112,7 +112,7 @@ class Wish:
         """Returns the most robots that are tried with so many open picking stations."""
         replenishing = len(self.file.stations) - len(self.stations)
         useful = AT_WORK * UNITS_MOST * (stations + replenishing)
-        return min(self.most_robots or self.room, useful)
+        return min(self.most_robots or self.room, self.room, useful)
 
     @cached_property
     def room(self) -> int:
