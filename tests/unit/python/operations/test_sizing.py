@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -24,6 +24,7 @@ from warehouse_operations.assortment import Assortment
 from warehouse_operations.demand import make_demand
 from warehouse_operations.order_file import DemandError
 from warehouse_operations.sizing import point, prices, sites
+from warehouse_operations.sizing.answer import Answer
 from warehouse_operations.sizing.point import SERIES, Record
 from warehouse_operations.sizing.search import Search
 from warehouse_operations.sizing.store import Store
@@ -32,7 +33,7 @@ from warehouse_operations.sizing.verdict import RISK, Verdict, difference
 from warehouse_operations.sizing.wish import ImpossibleError, Wish, WishError
 
 NODE = ROOT / "src" / "warehouse_operations" / "nodes" / "size"
-COMMON = ("--orders-per-hour", 120, "--hours", 1, "--seeds", 2, "--late", "20%")
+COMMON = ("--orders-per-hour", 120, "--hours", 1, "--seeds", 2, "--late", "20%", "--robots", 6)
 
 
 def size(*arguments, **options):
@@ -100,7 +101,7 @@ class Capacity(Executor):
         self.points.append(wanted)
         rate = float(wanted.orders.split(":")[1])
         rng = np.random.default_rng((wanted.seed, 7))
-        capacity = min(10 * wanted.robots, 250 * wanted.stations) * (0.8 if wanted.physics else 1)
+        capacity = min(10 * wanted.robots, 250 * wanted.stations) * (0.9 if wanted.physics else 1)
         done = min(rate, capacity) / 60 * (1 + 0.001 * rng.standard_normal())
         series = dict.fromkeys(SERIES, [1.0] * wanted.minutes)
         series |= {
@@ -129,8 +130,15 @@ def test_a_study_answers_a_known_capacity_with_few_shifts(tmp_path):
     # All points had the same seeds: those of 1 to 3, at least.
     assert {one.seed for one in pool.points if one.robots == 40} >= {1, 2, 3}
 
-    # Simulated robots do a fifth less; a few more are tried.
-    assert study.check(40, 2, 1.0) is None or study.checks[50, 2].met
+    # Simulated robots do a tenth less; a few more are tried.
+    assert study.check(40, 2, 1.0) == 44 and list(study.checks) == [(40, 2), (42, 2), (44, 2)]
+    assert Answer(study, study.verdicts[40, 2], study.checks[44, 2]).limit == "streets"
+
+    # Points of the curve are there to be looked at: they change no answer.
+    before = dict(study.verdicts)
+    study.draw()
+    assert {50, 32, 24, 16} <= {robots for robots, _ in study.verdicts}
+    assert all(study.verdicts[key].word == verdict.word for key, verdict in before.items())
 
     # Nothing is simulated twice, not even by another program.
     again = Study(wish(), Store(tmp_path), Capacity())
@@ -275,6 +283,9 @@ def test_a_wish_that_can_not_be_met_by_its_bound():
         wish(orders_per_hour=1000, lines=1.9, pieces=1.0).least_stations()
     assert str(told.value) == "pick1…pick4 can do 1,440 pieces an hour; 1,900 are asked"
     assert wish(orders_per_hour=1000, lines=1.4, pieces=1.0).least_stations() == 4
+    stocked = replace(generator.of_request(Request(4, 24, 9, 2), "full"), stock="s.csv")
+    with pytest.raises(WishError, match="stock s.csv is not taken; items: a count was expected"):
+        Wish(stocked, 100)
     with pytest.raises(WishError, match="items is 0; there is nothing to pick"):
         Wish(generator.of_request(Request(4, 24, 0, 2), "bare"), 100)
 

@@ -14,7 +14,7 @@ from warehouse_operations.sizing.verdict import FIRST, Verdict, looks
 from warehouse_operations.sizing.wish import ImpossibleError, Wish, count, named
 
 STEP = 0.05  # of the robots that are added where simulated ones miss the wish, twice each time
-CURVE = (0.3, 0.5, 0.7, 0.85, 1.15, 1.4, 1.8)  # of the fewest robots: points of the figure
+CURVE, DRAWN = (0.4, 0.6, 0.8, 1.25, 1.75), 3  # of the fewest robots, and shifts each, to draw
 TRIES = 4  # numbers of simulated robots
 
 OnShift = Callable[["Study", Point, Record], object]
@@ -59,7 +59,7 @@ class Study:
             for share in CURVE if fewest else ():
                 robots = round(share * (fewest or 0))
                 if 0 < robots <= self.wish.robots(stations):
-                    points = self.wish.points(robots, stations, range(1, self.wish.seeds + 1))
+                    points = self.wish.points(robots, stations, range(1, DRAWN + 1))
                     self._judged(self.verdicts, robots, stations, self._shifts(points))
 
     def check(self, robots: int, stations: int, hours: float) -> int | None:
@@ -103,7 +103,7 @@ class Study:
         """Returns the Verdict on these shifts, and adds it to those that were found."""
         verdict = Verdict(robots, stations, tuple(records), self.wish.late, self.wish.seeds)
         known = found.get((robots, stations))
-        if known is None or len(known.records) <= len(records):
+        if known is None or len(known.records) < len(records):
             found[robots, stations] = verdict
         return verdict
 

@@ -53,6 +53,11 @@ class Wish:
             raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
         if not self.stations:
             raise WishError(f"{self.file.title}: there is no picking station")
+        if self.file.stock:
+            raise WishError(
+                f"{self.file.title}: stock {self.file.stock} is not taken; items: a count was"
+                " expected, whose stock is drawn by each seed"
+            )
         if not self.file.items:
             raise WishError(f"{self.file.title}: items is 0; there is nothing to pick")
 
@@ -107,7 +112,7 @@ class Wish:
         """Returns the most robots that are tried with so many open picking stations."""
         replenishing = len(self.file.stations) - len(self.stations)
         useful = AT_WORK * UNITS_MOST * (stations + replenishing)
-        return min(self.most_robots or self.room, useful)
+        return min(self.most_robots or self.room, self.room, useful)
 
     @cached_property
     def room(self) -> int:
