@@ -392,3 +392,14 @@ def test_a_fault_leads_to_its_cells(page):
     keys(page, "r ")
     drag(page, (6, 1), (14, 1))
     assert checked(page) == []
+
+
+def test_faults_show_while_the_button_is_held(page):
+    keys(page, "r.")
+    drag(page, (0, 0), (5, 3))
+    assert checked(page) == []
+    keys(page, "d")
+    mouse(page, "mousePressed", (6, 1))
+    mouse(page, "mouseMoved", (12, 1))
+    page.until("page.editor.faults.length > 0")
+    mouse(page, "mouseReleased", (12, 1), 0)
