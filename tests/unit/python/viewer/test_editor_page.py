@@ -4,48 +4,31 @@
 `pytest -s` shows how long frames take, and how large the page is.
 """
 
-import contextlib
-import re
-import subprocess
-import sys
-import time
-import urllib.request
-
 import numpy as np
-import paths
 import pytest
+from editor_page import (
+    LOADED,
+    PATIENCE,
+    REDRAWN,
+    at,
+    browser,
+    checked,
+    drag,
+    editor,
+    keys,
+    lines,
+    mouse,
+    open_drawing,
+    packed,
+    paper,
+    press,
+    saved,
+    touch,
+)
 
-sys.path.append(str(paths.ROOT / "tests" / "rostest"))
-
-from browser import browser  # noqa: E402
-
-from warehouse_layout import file_check, generator, layout_file  # noqa: E402
-from warehouse_layout.layout_file import LayoutFile, StationEntry  # noqa: E402
-from warehouse_layout.request import PRESETS  # noqa: E402
-
-PATIENCE = 60.0  # with a machine that has much to do [s, wall]
-EDIT = paths.ROOT / "src" / "warehouse_viewer" / "nodes" / "edit"
-WHERE = """(() => {{
-  const [x, y] = page.editor.view.centreOf([{}, {}]);
-  const box = document.getElementById('overlay').getBoundingClientRect();
-  return [box.left + x, box.top + y];
-}})()"""
-LINES = """(() => {
-  const b = page.editor.bounds, row = (r) => Array.from({ length: b.right - b.left },
-    (_, i) => page.editor.drawing.get(b.left + i, r)).join('');
-  return b && Array.from({ length: b.top - b.bottom }, (_, i) => row(b.top - 1 - i));
-})()"""
-
-
-@contextlib.contextmanager
-def editor(file=None):
-    """The address of `edit FILE`."""
-    command = ["/usr/bin/python3", EDIT, *([file] if file else []), "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            yield re.search(r"http://\S+", process.stdout.readline())[0]
-        finally:
-            process.terminate()
+from warehouse_layout import file_check, generator, layout_file
+from warehouse_layout.layout_file import LayoutFile, StationEntry
+from warehouse_layout.request import PRESETS
 
 
 @pytest.fixture(scope="module")
@@ -66,66 +49,6 @@ def page(chromium, address):
     paper(chromium, address)
     yield chromium
     assert chromium.complaints() == []
-
-
-def paper(chromium, address):
-    chromium.open(address)
-    chromium.read("localStorage.clear()")
-    # What the page keeps as it is left is not to come back.
-    chromium.read("(page && (page.store.keep = () => {}))")
-    chromium.open(address)
-    chromium.until("Boolean(page.store) && page.editor.view.width > 0")
-
-
-def at(page, cell):
-    """Where in the window a cell is [px]."""
-    return page.read(WHERE.format(*cell))
-
-
-def mouse(page, kind, cell, pressed=1):
-    x, y = at(page, cell)
-    event = {"type": kind, "x": x, "y": y, "button": "left", "buttons": pressed, "clickCount": 1}
-    page.driver.execute_cdp_cmd("Input.dispatchMouseEvent", event)
-
-
-def drag(page, *cells):
-    mouse(page, "mouseMoved", cells[0], 0)
-    mouse(page, "mousePressed", cells[0])
-    for cell in cells[1:]:
-        mouse(page, "mouseMoved", cell)
-    mouse(page, "mouseReleased", cells[-1], 0)
-
-
-def touch(page, kind, *points):
-    """Fingers at points of the window [px]."""
-    touches = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
-    event = {"type": kind, "touchPoints": touches}
-    page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", event)
-
-
-def keys(page, text):
-    page.driver.switch_to.active_element.send_keys(text)
-
-
-def press(page, key, control=False):
-    """A key that is no character, or one with control, where the focus is."""
-    page.driver.execute_script(
-        "document.activeElement.dispatchEvent(new KeyboardEvent('keydown',"
-        " {key: arguments[0], ctrlKey: arguments[1], bubbles: true, cancelable: true}))",
-        key,
-        control,
-    )
-
-
-def lines(page):
-    """The drawing, the highest line first; None if there is none."""
-    return page.read(LINES)
-
-
-def checked(page):
-    """Waits until the present drawing is checked; returns the sentences."""
-    page.until("!page.checker.isAsking && !page.checker.isStale")
-    return page.read("page.editor.faults.map((fault) => fault.text)")
 
 
 def draw_first(page):
@@ -275,19 +198,6 @@ def test_a_trial_can_be_given_up(page):
     page.until("document.getElementById('trial-told').textContent === 'cancelled'")
 
 
-def open_drawing(page, preset):
-    counts = vars(PRESETS[preset])
-    fields = {"robots": "robots", "units": "shelves", "items": "items", "stations": "belts"}
-    asked = {name: counts[count] for name, count in fields.items()}
-    page.driver.set_script_timeout(PATIENCE)
-    page.driver.execute_async_script(
-        "const done = arguments[1]; fetch('/layout/new', {method: 'POST', body:"
-        " JSON.stringify(arguments[0])}).then((r) => r.json()).then((d) => { page.editor.open(d);"
-        " done(); })",
-        asked,
-    )
-
-
 def test_files_are_opened_and_wrong_ones_told(page, tmp_path):
     good, bad = tmp_path / "a.layout.yaml", tmp_path / "b.layout.yaml"
     layout_file.write(generator.of_request(PRESETS["small"], "from a file"), good)
@@ -298,44 +208,6 @@ def test_files_are_opened_and_wrong_ones_told(page, tmp_path):
     page.driver.find_element("id", "file").send_keys(str(bad))
     page.until("document.getElementById('said').textContent.includes('b.layout.yaml:4')")
     assert page.read("page.editor.drawing.name") == "from a file"
-
-
-LOADED = """performance.getEntriesByType('resource').filter((r) => r.initiatorType !== 'fetch')
-  .map((r) => r.name)"""
-
-
-# The median of all that is in sight drawn again, its pixels read so that none is still to be drawn [ms].
-REDRAWN = """(() => {
-  const times = Array.from({ length: 21 }, () => {
-    const began = performance.now();
-    page.editor.isStale = true;
-    page.editor.paint();
-    for (const layer of [page.editor.sheet, page.editor.overlay]) layer.pen.getImageData(0, 0, 1, 1);
-    return performance.now() - began;
-  });
-  return times.sort((a, b) => a - b)[10];
-})()"""
-
-
-def packed(url):
-    """A file of the page as a browser gets it."""
-    request = urllib.request.Request(url, headers={"accept-encoding": "gzip"})
-    with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
-        return answer.read()
-
-
-def saved(page, folder):
-    """The text of the file that the page downloads, in our own hand."""
-    allowed = {"behavior": "allow", "downloadPath": str(folder)}
-    page.driver.execute_cdp_cmd("Page.setDownloadBehavior", allowed)
-    page.click_on("save")
-    page.until("document.getElementById('said').textContent.startsWith('Downloaded')")
-    name = page.text("said").removeprefix("Downloaded ")
-    end = time.monotonic() + PATIENCE
-    while not (folder / name).exists():
-        assert time.monotonic() < end, f"{name} does not come"
-        time.sleep(0.05)
-    return layout_file.text_of(layout_file.read(folder / name))
 
 
 def ordinary(edge):
@@ -371,11 +243,12 @@ def test_a_hundred_by_a_hundred_cells_are_no_burden(page, tmp_path, capsys):
     page.read("page.editor.view.zoom(9 / page.editor.view.scale)")  # from there on all has signs
     redrawn = page.read(REDRAWN)
     size = sum(len(packed(url)) for url in {page.driver.current_url, *page.read(LOADED)})
+    median, most, check = frames[len(frames) // 2], frames[-1], page.read("page.checker.took")
     with capsys.disabled():
         print(
-            f"\n100 x 100 cells: frame {frames[len(frames) // 2]:.1f} ms in the median of"
-            f" {len(frames)}, {frames[-1]:.1f} ms at most, {redrawn:.0f} ms with all pixels; check {page.read('page.checker.took'):.0f}"
-            f" ms, {len(faults)} faults; page {size / 1024:.0f} KiB"
+            f"\n100 x 100 cells: frame {median:.1f} ms in the median of {len(frames)},"
+            f" {most:.1f} ms at most, {redrawn:.0f} ms with all pixels; check {check:.0f} ms,"
+            f" {len(faults)} faults; page {size / 1024:.0f} KiB"
         )
 
 
@@ -392,3 +265,14 @@ def test_a_fault_leads_to_its_cells(page):
     keys(page, "r ")
     drag(page, (6, 1), (14, 1))
     assert checked(page) == []
+
+
+def test_faults_show_while_the_button_is_held(page):
+    keys(page, "r.")
+    drag(page, (0, 0), (5, 3))
+    assert checked(page) == []
+    keys(page, "d")
+    mouse(page, "mousePressed", (6, 1))
+    mouse(page, "mouseMoved", (12, 1))
+    page.until("page.editor.faults.length > 0")
+    mouse(page, "mouseReleased", (12, 1), 0)

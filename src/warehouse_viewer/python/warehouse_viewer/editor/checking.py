@@ -11,7 +11,7 @@ NAME = "layout"  # of the text, in errors
 
 
 def checked(text: str) -> dict[str, Any]:
-    """Returns {faults: [{text, cells}], lanes: {station's key: [cells]}} of a layout file's text."""
+    """Returns {faults: [{text, cells}], lanes: {station's key: [cells]}} of a file's text."""
     try:
         file = layout_file.parse(text, NAME)
     except LayoutFileError as error:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lets ideal robots work in a drawing: `python3 -m warehouse_viewer.editor.trial < F.layout.yaml`.
 
-A process of its own, so that it can be ended at once and takes no time from a viewer. Prints JSON, a
-line each: {time, of, pieces, waiting: {station: units}} now and then, and as the last {result} or
+A process of its own, so that it can be ended at once and takes no time from a viewer. Prints JSON,
+a line each: {time, of, pieces, waiting: {station: units}} now and then, and as the last {result} or
 {error}.
 """
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has the server check the drawing soon after each change, and lists what is wrong with it.
+// Has the server check the drawing soon after each change, also amid a stroke, and lists what is wrong with it.
 
 import { $, make } from '../dom.js';
 import { ask } from './server.js';
@@ -11,7 +11,7 @@ const MOST = 100; // faults in the list
 export class Checker {
   constructor(editor) {
     Object.assign(this, { editor, isAsking: false, isStale: false, took: 0 });
-    editor.on('change', () => this.later());
+    for (const what of ['change', 'draft']) editor.on(what, () => this.later());
   }
 
   later() {

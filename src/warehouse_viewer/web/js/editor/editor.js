@@ -23,13 +23,14 @@ export class Editor {
     this.overlay = new Overlay($('overlay'), this.view);
     Object.assign(this, { brush: FLOOR, selection: null, cursor: null, pointer: null, clipboard: null });
     Object.assign(this, { stationKey: '', faults: [], lanesFound: {}, heat: null, told: null, bounds: null });
-    this.listeners = { change: [], state: [] }; // of the drawing; of tool, brush, selection
+    this.listeners = { change: [], draft: [], state: [] }; // of the drawing, amid a stroke; of what is chosen
     this.frames = []; // how long each took [ms]
     this.take('pen');
     new ResizeObserver(() => this.resize()).observe($('paper'));
   }
 
-  /** Calls `listener` when the drawing has changed ('change') or what is chosen ('state'). */
+  /** Calls `listener` when the drawing has changed ('change'), when it changes amid a stroke ('draft'),
+   *  or when what is chosen has changed ('state'). */
   on(what, listener) {
     this.listeners[what].push(listener);
   }
@@ -46,6 +47,7 @@ export class Editor {
 
   /** Shows what has been drawn so far. */
   drawn() {
+    this.tell('draft');
     this.redraw();
   }
 

@@ -8,6 +8,7 @@ import { drawRulers, metres } from './rulers.js';
 import { filled, head } from './sheet.js';
 
 const NAMES_FROM = 7; // [px a cell]
+const ROOMY = 18; // [px a cell] from which a station's figures have a line of their own
 const EDGE = 0.45; // [cells] from a service cell's centre, where lanes end
 const FLASH = 1200; // [ms] that a fault's cells are shown when it is chosen
 
@@ -86,7 +87,7 @@ export class Overlay {
     pen.textAlign = 'left';
     pen.textBaseline = 'middle';
     for (const one of drawing.stations) {
-      const [x, y] = view.centreOf(one.service), words = [one.name, ...(told?.[one.name] ?? [])];
+      const [x, y] = view.centreOf(one.service), words = labelOf(one.name, told?.[one.name], view.scale);
       const width = Math.max(...words.map((word) => pen.measureText(word).width)) + 10;
       const height = 15 * words.length + 4, top = y - view.scale * 0.4 - height;
       const left = Math.min(x + view.scale * 0.55, Math.max(x, view.width - 4) - width);
@@ -185,4 +186,10 @@ export class Overlay {
     pen.lineWidth = 3;
     pen.strokeRect(x - 1, y - 1, width + 2, width + 2);
   }
+}
+
+/** The lines at a station: its name, and what a trial told of it. */
+function labelOf(name, told, scale) {
+  if (!told) return [name];
+  return scale < ROOMY ? [`${name}: ${told.queue}`] : [name, `queue ${told.queue}, busy ${told.busy}`];
 }

@@ -54,9 +54,10 @@ export class Trial {
     $('trial-of').textContent = `pieces an hour, ${Math.round(100 * share)} % of what the stations can do${this.comparison(result)}`;
     $('trial-text').textContent = `${result.pieces} pieces and ${result.orders} orders in ${clock(result.seconds)}, ideal robots, from a standstill`;
     $('trial-minutes').replaceChildren(...bars(result.per_minute));
-    $('trial-stations').replaceChildren(...result.stations.map((s) => make('tr', {},
-      make('td', { textContent: s.name }), make('td', { textContent: s.queue.toFixed(1) }), make('td', { textContent: `${Math.round(100 * s.busy)} %` }))));
-    this.editor.told = Object.fromEntries(result.stations.map((s) => [s.name, [`queue ${s.queue.toFixed(1)}, busy ${Math.round(100 * s.busy)} %`]]));
+    const told = result.stations.map((s) => [s.name, { queue: s.queue.toFixed(1), busy: `${Math.round(100 * s.busy)} %` }]);
+    $('trial-stations').replaceChildren(...told.map(([name, { queue, busy }]) => (
+      make('tr', {}, ...[name, queue, busy].map((textContent) => make('td', { textContent }))))));
+    this.editor.told = Object.fromEntries(told);
     this.show(this.kind);
   }
 
