@@ -40,6 +40,7 @@ from kiva_plugin_cpp.message_enums import EventKind, FailureKind, State, Status
 
 if TYPE_CHECKING:
     from warehouse_layout.layout import Layout
+    from warehouse_layout.layout_file import LayoutFile
 
 AnyPath = str | os.PathLike[str]
 
@@ -199,8 +200,10 @@ class World(_core.World):
         return cls.of_layout(plan, own_models=True, **options)
 
     @classmethod
-    def layout(cls, file: AnyPath, *, robots: int | None = None, **options: Any) -> "World":
-        """Returns the warehouse of a layout file, NAME.layout.yaml, or of a preset's name.
+    def layout(
+        cls, file: "AnyPath | LayoutFile", *, robots: int | None = None, **options: Any
+    ) -> "World":
+        """Returns the warehouse of a layout file, NAME.layout.yaml or read, or of a preset's name.
 
         `seed` places what the file gives as counts; robots: so many instead of the file's. Options
         as of World, without `world`: that is the file's building, or an empty floor. ValueError

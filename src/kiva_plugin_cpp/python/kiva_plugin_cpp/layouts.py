@@ -14,14 +14,20 @@ if TYPE_CHECKING:
 
 
 def world_of(
-    kind: "type[World]", name: str | os.PathLike[str], robots: int | None = None, **options: Any
+    kind: "type[World]",
+    named: LayoutFile | str | os.PathLike[str],
+    robots: int | None = None,
+    **options: Any,
 ) -> "World":
     """Returns a world of that class; see World.layout."""
-    if robots is None and layout_choice.is_preset(os.fspath(name)):
-        return kind.preset(os.fspath(name), **options)
     if "world" in options:
         raise ValueError("world: a layout names its own, as `building`")
-    file = layout_choice.chosen(name)
+    if isinstance(named, LayoutFile):
+        file = named
+    elif robots is None and layout_choice.is_preset(os.fspath(named)):
+        return kind.preset(os.fspath(named), **options)
+    else:
+        file = layout_choice.chosen(named)
     layout_choice.check(file, robots)
     laid = placement.place(file, options.get("seed", SEED), robots)
     with tempfile.TemporaryDirectory() as made:

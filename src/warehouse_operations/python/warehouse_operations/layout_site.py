@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a layout file says about a shift: how its stations work, its policies and initial stock."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -9,6 +8,7 @@ from warehouse_layout.layout_file import LayoutFile, StationEntry
 from warehouse_layout.placement import stock_of
 from warehouse_layout.request import LIMITS
 from warehouse_operations.policies import Policies, PolicyError
+from warehouse_operations.settings import Settings
 from warehouse_operations.site import Site, Stock
 
 
@@ -17,7 +17,6 @@ def of_file(site: Site, file: LayoutFile) -> Site:
 
     Raises LayoutFileError for a stock file that is wrong.
     """
-    by_station = {entry.name: _settings(entry) for entry in file.stations if entry.settings}
     # A unit of it may be gone by now: bins of items that are not here are left out.
     rows = stock_of(file, LIMITS["shelves"])
     # Each row of the stock was made an item, in their order.
@@ -25,13 +24,18 @@ def of_file(site: Site, file: LayoutFile) -> Site:
     return replace(
         site,
         name=site.name or file.title,
-        settings=replace(site.settings, by_station=by_station),
+        settings=replace(site.settings, by_station=settings_of(file).by_station),
         stock=stock,
     )
 
 
-def _settings(entry: StationEntry) -> Mapping[str, Any]:
-    """Returns Settings of a station that differ from the defaults."""
+def settings_of(file: LayoutFile) -> Settings:
+    """Returns the Settings of a file's stations."""
+    return Settings(by_station={one.name: _of(one) for one in file.stations if one.settings})
+
+
+def _of(entry: StationEntry) -> dict[str, Any]:
+    """Returns the settings of a station by their names in Settings."""
     names = {
         "capacity": "slots",
         "seconds_a_piece": "piece_s" if entry.kind == "pick" else "bundle_s",

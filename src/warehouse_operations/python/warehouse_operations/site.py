@@ -5,8 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from warehouse_fleet.kinematics import Kinematics
 from warehouse_layout.floor_plan import FloorPlan
+from warehouse_layout.layout import Layout
 from warehouse_operations.assortment import INITIAL_LEVEL
 from warehouse_operations.settings import Settings
 
@@ -36,6 +39,19 @@ class Site:
     skus: int | None = None  # how many; None: by the number of bins
     level: float = INITIAL_LEVEL  # of the stock at first, over its room
     stock: Sequence[Stock] = ()  # at first, bin by bin; (): drawn by chance
+
+    @classmethod
+    def of_layout(cls, laid: Layout, name: str = "") -> "Site":
+        """Returns the site of a Layout with a plan, as its world would stand."""
+        plan = laid.plan
+        assert plan is not None
+
+        def cells(points: np.ndarray) -> dict[int, int]:
+            found = plan.cell_of(points[:, 0], points[:, 1]).tolist()
+            return dict(enumerate(found, start=1))
+
+        items = [(f"item{n}", int(unit) + 1) for n, unit in enumerate(laid.item_unit, start=1)]
+        return cls(plan, cells(laid.robots), cells(laid.units), items, name)
 
     @classmethod
     def of_world(cls, world: "World", name: str = "") -> "Site":

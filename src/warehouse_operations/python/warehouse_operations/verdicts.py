@@ -98,7 +98,7 @@ def figures_of(run: Run, cut: int) -> dict[str, float]:
 
 
 def p_text(p_value: float) -> str:
-    """Returns a p-value as text; the least ones hang on a distribution that is not known so well."""
+    """Returns a p-value as text; of the least ones only how small they are."""
     return "p < 1e-6" if p_value < 1e-6 else f"p = {p_value:.2g}"
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from warehouse_layout import file_check, layout_file, placement
 from warehouse_layout.layout_file import LayoutFile
-from warehouse_operations import kpis, order_mix
+from warehouse_operations import kpis, layout_site, order_mix
 from warehouse_operations.order_file import read_csv
 from warehouse_operations.settings import UNITS_MOST
 from warehouse_operations.sizing import sites
@@ -92,7 +92,7 @@ class Wish:
 
     def bound(self, stations: int) -> float:
         """Returns the pieces an hour that the first `stations` can do at most."""
-        settings = sites.settings_of(self.file)
+        settings = layout_site.settings_of(self.file)
         return sum(self._bound_of(settings.of(name)) for name in self.stations[:stations])
 
     def _bound_of(self, settings: Any) -> float:

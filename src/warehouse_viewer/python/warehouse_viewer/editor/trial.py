@@ -15,10 +15,9 @@ from typing import Any
 
 from warehouse_layout import layout_file
 from warehouse_layout.file_check import faults
-from warehouse_layout.layout import Layout
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.placement import place
-from warehouse_operations import Operations, Policies, PolicyError, Site
+from warehouse_operations import Operations, PolicyError, Site, layout_site
 from warehouse_operations.ideal import IdealFleet
 
 SECONDS = 600.0  # that robots work, simulated
@@ -30,28 +29,13 @@ class TrialError(ValueError):
     """Says why no robot can work there."""
 
 
-def site_of(laid: Layout, name: str) -> Site:
-    """Returns the Site of a Layout before a shift."""
-    plan = laid.plan
-    assert plan is not None
-    robots = plan.cell_of(laid.robots[:, 0], laid.robots[:, 1])
-    units = plan.cell_of(laid.units[:, 0], laid.units[:, 1])
-    return Site(
-        plan,
-        dict(enumerate(robots.tolist(), start=1)),
-        dict(enumerate(units.tolist(), start=1)),
-        [(f"item{i}", int(unit) + 1) for i, unit in enumerate(laid.item_unit, start=1)],
-        name,
-    )
-
-
 def lines(text: str) -> Iterator[dict[str, Any]]:
     """Yields what happens in the warehouse of a layout file's text. Raises LayoutFileError,
     TrialError, PolicyError."""
     file = layout_file.parse(text)
-    site = site_of(place(file), file.title)
+    site = layout_site.of_file(Site.of_layout(place(file), file.title), file)
     _check(file, site)
-    policies = Policies(file.policies)
+    policies = layout_site.policies_of(file)
     with Operations(site=site, orders="fill", policies=policies, physics=False) as ops:
         told = 0.0
         while ops.time < SECONDS:
@@ -111,7 +95,7 @@ def _result(ops: Operations) -> dict[str, Any]:
                     station.service_cell // waited.shape[1],
                 ],
                 "queue": float(waited.flat[station.queue].sum()) / ops.time,
-                "busy": ops.shift.station(station.name).busy_s / ops.time,
+                "busy": ops.shift.station(station.name).busy_fraction(ops.time),
             }
             for station in ops.site.plan.stations
         ],
