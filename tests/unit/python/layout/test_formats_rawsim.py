@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Instances and layout configurations of RAWSim-O become layout files."""
 
+import re
 import sys
 
 import numpy as np
@@ -59,6 +60,15 @@ def test_an_instance(tmp_path, write, told):
 def test_a_short_cut_in_a_queue_is_told(tmp_path):
     told = formats.convert(write_hall_instance(tmp_path / "a.xinst"), tmp_path / "a.layout.yaml")
     assert any("a lane has one way in and one out; others end at [" in text for text in told)
+
+
+def test_a_station_without_a_queue_is_told(tmp_path):
+    path = write_instance(tmp_path / "a.xinst")
+    text = re.sub(r"<Queues>\d+/\d+</Queues>", "", path.read_text())
+    path.write_text(text.replace('IsQueueWaypoint="true"', 'IsQueueWaypoint="false"'))
+    file, told = formats.read(path)
+    assert "station pick2 has no queue and no exit of its own" in told
+    assert [s.queue + s.exit for s in file.stations] == [()] * 4
 
 
 CONFIGURATION = """<?xml version="1.0" encoding="utf-8"?>

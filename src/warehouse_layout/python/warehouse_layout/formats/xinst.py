@@ -75,11 +75,16 @@ def _unsaid(path: PathName, instance: Instance) -> list[str]:
     short = cells_of((instance.paths & ~instance.plan.exits) != 0)
     out = [f"a lane has one way in and one out; others end at {named(short)}"] if short else []
     for station in instance.plan.stations:
-        if not station.service or station.service == len(station.cells) - 1:
-            part = "exit" if station.service else "queue"
-            out.append(
-                f"station {station.name} has no {part} of its own: draw one if check says so"
+        missing = [
+            part
+            for part, there in (
+                ("queue", station.service),
+                ("exit", station.service < len(station.cells) - 1),
             )
+            if not there
+        ]
+        if missing:
+            out.append(f"station {station.name} has no {' and no '.join(missing)} of its own")
         element = instance.elements[station.name]
         bundle = number_of(path, element, "ItemBundleTransferTime", rawsim_stations.BUNDLE)
         if bundle != rawsim_stations.BUNDLE:
