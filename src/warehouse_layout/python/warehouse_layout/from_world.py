@@ -116,7 +116,7 @@ class _Drawing:
         walls = self._covered(self._kinds.get(WALLS, ()), 0.0, 0.0)
         walls |= self._covered(self._obstacles(), TURNING, half)
         plan = self._plan(belts, walls)
-        floor, unsaid = self._floor(plan, belts, walls)
+        floor = _areas(plan, belts, walls)
         file = LayoutFile(
             floor=floor,
             name=self._world.name,
@@ -133,8 +133,9 @@ class _Drawing:
         if self._hint and _same(self._hint, file, plan):
             file = replace(file, floor=self._hint.floor, stations=self._hint.stations)
         else:
+            drawn, unsaid = arrows.draw(plan, floor)
             self._told += unsaid
-            file = with_letters(file)
+            file = with_letters(replace(file, floor=drawn))
         return (self._as_told(file, self._hint) if self._hint else file), self._told
 
     def _find_raster(self) -> _Raster:
@@ -205,21 +206,6 @@ class _Drawing:
         ]
         at = {m.name: m.pose[:2].tolist() for m in self._kinds.get("conveyor_belt", ())}
         return FloorPlan.of_parts(*raster.origin, raster.spacing, occupancy, marks, at)
-
-    def _floor(
-        self, plan: FloorPlan, belts: np.ndarray, walls: np.ndarray
-    ) -> tuple[np.ndarray, list[str]]:
-        """Returns the drawing (h, w) of a plan, and sentences about what it can't say."""
-        closed = ~plan.passable & ~walls & ~belts
-        floor = np.full(plan.shape, lf.FLOOR, "<U1")
-        floor[~plan.passable] = lf.WALL
-        floor[closed] = lf.KEEP_OUT
-        floor[closed & _from_edge(closed)] = lf.NO_FLOOR
-        floor[belts & ~plan.passable] = lf.BELT
-        floor[plan.parking] = lf.PARKING
-        floor.flat[list(plan.charging)] = lf.CHARGING
-        floor[plan.storage] = lf.STORAGE
-        return arrows.draw(plan, floor)
 
     def _standing(self, kind: str, allowed: np.ndarray, where: str) -> tuple[Cell, ...]:
         """Returns the cells in which models of a kind stand; tells of those that are elsewhere."""
@@ -301,6 +287,20 @@ def _stations(plan: FloorPlan) -> tuple[StationEntry, ...]:
             )
         )
     return tuple(out)
+
+
+def _areas(plan: FloorPlan, belts: np.ndarray, walls: np.ndarray) -> np.ndarray:
+    """Returns the drawing (h, w) of a plan, but for the directions of its streets."""
+    closed = ~plan.passable & ~walls & ~belts
+    floor = np.full(plan.shape, lf.FLOOR, "<U1")
+    floor[~plan.passable] = lf.WALL
+    floor[closed] = lf.KEEP_OUT
+    floor[closed & _from_edge(closed)] = lf.NO_FLOOR
+    floor[belts & ~plan.passable] = lf.BELT
+    floor[plan.parking] = lf.PARKING
+    floor.flat[list(plan.charging)] = lf.CHARGING
+    floor[plan.storage] = lf.STORAGE
+    return floor
 
 
 def _from_edge(mask: np.ndarray) -> np.ndarray:

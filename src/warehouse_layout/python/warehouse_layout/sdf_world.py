@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from warehouse_layout import files, poses
+from warehouse_layout.models import kind_and_number
 
 DEPTH = 8  # of models within models
+POINTS = ("kiva", "storage_unit", "item")  # kinds of which the pose alone is read: they are many
 MOST_BYTES = 300_000_000  # of a world file
 
 
@@ -112,6 +114,8 @@ class _Reader:
 
     def _model(self, element: ElementTree.Element) -> Model:
         out = Model(name_of(element), self._pose(element))
+        if kind_and_number(out.name)[0] in POINTS:
+            return out
         self._collect(element, self._path.parent, out, _identity(), DEPTH)
         for solid in out.solids:
             solid.pose[:] = poses.compose(out.pose[None], solid.pose[None])[0]
@@ -191,6 +195,8 @@ class _Reader:
 
     @staticmethod
     def _within(frame: np.ndarray, inner: np.ndarray) -> np.ndarray:
+        if not frame[:6].any():  # as of most parts of markings, of which there are many
+            return inner.copy()
         composed: np.ndarray = poses.compose(frame[None], inner[None])[0]
         return composed
 
