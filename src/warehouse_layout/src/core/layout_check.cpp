@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "strong_bridges.h"
+
 namespace layout {
 namespace {
 
@@ -12,13 +14,20 @@ using Kind = LayoutFault::Kind;
 /// Searches the aisles' deck along its edges and against them.
 class Aisles {
  public:
-  explicit Aisles(const Floor& floor) : floor_(floor), seen_(floor.size(), 0) {
+  explicit Aisles(const Floor& floor) : floor_(floor), index_(floor.size(), kNowhere) {
     for (Cell cell = 0; cell < floor.size(); ++cell) {
-      if (isCore(cell)) core_.push_back(cell);
+      if (!isCore(cell)) continue;
+      index_[cell] = static_cast<Cell>(core_.size());
+      core_.push_back(cell);
     }
+    ahead_ = back_ = Neighbours(core_.size(), {kNowhere, kNowhere, kNowhere, kNowhere});
+    for (const Cell cell : core_) {
+      for (int heading = 0; heading < kHeadings; ++heading) join(cell, heading);
+    }
+    part_ = strongParts(ahead_, back_);
   }
 
-  std::vector<LayoutFault> faults() {
+  std::vector<LayoutFault> faults() const {
     if (core_.empty()) return {{Kind::kNoAisles, {}}};
     std::vector<LayoutFault> faults;
     if (auto cells = cutOff(); !cells.empty()) faults.push_back({Kind::kCutOff, cells});
@@ -31,19 +40,18 @@ class Aisles {
     return floor_.isPassable(cell) && !floor_.isStorage(cell) && !floor_.isLane(cell);
   }
 
+  void join(Cell cell, int heading) {
+    const Cell to = step(cell, heading);
+    if (to == kNowhere || !isCore(to)) return;
+    ahead_[index_[cell]][heading] = index_[to];
+    back_[index_[to]][heading] = index_[cell];
+  }
+
   /// Returns core cells that are not strongly connected with the others, and storage places and
   /// lane cells without a way to them and back.
-  std::vector<Cell> cutOff() {
-    std::vector<std::uint8_t> ahead, back;
-    for (const bool is_forward : {true, false}) {
-      auto& reached = is_forward ? ahead : back;
-      reached.assign(floor_.size(), 0);
-      spread(largestPart(), is_forward, true, reached);
-      // Then from the core into lanes and storage places.
-      for (const Cell cell : std::vector<Cell>(core_)) {
-        if (reached[cell]) spread(cell, is_forward, false, reached);
-      }
-    }
+  std::vector<Cell> cutOff() const {
+    const std::vector<Cell> start = largestPart();
+    const auto ahead = reached(start, true), back = reached(start, false);
     std::vector<Cell> cells;
     for (Cell cell = 0; cell < floor_.size(); ++cell) {
       if (floor_.isPassable(cell) && !(ahead[cell] && back[cell])) cells.push_back(cell);
@@ -51,42 +59,45 @@ class Aisles {
     return cells;
   }
 
-  /// Returns a cell of the largest strongly connected part of the core.
-  Cell largestPart() {
-    Cell best = core_.front();
-    std::size_t most = 0;
-    std::vector<std::uint8_t> known(floor_.size(), 0);
-    for (const Cell cell : core_) {
-      if (known[cell]) continue;
-      std::vector<std::uint8_t> ahead(floor_.size(), 0), back(floor_.size(), 0);
-      spread(cell, true, true, ahead);
-      spread(cell, false, true, back);
-      std::size_t size = 0;
-      for (const Cell other : core_) {
-        if (!ahead[other] || !back[other]) continue;
-        known[other] = 1;
-        ++size;
-      }
-      if (size > most) {
-        most = size;
-        best = cell;
-      }
+  /// Returns the cells of the largest strongly connected part of the core.
+  std::vector<Cell> largestPart() const {
+    std::vector<int> size(core_.size(), 0);
+    for (const int part : part_) ++size[part];
+    int best = part_.front();
+    for (const int part : part_) {
+      if (size[part] > size[best]) best = part;
     }
-    return best;
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < core_.size(); ++i) {
+      if (part_[i] == best) cells.push_back(core_[i]);
+    }
+    return cells;
   }
 
-  void spread(Cell start, bool is_forward, bool core_only, std::vector<std::uint8_t>& reached) {
-    std::vector<Cell> queue = {start};
-    reached[start] = 1;
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      const Cell cell = queue[i];
+  /// Returns which cells have a way from core cells, or to them: first over the core alone, then
+  /// into lanes and storage places.
+  std::vector<std::uint8_t> reached(const std::vector<Cell>& start, bool is_forward) const {
+    std::vector<std::uint8_t> reached(floor_.size(), 0);
+    std::vector<Cell> queue = start;
+    for (const Cell cell : start) reached[cell] = 1;
+    spread(is_forward, true, &queue, &reached);
+    spread(is_forward, false, &queue, &reached);
+    return reached;
+  }
+
+  void spread(bool is_forward, bool core_only, std::vector<Cell>* queue,
+              std::vector<std::uint8_t>* reached) const {
+    for (std::size_t i = 0; i < queue->size(); ++i) {
+      const Cell cell = (*queue)[i];
       for (int heading = 0; heading < kHeadings; ++heading) {
         const Cell to = is_forward ? step(cell, heading) : stepBack(cell, heading);
-        if (to == kNowhere || reached[to] || (core_only && !isCore(to))) continue;
+        if (to == kNowhere || (*reached)[to]) continue;
+        // Nor does a way lead on through a lane, where robots that only pass would wait in the queue.
+        if (isCore(to) != core_only) continue;
         // No loaded robot drives through a storage place.
         if (floor_.isStorage(cell) && floor_.isStorage(to)) continue;
-        reached[to] = 1;
-        queue.push_back(to);
+        (*reached)[to] = 1;
+        queue->push_back(to);
       }
     }
   }
@@ -98,43 +109,29 @@ class Aisles {
     return from != kNowhere && step(from, heading) == cell ? from : kNowhere;
   }
 
-  std::vector<Cell> deadEnds() {
+  std::vector<Cell> deadEnds() const {
+    const StrongBridges bridges(ahead_, back_, part_);
     std::vector<Cell> cells;
-    for (const Cell from : core_) {
-      for (int heading = 0; heading < kHeadings; ++heading) {
-        const Cell to = step(from, heading);
-        if (to == kNowhere || !isCore(to) || leadsBack(from, to)) continue;
-        cells.push_back(from);
-        cells.push_back(to);
+    for (Cell from = 0; from < static_cast<Cell>(core_.size()); ++from) {
+      for (const Cell to : ahead_[from]) {
+        if (to == kNowhere || leadsBack(from, to, bridges)) continue;
+        cells.push_back(core_[from]);
+        cells.push_back(core_[to]);
       }
     }
     return cells;
   }
 
-  /// Tells whether there is a way from `to` to `from` other than the one edge.
-  bool leadsBack(Cell from, Cell to) {
-    ++search_;
-    queue_.assign(1, to);
-    seen_[to] = search_;
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
-      for (int heading = 0; heading < kHeadings; ++heading) {
-        const Cell next = step(queue_[i], heading);
-        if (next == kNowhere || !isCore(next) || seen_[next] == search_) continue;
-        if (next == from) {
-          if (queue_[i] != to) return true;
-          continue;
-        }
-        seen_[next] = search_;
-        queue_.push_back(next);
-      }
-    }
-    return false;
+  /// Tells whether there is a way from `to` to `from`, both indices, other than the one edge.
+  bool leadsBack(Cell from, Cell to, const StrongBridges& bridges) const {
+    return part_[from] == part_[to] && !bridges.has(to, from);
   }
 
   const Floor& floor_;
-  std::vector<Cell> core_, queue_;
-  std::vector<int> seen_;
-  int search_ = 0;
+  std::vector<Cell> core_;   // cells
+  std::vector<Cell> index_;  // into core_, of each cell
+  Neighbours ahead_, back_;  // indices into core_
+  std::vector<int> part_;    // of each cell in core_
 };
 
 }  // namespace
