@@ -92,7 +92,7 @@ class Aisles {
       for (int heading = 0; heading < kHeadings; ++heading) {
         const Cell to = is_forward ? step(cell, heading) : stepBack(cell, heading);
         if (to == kNowhere || (*reached)[to]) continue;
-        // Nor does a way lead on through a lane, where robots that only pass would wait in the queue.
+        // Nor through a lane: robots that only pass would wait in its queue.
         if (isCore(to) != core_only) continue;
         // No loaded robot drives through a storage place.
         if (floor_.isStorage(cell) && floor_.isStorage(to)) continue;
