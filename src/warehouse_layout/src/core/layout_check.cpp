@@ -91,7 +91,9 @@ class Aisles {
       const Cell cell = (*queue)[i];
       for (int heading = 0; heading < kHeadings; ++heading) {
         const Cell to = is_forward ? step(cell, heading) : stepBack(cell, heading);
-        if (to == kNowhere || (*reached)[to] || (core_only && !isCore(to))) continue;
+        if (to == kNowhere || (*reached)[to]) continue;
+        // Nor through a lane: robots that only pass would wait in its queue.
+        if (isCore(to) != core_only) continue;
         // No loaded robot drives through a storage place.
         if (floor_.isStorage(cell) && floor_.isStorage(to)) continue;
         (*reached)[to] = 1;

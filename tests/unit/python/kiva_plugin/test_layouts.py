@@ -109,3 +109,8 @@ def test_a_name_of_nothing_is_told_with_the_presets():
         World.layout("smal")
     with pytest.raises(ValueError, match="can't pass each other"):
         World.layout(LAYOUTS / "blocked.layout.yaml")
+
+
+def test_a_floor_that_lanes_divide_is_told():
+    with pytest.raises(ValueError, match="loaded robots can't get from the streets at"):
+        World.layout(LAYOUTS / "cut_by_lanes.layout.yaml")

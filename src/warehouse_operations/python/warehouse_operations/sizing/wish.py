@@ -49,15 +49,15 @@ class Wish:
     most_robots: int = 0  # 0: as many as could be of use, and there is room for
 
     def __post_init__(self) -> None:
-        if faults := file_check.faults(self.file):
-            raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
-        if not self.stations:
-            raise WishError(f"{self.file.title}: there is no picking station")
         if self.file.stock:
             raise WishError(
                 f"{self.file.title}: stock {self.file.stock} is not taken; items: a count was"
                 " expected, whose stock is drawn by each seed"
             )
+        if faults := file_check.faults(self.file):
+            raise WishError(f"{self.file.path or self.file.title}: {faults[0].text}")
+        if not self.stations:
+            raise WishError(f"{self.file.title}: there is no picking station")
         if not self.file.items:
             raise WishError(f"{self.file.title}: items is 0; there is nothing to pick")
 
