@@ -7,6 +7,7 @@ bottom, both from 0.
 """
 
 import argparse
+import math
 import re
 import sys
 from collections.abc import Sequence
@@ -66,7 +67,9 @@ def _world(args: argparse.Namespace) -> int:
 def _convert(args: argparse.Namespace) -> int:
     from warehouse_layout import formats
 
-    lost = formats.convert(Path(args.source), Path(args.target), args.layers)
+    angle = None if args.angle is None else math.radians(args.angle)
+    source, target = Path(args.source), Path(args.target)
+    lost = formats.convert(source, target, args.layers, spacing=args.spacing, angle=angle)
     for sentence in lost:
         print(sentence)
     return BAD_FILE if lost and not args.lenient else 0
@@ -233,12 +236,35 @@ def _add(
     return parser
 
 
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text}; a number was expected")
+    return value
+
+
+def _positive(text: str) -> float:
+    value = _finite(text)
+    if value <= 0:
+        raise argparse.ArgumentTypeError(f"{text}; a number above 0 was expected")
+    return value
+
+
 def _add_convert(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     parser = _add(commands, "convert", _convert, "write a layout in another format", CONVERT)
     parser.add_argument("source", metavar="IN")
     parser.add_argument("target", metavar="OUT")
     parser.add_argument(
         "--layers", metavar="FILE", type=Path, help="what the layers of a .dxf mean, as YAML"
+    )
+    parser.add_argument(
+        "--spacing", metavar="M", type=_positive, help="edge of a cell of a map or a .dxf [m] (1)"
+    )
+    parser.add_argument(
+        "--angle",
+        metavar="DEGREES",
+        type=_finite,
+        help="turn a map or a .dxf by that (by default so that its walls lie along the axes)",
     )
     parser.add_argument(
         "--lenient", action="store_true", help="exit 0 though something is not carried over"

@@ -197,6 +197,32 @@ def test_convert_tells_what_is_lost(run, tmp_path):
         assert lf.read(tmp_path / "w.layout.yaml").shape == (9, 9)
 
 
+def test_convert_divides_a_map_into_cells_as_told(run, tmp_path):
+    wall = b"\x00" * 40
+    rows = [wall, *[b"\x00" + b"\xff" * 38 + b"\x00"] * 38, wall]
+    (tmp_path / "room.pgm").write_bytes(b"P5 40 40 255\n" + b"".join(rows))
+    (tmp_path / "map.yaml").write_text(
+        "image: room.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.2\n"
+    )
+    widths = []
+    for spacing in ("1", "0.5"):
+        done = run(
+            "convert",
+            "map.yaml",
+            "m.layout.yaml",
+            "--lenient",
+            "--spacing",
+            spacing,
+            "--angle",
+            "0",
+        )
+        assert done.returncode == 0, done.stderr
+        widths.append(lf.read(tmp_path / "m.layout.yaml").floor.shape[1])
+    assert abs(widths[1] - 2 * widths[0]) <= 2 and widths[1] > widths[0]
+    assert run("convert", "map.yaml", "m.layout.yaml", "--spacing", "-1").returncode == 2
+
+
 def test_convert_names_the_formats_that_it_knows(run, good):
     done = run("convert", good, "north.docx")
     assert done.returncode == 1
