@@ -9,7 +9,12 @@ from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.verdict import Verdict, difference
 from warehouse_operations.sizing.wish import count, named
 
-SHOWN = {"met": "met", "missed": "missed", "undecided": "not shown to be met"}
+SHOWN = {
+    "met": "met",
+    "missed": "missed",
+    "undecided": "not shown to be met",
+    "drawn": "not judged",
+}
 KNEE = 0.99  # of the most orders an hour of any number of robots
 
 

@@ -69,8 +69,10 @@ class Verdict:
 
     @property
     def word(self) -> str:
-        """One of met, missed and undecided."""
-        return "met" if self.met else "missed" if self.fails else "undecided"
+        """One of met, missed, undecided, and drawn: for the figure alone, by too few shifts."""
+        if self.met or self.fails:
+            return "met" if self.met else "missed"
+        return "undecided" if len(self.records) >= self.seeds else "drawn"
 
     def limit(self, risk: float, side: int, shifts: int = 0) -> float:
         """Returns the upper (side 1) or lower (-1) limit of the mean part that is missed.
