@@ -22,7 +22,7 @@ SERIES = (
     "overdue",  # of these, those that are late already
     "pieces",
     "visits",  # units that were at picking stations
-    "picking_s",  # station-seconds that open picking stations worked
+    "picking_s",  # station-seconds that the pickers of open stations worked, on the average
     "replenishing_s",  # the same of replenishing stations
     "idle_s",  # robot-seconds without work
     "queue_s",  # robot-seconds before stations
@@ -130,7 +130,7 @@ class _Log:
             "late": tally.late_orders,
             "pieces": tally.items_picked,
             "visits": tally.pick_visits,
-            "picking_s": sum(one.busy_s for one in sites.open_stations(ops, "PICK")),
+            "picking_s": sum(one.busy_s / one.pickers for one in sites.open_stations(ops, "PICK")),
             "replenishing_s": sum(one.busy_s for one in sites.open_stations(ops, "REPLENISH")),
             "idle_s": activities["idle"],
             "queue_s": activities["queue"],

@@ -85,8 +85,8 @@ class Study:
     ) -> Verdict:
         records: list[Record] = []
         seeds = self.wish.seeds
-        for count in sorted({FIRST, *looks(seeds)}):
-            numbers = range(len(records) + 1, max(count, len(records)) + 1)
+        for enough in sorted({FIRST, *looks(seeds)}):
+            numbers = range(len(records) + 1, max(enough, len(records)) + 1)
             records += self._shifts(self.wish.points(robots, stations, numbers, physics_hours))
             verdict = self._judged(found, robots, stations, records)
             if verdict.decided:
@@ -135,8 +135,8 @@ class Study:
         verdict = self.judge(wish.robots(stations), stations)
         pieces = verdict.estimate("pieces_per_hour").mean
         return (
-            f"{count(verdict.robots, 'robot')} and {named(wish.stations)} pick {pieces:,.0f} pieces an hour"
-            f" where {wish.pieces_per_hour:,.0f} are asked, and miss"
+            f"{count(verdict.robots, 'robot')} and {named(wish.stations)} pick {pieces:,.0f} pieces"
+            f" an hour where {wish.pieces_per_hour:,.0f} are asked, and miss"
             f" {100 * verdict.estimate('missed').mean:.1f} % of the orders;"
             f" {100 * wish.late:g} % may be late"
         )
