@@ -34,7 +34,8 @@ def answer(group: Group) -> str:
     )
     return (
         f"With {robots} and {stations} the warehouse picks {pieces} pieces and completes {orders}"
-        f" orders an hour; {100 * _mean(group, 'late_orders_fraction'):.1f} % of the orders are late."
+        f" orders an hour; {100 * _mean(group, 'late_orders_fraction'):.1f} % of the orders are"
+        " late."
     )
 
 

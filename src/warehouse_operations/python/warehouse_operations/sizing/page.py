@@ -17,7 +17,10 @@ from warehouse_operations.sizing.prices import Prices
 from warehouse_operations.sizing.study import Study
 from warehouse_operations.sizing.wish import Wish, count
 
-PRINT = ".wide { overflow-x: auto } .first { break-after: page } .answer { font-size: 1.15em } li { margin: .2em 0 }"
+PRINT = (
+    ".wide { overflow-x: auto } .first { break-after: page } .answer { font-size: 1.15em }"
+    " li { margin: .2em 0 }"
+)
 KNEES = (
     "Bands are 95 % confidence intervals of the mean (Student's t over seeds). A triangle is the"
     " knee: the fewest robots with 99 % of the most orders an hour that so many stations complete."
@@ -26,8 +29,8 @@ KNEES = (
 MISSED = (
     "Missed: of the orders that came after the warm-up, the part that was not completed in time:"
     " late ones, and those by which the open orders pile up. A point is <i>met</i> if the upper"
-    " 95 % confidence limit of that part is at most what may be late, <i>missed</i> if the lower one"
-    " is above it, else undecided, and then not taken. Up to four times as many shifts as asked for"
+    " 95 % confidence limit of that part is at most what may be late, <i>missed</i> if the lower"
+    " one is above it, else undecided, and then not taken. Up to four times as many shifts as asked for"
     " are simulated where it is undecided; each of three looks has a third of the risk"
     " (Bonferroni). The warm-up ends where MSER-5 has the open orders steady. All points have"
     " the same seeds: the same orders come at the same moments."
