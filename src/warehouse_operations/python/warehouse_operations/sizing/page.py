@@ -30,8 +30,8 @@ MISSED = (
     "Missed: of the orders that came after the warm-up, the part that was not completed in time:"
     " late ones, and those by which the open orders pile up. A point is <i>met</i> if the upper"
     " 95 % confidence limit of that part is at most what may be late, <i>missed</i> if the lower"
-    " one is above it, else undecided, and then not taken. Up to four times as many shifts as asked for"
-    " are simulated where it is undecided; each of three looks has a third of the risk"
+    " one is above it, else undecided, and then not taken. Up to four times as many shifts as asked"
+    " for are simulated where it is undecided; each of three looks has a third of the risk"
     " (Bonferroni). The warm-up ends where MSER-5 has the open orders steady. All points have"
     " the same seeds: the same orders come at the same moments."
 )
