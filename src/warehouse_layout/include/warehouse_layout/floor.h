@@ -40,6 +40,7 @@ struct FloorDescription {
   int height = 0;                      ///< cells along y
   std::vector<std::uint8_t> passable;  ///< 1 where a robot can stand
   std::vector<std::uint8_t> storage;   ///< 1 where a storage unit can stand (default: nowhere)
+  std::vector<std::uint8_t> parking;   ///< 1 where only robots without a load go (default: nowhere)
   std::vector<std::uint8_t> lane;      ///< 1 in the one-way lane of a station (default: nowhere)
   std::vector<std::uint8_t> exits;     ///< bit h: may be left towards heading h (default: all)
 };
@@ -58,7 +59,9 @@ class Floor {
   int y(Cell cell) const { return cell / width_; }
   bool has(Cell cell) const { return cell >= 0 && cell < size(); }
   bool isPassable(Cell cell) const { return passable_[cell]; }
+  /// Tells whether loaded robots drive there only if it is where they begin or end.
   bool isStorage(Cell cell) const { return storage_[cell]; }
+  bool isParking(Cell cell) const { return parking_[cell]; }
   bool isLane(Cell cell) const { return lane_[cell]; }
 
   /// Returns the cell beside `cell` in that heading; kNowhere where the deck has no such edge.
@@ -76,7 +79,7 @@ class Floor {
 
  private:
   int width_, height_;
-  std::vector<std::uint8_t> passable_, storage_, lane_;
+  std::vector<std::uint8_t> passable_, storage_, parking_, lane_;
   std::vector<Cell> next_[2];
 };
 

@@ -23,7 +23,8 @@ struct LayoutFault {
 
 /// Returns the faults of the aisles' deck; none if it is right. Without storage places and lanes it
 /// must be strongly connected, and every edge must lie on a directed cycle of at least three cells;
-/// from every storage place and lane cell there must be a way to the aisles and back.
+/// from every storage place and lane cell there must be a way to the aisles and back, and from
+/// every parking place one for a robot without a load.
 std::vector<LayoutFault> checkLayout(const Floor& floor);
 
 /// The centre (x, y) [m] of cell (0, 0), and the edge of a cell [m], for messages.

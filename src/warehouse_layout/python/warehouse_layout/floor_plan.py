@@ -103,7 +103,8 @@ class FloorPlan:
         """
         return Floor(
             self.passable if passable is None else passable,
-            storage=self.storage | self.parking,
+            storage=self.storage,
+            parking=self.parking,
             lane=self.lane,
             exits=self.exits,
         )

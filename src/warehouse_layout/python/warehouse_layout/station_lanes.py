@@ -112,7 +112,8 @@ def _faults(file: LayoutFile, drawn: DrawnFloor, stations: list[Station]) -> set
     ways = drawn_floor.exits(file.floor, drawn, stations)
     floor = Floor(
         drawn.passable,
-        storage=drawn.storage | drawn.parking,
+        storage=drawn.storage,
+        parking=drawn.parking,
         lane=lane_mask(stations, drawn.passable.shape),
         exits=with_lanes(ways, drawn.passable, stations),
     )

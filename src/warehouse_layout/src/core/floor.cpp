@@ -34,6 +34,8 @@ Floor::Floor(const FloorDescription& description)
   const Cell cells = checkedSize(description);
   passable_ = filled(description.passable, cells, 1, "passable");
   storage_ = filled(description.storage, cells, 0, "storage");
+  parking_ = filled(description.parking, cells, 0, "parking");
+  for (Cell cell = 0; cell < cells; ++cell) storage_[cell] |= parking_[cell];
   lane_ = filled(description.lane, cells, 0, "lane");
   const auto exits = filled(description.exits, cells, 0xf, "exits");
   for (auto& edges : next_) edges.assign(cells * kHeadings, kNowhere);

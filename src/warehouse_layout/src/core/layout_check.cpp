@@ -94,8 +94,8 @@ class Aisles {
         if (to == kNowhere || (*reached)[to]) continue;
         // Nor through a lane: robots that only pass would wait in its queue.
         if (isCore(to) != core_only) continue;
-        // No loaded robot drives through a storage place.
-        if (floor_.isStorage(cell) && floor_.isStorage(to)) continue;
+        // No loaded robot drives through a storage place, and none has to come to parking.
+        if (floor_.isStorage(cell) && floor_.isStorage(to) && !floor_.isParking(to)) continue;
         (*reached)[to] = 1;
         queue->push_back(to);
       }

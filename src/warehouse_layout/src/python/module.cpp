@@ -20,13 +20,14 @@ namespace {
 using Flags = std::optional<Array<std::uint8_t>>;
 
 std::shared_ptr<Floor> makeFloor(const Array<std::uint8_t>& passable, const Flags& storage,
-                                 const Flags& lane, const Flags& exits) {
+                                 const Flags& lane, const Flags& exits, const Flags& parking) {
   if (passable.ndim() != 2) throw py::value_error("passable must have two dimensions, (y, x)");
   FloorDescription description;
   description.height = static_cast<int>(passable.shape(0));
   description.width = static_cast<int>(passable.shape(1));
   description.passable = copied<std::uint8_t>(passable);
   description.storage = copied(storage);
+  description.parking = copied(parking);
   description.lane = copied(lane);
   description.exits = copied(exits);
   return std::make_shared<Floor>(description);
@@ -35,7 +36,8 @@ std::shared_ptr<Floor> makeFloor(const Array<std::uint8_t>& passable, const Flag
 void bindFloor(py::module_& module) {
   py::class_<Floor, std::shared_ptr<Floor>>(module, "Floor")
       .def(py::init(&makeFloor), py::arg("passable"), py::arg("storage") = py::none(),
-           py::arg("lane") = py::none(), py::arg("exits") = py::none())
+           py::arg("lane") = py::none(), py::arg("exits") = py::none(),
+           py::arg("parking") = py::none())
       .def_property_readonly("width", &Floor::width)
       .def_property_readonly("height", &Floor::height)
       .def_property_readonly("size", &Floor::size)

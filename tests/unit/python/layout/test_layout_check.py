@@ -161,3 +161,29 @@ def test_dead_ends_are_the_edges_without_another_way_back(seed):
     found = dict(layout_faults(Floor(passable, exits=exits))).get("dead end", [])
     pairs = set(zip(found[::2], found[1::2]))
     assert pairs == set(ways_round(passable, exits))
+
+
+PARKING = """layout: 1
+floor: |
+  ................
+  .pppp..ss.ss.ss.
+  .pppp..ss.ss.ss.
+  .pppp..ss.ss.ss.
+  ................
+  ................
+  ....A...........
+  ................
+stations: {A: {queue: [[8, 1], [7, 1], [6, 1], [5, 1]], exit: [[3, 1]]}}
+robots: 12
+"""
+
+
+def test_parking_may_be_several_deep_for_no_loaded_robot_goes_there():
+    assert file_check.faults(lf.parse(PARKING)) == []
+
+
+def test_parking_that_no_robot_reaches_is_told():
+    lines = PARKING.replace("  .pppp.", "  #pppp#").splitlines()
+    lines[2] = lines[6] = "  ######.........."
+    (fault,) = file_check.faults(lf.parse("\n".join(lines)))
+    assert "parking" in fault.text and (2, 5) in fault.cells

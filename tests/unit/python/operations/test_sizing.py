@@ -17,7 +17,7 @@ import pytest
 from paths import ROOT
 from scipy import stats
 
-from warehouse_layout import generator, layout_file
+from warehouse_layout import generator, layout_choice, layout_file
 from warehouse_layout.request import Request
 from warehouse_operations import comparison, order_mix, warm_up
 from warehouse_operations.assortment import Assortment
@@ -291,7 +291,7 @@ def test_a_wish_that_can_not_be_met_by_its_bound():
 
 
 def test_a_point_is_the_shift_that_simulate_would_run():
-    file = sites.file_of("small")
+    file = layout_choice.chosen("small")
     orders = order_mix.text_of(150, 1.5, 1.0)
     wanted = point.Point(3, 1, 4, False, layout_file.text_of(file), orders, 30)
     first, again = point.simulate(wanted), point.simulate(wanted)
