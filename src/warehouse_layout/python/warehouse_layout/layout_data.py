@@ -23,7 +23,8 @@ SERVICE = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 CHARACTERS = FLOOR + ONE_WAY + ALONG_X + ALONG_Y + STORAGE + PARKING + CHARGING
 CHARACTERS += KEEP_OUT + WALL + BELT + NO_FLOOR + SERVICE
 
-KINDS = {"pick": PICK, "replenish": REPLENISH}  # of stations, as a file names them
+# Of stations, as a file names them; at "both" a shift replenishes besides, the floor is alike.
+KINDS = {"pick": PICK, "replenish": REPLENISH, "both": PICK}
 
 Cell = tuple[int, int]  # column, row
 

@@ -58,7 +58,7 @@ class Tally:
         """Counts a visit that is over, if its unit reached the station."""
         if visit.arrived is not None:
             self.trips += 1
-            self.pick_visits += visit.station.kind == "PICK"
+            self.pick_visits += not visit.replenishes
 
 
 def upper_bound(

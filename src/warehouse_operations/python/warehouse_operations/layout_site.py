@@ -31,18 +31,19 @@ def of_file(site: Site, file: LayoutFile) -> Site:
 
 def settings_of(file: LayoutFile) -> Settings:
     """Returns the Settings of a file's stations."""
-    return Settings(by_station={one.name: _of(one) for one in file.stations if one.settings})
+    return Settings(by_station={one.name: _of(one) for one in file.stations})
 
 
 def _of(entry: StationEntry) -> dict[str, Any]:
     """Returns the settings of a station by their names in Settings."""
     names = {
         "capacity": "slots",
-        "seconds_a_piece": "piece_s" if entry.kind == "pick" else "bundle_s",
+        "seconds_a_piece": "bundle_s" if entry.kind == "replenish" else "piece_s",
         "pick_seconds": "pick_s",
         "seconds_a_line": "line_s",
     }
-    return {names.get(name, name): value for name, value in entry.settings.items()}
+    told = {names.get(name, name): value for name, value in entry.settings.items()}
+    return told | ({"replenishes": True} if entry.kind == "both" else {})
 
 
 def policies_of(file: LayoutFile) -> Policies:

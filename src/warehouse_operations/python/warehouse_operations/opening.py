@@ -72,8 +72,10 @@ def open_shift(
         assortment, stock = told(site.items, site.stock, stock_rng)
     else:
         assortment, stock = stocked(site.items, stock_rng, site.skus, level=site.level)
-    kinds = [station.kind for station in site.plan.stations]
-    count = kinds.count("PICK"), kinds.count("REPLENISH")
+    settings = settings or site.settings
+    picks = [station.kind == "PICK" for station in site.plan.stations]
+    refilling = [settings.of(station.name).replenishes for station in site.plan.stations]
+    count = sum(picks), len(picks) - sum(picks) + sum(refilling)
     shift = Shift(
         transports,
         assortment,
@@ -83,7 +85,7 @@ def open_shift(
         demand=make_demand(
             orders, assortment, count, demand_rng, now, sum(one.capacity for one, _ in stock)
         ),
-        settings=settings or site.settings,
+        settings=settings,
         journal=journal,
         rng=policy_rng,
         now=now,

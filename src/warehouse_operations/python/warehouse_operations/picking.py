@@ -117,7 +117,7 @@ class Picking:
 
     def allot(self, station: WorkStation, line: Line) -> None:
         """Reserves for a line what units at its station or on their way there can serve."""
-        for visit in station.coming:
+        for visit in station.coming_for(replenishes=False):
             for one in self.shift.inventory.of_unit[visit.unit]:
                 pieces = min(line.missing, one.available) if one.sku == line.sku else 0
                 if pieces > 0:
@@ -196,7 +196,7 @@ class Picking:
 
     def close(self, station: WorkStation) -> None:
         """Gives the orders of a station back to the backlog and sends its units away."""
-        for visit in list(station.coming):
+        for visit in station.coming_for(replenishes=False):
             self.drop_visit(visit)
             if not visit.here:
                 self.shift.visits.cancel(visit)
@@ -276,7 +276,7 @@ class Picking:
         station.at_work -= 1
         station.busy_s += self.shift.now - began
         self.complete(station)
-        self.next_piece(station)
+        self.shift.next_work(station)
 
     def take(self, visit: Visit, pick: Pick, pieces: int) -> None:
         """Takes pieces of a pick out of the stock."""
@@ -308,7 +308,7 @@ class Picking:
     def leave_if_done(self, station: WorkStation) -> None:
         """Releases a unit with nothing left to pick, unless it serves an order taken on now."""
         visit = station.here
-        if not visit or visit.picks:
+        if not visit or visit.replenishes or visit.picks:
             return
         self._assign(station)
         if not visit.picks:

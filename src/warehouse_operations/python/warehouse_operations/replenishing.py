@@ -53,19 +53,19 @@ class Replenishing:
             return
         self._look = False
         limit = -(-self.shift.units_per_station // 2)  # their units have more work with them
-        stations = [s for s in self.stations if s.is_open and len(s.coming) < limit]
+        stations = [s for s in self.stations if s.is_open and _coming(s) < limit]
         while self.bundles and stations:
-            station = min(stations, key=lambda one: len(one.coming))
+            station = min(stations, key=_coming)
             if not self._fetch(station):
                 return
-            stations = [s for s in stations if len(s.coming) < limit]
+            stations = [s for s in stations if _coming(s) < limit]
 
     def _fetch(self, station: WorkStation) -> bool:
         for bundle in islice(self.bundles.values(), LOOK_AHEAD):
             candidates = self._candidates(bundle)
             if candidates:
                 one = self.shift.policies.bins.choose(bundle, candidates, self.shift.view)
-                visit = self.shift.visits.request(one.unit, station)
+                visit = self.shift.visits.request(one.unit, station, replenishes=True)
                 if visit:
                     self._place(bundle, one, visit)
                     self._fill_up(visit)
@@ -126,7 +126,7 @@ class Replenishing:
         station.at_work = 1
         now = self.shift.now
         self.shift.events.schedule(
-            now + station.seconds_a_piece, self._put_in, (station, visit, now)
+            now + station.seconds_a_bundle, self._put_in, (station, visit, now)
         )
 
     def _put_in(self, argument: tuple[WorkStation, Visit, float]) -> None:
@@ -135,7 +135,7 @@ class Replenishing:
         station.busy_s += self.shift.now - began
         if visit.here and visit.puts:
             self.put(visit, visit.puts[0])
-        self.next_bundle(station)
+        self.shift.next_work(station)
         self.leave_if_done(station)
 
     def put(self, visit: Visit, bundle: Bundle) -> None:
@@ -179,7 +179,7 @@ class Replenishing:
 
     def close(self, station: WorkStation) -> None:
         """Queues the bundles of a station again and sends its units away."""
-        for visit in list(station.coming):
+        for visit in station.coming_for(replenishes=True):
             self.drop_visit(visit)
             if not visit.here:
                 self.shift.visits.cancel(visit)
@@ -188,7 +188,11 @@ class Replenishing:
     def leave_if_done(self, station: WorkStation) -> None:
         """Releases a unit with nothing left to put in."""
         visit = station.here
-        if visit and not visit.puts:
+        if visit and visit.replenishes and not visit.puts:
             self.shift.visits.release(visit)
             self._look = True
             self.next_bundle(station)
+
+
+def _coming(station: WorkStation) -> int:
+    return len(station.coming_for(replenishes=True))

@@ -17,6 +17,7 @@ class Settings:
     pick_s: float = 3.0  # of that, until the piece is out of its bin and the unit may leave
     line_s: float = 0.0  # more for the first piece of a line: to read it, to turn to its tote
     pickers: int = 1  # people or robots who pick from the same unit at the same time
+    replenishes: bool = False  # a picking station at which stock is put in as well
     hours: tuple[tuple[float, float], ...] = ()  # when it is open, from the begin [h]; (): always
     bundle_s: float = 10.0
     units_per_station: int | None = None  # at it or on their way; None: by the number of robots

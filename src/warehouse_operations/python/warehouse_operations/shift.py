@@ -8,7 +8,6 @@ It is driven by events and by simulated time, and sees the fleet through protoco
 """
 
 import hashlib
-from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +28,7 @@ from warehouse_operations.picking import Picking
 from warehouse_operations.protocols import Requests
 from warehouse_operations.replenishing import PERIOD, Replenishing
 from warehouse_operations.settings import Settings
-from warehouse_operations.stations import WorkStation
+from warehouse_operations.stations import Visit, WorkStation
 from warehouse_operations.tasks import Tasks
 from warehouse_operations.view import PolicyHooks, View
 from warehouse_operations.visits import Visits
@@ -77,11 +76,8 @@ class Shift:
         self.order_book, self.visits = OrderBook(self), Visits(self)
         self.units_per_station = self.settings.units_at(len(floor.robots), len(floor.plan.stations))
         self._stations = {place.name: self._work_station(place) for place in floor.plan.stations}
-        of_kind: dict[str, list[WorkStation]] = defaultdict(list)
-        for station in self._stations.values():
-            of_kind[station.kind].append(station)
-        self.picking = Picking(self, of_kind["PICK"])
-        self.replenishing = Replenishing(self, of_kind["REPLENISH"])
+        self.picking = Picking(self, [one for one in self.stations if one.picks])
+        self.replenishing = Replenishing(self, [one for one in self.stations if one.replenishes])
         self._manual_picking = ManualPicking(self.picking)
         self._manual_replenishing = ManualReplenishing(self.replenishing)
         self.fallen, self.tasks = Fallen(self), Tasks(self)
@@ -212,13 +208,22 @@ class Shift:
         """All WorkStations."""
         return self._stations.values()
 
-    def part_of(self, station: WorkStation) -> Picking | Replenishing:
-        """Returns the part of the shift that works at a station."""
-        return self.picking if station.kind == "PICK" else self.replenishing
+    def part_of(self, visit: Visit) -> Picking | Replenishing:
+        """Returns the part of the shift that asked for a visit."""
+        return self.replenishing if visit.replenishes else self.picking
 
     def manual_part_of(self, station: WorkStation) -> ManualPicking | ManualReplenishing:
-        """Returns the part of the shift that takes reports of people at a station."""
-        return self._manual_picking if station.kind == "PICK" else self._manual_replenishing
+        """Returns the part of the shift that takes reports of people at a station now."""
+        here = station.here
+        replenishes = here.replenishes if here else not station.picks
+        return self._manual_replenishing if replenishes else self._manual_picking
+
+    def next_work(self, station: WorkStation) -> None:
+        """Starts what people at a station can do next."""
+        if station.picks:
+            self.picking.next_piece(station)
+        if station.replenishes:
+            self.replenishing.next_bundle(station)
 
     def set_station(self, name: str, is_open: bool, mode: int) -> tuple[bool, str]:
         """Opens or closes a station and sets its Mode. Returns success and the fault."""
@@ -227,12 +232,14 @@ class Shift:
             return False, f"there is no station '{name}'"
         station.set_open(bool(is_open), self.now)
         station.mode, station.attended = Mode(mode), self.now
-        part = self.part_of(station)
         self.transports.set_open(name, station.is_open)
-        if is_open:
-            part.open(station)
-        else:
-            part.close(station)
+        parts: list[Picking | Replenishing] = [self.picking] if station.picks else []
+        parts += [self.replenishing] if station.replenishes else []
+        for part in parts:
+            if is_open:
+                part.open(station)
+            else:
+                part.close(station)
         return True, ""
 
     def confirm_pick(self, name: str, sku: str, quantity: int) -> tuple[bool, str]:

@@ -41,6 +41,7 @@ class Visit:
     outcome: str = ""
     pieces: int = 0  # picked from it, or put into it
     stored: bool = False  # whether a journal has it
+    replenishes: bool = False  # brought for bundles, not for lines of orders
 
     @property
     def here(self) -> bool:
@@ -64,8 +65,8 @@ class Visit:
 class WorkStation:
     """A station for picking or replenishing; `place` is the floor's Station.
 
-    settings: its own. seconds_a_piece, pick_seconds [s]: of a piece, or of a bundle.
-    began: when its shift begins [s].
+    settings: its own. picks, replenishes: what is done there, one of them or both. began:
+    when its shift begins [s].
     """
 
     def __init__(
@@ -78,12 +79,11 @@ class WorkStation:
         self.name, self.kind = place.name, place.kind
         self.mode, self.inventory = Mode.AUTOMATIC, inventory
         self.is_open, self._opened, self._open_s = True, began, 0.0
-        if place.kind == PICK:
-            self.capacity, self.seconds_a_piece = settings.slots, settings.piece_s
-            self.pick_seconds = min(settings.pick_s, settings.piece_s)
-        else:
-            self.capacity, self.seconds_a_piece = 0, settings.bundle_s
-            self.pick_seconds = settings.bundle_s
+        self.picks = place.kind == PICK
+        self.replenishes = settings.replenishes or not self.picks
+        self.capacity = settings.slots if self.picks else 0
+        self.seconds_a_piece, self.seconds_a_bundle = settings.piece_s, settings.bundle_s
+        self.pick_seconds = min(settings.pick_s, settings.piece_s)
         self.seconds_a_line, self.pickers = settings.line_s, settings.pickers
         self.orders: dict[int, Order] = {}  # by id
         self.inbound: dict[int, Visit] = {}  # not over, by id, in the order of asking
@@ -125,6 +125,10 @@ class WorkStation:
         """The visits that have not been released."""
         return [visit for visit in self.inbound.values() if visit.released is None]
 
+    def coming_for(self, replenishes: bool) -> list[Visit]:
+        """Returns those of them that bring bundles their bins, or orders their pieces."""
+        return [visit for visit in self.coming if visit.replenishes == replenishes]
+
     def waiting(self, now: float) -> float:
         """Returns how long a task has waited for a person [s]; 0 without one."""
         visit = self.here
@@ -137,11 +141,11 @@ class WorkStation:
     def stock_here(self) -> dict[str, int]:
         """Returns the pieces promised to no order, by SKU, on the unit in the service cell."""
         visit = self.here
-        return self._stock([visit] if visit else [])
+        return self._stock([visit] if visit and not visit.replenishes else [])
 
     def inbound_stock(self) -> dict[str, int]:
         """Returns the same on the unit that is here and on those on their way."""
-        return self._stock(self.coming)
+        return self._stock(self.coming_for(replenishes=False))
 
     def _stock(self, visits: Iterable[Visit]) -> dict[str, int]:
         stock: dict[str, int] = defaultdict(int)

@@ -26,8 +26,11 @@ class Visits:
         self._by_transport: dict[int, Visit] = {}
         self._ids = itertools.count(1)
 
-    def request(self, unit: int, station: WorkStation) -> Visit | None:
-        """Asks the fleet for a unit. Returns None where it refuses: the unit is held for HOLD."""
+    def request(self, unit: int, station: WorkStation, replenishes: bool = False) -> Visit | None:
+        """Asks the fleet for a unit: for picking, or for bundles if it `replenishes`.
+
+        Returns None where the fleet refuses: the unit is held for HOLD.
+        """
         shift = self._shift
         answer = shift.transports.submit(unit, station.name)
         self.free_units.discard(unit)
@@ -35,6 +38,7 @@ class Visits:
             shift.events.schedule(shift.now + HOLD, self.free, unit)
             return None
         visit = Visit(next(self._ids), answer.transport_id, unit, station, shift.now)
+        visit.replenishes = replenishes
         self._by_transport[answer.transport_id] = visit
         station.inbound[visit.visit_id] = visit
         shift.journal.visit(visit)
@@ -66,7 +70,7 @@ class Visits:
         """Ends the visits of a unit; it is not asked for until free() is called."""
         self.free_units.discard(unit)
         for visit in [v for v in self._by_transport.values() if v.unit == unit]:
-            self._shift.part_of(visit.station).drop_visit(visit)
+            self._shift.part_of(visit).drop_visit(visit)
             if visit.here:
                 self.release(visit)
             elif visit.released is None:
@@ -105,14 +109,14 @@ class Visits:
         visit.arrived = event.stamp
         self._shift.journal.visit(visit)
         if visit.released is None:
-            self._shift.part_of(visit.station).on_arrival(visit)
+            self._shift.part_of(visit).on_arrival(visit)
         else:  # cancelled too late
             self._shift.transports.release(visit.transport_id)
 
     def _end(self, visit: Visit, event: TransportEvent) -> None:
         shift = self._shift
         del self._by_transport[visit.transport_id]
-        shift.part_of(visit.station).drop_visit(visit)
+        shift.part_of(visit).drop_visit(visit)
         visit.ended, visit.outcome = event.stamp, visit.outcome or event.kind.name.lower()
         visit.released = event.stamp if visit.released is None else visit.released
         del visit.station.inbound[visit.visit_id]

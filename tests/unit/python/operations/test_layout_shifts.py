@@ -2,6 +2,7 @@
 """Shifts in warehouses of layout files: stations, policies and stock are those of the file."""
 
 import threading
+from pathlib import Path
 
 import pytest
 from paths import ROOT
@@ -24,7 +25,22 @@ def test_the_file_says_how_stations_work():
     with opened(layout=NORTH, orders="none") as ops:
         pick, refill = (ops.shift.station(name) for name in ("pick1", "refill"))
         assert (pick.capacity, pick.seconds_a_piece, pick.pick_seconds) == (5, 4.0, 2.0)
-        assert refill.seconds_a_piece == 6.0
+        assert refill.seconds_a_bundle == 6.0
+
+
+def test_a_station_of_both_kinds_has_pickers_and_hours(tmp_path):
+    text = Path(NORTH).read_text(encoding="utf-8").replace("{stock: north.csv}", "40")
+    told = "name: pick1, kind: both, pickers: 2, seconds_a_line: 3, hours: [[0, 1.5]],"
+    assert "name: pick1, kind: pick," in text
+    path = tmp_path / "both.layout.yaml"
+    path.write_text(text.replace("name: pick1, kind: pick,", told), encoding="utf-8")
+    with opened(layout=str(path), orders="none") as ops:
+        station = ops.shift.station("pick1")
+        assert (station.pickers, station.seconds_a_line) == (2, 3)
+        assert station in ops.shift.picking.stations
+        assert station in ops.shift.replenishing.stations
+        ops.run(seconds=6000)
+        assert not station.is_open
 
 
 def test_the_stock_is_that_of_its_file():

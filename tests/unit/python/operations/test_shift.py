@@ -608,9 +608,9 @@ def test_a_sku_that_is_sold_out_keeps_a_bin_to_be_refilled_in():
     assert not inventory.takes(own[0], "sku-1", 1) and inventory.takes(own[0], "sku-26", 12)
 
 
-def one_station(settings, seconds):
+def one_station(settings, seconds, replenishing=1):
     """Returns a shift at whose only station work is never short of units."""
-    place = replace(site(robots=20, picking=1), settings=settings)
+    place = replace(site(robots=20, picking=1, replenishing=replenishing), settings=settings)
     ops = Operations(site=place, physics=False)
     ops.run(seconds=seconds)
     return ops
@@ -647,3 +647,18 @@ def test_a_station_keeps_its_hours():
     assert station.pieces > morning + 20
     assert station.open_seconds(3600) == pytest.approx(1800)
     assert 0 < station.busy_fraction(3600) <= 1
+
+
+def test_stock_is_put_in_where_orders_are_picked():
+    """The only stations pick and replenish: an hour of both, to the piece."""
+    both = Settings(by_station={"pick1": {"replenishes": True}})
+    ops = one_station(both, 3600, replenishing=0)
+    (station,) = ops.shift.picking.stations
+    assert station in ops.shift.replenishing.stations
+    kpis = ops.kpis()
+    assert kpis["items_picked"] > 100 and kpis["bundles_stored"] > 0
+    visits = [v for v in station.inbound.values() if v.replenishes]
+    assert all(not visit.picks for visit in visits)
+    ops.shift.set_station("pick1", False, Mode.AUTOMATIC)
+    ops.run(seconds=300)
+    assert not station.inbound and promised(ops) == (0, 0)

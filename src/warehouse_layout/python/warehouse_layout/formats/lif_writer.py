@@ -125,7 +125,9 @@ def _stations(file: LayoutFile) -> Iterator[dict[str, Any]]:
             "stationId": station.key,
             "interactionNodeIds": [_name(station.service)],
             "stationName": station.name,
-            "stationDescription": "picking station" if station.kind == "pick" else "replenishment",
+            "stationDescription": "replenishment"
+            if station.kind == "replenish"
+            else "picking station",
             "stationPosition": {
                 "x": round(x0 + column * file.spacing, 4),
                 "y": round(y0 + row * file.spacing, 4),

@@ -54,7 +54,7 @@ def open_shift(
 
 def picking_stations(file: LayoutFile) -> list[str]:
     """Returns the names of the picking stations, in the order in which they are opened."""
-    return [one.name for one in file.stations if one.kind == "pick"]
+    return [one.name for one in file.stations if one.kind != "replenish"]
 
 
 def open_stations(ops: Operations, kind: str) -> list[WorkStation]:
