@@ -7,7 +7,13 @@ import json
 import pytest
 from asgi import echo, request
 
-from warehouse_viewer.server.access import MOST_BODY, AccessControl, RateLimit, is_local
+from warehouse_viewer.server.access import (
+    MOST_BODY,
+    MOST_LAYOUT,
+    AccessControl,
+    RateLimit,
+    is_local,
+)
 
 LOCAL = {"host": "localhost:8080"}
 AWAY = {"host": "robots.example:8080"}
@@ -106,3 +112,10 @@ def test_the_limit_eases_with_time():
 )
 def test_knows_which_hosts_are_this_machine_alone(host, local):
     assert is_local(host) is local
+
+
+@pytest.mark.parametrize("path", ["/layout/check", "/api/v1/warehouse"])
+def test_layouts_may_be_longer_than_other_bodies(path):
+    for size, expected in ((MOST_BODY + 1, 200), (MOST_LAYOUT + 1, 413)):
+        headers = LOCAL | {"content-length": str(size)}
+        assert request(AccessControl(echo), path, headers=headers).status == expected
