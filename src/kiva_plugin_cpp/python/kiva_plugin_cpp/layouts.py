@@ -49,7 +49,7 @@ def check_hall(world: "World", file: LayoutFile, laid: Layout) -> None:
 
 def clear(world: "World") -> None:
     """Deletes the models of a warehouse from a world; those with other names stay."""
-    for kind in (*models.KINDS, models.WALLS, models.MARKINGS):
+    for kind in models.PLACED:
         # Asked for again each time: items go with the storage unit on which they lie.
         for name in list(world.names):
             if models.kind_and_number(name)[0] == kind:

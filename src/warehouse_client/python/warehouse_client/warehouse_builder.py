@@ -48,7 +48,7 @@ class WarehouseBuilder:
 
     def clear(self, floor: bool = True) -> None:
         """Deletes the models of any warehouse; those with other names stay."""
-        for kind in (*models.KINDS, models.WALLS, models.MARKINGS):
+        for kind in models.PLACED:
             # Asked for again each time: items go with the storage unit on which they lie.
             names = self._engine.names()
             self._delete([name for name in names if models.kind_and_number(name)[0] == kind])

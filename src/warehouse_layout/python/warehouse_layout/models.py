@@ -17,7 +17,8 @@ FLOOR = "ground_plane"
 KINDS = ("kiva", "storage_unit", "item", "conveyor_belt")
 MARKINGS = floor_markings.NAME
 WALLS = "layout_walls"
-_NUMBERED = re.compile(rf"({'|'.join((*KINDS, MARKINGS, WALLS))})(\d+)")
+PLACED = (*KINDS, WALLS, MARKINGS)  # all kinds of a warehouse, in the order in which they go
+_NUMBERED = re.compile(rf"({'|'.join(PLACED)})(\d+)")
 
 WALL_HEIGHT = 1.0  # [m]
 BELT_LENGTH = 1.8  # [m], of its model

@@ -242,6 +242,13 @@ class Shift:
                 part.close(station)
         return True, ""
 
+    def open_picking(self, count: int) -> None:
+        """Opens the first so many picking stations and closes the others, before robots begin."""
+        for i, station in enumerate(self.picking.stations):
+            self.set_station(station.name, i < count, station.mode)
+        working = sum(station.is_open for station in self.stations)
+        self.units_per_station = self.settings.units_at(len(self.floor.robots), working)
+
     def confirm_pick(self, name: str, sku: str, quantity: int) -> tuple[bool, str]:
         """Takes pieces as picked, or put in, by a person. Returns success and the fault."""
         station = self._stations.get(name)

@@ -162,7 +162,7 @@ def open_operations(description: Description, database: str | None = None) -> Op
         physics=description.physics,
     )
     if description.stations:
-        _open_stations(ops, description.stations)
+        ops.shift.open_picking(description.stations)
     return ops
 
 
@@ -172,15 +172,6 @@ def _check_stations(description: Description, site: Site) -> None:
         raise InstanceError(
             f"stations is {description.stations}; {site.name} has {count} for picking"
         )
-
-
-def _open_stations(ops: Operations, count: int) -> None:
-    """Opens the first so many picking stations and closes the others."""
-    shift = ops.shift
-    for i, station in enumerate(shift.picking.stations):
-        shift.set_station(station.name, i < count, station.mode)
-    working = count + len(shift.replenishing.stations)
-    shift.units_per_station = shift.settings.units_at(ops.fleet.robot_count, working)
 
 
 def simulate(

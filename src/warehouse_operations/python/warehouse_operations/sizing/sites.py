@@ -2,7 +2,6 @@
 """Opens shifts on the floor of a layout file, with so many robots and open picking stations."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from warehouse_layout import placement
@@ -36,8 +35,6 @@ def open_shift(
     else:
         site = Site.of_layout(placement.place(file, seed, robots), file.title)
     site = layout_site.of_file(site, file)
-    closed = picking_stations(file)[stations:]
-    working = len(site.plan.stations) - len(closed)
     ops = Operations(
         world,
         site=site,
@@ -45,10 +42,8 @@ def open_shift(
         seed=seed,
         policies=file.policies if policies is None else policies,
         physics=physics,
-        settings=replace(site.settings, units_per_station=site.settings.units_at(robots, working)),
     )
-    for name in closed:
-        ops.shift.set_station(name, False, ops.shift.station(name).mode)
+    ops.shift.open_picking(stations)
     return ops
 
 
