@@ -99,7 +99,7 @@ def watched():
 
 def test_the_page_has_its_files_and_the_warehouse(watched):
     env, page = watched
-    for path in ("", "web/js/main.js", "web/style.css", "three/build/three.module.js"):
+    for path in ("", "web/js/main.js", "web/design.css", "three/build/three.module.js"):
         assert get(page.url + path)
     browser = Browser(page.url)
     scene = browser.told("scene")

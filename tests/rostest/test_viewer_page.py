@@ -122,19 +122,19 @@ class ViewerPage(PageTest):
         self.page.type("q")
         self.page.until(f"Math.abs(Math.sin(page.world.pose[8] - {before}) - 1) < 0.001")
 
-    def test_a_blocked_robot_shows_as_blocked(self):
+    def test_a_robot_stopped_by_an_obstacle_needs_help(self):
         x, y, _ = place("kiva4")
         Robot(4).do("/mov", x=x, y=4.0)
         spawn("person1", model_file("person"), pose(x + 2, 4.0))
         self.page.until("page.world.scene.scenery.includes('person1')")
         self.page.read("page.details.order('kiva4', 'movx', {distance: 4}) && true")
-        self.page.until("page.world.status[3] === 2")
+        self.page.until("page.world.activity[3] === 4")
         first = "document.querySelector('#robots .row')"
-        self.page.until(f"{first}.textContent.startsWith('blockedkiva4')")
+        self.page.until(f"{first}.textContent.startsWith('needs helpkiva4')")
         delete("person1")
         self.page.until("!page.world.scene.scenery.includes('person1')")
         Robot(4).do("/movx", distance=1.0)
-        self.page.until("page.world.status[3] !== 2")
+        self.page.until("page.world.activity[3] !== 4")
 
     # --- keys, one by one
     def test_a_person_types_into_the_search(self):

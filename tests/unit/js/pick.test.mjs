@@ -107,8 +107,8 @@ test('a few are always drawn in detail', () => {
   assert.equal(crowd.layers[0].copies.drawn, 3);
 });
 
-test('labels: names for who is wanted or blocked, numbers for who is seen large', () => {
-  const world = { shown: Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 100, 0, 0]), status: Uint8Array.of(0, 1, 2, 2) };
+test('labels: names for who is wanted or needs help, numbers for who is seen large', () => {
+  const world = { shown: Float64Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 100, 0, 0]), activity: Uint8Array.of(0, 1, 4, 4) };
   assert.deepEqual(labelled(world, above(5).view, new Set([1])), { names: [1, 2], numbers: [0] });
   assert.deepEqual(labelled(world, above(50).view, new Set()), { names: [2], numbers: [] });
 });

@@ -22,9 +22,9 @@ test('a search is for what a person means', () => {
 });
 
 test('robots are listed by trouble, then by number', () => {
-  const world = { scene: { robots: [9, 10, 1, 2] }, status: Uint8Array.of(0, 2, 1, 2) };
+  const world = { scene: { robots: [9, 10, 1, 2] }, activity: Uint8Array.of(0, 4, 1, 4) };
   assert.deepEqual(rowsOf(world, '', ''), [3, 1, 2, 0]);
-  assert.deepEqual(rowsOf(world, '', '2'), [3, 1]);
+  assert.deepEqual(rowsOf(world, '', '4'), [3, 1]);
   assert.deepEqual(rowsOf(world, 'kiva1', ''), [1, 2]);
 });
 

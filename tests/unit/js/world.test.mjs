@@ -8,7 +8,7 @@ import { AT, scene, table } from './look.mjs';
 
 const BODY = 9, ROBOT = 7;
 const bodies = (...rows) => table(rows, BODY, [0, 8]);
-const robots = (...rows) => table(rows.map((row) => [...row, 0]), ROBOT, [0, 4, 5]); // index x y yaw shelf status|state<<8
+const robots = (...rows) => table(rows.map((row) => [...row, 0]), ROBOT, [0, 4, 5]); // index x y yaw shelf activity|state<<8
 let world;
 
 function tell(now, { robot = [], unit = [] } = {}) {
@@ -73,9 +73,9 @@ test('the unit over a robot is one that no robot carries', () => {
   assert.equal(world.unitOver(1), -1);
 });
 
-test('status and state are read from their bytes', () => {
+test('activity and state are read from their bytes', () => {
   tell(1100, { robot: [[1, 3, 0, 0, 0, 2 | (5 << 8)]] });
-  assert.deepEqual([world.status[1], world.state[1]], [2, 5]);
+  assert.deepEqual([world.activity[1], world.state[1]], [2, 5]);
 });
 
 test('angles and frames', () => {

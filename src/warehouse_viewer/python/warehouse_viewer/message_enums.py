@@ -13,6 +13,18 @@ class Status(IntEnum):
     BLOCKED = 2
 
 
+class State(IntEnum):
+    """The activity of a robot."""
+
+    IDLE = 0
+    MOVING_X = 1
+    MOVING_Y = 2
+    ROTATING = 3
+    LIFTING = 4
+    BLOCKED = 5
+    WAITING = 6  # at the last released point of its path
+
+
 class EventKind(IntEnum):
     """The kinds of events."""
 

@@ -4,7 +4,7 @@
 import { command, post } from './api.js';
 import { $, enable, make, on, press } from './dom.js';
 import { LiftStatus, RobotMode, Turn } from './message_enums.js';
-import { ACTIVITY, FAILURE, STATE } from './words.js';
+import { ACTIVITY, ACTIVITY_CLASS, FAILURE, STATE } from './words.js';
 
 const LIFT = { drop: LiftStatus.DROP, carry: LiftStatus.CARRY };
 const LATE = ['pending', 'accepted']; // outcomes of a command that has not ended
@@ -67,9 +67,9 @@ export class Details {
   }
 
   refreshRobot(i) {
-    const status = ACTIVITY[this.world.status[i]];
-    $('badge').className = `badge ${status}`;
-    $('badge').textContent = status;
+    const does = this.world.activity[i];
+    $('badge').className = `badge ${ACTIVITY_CLASS[does]}`;
+    $('badge').textContent = ACTIVITY[does];
     const load = this.world.shelf[i], over = this.world.unitOver(i);
     enable($('carry'), load ? 'it carries a storage unit' : over < 0 ? 'no storage unit stands over it' : '');
     enable($('drop'), load ? '' : 'it carries no storage unit');

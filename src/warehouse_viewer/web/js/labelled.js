@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which robots and stations have a label.
 
-import { Status } from './message_enums.js';
+import { NEEDS_HELP } from './words.js';
 
 export const LABEL_HEIGHT = 0.42; // above the floor [m]
 const LARGE = 24; // [px] a metre: robots seen so large have a number
@@ -10,11 +10,11 @@ const READABLE = 10; // [px] a metre: a station that is seen so large has its na
 
 /** Indices of robots in sight of a View: {names, numbers}. Names have those of the set `wanted` and
  *  blocked robots; numbers the nearest of those that are seen large. */
-export function labelled({ shown, status }, view, wanted) {
-  const scales = Array.from(status, (_, i) => (
+export function labelled({ shown, activity }, view, wanted) {
+  const scales = Array.from(activity, (_, i) => (
     view.scaleAt(shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT, 0.5)));
   const seen = [...scales.keys()].filter((i) => scales[i] > 0);
-  const matters = (i) => wanted.has(i) || status[i] === Status.BLOCKED;
+  const matters = (i) => wanted.has(i) || activity[i] === NEEDS_HELP;
   const nearestFirst = (a, b) => scales[b] - scales[a] || a - b;
   return {
     names: seen.filter(matters)

@@ -3,7 +3,7 @@
 
 import { make } from './dom.js';
 import { LABEL_HEIGHT, labelled, namedStations } from './labelled.js';
-import { ACTIVITY } from './words.js';
+import { ACTIVITY_CLASS } from './words.js';
 
 export class Labels {
   /** `box` lies over the picture. */
@@ -16,9 +16,9 @@ export class Labels {
   draw(view, wanted, more) {
     const { names, numbers } = labelled(this.world, view, wanted);
     const { robots, stations } = this.world.scene;
-    const { shown, status } = this.world;
+    const { shown, activity } = this.world;
     const labels = [
-      ...names.map((i) => [`kiva${robots[i]}`, ACTIVITY[status[i]], i]),
+      ...names.map((i) => [`kiva${robots[i]}`, ACTIVITY_CLASS[activity[i]], i]),
       ...numbers.map((i) => [String(robots[i]), '', i]),
     ].map(([text, kind, i]) => ({ text, kind, at: [shown[3 * i], shown[3 * i + 1], LABEL_HEIGHT] }));
     for (const { name, x, y } of namedStations(stations, view)) {

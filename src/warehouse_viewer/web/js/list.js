@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of robots, blocked ones first, of which only the rows in sight exist; and the search.
+// The list of robots, those that need help first, of which only the rows in sight exist; and the search.
 
 import { $, make, on, press } from './dom.js';
-import { Status } from './message_enums.js';
 import { found, rowsOf, wanted } from './search.js';
-import { ACTIVITY, STATE } from './words.js';
+import { ACTIVITY, ACTIVITY_CLASS, STATE } from './words.js';
 
-const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in style.css
+const BIG = matchMedia('(pointer: coarse), (max-width: 760px)'); // as in floor.css
 
 export class RobotList {
   /** `select(name)` is called for what was clicked, `unknown(text)` for what is the name of nothing
@@ -84,12 +83,12 @@ export class RobotList {
 
   /** Counts and sorts the robots, and draws the rows. */
   refresh() {
-    const { status } = this.world;
+    const { activity } = this.world;
     const counts = ACTIVITY.map(() => 0);
-    for (const s of status) counts[s] += 1;
+    for (const a of activity) counts[a] += 1;
     for (const button of $('filters').children) {
       const { filter } = button.dataset;
-      button.querySelector('b').textContent = filter === '' ? status.length : counts[filter];
+      button.querySelector('b').textContent = filter === '' ? activity.length : counts[filter];
     }
     this.rows = rowsOf(this.world, this.text, this.filter);
     this.box.hidden = !this.rows.length && !$('found').hidden; // room for what was found
@@ -105,12 +104,12 @@ export class RobotList {
   }
 
   row(i, at) {
-    const { status, state, shelf } = this.world;
+    const { activity, state, shelf } = this.world;
     const name = this.nameOf(i);
-    const kind = ACTIVITY[status[i]];
-    const load = shelf[i] ? `carries ${shelf[i]}` : status[i] === Status.BUSY ? STATE[state[i]] : '';
+    const does = activity[i];
+    const load = shelf[i] ? `carries ${shelf[i]}` : state[i] ? STATE[state[i]] : '';
     const out = make('div', { className: 'row', click: () => this.select(name) },
-      make('span', { className: `badge ${kind}`, textContent: kind }), name,
+      make('span', { className: `badge ${ACTIVITY_CLASS[does]}`, textContent: ACTIVITY[does] }), name,
       make('span', { className: 'load', textContent: load }));
     Object.assign(out.style, { top: `${this.rowHeight * at}px`, height: `${this.rowHeight}px` });
     out.dataset.name = name;

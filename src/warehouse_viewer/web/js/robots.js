@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robots in the picture: chassis, wheels that roll, towers that lift, and a frame in the
-// colour of their status.
+// colour of what they do.
 
 import * as THREE from '/three/build/three.module.js';
 import { Crowd, FAR, NEAR } from './crowd.js';
 import { boundsOf, hull, materialOf, matrixOf, merge } from './looks.js';
 
-// By ACTIVITY, as style.css has them.
-export const STATUS_COLOURS = [0x0072b2, 0xf0e442, 0xd55e00, 0x56b4e9].map((c) => new THREE.Color(c));
+// By Activity, as design.css has them in the dark.
+export const COLOURS = [0x8b97a7, 0x4f9cf9, 0x3fbf7f, 0xf2b036, 0xf0605a].map((c) => new THREE.Color(c));
 const FRAME = { inner: 0.40, outer: 0.49 }; // half edges [cells]
 const DETAIL = 22; // [px] a metre, from which on robots are drawn in detail
 const MOVING = ['left_wheel', 'right_wheel', 'tower']; // links
@@ -54,7 +54,7 @@ export class Robots {
   }
 
   paint(robots) {
-    for (const i of robots) this.crowd.paint(i, STATUS_COLOURS[this.world.status[i]]);
+    for (const i of robots) this.crowd.paint(i, COLOURS[this.world.activity[i]]);
   }
 
   /** Puts a robot where it is drawn now. */

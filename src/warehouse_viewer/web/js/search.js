@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a person types in search of something, and what it finds.
 
-import { Status } from './message_enums.js';
-import { HOLDING } from './words.js';
-
 const MOST = 12; // found names shown
-const ORDER = { [Status.BLOCKED]: 0, [Status.BUSY]: 1, [HOLDING]: 2, [Status.IDLE]: 3 }; // of robots
 
 /** 'Robot 3' is kiva3; 'unit 12' is within storage_unit12. */
 export function wanted(text) {
@@ -19,10 +15,10 @@ export function found(names, text) {
   return names.filter((name) => name.includes(text)).sort((a, b) => a.length - b.length).slice(0, most);
 }
 
-/** Indices of robots with that text in their names and that status ('' = any), blocked ones first,
- *  then by number. */
-export function rowsOf({ scene: { robots }, status }, text, filter) {
+/** Indices of robots with that text in their names and that activity ('' = any), those that need help
+ *  first, then by number. */
+export function rowsOf({ scene: { robots }, activity }, text, filter) {
   return [...robots.keys()]
-    .filter((i) => (filter === '' || status[i] === Number(filter)) && `kiva${robots[i]}`.includes(text))
-    .sort((a, b) => ORDER[status[a]] - ORDER[status[b]] || robots[a] - robots[b]);
+    .filter((i) => (filter === '' || activity[i] === Number(filter)) && `kiva${robots[i]}`.includes(text))
+    .sort((a, b) => activity[b] - activity[a] || robots[a] - robots[b]);
 }

@@ -3,7 +3,7 @@
 
 import { $, on } from './dom.js';
 
-const NARROW = matchMedia('(max-width: 760px)'); // as in style.css
+const NARROW = matchMedia('(max-width: 760px)'); // as in floor.css
 const GAP = 8; // [px]
 
 export class Sheets {

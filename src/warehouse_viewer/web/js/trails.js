@@ -2,7 +2,7 @@
 // Where robots have been.
 
 import * as THREE from '/three/build/three.module.js';
-import { STATUS_COLOURS } from './robots.js';
+import { COLOURS } from './robots.js';
 
 const MOST_SEGMENTS = 20000, SEGMENT = 0.25; // of all trails; [m]
 
@@ -39,7 +39,7 @@ export class Trails {
       const way = end ? Math.hypot(x - end[0], y - end[1]) : Infinity;
       if (way < SEGMENT) continue;
       this.ends.set(i, [x, y]);
-      if (way < 3) this.draw(end, [x, y], STATUS_COLOURS[this.world.status[i]]);
+      if (way < 3) this.draw(end, [x, y], COLOURS[this.world.activity[i]]);
     }
     this.positions.needsUpdate = this.colours.needsUpdate = true;
   }

@@ -2,22 +2,17 @@
 // The words for the constants of messages: the same on every page, and those of the API and of the
 // events (message_names.py); a test compares them.
 
-import { EventKind, FailureKind, OrderState, RobotMode, State, Status } from './message_enums.js';
-
-/** A robot that carries a storage unit and has no command; statuses.py sends it in place of a Status. */
-export const HOLDING = 3;
+import { EventKind, FailureKind, OrderState, RobotMode, State } from './message_enums.js';
 
 /** An array of the texts of {number: text}. */
 const byNumber = (texts) => Object.assign([], texts);
 
-/** What a robot does at a glance, by Status or HOLDING: a `blocked` robot ended its last command
- *  before an obstacle, and has no other command yet. */
-export const ACTIVITY = byNumber({
-  [Status.IDLE]: 'idle',
-  [Status.BUSY]: 'busy',
-  [Status.BLOCKED]: 'blocked',
-  [HOLDING]: 'holding',
-});
+/** What a robot does at a glance, by Activity (activities.py), from what needs no attention to what
+ *  needs a person; a `waiting` robot has waited for half a minute, or stands before an obstacle. */
+export const ACTIVITY = ['resting', 'moving', 'working', 'waiting', 'needs help'];
+export const NEEDS_HELP = 4;
+/** The class that gives each its colour; design.css has them. */
+export const ACTIVITY_CLASS = ACTIVITY.map((word) => word.replace(' ', '-'));
 /** What a robot does in detail, by State. */
 export const STATE = byNumber({
   [State.IDLE]: 'stands',

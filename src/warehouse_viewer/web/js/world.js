@@ -35,7 +35,7 @@ export class World {
     this.shown = new Float64Array(3 * robots);
     this.since = new Float64Array(robots).fill(-1); // when it was told [ms]; -1: never
     this.shelf = new Int32Array(robots);
-    this.status = new Uint8Array(robots);
+    this.activity = new Uint8Array(robots);
     this.state = new Uint8Array(robots);
     this.charge = new Uint8Array(robots).fill(100); // [%]
     this.failures = new Uint8Array(robots); // bits of FAILURE
@@ -67,7 +67,7 @@ export class World {
       const i = i32[at];
       changed.push(i);
       this.shelf[i] = i32[at + 4];
-      this.status[i] = u8[4 * (at + 5)];
+      this.activity[i] = u8[4 * (at + 5)];
       this.state[i] = u8[4 * (at + 5) + 1];
       this.charge[i] = u8[4 * (at + 5) + 2];
       this.failures[i] = u8[4 * (at + 5) + 3];

@@ -34,14 +34,14 @@ def shows(picture, colour):
     return int((far < 0.02).sum())
 
 
-def test_robots_have_the_colour_of_their_status():
-    idle, _, blocked, holding = markers.STATUS_COLOURS
-    assert shows(pixels(moment()), idle) > shows(pixels(moment()), blocked)
+def test_robots_have_the_colour_of_what_they_do():
+    resting, _, working, _, needs_help = markers.COLOURS
+    assert shows(pixels(moment()), resting) > shows(pixels(moment()), needs_help)
     stuck = pixels(moment(fleet=fleet(ended=(Event.BLOCKED, Event.BLOCKED))))
-    assert shows(stuck, blocked) > shows(pixels(moment()), blocked) + 100
+    assert shows(stuck, needs_help) > shows(pixels(moment()), needs_help) + 100
     loaded = fleet()
     loaded.shelf_id = [1] * len(loaded.kiva_id)
-    assert shows(pixels(moment(fleet=loaded)), holding) > shows(pixels(moment()), holding) + 100
+    assert shows(pixels(moment(fleet=loaded)), working) > shows(pixels(moment()), working) + 100
 
 
 def test_a_robot_is_drawn_where_it_stands():

@@ -23,6 +23,7 @@ from warehouse_msgs.msg import (
     WarehouseObjects,
 )
 from warehouse_viewer.drawing import markers
+from warehouse_viewer.page.activities import Activity
 from warehouse_viewer.rviz.picture import Picture
 
 
@@ -93,6 +94,8 @@ class Scene(FakeRos):
                 yaw=[0] * (others + 1),
                 status=bytes([status, *[0] * others]),
                 shelf_id=[shelf, *[0] * others],
+                state=bytes(1 + others),
+                failures=bytes(1 + others),
                 last_end=bytes([ended, *[0] * others]),
             )
         )
@@ -135,8 +138,8 @@ def extent(marker):
     return points.min(0).tolist(), points.max(0).tolist()
 
 
-def colour(status):
-    return tuple(markers.STATUS_COLOURS[status][:3])
+def colour(does):
+    return tuple(np.round(markers.COLOURS[does][:3], 2))
 
 
 def changed_colours(before, after):
@@ -211,19 +214,19 @@ def test_of_very_many_robots_those_with_trouble_are_named():
     assert [m.text for m in scene.shown().values() if m.ns == "names"] == [first]
 
 
-def test_status_has_its_colour(scene):
+def test_what_a_robot_does_has_its_colour(scene):
     idle = scene.shown()["robots"]
     scene.drive(status=KivaStatus.STATUS_BUSY)
-    assert changed_colours(idle, scene.shown()["robots"]) == {colour(KivaStatus.STATUS_BUSY)}
+    assert changed_colours(idle, scene.shown()["robots"]) == {colour(Activity.MOVING)}
 
 
 def test_who_was_blocked_shows_it_until_the_next_command(scene):
     idle = scene.shown()["robots"]
     scene.drive(ended=Event.BLOCKED)
     blocked = scene.shown()["robots"]
-    assert changed_colours(idle, blocked) == {colour(KivaStatus.STATUS_BLOCKED)}
+    assert changed_colours(idle, blocked) == {colour(Activity.NEEDS_HELP)}
     scene.drive()
-    assert changed_colours(blocked, scene.shown()["robots"]) == {colour(KivaStatus.STATUS_IDLE)}
+    assert changed_colours(blocked, scene.shown()["robots"]) == {colour(Activity.RESTING)}
 
 
 def test_a_turned_unit_is_drawn_turned():

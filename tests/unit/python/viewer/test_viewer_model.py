@@ -10,13 +10,13 @@ import rospy
 from warehouse_msgs.msg import (
     Event,
     FleetState,
-    KivaStatus,
     Look,
     Scenery,
     UnitStates,
     WarehouseObjects,
 )
 from warehouse_viewer.page import protocol
+from warehouse_viewer.page.activities import Activity
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.table import Table
 
@@ -190,9 +190,9 @@ def test_a_dropped_unit_is_where_it_stands():
 def test_blocked_shows_until_the_next_command():
     world = World()
     world.turn(fleet=fleet(ended=(0, Event.BLOCKED)))
-    assert world.model.robots.rows["status"].tolist() == [0, KivaStatus.STATUS_BLOCKED]
+    assert world.model.robots.rows["activity"].tolist() == [0, Activity.NEEDS_HELP]
     world.turn(fleet=fleet(ended=(0, 0)))
-    assert world.model.robots.rows["status"].tolist() == [0, 0]
+    assert world.model.robots.rows["activity"].tolist() == [0, 0]
 
 
 def test_a_new_scene_when_something_comes():

@@ -5,18 +5,17 @@ import json
 import subprocess
 from typing import get_args
 
-import numpy as np
+import pytest
 from paths import ROOT
 
 from warehouse_client import message_names
 from warehouse_msgs.msg import CoordinatorState, FleetState, KivaStatus
-from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.schemas.fleet import RobotsByWork
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.schemas.operations import STATES
 from warehouse_viewer.api.schemas.pydantic_versions import names_of
-from warehouse_viewer.message_enums import EventKind, Status
-from warehouse_viewer.page import statuses
+from warehouse_viewer.message_enums import EventKind, State, Status
+from warehouse_viewer.page.activities import Activity, activity, shown_status, wait_too_long
 
 WEB = ROOT / "src/warehouse_viewer/web/js/words.js"
 IDLE, BUSY = KivaStatus.STATUS_IDLE, KivaStatus.STATUS_BUSY
@@ -32,15 +31,20 @@ def page():
     return json.loads(done.stdout)
 
 
+def named(text):
+    """The name of a constant that the page shows as that text."""
+    return text.replace(" ", "_").upper()
+
+
 def test_the_page_has_the_words_of_the_api():
     told = page()
-    assert [one.upper() for one in told["ACTIVITY"]] == list(catalogue.ACTIVITY.values())
-    assert list(catalogue.ACTIVITY) == list(range(len(catalogue.ACTIVITY)))
+    assert [named(one) for one in told["ACTIVITY"]] == [one.name for one in Activity]
+    assert told["NEEDS_HELP"] == Activity.NEEDS_HELP
     assert len(told["STATE"]) == len(message_names.STATE)
     assert told["FAILURE"] == list(message_names.FAILURES.values())
     assert told["WORK"] == list(message_names.WORK)
     assert list(told["MODE"]) == list(message_names.MODE.values())
-    assert [mode.replace(" ", "_").upper() for mode in told["MODE"].values()] == list(told["MODE"])
+    assert [named(mode) for mode in told["MODE"].values()] == list(told["MODE"])
     assert set(told["TROUBLE"]) < set(message_names.EVENT.values())
     assert tuple(told["ORDER_STATES"]) == STATES
 
@@ -49,14 +53,45 @@ def test_the_api_has_the_words_of_the_messages():
     assert set(names_of(RobotsByWork)) == set(message_names.WORK)
     assert set(message_names.WORK) <= set(CoordinatorState.__slots__)
     allowed = get_args(Robot.__annotations__["activity"])
-    assert set(allowed) == set(catalogue.ACTIVITY.values())
+    assert allowed == tuple(one.name for one in Activity)
 
 
-def test_a_robot_that_carries_is_not_idle():
-    fleet = FleetState(
-        kiva_id=[1, 2, 3], status=[IDLE, IDLE, BUSY], shelf_id=[0, 6, 7], last_end=[0, 2, 2]
-    )
-    assert statuses.shown_status(fleet).tolist() == [IDLE, IDLE, BUSY]
-    assert statuses.activity(fleet).tolist() == [IDLE, statuses.HOLDING, BUSY]
-    blocked = FleetState(kiva_id=[1], status=[IDLE], shelf_id=[6], last_end=[EventKind.BLOCKED])
-    assert np.array_equal(statuses.activity(blocked), [Status.BLOCKED])
+def fleet(status=IDLE, state=State.IDLE, load=0, ended=0, failures=0):
+    """A FleetState of one robot."""
+    told = {"status": [status], "state": [state], "last_end": [ended], "failures": [failures]}
+    return FleetState(kiva_id=[1], shelf_id=[load], **told)
+
+
+@pytest.mark.parametrize(
+    ("robot", "does"),
+    [
+        ({}, Activity.RESTING),
+        ({"load": 6}, Activity.WORKING),
+        ({"status": BUSY, "state": State.LIFTING}, Activity.WORKING),
+        ({"status": BUSY, "state": State.MOVING_X}, Activity.MOVING),
+        ({"status": BUSY, "state": State.WAITING, "load": 6}, Activity.MOVING),
+        ({"status": BUSY, "state": State.BLOCKED}, Activity.WAITING),
+        ({"ended": EventKind.BLOCKED, "load": 6}, Activity.NEEDS_HELP),
+        ({"status": BUSY, "state": State.MOVING_X, "failures": 4}, Activity.NEEDS_HELP),
+    ],
+)
+def test_a_robot_does_one_of_five_things(robot, does):
+    assert activity(fleet(**robot)).tolist() == [does]
+
+
+def test_robots_that_wait_for_long_are_told_apart():
+    turns = fleet(BUSY, State.WAITING)
+    assert activity(turns, [2]).tolist() == [Activity.MOVING]
+    assert activity(turns, [1, 2]).tolist() == [Activity.WAITING]
+
+
+def test_only_those_that_wait_for_half_a_minute_wait_too_long():
+    state = CoordinatorState(waiting_kiva=[1, 2], waiting_since=[100.0, 69.0])
+    state.header.stamp.secs = 100
+    assert wait_too_long(state) == [2]
+    assert wait_too_long(None) == []
+
+
+def test_a_command_that_ended_blocked_shows_in_the_status():
+    assert shown_status(fleet(ended=EventKind.BLOCKED)).tolist() == [Status.BLOCKED]
+    assert shown_status(fleet(ended=EventKind.DONE)).tolist() == [IDLE]

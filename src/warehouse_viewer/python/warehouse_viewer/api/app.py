@@ -33,11 +33,8 @@ from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
-from warehouse_viewer.server.page_files import PageFiles, SocketLimit
-from warehouse_viewer.server.static_files import Files
-from warehouse_viewer.shared_files import THREE
-
-PAGES = {"/": "index.html", "/operations": "operations.html", "/docs": "docs.html"}
+from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
+from warehouse_viewer.server.sockets import SocketLimit
 
 
 class Viewer:
@@ -113,12 +110,8 @@ class Viewer:
         self._hub_task.start()
 
     def _add_files(self, app):
-        page = PageFiles(self._web)
-        for path, name in PAGES.items():
-            app.get(path, include_in_schema=False)(page.endpoint(name))
-        app.router.routes.extend(Editor(page, builds=True).routes())
-        app.mount("/three", Files(directory=THREE, check_dir=False))
-        app.mount("/web", page.files)
+        pages = Site(FLOOR, OPERATIONS, LAYOUT, API, folder=self._web)
+        app.router.routes.extend([*Editor(builds=True).routes(), *pages.routes()])
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:

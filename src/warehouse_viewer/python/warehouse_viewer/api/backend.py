@@ -16,6 +16,7 @@ from warehouse_viewer.api import catalogue
 from warehouse_viewer.api.change_book import ChangeBook
 from warehouse_viewer.api.schemas.models import Robot
 from warehouse_viewer.api.transport_book import TransportBook
+from warehouse_viewer.page.activities import wait_too_long
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.source import AwayError, RefusedError
 from warehouse_viewer.ros.commander import Commander
@@ -74,7 +75,8 @@ class ApiBackend:
     async def robots(self) -> list[Robot]:
         """Returns every robot."""
         await self.wait_for_positions()
-        return catalogue.robots(self.feed["fleet"])
+        waiting = wait_too_long(self.feed.coordinator)
+        return catalogue.robots(self.feed["fleet"], waiting)
 
     async def robot(self, number: int) -> Robot:
         """Returns the robot of that number; 404 if there is none."""

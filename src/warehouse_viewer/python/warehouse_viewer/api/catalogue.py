@@ -2,6 +2,7 @@
 """Robots, storage units, items and the warehouse, as the HTTP API tells them."""
 
 import json
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -20,21 +21,20 @@ from warehouse_viewer.api.schemas.fleet import (
 )
 from warehouse_viewer.api.schemas.models import Pose, Robot, Thing
 from warehouse_viewer.api.schemas.pydantic_versions import as_json, names_of
-from warehouse_viewer.page.statuses import HOLDING, activity, shown_status
-
-ACTIVITY = STATUS | {HOLDING: "HOLDING"}  # as statuses.activity() numbers it
+from warehouse_viewer.page.activities import Activity, activity, shown_status
 
 
-def robots(fleet: FleetState) -> list[Robot]:
-    """Returns a Robot for each one in a FleetState."""
-    status, does = shown_status(fleet), activity(fleet)
+def robots(fleet: FleetState, waiting: Collection[int] = ()) -> list[Robot]:
+    """Returns a Robot for each one in a FleetState; `waiting` are the numbers of those that wait
+    for too long."""
+    status, does = shown_status(fleet), activity(fleet, waiting)
     state, last_end = bytes(fleet.state), bytes(fleet.last_end)
     return [
         Robot(
             name=f"kiva{number}",
             id=number,
             status=STATUS[status[i]],
-            activity=ACTIVITY[does[i]],
+            activity=Activity(does[i]).name,
             state=STATE[state[i]],
             last_end=EVENT[last_end[i]] if last_end[i] else "",
             x=fleet.x[i],

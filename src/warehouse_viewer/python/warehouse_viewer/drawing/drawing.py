@@ -12,13 +12,10 @@ from matplotlib.patches import Patch
 
 from warehouse_client import tracking
 from warehouse_layout import floor_markings, painted, poses
-from warehouse_msgs.msg import KivaStatus
 from warehouse_viewer.drawing import looks, markers
-from warehouse_viewer.page.statuses import HOLDING, activity
+from warehouse_viewer.page.activities import Activity, activity
 
 UNKNOWN = ((0.8, 0.8), (0.75, 0.75, 0.75))  # footprint [m] and colour where there is no look
-STATUS = {"idle": KivaStatus.STATUS_IDLE, "busy": KivaStatus.STATUS_BUSY}
-STATUS |= {"holding": HOLDING, "blocked": KivaStatus.STATUS_BLOCKED}
 LONGEST, SHORTEST = 12.0, 5.0  # edges of a picture [inches]
 HEAD = 0.4  # room for the title [inches]
 FLAT, ROOM = 0.03, 9.0  # [m] above zero and [m2]: what is flatter and larger is floor
@@ -88,15 +85,19 @@ class Drawing:
         self._axes.add_collection(LineCollection(lines, colors=[markers.GRID], linewidths=0.5))
 
     def _heading(self, moment):
-        counts = np.bincount(activity(moment.fleet), minlength=4)
-        colours = {name: markers.STATUS_COLOURS[number] for name, number in STATUS.items()}
+        counts = np.bincount(activity(moment.fleet), minlength=len(Activity))
         keys = [
-            Patch(color=c, label=f"{name} {counts[STATUS[name]]}") for name, c in colours.items()
+            Patch(color=markers.COLOURS[does], label=f"{_word(does)} {counts[does]}")
+            for does in Activity
         ]
         self.figure.legends.clear()
-        self.figure.legend(handles=keys, loc="upper right", ncol=4, frameon=False)
+        self.figure.legend(handles=keys, loc="upper right", ncol=len(Activity), frameon=False)
         text = f"{self._title}  {moment.fleet.stamp.to_sec():.1f} s".strip()
         self._axes.set_title(text, loc="left", fontsize=12)
+
+
+def _word(does):
+    return does.name.replace("_", " ").lower()
 
 
 def bounds(moment: Moment) -> tuple[float, ...]:
@@ -116,7 +117,7 @@ def _look(moment, kind):
 def _robots(axes, moment):
     fleet = moment.fleet
     at, yaw = np.column_stack([fleet.x, fleet.y]).reshape(-1, 2), np.asarray(fleet.yaw)
-    colours = markers.STATUS_COLOURS[activity(moment.fleet)]
+    colours = markers.COLOURS[activity(moment.fleet)]
     size, _ = _look(moment, "kiva")
     body = _placed(_rectangle(size), at, yaw)
     axes.add_collection(

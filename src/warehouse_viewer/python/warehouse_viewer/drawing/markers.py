@@ -9,17 +9,17 @@ import numpy as np
 from warehouse_layout import floor_markings, poses
 from warehouse_layout.floor_markings import Mark
 from warehouse_layout.painted import served
-from warehouse_msgs.msg import KivaStatus, Look, Scenery
+from warehouse_msgs.msg import Look, Scenery
 from warehouse_viewer.drawing import looks, shapes
 from warehouse_viewer.drawing.shapes import Shape, Text
-from warehouse_viewer.page.statuses import HOLDING
+from warehouse_viewer.page.activities import Activity
 
-# Idle, busy, blocked, holding: from the palette of Okabe and Ito (2008), told apart by everyone.
-STATUS_COLOURS = np.zeros((4, 4))
-STATUS_COLOURS[KivaStatus.STATUS_IDLE] = (0.00, 0.45, 0.70, 1)
-STATUS_COLOURS[KivaStatus.STATUS_BUSY] = (0.94, 0.89, 0.26, 1)
-STATUS_COLOURS[KivaStatus.STATUS_BLOCKED] = (0.84, 0.37, 0.00, 1)
-STATUS_COLOURS[HOLDING] = (0.34, 0.71, 0.91, 1)
+COLOURS = np.zeros((len(Activity), 4))  # of robots, as design.css has them for the page
+COLOURS[Activity.RESTING] = (0.55, 0.59, 0.65, 1)
+COLOURS[Activity.MOVING] = (0.31, 0.61, 0.98, 1)
+COLOURS[Activity.WORKING] = (0.25, 0.75, 0.50, 1)
+COLOURS[Activity.WAITING] = (0.95, 0.69, 0.19, 1)
+COLOURS[Activity.NEEDS_HELP] = (0.94, 0.38, 0.35, 1)
 
 FLOOR = (0.82, 0.83, 0.84, 1)
 GRID = (0.70, 0.71, 0.73, 1)
@@ -66,8 +66,8 @@ def _joined(name, parts):
     )
 
 
-def robots(look: Look | None, at: np.ndarray, status: np.ndarray, lift: np.ndarray) -> list[Shape]:
-    """Returns robots at (n, 3) x y [m] yaw [rad], in the colours of (n,) statuses.activity(), their
+def robots(look: Look | None, at: np.ndarray, does: np.ndarray, lift: np.ndarray) -> list[Shape]:
+    """Returns robots at (n, 3) x y [m] yaw [rad], in the colours of (n,) activities, their
     towers up by `lift` (n,) [m]."""
     at = np.insert(at, 2, 0.0, axis=1)
     if look is None:
@@ -80,12 +80,12 @@ def robots(look: Look | None, at: np.ndarray, status: np.ndarray, lift: np.ndarr
     solids = [
         (
             shapes.placed(lifted if part.link == LIFTED else at, part.triangles()),
-            STATUS_COLOURS[status] if part is body else part.colour,
+            COLOURS[does] if part is body else part.colour,
         )
         for part in seen
     ]
     marks = [(shapes.placed(at, _arrow(look)), WHITE)]
-    marks.append((shapes.placed(at, _frame()), STATUS_COLOURS[status]))
+    marks.append((shapes.placed(at, _frame()), COLOURS[does]))
     return [_joined("robots", [*solids, *marks])]
 
 
@@ -96,7 +96,7 @@ def _arrow(look):
 
 
 def _frame():
-    """Triangles of a square frame on the floor, in the colour of a robot's status."""
+    """Triangles of a square frame on the floor, in the colour of what a robot does."""
     square = np.array([(1, 1, 0), (-1, 1, 0), (-1, -1, 0), (1, -1, 0)])
     inner, outer = (half * square + (0, 0, ABOVE_FLOOR) for half in FRAME)
     sides = [(outer[i - 1], outer[i], inner[i], inner[i - 1]) for i in range(4)]

@@ -18,9 +18,9 @@ from warehouse_layout import generator, layout_file
 from warehouse_layout.layout_file import LayoutFile, LayoutFileError
 from warehouse_layout.request import LIMITS, MAX_BELTS, PRESETS, RequestError, resolve
 from warehouse_viewer.editor import checking, drawing_json, opening
-from warehouse_viewer.server.page_files import PageFiles
+from warehouse_viewer.server.site import LAYOUT
 
-PAGE = "/layout"
+PAGE = LAYOUT.path
 MOST_TRIALS = 2  # at a time: each keeps a core busy
 TRIAL = [sys.executable, "-m", "warehouse_viewer.editor.trial"]
 
@@ -31,15 +31,14 @@ class Editor:
     """What the page asks. file: the one that it edits, if any; builds: whether the HTTP API of a
     running warehouse is behind the same address."""
 
-    def __init__(self, page: PageFiles, file: Path | None = None, builds: bool = False) -> None:
-        self._page, self._file, self._builds = page, file, builds
+    def __init__(self, file: Path | None = None, builds: bool = False) -> None:
+        self._file, self._builds = file, builds
         self._saves = bool(file and file.name.endswith(layout_file.SUFFIX))
         self._trials = 0
 
     def routes(self) -> list[Route]:
-        """Returns the page and its requests, to be added to an application."""
+        """Returns what the page asks, to be added to an application."""
         return [
-            Route(PAGE, self._page.endpoint("layout.html")),
             Route(f"{PAGE}/about", self._about),
             Route(f"{PAGE}/check", _answering(_check), methods=["POST"]),
             Route(f"{PAGE}/read", _answering(_read), methods=["POST"]),

@@ -6,32 +6,30 @@ from pathlib import Path
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
-from starlette.routing import Mount, Route
+from starlette.routing import Route
 
-from warehouse_viewer.editor.routes import PAGE, Editor
+from warehouse_viewer.editor.routes import Editor
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.connections import listen_near
 from warehouse_viewer.server.http_server import Server, config_of
-from warehouse_viewer.server.page_files import PageFiles
-from warehouse_viewer.shared_files import WEB
+from warehouse_viewer.server.site import LAYOUT, Site
 
 HOST = "127.0.0.1"
 
 
 def application(file: Path | None = None) -> Starlette:
     """Returns the ASGI application with the page alone; file: the one that it edits."""
-    page = PageFiles(WEB)
     return Starlette(
         routes=[
             Route("/", _to_page),
-            *Editor(page, file).routes(),
-            Mount("/web", page.files),
+            *Editor(file).routes(),
+            *Site(LAYOUT).routes(),
         ]
     )
 
 
 async def _to_page(_: Request) -> Response:
-    return RedirectResponse(PAGE)
+    return RedirectResponse(LAYOUT.path)
 
 
 class EditorServer:
@@ -39,7 +37,7 @@ class EditorServer:
 
     def __init__(self, port: int, file: Path | None = None) -> None:
         self._listener = listen_near(HOST, port)
-        self.url = f"http://localhost:{self._listener.getsockname()[1]}{PAGE}"
+        self.url = f"http://localhost:{self._listener.getsockname()[1]}{LAYOUT.path}"
         self.server = Server(config_of(AccessControl(application(file)), ws="none"), lambda: None)
 
     def run(self) -> None:

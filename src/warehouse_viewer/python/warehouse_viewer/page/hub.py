@@ -17,6 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from warehouse_layout import poses
 from warehouse_viewer.page import protocol
+from warehouse_viewer.page.activities import wait_too_long
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import Source
 from warehouse_viewer.server.access import RateLimit
@@ -112,7 +113,8 @@ class Hub:
             if time.monotonic() < self._scene_due:
                 return
             self._scene_due = time.monotonic() + SCENE_GAP
-        self._model.update(objects, states, self._feed["fleet"], scenery)
+        waiting = wait_too_long(self._feed.coordinator)
+        self._model.update(objects, states, self._feed["fleet"], scenery, waiting)
 
     async def _watch_simulation(self):
         while True:

@@ -3,14 +3,14 @@
 
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
 
 from warehouse_layout import floor_markings, painted, poses
 from warehouse_viewer.page import protocol
-from warehouse_viewer.page.statuses import activity
+from warehouse_viewer.page.activities import activity
 from warehouse_viewer.page.table import Table
 
 TIME_GAP = 0.5  # between updates with nothing new but the time [s, wall]
@@ -41,14 +41,25 @@ class Model:
         """Whether these messages name the same models as those of the last update()."""
         return objects is self._objects and _look_alike(scenery, self._scenery)
 
-    def update(self, objects: Any, states: Any, fleet: Any, scenery: Any) -> bool:
+    def update(
+        self,
+        objects: Any,
+        states: Any,
+        fleet: Any,
+        scenery: Any,
+        waiting: Collection[int] = (),
+    ) -> bool:
         """Takes over the newest messages. `objects` and `states` must be of the same revision.
+
+        `waiting` are the numbers of robots that wait for too long.
 
         Returns whether a page has something new to show.
         """
         self.tick += 1
         scene = self._take_scene(objects, fleet, scenery)
-        moved = self._take_fleet(fleet) if fleet is not self._fleet or scene else False
+        moved = False
+        if fleet is not self._fleet or scene:
+            moved = self._take_fleet(fleet, waiting)
         self._fleet = fleet
         if states is not self._states or moved or scene:
             moved |= self._take_units(states)
@@ -80,7 +91,7 @@ class Model:
         self._scenery, self._scene_text = scenery, None
         return True
 
-    def _take_fleet(self, fleet):
+    def _take_fleet(self, fleet, waiting):
         self.stamp = fleet.stamp.to_sec()
         return self.robots.set(
             self.tick,
@@ -88,7 +99,7 @@ class Model:
             y=fleet.y,
             yaw=fleet.yaw,
             shelf=fleet.shelf_id,
-            status=activity(fleet),
+            activity=activity(fleet, waiting),
             state=np.frombuffer(bytes(fleet.state), np.uint8),
             charge=np.rint(100 * np.asarray(fleet.charge)),
             failures=np.frombuffer(bytes(fleet.failures), np.uint8),

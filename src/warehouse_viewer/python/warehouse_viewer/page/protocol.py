@@ -30,9 +30,9 @@ import numpy as np
 VERSION = 4
 UPDATE, SCAN, WAYS = 1, 2, 3
 
-# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; status as
-# statuses.activity() has it, state as in KivaStatus; charge in percent; failures as in FleetState,
-# and its load_limit; 0 = none.
+# x y [m] and yaw [rad] in world; the carried unit's number, 0 = none; activity as
+# activities.activity() has it, state as in KivaStatus; charge in percent; failures as in
+# FleetState, and its load_limit; 0 = none.
 ROBOT = np.dtype(
     [
         ("index", "<u4"),
@@ -40,7 +40,7 @@ ROBOT = np.dtype(
         ("y", "<f4"),
         ("yaw", "<f4"),
         ("shelf", "<i4"),
-        ("status", "u1"),
+        ("activity", "u1"),
         ("state", "u1"),
         ("charge", "u1"),
         ("failures", "u1"),

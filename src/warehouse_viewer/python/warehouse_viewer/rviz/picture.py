@@ -14,14 +14,13 @@ from warehouse_msgs.msg import (
     CoordinatorPaths,
     FleetPaths,
     FleetState,
-    KivaStatus,
     Scenery,
     UnitStates,
     WarehouseObjects,
 )
 from warehouse_viewer.drawing import looks, markers
 from warehouse_viewer.drawing.shapes import ShapeArray
-from warehouse_viewer.page.statuses import activity
+from warehouse_viewer.page.activities import Activity, activity
 from warehouse_viewer.rviz import fleet_ways
 from warehouse_viewer.rviz.chosen import Chosen
 from warehouse_viewer.rviz.paths import PathTopics, ways
@@ -36,13 +35,13 @@ def fleet_shapes(
     """
     at = np.column_stack([fleet.x, fleet.y, fleet.yaw]).reshape(-1, 3)
     numbers = list(map(int, fleet.kiva_id))
-    status = activity(fleet)
+    does = activity(fleet)
     look = looks.named(scenery, "kiva")
-    trouble = {n for n, s in zip(numbers, status) if s == KivaStatus.STATUS_BLOCKED}
+    trouble = {n for n, d in zip(numbers, does) if d == Activity.NEEDS_HELP}
     lift = np.array([heights.get(n, 0.0) for n in numbers])
     where = at[numbers.index(chosen), :2] if chosen in numbers else None
     return [
-        *markers.robots(look, at, status, lift),
+        *markers.robots(look, at, does, lift),
         *markers.names(look, numbers, at, trouble | {chosen}),
         *markers.chosen(where),
     ]

@@ -8,7 +8,7 @@ from typing import Any
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
-from starlette.routing import Mount, Route, WebSocketRoute
+from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
 from warehouse_viewer.page.hub import Hub
@@ -18,9 +18,8 @@ from warehouse_viewer.page.world_source import DECIDES
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.connections import listen_near
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
-from warehouse_viewer.server.page_files import PageFiles, SocketLimit
-from warehouse_viewer.server.static_files import Files
-from warehouse_viewer.shared_files import THREE, WEB
+from warehouse_viewer.server.site import FLOOR, Site
+from warehouse_viewer.server.sockets import SocketLimit
 
 HOST = "127.0.0.1"
 PATIENCE = 10.0  # with a server that starts or stops [s, wall]
@@ -52,20 +51,18 @@ class LocalServer:
 
 def application(source: Source, hub: Hub) -> Starlette:
     """Returns the ASGI application with the page, its WebSocket and what a Source can answer."""
-    page, api, sockets = PageFiles(WEB), _Api(source), SocketLimit()
+    api, sockets = _Api(source), SocketLimit()
 
     async def live(socket: WebSocket) -> None:
         await sockets.admit(socket, hub.serve)
 
     return Starlette(
         routes=[
-            Route("/", page.endpoint("index.html")),
             WebSocketRoute("/live", live),
             Route("/api/v1/simulation/{action}", api.control, methods=["POST"]),
             Route("/api/v1/events", api.events),
             Route("/api/v1/events.csv", api.events_csv),
-            Mount("/web", page.files),
-            Mount("/three", Files(directory=THREE)),
+            *Site(FLOOR).routes(),
             Route("/{path:path}", _refuse, methods=["GET", "POST", "PUT", "DELETE"]),
         ]
     )

@@ -38,9 +38,10 @@ class Robot(BaseModel):
         description="whether it takes a command; BLOCKED: its last one ended so, and none was "
         "accepted since"
     )
-    activity: Literal["IDLE", "BUSY", "BLOCKED", "HOLDING"] = Field(
-        description="what the page calls it: its status, or HOLDING if it carries a storage unit "
-        "and has no command"
+    activity: Literal["RESTING", "MOVING", "WORKING", "WAITING", "NEEDS_HELP"] = Field(
+        description="what the page calls it: RESTING without command and load; MOVING; WORKING "
+        "while it lifts, or stands with a storage unit; WAITING for too long, or before an obstacle; "
+        "NEEDS_HELP if it is broken, or its last command ended before an obstacle"
     )
     state: str
     last_end: Literal["", "DONE", "BLOCKED"] = Field(

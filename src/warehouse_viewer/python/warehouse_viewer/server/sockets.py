@@ -1,33 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page's own files over HTTP, and its WebSockets, of which there are only so many."""
+"""The WebSockets of a server, of which there are only so many."""
 
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
-from pathlib import Path
 
-from starlette.requests import Request
-from starlette.responses import Response
 from starlette.websockets import WebSocket, WebSocketState
-
-from warehouse_viewer.server.static_files import FreshFiles
 
 MOST_SOCKETS = 50
 TRY_AGAIN = 1013  # a WebSocket's close code
-
-
-class PageFiles:
-    """The folder of the page; `files` is the application to mount below /web."""
-
-    def __init__(self, folder: Path) -> None:
-        self.files = FreshFiles(directory=folder)
-
-    def endpoint(self, name: str) -> Callable[[Request], Awaitable[Response]]:
-        """Returns an endpoint that answers with one of the files."""
-
-        async def get(request: Request) -> Response:
-            return await self.files.get_response(name, request.scope)
-
-        return get
 
 
 class SocketLimit:

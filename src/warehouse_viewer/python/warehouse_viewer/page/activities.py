@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What robots do at a glance: five activities, each with a colour, the same in list, floor, panels,
+pictures and API. words.js and design.css have them for the page."""
+
+from collections.abc import Collection
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+from warehouse_viewer.message_enums import EventKind, State, Status
+
+
+class Activity(IntEnum):
+    """What a robot does, from what needs no attention to what needs a person."""
+
+    RESTING = 0  # without command and load
+    MOVING = 1  # drives, turns, or waits for its turn for a moment
+    WORKING = 2  # lifts, or stands with a storage unit: at a station, as a rule
+    WAITING = 3  # for too long, or before an obstacle
+    NEEDS_HELP = 4  # broken, or its last command ended before an obstacle
+
+
+TOO_LONG = 30.0  # to wait [s, simulated]
+
+
+def shown_status(fleet: Any) -> np.ndarray:
+    """Returns the status of each robot in a FleetState, (n,) uint8.
+
+    BLOCKED itself lasts only a moment; it shows until the robot's next command is accepted.
+    """
+    # rospy reads uint8[] as bytes.
+    status = _bytes(fleet.status).copy()
+    status[_bytes(fleet.last_end) == EventKind.BLOCKED] = Status.BLOCKED
+    return status
+
+
+def wait_too_long(coordinator: Any) -> list[int]:
+    """Returns the numbers of the robots that wait for TOO_LONG, by a CoordinatorState or None."""
+    if coordinator is None:
+        return []
+    waits = zip(coordinator.waiting_kiva, coordinator.waiting_since)
+    now = coordinator.header.stamp.to_sec()
+    return [robot for robot, since in waits if now - since >= TOO_LONG]
+
+
+def activity(fleet: Any, waiting: Collection[int] = ()) -> np.ndarray:
+    """Returns the Activity of each robot in a FleetState, (n,) uint8.
+
+    `waiting` are the numbers of robots that wait for too long; see wait_too_long().
+    """
+    status, state = shown_status(fleet), _bytes(fleet.state)
+    out = np.full(len(status), Activity.MOVING, np.uint8)
+    idle = status == Status.IDLE
+    out[idle] = np.where(np.asarray(fleet.shelf_id) != 0, Activity.WORKING, Activity.RESTING)[idle]
+    out[state == State.LIFTING] = Activity.WORKING
+    out[(state == State.BLOCKED) | np.isin(fleet.kiva_id, list(waiting))] = Activity.WAITING
+    out[(status == Status.BLOCKED) | (_bytes(fleet.failures) != 0)] = Activity.NEEDS_HELP
+    return out
+
+
+def _bytes(field: Any) -> np.ndarray:
+    """(n,) uint8 of a message's uint8[]."""
+    return np.frombuffer(bytes(field), np.uint8)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The pages of a server, and the files that they are made of."""
+
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import BaseRoute, Mount, Route
+
+from warehouse_viewer.server import font
+from warehouse_viewer.server.static_files import Files, FreshFiles
+from warehouse_viewer.shared_files import CHART, THREE, WEB
+
+
+class Page(NamedTuple):
+    """A page: where it is, what the way to it is called, and its file in the folder web."""
+
+    path: str
+    title: str
+    file: str
+
+
+FLOOR = Page("/", "Floor", "index.html")
+OPERATIONS = Page("/operations", "Operations", "operations.html")
+LAYOUT = Page("/layout", "Layout", "layout.html")
+API = Page("/docs", "API", "docs.html")
+
+
+class Site:
+    """The pages that a server has, each of which leads to the others."""
+
+    def __init__(self, *pages: Page, folder: Path = WEB) -> None:
+        self._pages, self._files = pages, FreshFiles(directory=folder)
+
+    def routes(self) -> list[BaseRoute]:
+        """Returns the routes of the pages and their files, to be added to an application."""
+        return [
+            *(Route(page.path, self._endpoint(page.file)) for page in self._pages),
+            Route("/pages", self._list),
+            Route("/fonts/inter.woff2", font.serve),
+            Mount("/web", self._files),
+            Mount("/three", Files(directory=THREE, check_dir=False)),
+            Mount("/chart", Files(directory=CHART, check_dir=False)),
+        ]
+
+    def _endpoint(self, name: str) -> Callable[[Request], Awaitable[Response]]:
+        async def get(request: Request) -> Response:
+            return await self._files.get_response(name, request.scope)
+
+        return get
+
+    async def _list(self, _: Request) -> Response:
+        pages = [{"path": page.path, "title": page.title} for page in self._pages]
+        return JSONResponse(pages, headers={"cache-control": "no-cache"})
