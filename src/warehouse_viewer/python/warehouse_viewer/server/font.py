@@ -4,7 +4,6 @@
 import functools
 import io
 
-from fontTools import subset
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
@@ -24,7 +23,7 @@ CACHED = "private, max-age=604800"
 
 
 def serve(_: Request) -> Response:
-    """Answers with the font as WOFF2; 404 where it is not installed, pages then have the system's."""
+    """Answers with the font as WOFF2; 404 where it is not installed: the system's is taken."""
     if not FONT.exists():
         return PlainTextResponse(f"no {FONT}", 404)
     return Response(_packed(), media_type="font/woff2", headers={"cache-control": CACHED})
@@ -32,6 +31,8 @@ def serve(_: Request) -> Response:
 
 @functools.cache
 def _packed() -> bytes:
+    from fontTools import subset  # noqa: PLC0415 (a wheel has neither the font nor this)
+
     options = subset.Options(flavor="woff2", layout_features=FEATURES)
     font = subset.load_font(FONT, options)
     subsetter = subset.Subsetter(options)

@@ -40,7 +40,7 @@ class Robot(BaseModel):
     )
     activity: Literal["RESTING", "MOVING", "WORKING", "WAITING", "NEEDS_HELP"] = Field(
         description="what the page calls it: RESTING without command and load; MOVING; WORKING "
-        "while it lifts, or stands with a storage unit; WAITING for too long, or before an obstacle; "
+        "while it lifts, or stands with a storage unit; WAITING for too long or at an obstacle; "
         "NEEDS_HELP if it is broken, or its last command ended before an obstacle"
     )
     state: str
