@@ -36,6 +36,7 @@ operate: build  ## a warehouse at work: orders, stations, stock; make operate AR
 
 test: deps build lint  ## build and run every test; make test ARGS="-L unit" only those
 	@scripts/learning_packages || true  # their tests are skipped then, and say so
+	@scripts/axe || true  # so are these
 	@$(BUILD) --target tests
 	@scripts/test -j$(JOBS) $(ARGS)
 
