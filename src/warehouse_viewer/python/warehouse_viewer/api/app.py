@@ -35,6 +35,7 @@ from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
 from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
 from warehouse_viewer.server.sockets import SocketLimit
+from warehouse_viewer.watch.monitor import Monitor
 
 
 class Viewer:
@@ -51,6 +52,7 @@ class Viewer:
         source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
         self.hub = Hub(source, Model())
         operations = OperationsClient(ros, ShiftFeed(ros, self.changes))
+        self.monitor = Monitor(feed, operations.feed, self.journal, self.changes)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,
@@ -61,6 +63,7 @@ class Viewer:
             self.transports,
             operations,
             self.changes,
+            self.monitor,
         )
         self._web = web
         self._hub_task = HubTask(self.hub)
@@ -108,9 +111,11 @@ class Viewer:
         """Begins to serve pages, in the running asyncio loop."""
         self._loop = asyncio.get_running_loop()
         self._hub_task.start()
+        self._watching = asyncio.create_task(self.monitor.run())
 
     def _add_files(self, app):
-        pages = Site(FLOOR, OPERATIONS, LAYOUT, API, folder=self._web)
+        operations = OPERATIONS._replace(count="/api/v1/alarms")
+        pages = Site(FLOOR, operations, LAYOUT, API, folder=self._web)
         app.router.routes.extend([*Editor(builds=True).routes(), *pages.routes()])
 
 
