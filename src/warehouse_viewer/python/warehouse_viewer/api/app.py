@@ -38,6 +38,7 @@ from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
 from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
 from warehouse_viewer.server.sockets import SocketLimit
+from warehouse_viewer.watch.monitor import Monitor
 
 
 class Viewer:
@@ -61,6 +62,7 @@ class Viewer:
         )
         self.hub = Hub(source, model, self.history)
         operations = OperationsClient(ros, shift)
+        self.monitor = Monitor(feed, operations.feed, self.journal, self.changes)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
             feed,
@@ -71,6 +73,7 @@ class Viewer:
             self.transports,
             operations,
             self.changes,
+            self.monitor,
         )
         self._web = web
         self._hub_task = HubTask(self.hub)
@@ -118,9 +121,11 @@ class Viewer:
         """Begins to serve pages, in the running asyncio loop."""
         self._loop = asyncio.get_running_loop()
         self._hub_task.start()
+        self._watching = asyncio.create_task(self.monitor.run())
 
     def _add_files(self, app):
-        pages = Site(FLOOR, OPERATIONS, LAYOUT, API, folder=self._web)
+        operations = OPERATIONS._replace(count="/api/v1/alarms")
+        pages = Site(FLOOR, operations, LAYOUT, API, folder=self._web)
         history = self.history.routes() if self.history else []
         app.router.routes.extend([*Editor(builds=True).routes(), *history, *pages.routes()])
 
