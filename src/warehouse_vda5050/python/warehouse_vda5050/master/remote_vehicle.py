@@ -26,6 +26,7 @@ from warehouse_vda5050.model import (
     State,
 )
 
+ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
 NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
 
 
@@ -216,19 +217,28 @@ class RemoteVehicle:
         way = self._journey
         if way is None or self._cancelling:
             return None
-        if way.awaits_answer and now < self._sent_at + RESEND:
-            return None
         if way.awaits_answer:
-            self._times += 1
-            if self._times >= MOST_TIMES:
-                self._give_up(way, "the vehicle does not tell that it has the order")
-                return None
-            self._sent_at = now
-            return way.sent
+            return self._again(way, now)
         order = way.next_order(self._place)
         if order is not None:
             self._sent_at, self._times = now, 0
         return order
+
+    def _again(self, way: Journey, now: float) -> Order | None:
+        """Returns the last order once more, if that is due.
+
+        An update is sent for as long as it takes: the vehicle may have it, and its states be lost.
+        """
+        if now < self._sent_at + RESEND:
+            return None
+        self._sent_at, self._times = now, self._times + 1
+        if self._times % ASKS_AFTER == 0:
+            self._instants.ask("stateRequest")
+        if way.had or self._times < MOST_TIMES:
+            return way.sent
+        self._give_up(way, "the vehicle does not tell that it has the order")
+        self._ask_to_cancel()  # it may have it all the same
+        return None
 
     def _give_up(self, way: Journey, why: str) -> None:
         """Ends what the vehicle never had; keeps what it has of a path."""

@@ -20,13 +20,17 @@ class VehicleView:
     pose: Pose = (0.0, 0.0, 0.0)  # in the frame world [m, rad]
     heard_at: float = 0.0  # when the last state came [s]
     tells_loads: bool = False
-    _stamp: str = field(default="", repr=False)
+    _stamp: tuple[str, int] = field(default=("", 0), repr=False)
 
     def take_state(self, state: State, now: float) -> bool:
-        """Takes in a state. Returns False for one that is older than the one before."""
-        if state.header.timestamp < self._stamp:
+        """Takes in a state. Returns False for one that is older than the one before.
+
+        Of one time the header's number decides; it begins again at 0 after 2³² of them.
+        """
+        stamp = state.header.timestamp, state.header.header_id
+        if stamp < self._stamp:
             return False
-        self._stamp = state.header.timestamp
+        self._stamp = stamp
         self.state, self.heard_at = state, now
         self.tells_loads |= bool(state.loads)
         if state.position:
@@ -37,7 +41,7 @@ class VehicleView:
     def take_connection(self, connection: ConnectionState, now: float) -> None:
         """Takes in whether the vehicle is there. One that comes back may set its clock back."""
         if connection == ConnectionState.ONLINE and self.connection != connection:
-            self._stamp, self.heard_at = "", now
+            self._stamp, self.heard_at = ("", 0), now
         self.connection = connection
 
     @property

@@ -171,13 +171,3 @@ def message_of(shadows: list[Shadow]) -> FleetState:
     return message
 
 
-def start(master: Master, send: Send) -> threading.Thread:
-    """Runs a master in a thread of its own; for tests."""
-    thread = threading.Thread(target=master.run, args=(send,), daemon=True)
-    thread.start()
-    return thread
-
-
-def describe(robots: Iterable[RemoteRobot]) -> dict[int, Any]:
-    """Returns {number: manufacturer/serial} of robots, for a log."""
-    return {r.number: f"{r.identity.manufacturer}/{r.identity.serial}" for r in robots}
