@@ -138,9 +138,13 @@ def test_an_order_is_resent_as_it_was(bench):
 
 def test_an_order_that_is_never_taken_is_refused(bench):
     bench.vehicle.command(Follow(9, 0, WAY, 2))
+    asked = []
     for _ in range(15):
-        bench.sent(2.5)
+        asked = bench.instants(2.5) or asked
     assert bench.events()[-1] == ("REFUSED", "the vehicle does not tell that it has the order")
+    cancel = asked[-1]
+    assert cancel.type == "cancelOrder"  # it may have the order all the same
+    bench.tell(actions=(ActionState(cancel.id, "cancelOrder", ActionStatus.FAILED),))
     assert bench.shadow.status == Status.IDLE
 
 

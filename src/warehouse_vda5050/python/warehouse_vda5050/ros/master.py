@@ -6,11 +6,9 @@ to this node, and shows where they are by /warehouse/shadows.
 """
 
 import math
-import threading
 import time
 from collections.abc import Callable, Iterable
 from queue import Empty, SimpleQueue
-from typing import Any
 
 import rospy
 
@@ -40,13 +38,15 @@ MODES = {True: Mode.AUTOMATIC, False: Mode.MANUAL}  # by whether the vehicle tak
 class Master:
     """Hosts a RemoteFleet: what vehicles tell comes by take(), `send` carries what they are told.
 
-    One thread, run(), touches the fleet; all others post to it.
+    run() alone touches the fleet; commands, which come in threads of rospy, wait for it. `run` is
+    a word that no run before had, `poll` waits at most some seconds for messages of vehicles.
     """
 
     def __init__(self, robots: Iterable[RemoteRobot], warehouse: Warehouse, run: str) -> None:
-        self._robots = list(robots)
-        self._warehouse, self._run = warehouse, run
+        self._robots, self._run = list(robots), run
+        self._warehouse = warehouse
         self._fleet: RemoteFleet | None = None
+        self._next_shadows = 0.0
         self._posted: SimpleQueue[Callable[[RemoteFleet], None]] = SimpleQueue()
         self._spawned: set[int] = set()
         self._modes: dict[int, bool] = {}
@@ -57,19 +57,23 @@ class Master:
         CommandTopics(numbers, self._post_command, self._timeline)
 
     def take(self, identity: Identity, message: State | Connection) -> None:
-        """Takes in what a vehicle tells; any thread."""
-        self._posted.put(lambda fleet: fleet.take(identity, message, time.monotonic()))
+        """Takes in what a vehicle tells; called by poll()."""
+        if self._fleet is not None:
+            self._fleet.take(identity, message, time.monotonic())
 
-    def run(self, send: Send) -> None:
+    def run(self, send: Send, poll: Callable[[float], None]) -> None:
         """Serves until ROS shuts down."""
-        self._fleet = RemoteFleet(self._robots, self._grid(), self._run)
+        fleet = self._fleet = RemoteFleet(self._robots, self._grid(), self._run)
         while not rospy.is_shutdown():
-            self._take_posted(self._fleet)
-            for identity, message in self._fleet.messages(time.monotonic()):
+            poll(PERIOD / 4)
+            self._take_posted(fleet)
+            for identity, message in fleet.messages(time.monotonic()):
                 send(identity, message)
-            self._show(self._fleet)
-            self._publish_events(self._fleet.take_events())
-        self._show_silence(self._fleet)
+            if time.monotonic() >= self._next_shadows:
+                self._next_shadows = time.monotonic() + PERIOD
+                self._show(fleet)
+            self._publish_events(fleet.take_events())
+        self._show_silence(fleet)
 
     # --- in
 
@@ -80,9 +84,7 @@ class Master:
         return self._warehouse.timeline if self._warehouse.fleet is not None else 0
 
     def _take_posted(self, fleet: RemoteFleet) -> None:
-        """Does what was posted, for PERIOD at least until something was."""
         try:
-            self._posted.get(timeout=PERIOD)(fleet)
             while True:
                 self._posted.get_nowait()(fleet)
         except Empty:
@@ -169,5 +171,3 @@ def message_of(shadows: list[Shadow]) -> FleetState:
         setattr(message, name, [getattr(shadow, name) for shadow in shadows])
     message.yaw = [math.remainder(yaw, math.tau) for yaw in message.yaw]
     return message
-
-
