@@ -173,7 +173,9 @@ class OperationsPage(WorkPageTest):
         )
         self.page.read("(document.querySelector('#entry-lines input').value = 'sku-2')")
         self.page.read("document.getElementById('entry-form').requestSubmit()")
-        self.page.until(f"!document.getElementById('entry').open && {ROW.format('typed-1')}")
+        self.page.until("!document.getElementById('entry').open")
+        self.page.type("typed-1", "search")
+        self.page.until(ROW.format("typed-1"))
         upload = "page.upload.check(new File([{}], 'orders.csv'))"
         wrong = "reference,sku,quantity\nup-1,sku-1,1\nup-2,sku-1,none\n"
         self.page.read(upload.format(json.dumps(wrong)))
@@ -184,7 +186,8 @@ class OperationsPage(WorkPageTest):
         self.page.read("document.getElementById('sheet').close()")
         self.page.read(upload.format(json.dumps(wrong.replace("none", "2"))))
         self.click("#sheet-yes:not([hidden])")
-        self.page.until(f"{ROW.format('up-1')} && {ROW.format('up-2')}")
+        self.page.until("!document.getElementById('sheet').open")
+        self.assertEqual(ask("/orders?search=up-")[1]["total"], 2)
         status, sheet = fetch("api/v1/orders.csv?search=up-2")
         self.assertEqual((status, sheet.decode("utf-8-sig").count("up-2")), (200, 1))
         self.assertEqual(fetch("api/v1/orders.xlsx?search=up-2")[1][:2], b"PK")

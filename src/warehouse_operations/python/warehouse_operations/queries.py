@@ -93,5 +93,6 @@ def matching(names: Iterable[str], search: str) -> list[str]:
 def _natural(name: str) -> list[tuple[int, str]]:
     """What orders names with numbers as people do."""
     return [
-        (int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", name)
+        (int(part), "") if part.isdecimal() else (-1, part)
+        for part in re.split(r"(\d+)", name.casefold())
     ]

@@ -17,7 +17,7 @@ from warehouse_viewer.shared_files import CHART, THREE, WEB
 class Page(NamedTuple):
     """A page: where it is, what the way to it is called, and its file in the folder web.
 
-    `counted`: where its `total` of what waits there for a person is told as JSON; empty: not at all.
+    `counted`: where the `total` of what waits there for a person is told as JSON, if it is.
     """
 
     path: str
