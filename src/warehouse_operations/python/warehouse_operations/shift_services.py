@@ -14,6 +14,8 @@ from warehouse_operations.operation_messages import stock_place, stored_order_st
 from warehouse_operations.shift import Shift
 from warehouse_operations.tasks import Report
 
+LONGEST_ID = 80  # of a report
+
 
 class Host(Protocol):
     """The node whose shift is served."""
@@ -105,8 +107,11 @@ class ShiftServices:
         if request.outcome not in Outcome.__members__.values():
             text = f"outcome is {request.outcome}; 0 (DONE), 1 (SHORT) or 2 (DAMAGED) was expected"
             return srv.ReportPickResponse(False, text, 0)
+        if len(request.id) > LONGEST_ID:
+            text = f"the id has {len(request.id)} characters; {LONGEST_ID} at most were expected"
+            return srv.ReportPickResponse(False, text, 0)
         fields = request.station, request.order_id, request.item, request.sequence
-        report = Report(*fields, request.quantity, Outcome(request.outcome))
+        report = Report(*fields, request.quantity, Outcome(request.outcome), request.id)
         answer = self._host.carry_out(lambda shift: shift.tasks.report(report))
         self._host.publish_stations()
         return srv.ReportPickResponse(answer.success, answer.message, answer.quantity)

@@ -25,6 +25,9 @@ from warehouse_viewer.page.hub import Hub
 from warehouse_viewer.page.journal import Journal
 from warehouse_viewer.page.model import Model
 from warehouse_viewer.page.source import Source
+from warehouse_viewer.replay.live import LiveRecording
+from warehouse_viewer.replay.memory import SECONDS
+from warehouse_viewer.replay.told import Told
 from warehouse_viewer.ros.commander import Commander
 from warehouse_viewer.ros.coordination import Coordination
 from warehouse_viewer.ros.feed import Feed
@@ -39,9 +42,10 @@ from warehouse_viewer.watch.monitor import Monitor
 
 
 class Viewer:
-    """Everything behind one address. `ros` is rospy, `web` the folder of the page."""
+    """Everything behind one address. `ros` is rospy, `web` the folder of the page; the last
+    `history` seconds (simulated) are kept, to be looked at again; 0: none."""
 
-    def __init__(self, ros: Any, web: Path) -> None:
+    def __init__(self, ros: Any, web: Path, history: float = SECONDS) -> None:
         self.journal = Journal()
         self.commander = Commander(ros)
         self.transports = TransportBook()
@@ -50,8 +54,14 @@ class Viewer:
         feed = Feed(ros, self._on_event, self._on_transport, self._on_message)
         simulation = Simulation(ros)
         source = Source(feed, simulation, self.journal, catalogue.plain_coordinator)
-        self.hub = Hub(source, Model())
-        operations = OperationsClient(ros, ShiftFeed(ros, self.changes))
+        model, shift = Model(), ShiftFeed(ros, self.changes)
+        self.history = (
+            LiveRecording(model, self.journal, Told(feed, shift).figures, history)
+            if history
+            else None
+        )
+        self.hub = Hub(source, model, self.history)
+        operations = OperationsClient(ros, shift)
         self.monitor = Monitor(feed, operations.feed, self.journal, self.changes)
         self.metrics = Metrics(feed, operations)
         self.backend = ApiBackend(
@@ -116,7 +126,8 @@ class Viewer:
     def _add_files(self, app):
         operations = OPERATIONS._replace(counted="/api/v1/alarms")
         pages = Site(FLOOR, operations, LAYOUT, API, folder=self._web)
-        app.router.routes.extend([*Editor(builds=True).routes(), *pages.routes()])
+        history = self.history.routes() if self.history else []
+        app.router.routes.extend([*Editor(builds=True).routes(), *history, *pages.routes()])
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:

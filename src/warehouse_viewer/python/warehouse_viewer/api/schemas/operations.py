@@ -29,11 +29,13 @@ if TYPE_CHECKING:
     Pieces = int
     PiecesOrNone = int
     OrderNumber = int
+    ReportId = str
     Moment = float
 else:
     Sku, Reference = text(r"^[ -~]+$", 80, least=1), text(r"^[ -~]*$", 200)
     Pieces, PiecesOrNone = integer(1, INT32), integer(0, INT32)
     OrderNumber = integer(0, 2**53)  # 0: none
+    ReportId = text(r"^[!-~]*$", 80)
     Moment = number(0, 4e9)  # a simulated time [s]
 
 
@@ -158,6 +160,18 @@ class Pick(BaseModel):
     order_id: int
     reference: str
     sequence: int = Field(description="number of the task; a partly done task gets a new number")
+    tote: int = Field(description="place of the order's tote at the station, from 1; 0: none")
+
+
+class Tote(BaseModel):
+    """An order's tote at a picking station, and what still goes into it."""
+
+    position: int = Field(description="from 1; the order's own until it leaves the station")
+    order_id: int
+    reference: str
+    lines_left: int
+    pieces_left: int
+    pieces: int = Field(description="pieces of the whole order")
 
 
 class Queued(BaseModel):
@@ -192,6 +206,7 @@ class Station(BaseModel):
     )
     pieces_per_hour: float = Field(description="of the last quarter of an hour")
     queue: list[Queued] = Field(description="of `inbound`")
+    totes: list[Tote] = Field(description="by position; of a station in mode MANUAL alone")
 
 
 class Stations(BaseModel):
@@ -219,12 +234,14 @@ class Short(Line):
 
 class PickReport(Body):
     """What became of a pick that a station tells of. SHORT: so many pieces are missing, 0 if the
-    bin is empty; DAMAGED: so many are."""
+    bin is empty; DAMAGED: so many are. A report that comes again under its id gets the first
+    answer."""
 
     order_id: OrderNumber = 0
     item: Sku
     quantity: PiecesOrNone
     outcome: PickOutcome = "DONE"
+    id: ReportId = Field("", description="the sender's name of this report; another one for each")
 
 
 class Reported(BaseModel):
