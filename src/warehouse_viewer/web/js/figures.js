@@ -50,7 +50,7 @@ class Card {
     canvas.ariaLabel = `${about.title}, over the last hour`;
     this.canvas = canvas;
     this.line = sparkline(canvas, () => COLOURS[this.state ?? '']);
-    this.element = make('article', { className: 'card figure' }, make('header', {}, make('h3', { textContent: about.title }), this.badge),
+    this.element = make('article', { className: 'card figure' }, make('header', {}, make('h2', { textContent: about.title }), this.badge),
       this.value, make('div', { className: 'spark' }, canvas), this.aim);
     this.element.dataset.figure = about.name;
   }
