@@ -124,7 +124,7 @@ class Viewer:
         self._watching = asyncio.create_task(self.monitor.run())
 
     def _add_files(self, app):
-        operations = OPERATIONS._replace(count="/api/v1/alarms")
+        operations = OPERATIONS._replace(counted="/api/v1/alarms")
         pages = Site(FLOOR, operations, LAYOUT, API, folder=self._web)
         history = self.history.routes() if self.history else []
         app.router.routes.extend([*Editor(builds=True).routes(), *history, *pages.routes()])
