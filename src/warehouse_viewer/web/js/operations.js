@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of the warehouse: figures, robots, stations, orders, stock; and a station's screen for a
-// person. What changes comes by itself.
+// The work of the warehouse: figures, robots, stations, orders, stock. What changes comes by itself.
 
 import { Alarms } from './alarms.js';
 import { get, remove } from './api.js';
@@ -12,7 +11,6 @@ import { piecesOf } from './order_row.js';
 import { confirmed } from './question.js';
 import { Stations, waitingOf } from './stations.js';
 import { spaced } from './words.js';
-import { WorkScreen } from './work_screen.js';
 
 const PLACES = 200;
 const FIGURES = [
@@ -45,11 +43,10 @@ class Page {
   constructor() {
     this.kpis = this.throughput = null;
     this.stations = new Stations((sent) => this.act(sent));
-    this.screen = new WorkScreen();
     this.alarms = new Alarms();
     this.orders = new OrderList((order) => this.cancel(order), (error) => this.say(error.message));
-    on(window, 'hashchange', () => this.screen.choose(location.hash.slice(1)));
-    this.screen.choose(location.hash.slice(1));
+    on(window, 'hashchange', leaveForStation);
+    leaveForStation();
     on($('where'), 'submit', (event) => {
       event.preventDefault();
       this.where();
@@ -59,7 +56,6 @@ class Page {
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
         this.stations.take(stations);
-        this.screen.take(stations);
         this.alarms.set('stations', stations.filter(waitingOf).map((one) => `${one.name} ${waitingOf(one)}`));
       },
       kpis: ({ kpis }) => {
@@ -86,7 +82,6 @@ class Page {
     $('link').dataset.state = state;
     const text = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
     $('link').textContent = text;
-    this.screen.showLink(state === 'live' ? '' : text);
   }
 
   /** Waits for what was asked of the server, and says what became of it: `told(message)`, or why
@@ -164,6 +159,11 @@ class Page {
       $('found').textContent = error.message;
     }
   }
+}
+
+/** A link of old, /operations#pick1, leads to that station's screen. */
+function leaveForStation() {
+  if (location.hash.length > 1) location.replace(`/station/${location.hash.slice(1)}`);
 }
 
 const pad = (n) => String(Math.floor(n)).padStart(2, '0');

@@ -72,7 +72,7 @@ class Card {
     this.queue.title = `storage units: ${unit ? `${unit} is there, ` : ''}${inbound.length} on their way`;
     this.gate.textContent = open ? 'Close' : 'Open';
     this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
-    this.screen.href = `#${name}`;
+    this.screen.href = `/station/${encodeURIComponent(name)}`;
   }
 }
 

@@ -35,6 +35,7 @@ from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
 from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
 from warehouse_viewer.server.sockets import SocketLimit
+from warehouse_viewer.server.station_pages import StationPages
 
 
 class Viewer:
@@ -111,7 +112,13 @@ class Viewer:
 
     def _add_files(self, app):
         pages = Site(FLOOR, OPERATIONS, LAYOUT, API, folder=self._web)
-        app.router.routes.extend([*Editor(builds=True).routes(), *pages.routes()])
+        screens = StationPages(self._totes, self._web)
+        others = Editor(builds=True).routes(), screens.routes(), pages.routes()
+        app.router.routes.extend(route for routes in others for route in routes)
+
+    async def _totes(self, name: str) -> int | None:
+        stations = (await self.backend.call(self.backend.operations.latest, "stations")).stations
+        return next((one.slots for one in stations if one.name == name), None)
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:
