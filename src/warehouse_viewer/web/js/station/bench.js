@@ -7,6 +7,7 @@ import { meaningOf } from './codes.js';
 import { newId } from './outbox.js';
 
 const FLASH = 6000; // for so long a tote shows that it is complete [ms]
+const COMPLETE = 'take away, set up a new one';
 const WRITE_OFF_UNDO = 10_000; // for so long a write-off can be taken back [ms]
 
 export class Bench {
@@ -55,15 +56,15 @@ export class Bench {
     return Array.from({ length: this.told?.slots ?? 0 }, (_, i) => {
       const tote = by.get(i + 1), isLit = task?.tote === i + 1;
       const left = tote ? tote.pieces_left - piecesFor(tote.order_id, this.told, pending) : 0;
-      const leaves = isLit ? '' : this.leaving(i + 1, left ? tote.order_id : 0);
+      const leaves = isLit ? null : this.leaving(i + 1, left ? tote.order_id : 0);
       return { position: i + 1, reference: tote?.reference ?? '', left, isLit, leaves };
     });
   }
 
-  /** Why the tote at a place is to be taken away, '' if it isn't; `order` has pieces missing there. */
+  /** {reference, text} of an order whose tote is to be taken away, or null; `order` has pieces missing there. */
   leaving(position, order) {
     const change = this.changed.get(position);
-    return change && change.until > Date.now() && change.order !== order ? change.text : '';
+    return change && change.until > Date.now() && change.order !== order ? change : null;
   }
 
   /** What can be taken back, or null. */
@@ -85,7 +86,7 @@ export class Bench {
     this.shelf.write('told', now);
     const there = new Set((now?.picks ?? []).map(({ sequence }) => sequence));
     for (const sequence of this.settled.keys()) if (!there.has(sequence)) this.settled.delete(sequence);
-    for (const { tote, order, text } of left) this.flash(tote, order, text);
+    for (const one of left) this.flash(one);
     const came = now?.shelf_id && now.shelf_id !== before?.shelf_id && this.task;
     return came ? 'arrives' : '';
   }
@@ -96,14 +97,14 @@ export class Bench {
     const there = new Set(now.totes.map(({ order_id: id }) => id));
     const gone = before.totes.filter(({ order_id: id, pieces_left: left }) => left && !there.has(id));
     const { pending } = this;
-    return gone.map(({ position: tote, order_id: order, pieces_left: open, reference }) => {
+    return gone.map(({ position, order_id: order, pieces_left: open, reference }) => {
       const isDone = piecesFor(order, before, pending) >= open;
-      return { tote, order, text: isDone ? 'complete: take it away' : `${reference} has left: empty it` };
+      return { position, order, reference, text: isDone ? COMPLETE : 'not ours any more: empty it' };
     });
   }
 
-  flash(position, order, text) {
-    this.changed.set(position, { order, text, until: Date.now() + FLASH });
+  flash({ position, ...change }) {
+    this.changed.set(position, { ...change, until: Date.now() + FLASH });
   }
 
   // --- what a person does
@@ -157,7 +158,7 @@ export class Bench {
     const tote = this.totes.find(({ isLit }) => isLit);
     const isComplete = tote?.left === quantity;
     this.report(task, PickOutcome.DONE, quantity);
-    if (isComplete) this.flash(task.tote, task.order_id, `${task.reference} is complete: take it away`);
+    if (isComplete) this.flash({ position: task.tote, order: task.order_id, reference: task.reference, text: COMPLETE });
     const where = task.tote ? `in tote ${task.tote}` : `put into ${task.item}`;
     const text = isComplete ? `${task.reference} is complete: take tote ${task.tote} away, set up a new one` : `${quantity} × ${task.sku} ${where}`;
     return { ok: true, sound: isComplete ? 'complete' : 'done', text };

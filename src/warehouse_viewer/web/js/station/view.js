@@ -7,6 +7,7 @@ import { StationMode } from '../message_enums.js';
 import { UnitDrawing } from './unit_drawing.js';
 import { Wall } from './wall.js';
 
+const LONG = 13; // characters of a SKU that may be broken into lines
 const SETTLES = 700; // what was drawn just now is not meant by a finger on its way [ms]
 
 export class View {
@@ -42,7 +43,9 @@ export class View {
     const key = JSON.stringify([sequence, quantity]);
     if (key !== this.shown) Object.assign(this, { shown: key, drawnAt: performance.now(), pieces: quantity });
     const isPicking = bench.isPicking;
-    put('task', `${isPicking ? 'Take' : 'Put in'} ${quantity} × ${sku}`);
+    put('amount', `${isPicking ? 'Take' : 'Put in'} ${quantity} ×`);
+    put('sku', sku);
+    $('sku').classList.toggle('long', sku.length > LONG);
     put('bin', `${isPicking ? 'from' : 'into'} bin ${item}`);
     put('progress', hand + placed ? `${hand + placed} of ${quantity} counted${placed ? `, ${placed} in the tote` : ''}` : '');
     const more = bench.tasks.length - 1;

@@ -21,21 +21,23 @@ export class Wall {
 class Place {
   constructor() {
     this.number = make('b');
-    this.text = make('span');
-    this.element = make('li', {}, this.number, this.text);
+    this.text = make('strong');
+    this.order = make('span');
+    this.element = make('li', {}, this.number, this.text, this.order);
     this.shown = '';
   }
 
   show({ position, reference, left, isLit, leaves }, quantity) {
     const state = isLit ? 'lit' : leaves ? 'leaves' : reference ? 'open' : 'free';
-    const pieces = `${reference}, ${left} to go`;
-    const text = { lit: `put ${quantity} in`, leaves, open: left ? pieces : 'complete', free: 'free' }[state];
-    const shown = JSON.stringify([position, state, text]);
+    const text = { lit: `put ${quantity} in`, leaves: leaves?.text, open: left ? `${left} to go` : 'complete', free: 'free' }[state];
+    const order = leaves?.reference ?? reference;
+    const shown = JSON.stringify([position, state, text, order]);
     if (shown === this.shown) return;
     this.shown = shown;
     this.element.dataset.state = state;
     this.number.textContent = position;
     this.text.textContent = text;
+    this.order.textContent = order;
     if (isLit) this.element.setAttribute('aria-current', 'true');
     else this.element.removeAttribute('aria-current');
   }
