@@ -7,7 +7,6 @@ from fastapi import APIRouter, Path
 
 from warehouse_msgs import srv
 from warehouse_viewer.api.backend import BACKEND, ApiBackend
-from warehouse_viewer.api.operations_json import stations
 from warehouse_viewer.api.routes.common import SENT, problems
 from warehouse_viewer.api.schemas.base import Done
 from warehouse_viewer.api.schemas.operations import (
@@ -30,7 +29,7 @@ AT_PICK = "/stations/{name}/picks/{sequence}"
 @router.get("/stations", response_model=Stations, responses=problems())
 async def get_stations(backend: ApiBackend = BACKEND) -> Any:
     """The stations: what unit is there, what is to be done with it, what is on its way."""
-    return {"stations": stations(await backend.call(backend.operations.latest, "stations"))}
+    return {"stations": backend.stations(await backend.call(backend.operations.latest, "stations"))}
 
 
 @router.put("/stations/{name}", response_model=Done, responses=problems(*SENT))
