@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of the warehouse: figures, alarms, stations, robots, orders, stock; and a station's screen
-// for a person. What changes comes by itself.
+// The work of the warehouse: figures, alarms, stations, robots, orders, stock. What
+// changes comes by itself.
 
 import { Alarms } from './alarms.js';
 import { get, remove } from './api.js';
@@ -17,7 +17,6 @@ import { RobotShares } from './robot_shares.js';
 import { Stations } from './stations.js';
 import { ThroughputChart } from './throughput.js';
 import { clock } from './time.js';
-import { WorkScreen } from './work_screen.js';
 
 const PLACES = 200;
 const TOPICS = ['orders', 'stations', 'kpis', 'throughput', 'coordinator', 'alarms', 'figures'];
@@ -28,7 +27,6 @@ class Page {
     this.now = 0; // [s], simulated
     const fail = (error) => this.say(error.message);
     this.stations = new Stations((sent) => this.act(sent));
-    this.screen = new WorkScreen();
     this.alarms = new Alarms(fail);
     this.figures = new Figures();
     this.chart = new ThroughputChart();
@@ -39,8 +37,8 @@ class Page {
     this.entry = new OrderEntry(() => this.now, taken);
     this.upload = new OrderUpload(taken);
     completeSkus($('sku'));
-    on(window, 'hashchange', () => this.screen.choose(location.hash.slice(1)));
-    this.screen.choose(location.hash.slice(1));
+    on(window, 'hashchange', leaveForStation);
+    leaveForStation();
     on($('where'), 'submit', (event) => {
       event.preventDefault();
       this.where();
@@ -54,7 +52,6 @@ class Page {
       shift: ({ runs }) => this.takeShift(runs),
       stations: ({ stations }) => {
         this.stations.take(stations);
-        this.screen.take(stations);
       },
       kpis: ({ kpis }) => {
         this.kpis = kpis;
@@ -81,7 +78,6 @@ class Page {
     $('link').dataset.state = state;
     const text = { live: 'live', away: 'the server does not answer', idle: 'no shift is running (operations.launch)' }[state];
     $('link').textContent = text;
-    this.screen.showLink(state === 'live' ? '' : text);
     this.alarms.setAway(state === 'away' ? text : '');
   }
 
@@ -143,6 +139,11 @@ class Page {
       $('found').textContent = error.message;
     }
   }
+}
+
+/** A link of old, /operations#pick1, leads to that station's screen. */
+function leaveForStation() {
+  if (location.hash.length > 1) location.replace(`/station/${location.hash.slice(1)}`);
 }
 
 window.page = new Page(); // for a look from the console

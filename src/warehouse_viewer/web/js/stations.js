@@ -88,7 +88,7 @@ class Row {
     this.gate.textContent = open ? 'Close' : 'Open';
     this.hand.textContent = this.isByHand ? 'Automatic' : 'Manual';
     for (const button of [this.gate, this.hand]) button.ariaLabel = `${button.textContent}: ${name}`;
-    this.screen.href = `#${name}`;
+    this.screen.href = `/station/${encodeURIComponent(name)}`;
     this.screen.ariaLabel = `Screen of ${name}, for a person there`;
     this.showQueue(station.queue);
   }

@@ -38,6 +38,7 @@ from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
 from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
 from warehouse_viewer.server.sockets import SocketLimit
+from warehouse_viewer.server.station_pages import StationPages
 from warehouse_viewer.watch.monitor import Monitor
 
 
@@ -127,7 +128,13 @@ class Viewer:
         operations = OPERATIONS._replace(counted="/api/v1/alarms")
         pages = Site(FLOOR, operations, LAYOUT, API, folder=self._web)
         history = self.history.routes() if self.history else []
-        app.router.routes.extend([*Editor(builds=True).routes(), *history, *pages.routes()])
+        screens = StationPages(self._totes, self._web).routes()
+        others = Editor(builds=True).routes(), history, screens, pages.routes()
+        app.router.routes.extend(route for routes in others for route in routes)
+
+    async def _totes(self, name: str) -> int | None:
+        stations = (await self.backend.call(self.backend.operations.latest, "stations")).stations
+        return next((one.slots for one in stations if one.name == name), None)
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:
