@@ -364,6 +364,7 @@ class Page {
     localStorage.setItem('theme', theme);
     this.stage?.setTheme(theme);
     this.overlays?.setTheme(theme);
+    this.actors?.setTheme(theme);
   }
 
   refreshPanels() {

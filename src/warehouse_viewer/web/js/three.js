@@ -5,8 +5,9 @@
 export const {
   Box3, BoxBufferGeometry, BufferAttribute, BufferGeometry, Color, CylinderBufferGeometry, DataTexture,
   DirectionalLight, DoubleSide, DynamicDrawUsage, EventDispatcher, Float32BufferAttribute, Frustum, Group,
-  HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, MOUSE, Matrix4,
-  Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D, Path, PerspectiveCamera, Plane, PlaneBufferGeometry,
-  Quaternion, RGBAFormat, Raycaster, RingBufferGeometry, Scene, Shape, ShapeBufferGeometry,
-  SphereBufferGeometry, Spherical, TOUCH, Vector2, Vector3, VertexColors, WebGLRenderer,
+  HemisphereLight, InstancedBufferAttribute, InstancedMesh, LineBasicMaterial, LineSegments, LinearFilter,
+  LinearMipMapNearestFilter, MOUSE, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, Object3D,
+  OrthographicCamera, Path, PerspectiveCamera, Plane, PlaneBufferGeometry, Quaternion, RGBAFormat, Raycaster,
+  RingBufferGeometry, Scene, Shape, ShapeBufferGeometry, SphereBufferGeometry, Spherical, TOUCH, Vector2,
+  Vector3, VertexColors, WebGLRenderer,
 } = window.THREE;
