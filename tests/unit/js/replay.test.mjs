@@ -101,8 +101,9 @@ test('an address names a moment by seconds or by the clock', () => {
   assert.deepEqual(momentOf(linkTo('http://here/', 12.3).slice('http://here/'.length)), { t: 12.3 });
 });
 
+const at = (hour, minute) => new Date(2026, 10, 23, hour, minute).getTime() / 1000;
+
 test('the clock on the wall is that of the chunk, at its pace', () => {
-  const at = (h, m) => new Date(2026, 10, 23, h, m).getTime() / 1000;
   const chunks = [{ begin: 0, end: 600, wall: at(10, 40) }, { begin: 600, end: 1200, wall: at(10, 45) }];
   assert.equal(timeOf({ clock: readClock('10:42') }, chunks), 240); // two simulated seconds a second
   assert.equal(wallAt(240, chunks), at(10, 42));
@@ -111,14 +112,18 @@ test('the clock on the wall is that of the chunk, at its pace', () => {
   assert.equal(hms(3725.9), '1:02:05');
 });
 
-/** A server with two chunks of 30 s, in which robot 0 drives 0.1 m/s, and an event in each. */
-function server(asked = []) {
-  const content = (begin) => joined(
+/** The bytes of a chunk of 30 s, in which robot 0 drives 0.1 m/s, with an event. */
+function content(begin) {
+  return joined(
     message(4, begin, text({ type: 'past', events: [{ id: begin, time: begin }] })),
     message(1, begin, moving(begin)),
     message(4, begin + 10, text({ type: 'events', events: [{ id: begin + 1, time: begin + 10 }] })),
     message(4, begin + 10, text({ type: 'figures', kpis: { orders_completed: begin } })),
     message(1, begin + 15, moving(begin + 15)));
+}
+
+/** A server with two such chunks. */
+function server(asked = []) {
   const index = { id: 'a', live: false, about: {}, cut: '', open: 0, begin: 0, end: 60,
     chunks: [[1, 9, 0, 29.5, null], [2, 9, 30, 60, null]], marks: [] };
   return async (path) => {
