@@ -91,13 +91,16 @@ export class Timeline {
 
   /** Shows the past from a time on [s]. */
   async enter(time) {
+    this.wanted = time; // a later wish counts
     if (this.isLive) {
       this.isLive = false;
       this.page.connection.hold();
       this.freeze(this.recording.live ? PAST : RECORDED);
-      if (this.recording.live) await this.refresh();
+      this.fresh = this.recording.live && this.refresh();
     }
-    await this.player.seek(time);
+    await this.fresh;
+    if (this.recording.live && time > this.recording.end) await this.refresh();
+    if (this.wanted === time && !this.isLive) await this.player.seek(time);
   }
 
   async toggle() {
