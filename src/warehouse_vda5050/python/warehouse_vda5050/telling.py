@@ -29,14 +29,16 @@ class VehiclesTopic:
 
 def vehicles_message(vehicles: Vehicles, broker: str) -> Vda5050:
     """Returns the message of all vehicles."""
+    links = sorted(vehicles.links.items())
     message = Vda5050(broker=broker, direction=Vda5050.VEHICLE)
-    for kiva_id, link in sorted(vehicles.links.items()):
+    message.connection = [
+        Vda5050.ONLINE if link.link.connected else Vda5050.CONNECTIONBROKEN for _, link in links
+    ]
+    for kiva_id, link in links:
         vehicle, order = link.vehicle, link.vehicle.order
         message.kiva_id.append(kiva_id)
         message.manufacturer.append(link.identity.manufacturer)
         message.serial.append(link.identity.serial)
-        online = Vda5050.ONLINE if link.link.connected else Vda5050.CONNECTIONBROKEN
-        message.connection.append(online)
         message.order.append(order.id if order and not vehicle.is_free else "")
         errors = [f"{error.type}: {error.description}" for error in vehicle.told_errors()]
         message.errors.append("\n".join(errors))
