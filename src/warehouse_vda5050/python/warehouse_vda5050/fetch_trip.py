@@ -35,7 +35,7 @@ class FetchTrip:
     def run(self) -> None:
         """Drives the trip. Raises TripError."""
         master = self._master
-        warehouse = _wait_for_warehouse()
+        warehouse = wait_for_warehouse()
         vehicles = master.wait_for_vehicles()
         print(f"{len(vehicles)} vehicles at the broker", flush=True)
         grid = grid_of(rospy.ServiceProxy("/warehouse/map", GetMap)().map)
@@ -117,7 +117,7 @@ def _ways(
     return there, onward
 
 
-def _wait_for_warehouse() -> WarehouseState:
+def wait_for_warehouse() -> WarehouseState:
     """Returns the warehouse once robots, units and stations stand in it. Raises TripError."""
     found: list[WarehouseState] = []
 

@@ -99,7 +99,8 @@ class VehicleLink:
             message, unknown = self._codec.decode(kind, payload)
             self._check_address(message)
         except MessageError as error:
-            self.vehicle.note(error.error)
+            refer = (("topic", topic.rpartition("/")[2]), *error.error.references)
+            self.vehicle.note(replace(error.error, references=refer))
             return
         self.vehicle.note_unknown(unknown)
         if kind is Kind.ORDER:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from warehouse_vda5050.driver import Driver, Report
 from warehouse_vda5050.grid import Grid
 from warehouse_vda5050.model import (
+    ActionState,
     Error,
     ErrorLevel,
     ErrorType,
@@ -22,6 +23,7 @@ from warehouse_vda5050.model import (
     Order,
     State,
 )
+from warehouse_vda5050.topics import Kind
 from warehouse_vda5050.validation import MessageError
 from warehouse_vda5050.validation.orders import cells_of, check_abilities, check_form
 from warehouse_vda5050.vehicle.abilities import completed
@@ -83,7 +85,7 @@ class Vehicle:
         try:
             return self._accept(order)
         except MessageError as invalid:
-            self.note(invalid.error)
+            self.note(_referring(invalid.error, order))
             return False
 
     def on_instant_actions(self, message: InstantActions, now: float) -> None:
@@ -134,7 +136,7 @@ class Vehicle:
 
     def _drive(self, report: Report, now: float) -> None:
         order = self.order
-        stays = self.actions.holds_driving or self.actions.has_failed
+        stays = self.actions.holds_driving or self.actions.failed
         if order and not order.is_driven and not stays and not self._cancelling:
             self.wheels.drive(order, report, now)
 
@@ -328,15 +330,33 @@ class Vehicle:
         errors = [*self.errors, *(self.report.errors if self.report else ())]
         order = self.order
         if order and not self.is_free:
-            fault = self.wheels.fault
-            if self.actions.has_failed and not self._cancelling and not order.is_driven:
-                fault = fault or "an action failed, and the robot stays where it is"
-            if fault:
-                errors.append(_order_fault(order, fault))
+            if self.wheels.fault:
+                errors.append(_order_fault(order, self.wheels.fault))
+            if not self._cancelling and not order.is_driven:
+                errors += [_action_fault(order, state) for state in self.actions.failed]
         return tuple(replace(error, description=error.description[:500]) for error in errors)
 
 
+HINT = "cancelOrder, then a new order"
+
+
 def _order_fault(order: OrderProgress, text: str) -> Error:
-    hint = "cancelOrder, then a new order"
-    refer = (("orderId", order.id[:100]),)
-    return Error(ErrorType.ORDER.value, ErrorLevel.WARNING, text, hint, refer)
+    return Error(ErrorType.ORDER.value, ErrorLevel.WARNING, text, HINT, _references(order))
+
+
+def _action_fault(order: OrderProgress, state: ActionState) -> Error:
+    text = f"{state.type} failed, and the robot stays where it is: {state.result}"
+    refer = (*_references(order), ("actionId", state.id[:100]))
+    return Error(ErrorType.ORDER_ACTION.value, ErrorLevel.WARNING, text, HINT, refer)
+
+
+def _references(order: Order | OrderProgress) -> tuple[tuple[str, str], ...]:
+    """Returns what masters find an order's errors by."""
+    topic = ("topic", Kind.ORDER.value)
+    return topic, ("orderId", order.id[:100]), ("orderUpdateId", str(order.update))
+
+
+def _referring(error: Error, order: Order) -> Error:
+    """Returns the error of an order with all that masters find it by."""
+    further = [pair for pair in error.references if pair[0] not in ("orderId", "orderUpdateId")]
+    return replace(error, references=(*_references(order), *further))
