@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The name of the person in front of the page, kept in the browser.
+
+import { $, on } from './dom.js';
+
+/** The name; asks for it if there is none yet, or `again`. '': the person does not tell. */
+export async function personOf(again = false) {
+  const kept = localStorage.getItem('person') ?? '';
+  if (kept && !again) return kept;
+  const dialog = $('who'), name = $('who-name');
+  name.value = kept;
+  dialog.returnValue = '';
+  dialog.showModal();
+  name.focus();
+  await new Promise((resolve) => { on(dialog, 'close', resolve); });
+  if (dialog.returnValue !== 'yes') return kept;
+  const given = name.value.trim();
+  localStorage.setItem('person', given);
+  return given;
+}
+
+on($('who-name'), 'keydown', (event) => {
+  if (event.key !== 'Enter') return;
+  event.preventDefault();
+  $('who').close('yes');
+});
