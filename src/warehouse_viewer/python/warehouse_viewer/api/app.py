@@ -33,8 +33,11 @@ from warehouse_viewer.ros.shift_feed import ShiftFeed
 from warehouse_viewer.ros.simulation import Simulation
 from warehouse_viewer.server.access import AccessControl
 from warehouse_viewer.server.http_server import HubTask, Server, config_of
-from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, Site
+from warehouse_viewer.server.site import API, FLOOR, LAYOUT, OPERATIONS, WHATIF, Site
 from warehouse_viewer.server.sockets import SocketLimit
+from warehouse_viewer.whatif import places
+from warehouse_viewer.whatif.routes import routes as whatif_routes
+from warehouse_viewer.whatif.workshop import Workshop
 
 
 class Viewer:
@@ -110,8 +113,10 @@ class Viewer:
         self._hub_task.start()
 
     def _add_files(self, app):
-        pages = Site(FLOOR, OPERATIONS, LAYOUT, API, folder=self._web)
-        app.router.routes.extend([*Editor(builds=True).routes(), *pages.routes()])
+        pages = Site(FLOOR, OPERATIONS, LAYOUT, WHATIF, API, folder=self._web)
+        editor = Editor(builds=True, compares=True)
+        whatif = whatif_routes(Workshop(places.of_viewer()))
+        app.router.routes.extend([*editor.routes(), *whatif, *pages.routes()])
 
 
 async def not_valid(request: Request, error: RequestValidationError) -> JSONResponse:
