@@ -2,8 +2,9 @@
 """The figures of scenarios: means with 95 % confidence intervals, and how they differ.
 
 What is told by the minute is told after the warm-up (MSER-5), the same minutes for all that are
-compared. Scenarios are compared seed by seed, for the same seed draws the same orders, and all
-differences that are told together are corrected together (Holm).
+compared. A difference is told where two intervals do not overlap, or where it is above chance seed
+by seed, for the same seed draws by the same numbers; all that are told together are corrected
+together (Holm).
 """
 
 import math
@@ -39,13 +40,13 @@ class Figure:
 
 AFTER = "after the warm-up"
 FIGURES = (
-    Figure("pieces", "Pieces an hour", "pieces/h", 0, MORE, AFTER),
+    Figure("pieces", "Pieces picked", "an hour", 0, MORE, AFTER),
     Figure("share", "Of what the stations can at most", "%", 1, MORE, AFTER),
-    Figure("orders", "Orders completed an hour", "orders/h", 0, MORE),
+    Figure("orders", "Orders completed", "an hour", 0, MORE),
     Figure("late", "Late orders", "%", 1, LESS),
-    Figure("turnover", "Order, arrival to completion, median", "min", 1, LESS, AFTER),
-    Figure("waiting", "Robots wait for stations", "% of time", 1, LESS),
-    Figure("idle", "Robots without work", "% of time", 1, NEITHER),
+    Figure("turnover", "Order's way from arrival to completion", "min, median", 1, LESS, AFTER),
+    Figure("waiting", "Robots wait for stations", "% of their time", 1, LESS),
+    Figure("idle", "Robots without work", "% of their time", 1, NEITHER),
     Figure("metres", "Robots drive for a piece", "m", 1, LESS, AFTER),
 )
 BETTER, WORSE, SAME, DIFFERENT = "better", "worse", "no difference shown", "different"
@@ -95,7 +96,8 @@ def comparison(scenarios: Mapping[str, Sequence[Run]]) -> dict[str, Any]:
         cells: list[dict[str, Any]] = [_estimate(by_seed, one.key) for by_seed in figures]
         for i in range(1, len(cells)):
             if difference := told.get((one.key, i)):
-                cells[i].update(_told(difference, corrected[one.key, i], one))
+                apart = are_apart(cells[0], cells[i])
+                cells[i].update(_told(difference, corrected[one.key, i], one, apart))
         rows.append(_shown(one) | {"cells": cells})
     return {"names": list(scenarios), "warm_up": _minutes(groups), "rows": rows}
 
@@ -130,19 +132,26 @@ def _difference(
     return difference_of(a, b)
 
 
-def _told(difference: Difference, p_value: float, figure: Figure) -> dict[str, Any]:
+def are_apart(first: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """Returns whether the intervals of two estimates do not overlap."""
+    if first["half"] is None or other["half"] is None:
+        return False
+    return bool(abs(first["mean"] - other["mean"]) > first["half"] + other["half"])
+
+
+def _told(difference: Difference, p_value: float, figure: Figure, apart: bool) -> dict[str, Any]:
     estimate = difference.estimate
     return {
         "difference": {"mean": estimate.mean, "half": _finite(estimate.half)},
         "relative": _finite(difference.relative),
         "p": p_value,
         "paired": difference.paired,
-        "verdict": _verdict(estimate.mean, p_value, figure.better),
+        "verdict": _verdict(estimate.mean, apart or p_value < 1 - CONFIDENCE, figure.better),
     }
 
 
-def _verdict(mean: float, p_value: float, better: int) -> str:
-    if p_value >= 1 - CONFIDENCE:
+def _verdict(mean: float, is_shown: bool, better: int) -> str:
+    if not is_shown:
         return SAME
     if better == NEITHER:
         return DIFFERENT

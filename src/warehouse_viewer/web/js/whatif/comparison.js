@@ -3,7 +3,7 @@
 
 import { $, make, on } from '../dom.js';
 import { queryOf } from './server.js';
-import { chartOf, draw } from './whiskers.js';
+import { chartOf, draw, unitOf } from './whiskers.js';
 import { differences, interval, number, plural } from './words.js';
 
 const SIGNS = { better: '▲', worse: '▼', different: '◆' };
@@ -73,21 +73,21 @@ export class Comparison {
     const counts = [...new Set(rows[0].cells.map(({ count }) => count))];
     const few = Math.min(...counts) < 2 ? ' One run alone says nothing about chance: give each scenario several repetitions.' : '';
     const after = rows.filter(({ note }) => note !== 'the whole shift').map(({ title: text }) => text.toLowerCase()).join('; ');
-    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse: the difference to ${this.told.names[0]},`
-      + ` seed by seed, is above chance (p < 0.05, corrected for all differences that are shown).${few}`
+    $('notes').textContent = `Means of ${counts.map((n) => plural(n, 'run')).join(' and ')} with 95 % confidence intervals. Better and worse than ${this.told.names[0]}: the intervals do not overlap,`
+      + ` or the difference seed by seed is above chance (p < 0.05, corrected for all differences in the table).${few}`
       + ` After a warm-up of ${number(warmUp)} min, the same for all: ${after}. The others: of the whole shift.`;
   }
 }
 
 function rowHead(text, unit = '') {
-  return make('th', { scope: 'row' }, text, ...(unit ? [make('span', { className: 'dim unit', textContent: unit })] : []));
+  return make('th', { scope: 'row' }, `${text} `, ...(unit ? [make('span', { className: 'dim unit', textContent: unitOf(unit) })] : []));
 }
 
 const title = (text, columns) => make('tr', { className: 'part' }, make('th', { colSpan: columns + 1, scope: 'colgroup', textContent: text }));
 const nothing = (columns) => make('tr', {}, make('td', { colSpan: columns + 1, className: 'dim', textContent: 'nothing: they are the same' }));
 
 function cellOf({ digits }, cell, i) {
-  const out = make('td', {}, make('span', { className: 'mean', textContent: interval(cell, digits) }));
+  const out = make('td', {}, make('span', { className: 'mean', textContent: interval(cell, digits) }), ' ');
   if (!i) return out;
   const verdict = cell.verdict ?? 'too few runs';
   const sign = SIGNS[verdict] ? `${SIGNS[verdict]} ` : '';

@@ -3,13 +3,16 @@
 
 const CAP = 7; // half a whisker's cap [px]
 
+/** A unit behind a title: 'an hour' goes on with its words. */
+export const unitOf = (unit) => (unit.startsWith('an ') ? unit : `[${unit}]`);
+
 /** What is drawn of a row of figures: {labels, means, ranges, axis, digits}. */
 export function chartOf(names, { title, unit, digits, cells }) {
   return {
     labels: names,
     means: cells.map(({ mean }) => mean),
     ranges: cells.map(({ mean, half }) => (half === null ? null : [Math.max(mean - half, 0), mean + half])),
-    axis: `${title} [${unit}]`,
+    axis: `${title} ${unitOf(unit)}`,
     digits,
   };
 }
