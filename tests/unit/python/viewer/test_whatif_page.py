@@ -66,7 +66,7 @@ def test_two_layouts_are_compared(page):
     page.until(f"{CARDS}.length === 2")
     assert page.read(CARDS) == ["small", "small 2 robots"]
     page.until(DONE)
-    page.until("page.comparison.told && page.comparison.chart")
+    page.until("Boolean(page.comparison.told && page.comparison.chart)")
     assert page.read(COLUMNS) == ["small", "small 2 robots"]
     rows = page.read("[...document.querySelectorAll('#table tbody th')].map((c) => c.textContent)")
     assert "Robots " in rows and "Layout " not in rows and "Pieces picked an hour" in rows
