@@ -29,6 +29,7 @@ class Page(NamedTuple):
 FLOOR = Page("/", "Floor", "index.html")
 OPERATIONS = Page("/operations", "Operations", "operations.html")
 LAYOUT = Page("/layout", "Layout", "layout.html")
+WHATIF = Page("/whatif", "What-if", "whatif.html")
 API = Page("/docs", "API", "docs.html")
 
 
