@@ -65,7 +65,7 @@ class Page {
       state: (live, reason) => this.bar.showLink(live, reason),
       scene: (scene) => this.takeScene(scene),
       update: (update) => this.takeUpdate(update),
-      status: (status) => this.bar.showStatus(status),
+      status: (status) => this.takeStatus(status),
       events: ({ events }) => this.takeEvents(events),
       paths: ({ paths }) => this.takePaths(paths),
       scan: (scan) => this.takeScan(scan),
@@ -150,6 +150,11 @@ class Page {
     this.actors.placeScenery(changed.scenery);
     this.overlays.trails.note(changed.robots);
     this.stage.invalidate();
+  }
+
+  takeStatus(status) {
+    this.bar.showStatus(status);
+    if (!status.away) this.stage?.pace.yieldTo(status.paused ? 1 : status.factor, status.paused ? 1 : status.target_factor);
   }
 
   takeEvents(events) {

@@ -49,6 +49,7 @@ export class Navigator {
     if (zoom) camera.zoom = zoom;
     camera.updateProjectionMatrix();
     controls.update();
+    camera.updateMatrixWorld(); // for who asks before the next picture where something is
     this.stage.invalidate();
   }
 
