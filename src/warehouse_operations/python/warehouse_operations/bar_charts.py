@@ -28,7 +28,8 @@ WORDS = {
 def robots(groups: Sequence[Group]) -> Chart:
     """Returns the activities that robots spend their time on."""
     shares = [_shares(group) for group in groups]
-    title, quantity = _robots_words(shares[0]), "Share of the robots' time [%]"
+    title = _robots_words(shares[0]) if len(groups) == 1 else "What robots do, by configuration"
+    quantity = "Share of the robots' time [%]"
     several = any(len(group.runs) > 1 for group in groups)
     quantity += ", with 95 % confidence intervals" if several else ""
     rows_of = len(groups)
@@ -45,7 +46,7 @@ def robots(groups: Sequence[Group]) -> Chart:
         quantity,
         draw,
         height,
-        (172, 52, 6, 40),
+        (172, 60, 6, 40),
         head,
         rows,
         QUEUES,
@@ -76,7 +77,7 @@ def _draw_bars(canvas: Canvas, shares: Sequence[dict[str, Estimate]], lettered: 
             text += f"{100 * share.mean:.0f} %" if share.mean >= 0.01 else "< 1 %"
             shown = text if share.mean else text.replace("< 1 %", "0")
             canvas.say(100 * share.mean + half, y, shown, "text", xytext=(5, -4))
-    canvas.scale(("% of their time", 1.02 * top or 1), ("", 1), upright=False, across=True)
+    canvas.scale(("% of their time", 1.06 * top or 1), ("", 1), upright=False, across=True)
     axes.set(ylim=(len(WORDS) - 0.5, -0.5))
     axes.set_yticks(range(len(WORDS)), list(WORDS.values()), color=tokens.colour("text"))
 

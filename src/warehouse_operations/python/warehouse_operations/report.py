@@ -32,10 +32,12 @@ def page(runs: Sequence[Run]) -> str:
     alone = len(groups) == 1
     first = report_front.sheet(groups[0]) if alone else report_side.sheet(groups)
     exports = sheets.links(report_exports.tables(groups))
-    figures = report_figures.table(groups) + exports
+    labels = "" if alone else charts.key_of(groups)
+    figures = labels + report_figures.table(groups) + exports
     rest = [document.section("Figures", figures, "" if alone else report_side.NOTE)]
     if not alone:
-        rest += [document.section("Over the shift", charts.throughput(groups).html())]
+        over_time = document.section("Over the shift", charts.throughput(groups).html())
+        rest += [report_side.more(groups), over_time]
     rest += [
         document.section("How long orders take", charts.turnover(groups).html()),
         document.section("Where the robots' time goes", bar_charts.robots(groups).html()),

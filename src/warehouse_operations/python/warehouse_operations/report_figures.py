@@ -32,15 +32,25 @@ ROWS: tuple[tuple[str, str, str, float, int], ...] = (
     ("executed_over_planned", "Driven time over planned time", "", 1, 3),
     ("real_time_factor", "Faster than real time", "times", 1, 1),
 )
+ACROSS = 4  # configurations in a table
 # Ideal robots have no traffic: there are no such figures to compare.
 OF_TRAFFIC = {"collisions", "blocked", "watchdog", "plan_ms.p99", "executed_over_planned"}
 
 
 def table(groups: Sequence[Group]) -> str:
-    """Returns the figures of all groups, HTML."""
-    head = ["", *(_heading(i, group) for i, group in enumerate(groups))] if len(groups) > 1 else []
+    """Returns the figures of all groups, HTML: tables that are narrow enough for paper."""
+    if len(groups) == 1:
+        return _part(groups, [])
+    letters = [letter(i) for i in range(len(groups))]
+    return "".join(
+        _part(groups[i : i + ACROSS], letters[i : i + ACROSS])
+        for i in range(0, len(groups), ACROSS)
+    )
+
+
+def _part(groups: Sequence[Group], letters: Sequence[str]) -> str:
     rows = [[words, *(cell(group, *row) for group in groups)] for words, row in _rows()]
-    return page.table(head, rows, "Figures")
+    return page.table(["", *letters] if letters else [], rows, " ".join(["Figures", *letters]))
 
 
 def text(groups: Sequence[Group]) -> str:
@@ -70,7 +80,3 @@ def number(estimate: Estimate, factor: float, digits: int, unit: str = "") -> st
 
 def _rows() -> list[tuple[str, Any]]:
     return [(words, (kpi, *shown)) for kpi, words, *shown in ROWS]
-
-
-def _heading(place: int, group: Group) -> str:
-    return f"{letter(place)}: {group.label}"

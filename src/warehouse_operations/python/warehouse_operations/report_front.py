@@ -2,7 +2,7 @@
 """The report's first sheet: what a shift came to, what limits it, and on which assumptions."""
 
 from collections.abc import Iterator, Sequence
-from datetime import datetime
+from datetime import date
 from typing import Any
 
 from warehouse_operations import charts
@@ -105,6 +105,7 @@ def assumptions(runs: Sequence[Run], warm_up: str = "") -> Iterator[tuple[str, s
             yield term, fact
     seeds = sorted({run.seed for run in runs})
     yield "Seeds", f"{_listed(seeds)} ({len(runs)} {'shift' if len(runs) == 1 else 'shifts'})"
+    yield from _origin(runs)
     yield "Warm-up", warm_up or "nothing is left out: stations begin without units"
 
 
@@ -135,10 +136,17 @@ def _facts(run: Run) -> Iterator[tuple[str, str]]:
         yield "Traffic", "none: ideal robots do not meet; simulate with physics to see its cost"
     if policies := config.get("policies", {}):
         yield "Decisions", ", ".join(f"{k}: {_word(v)}" for k, v in policies.items())
-    if date := run.data.get("date"):
-        yield "Date", datetime.fromisoformat(date).strftime("%-d %B %Y")
-    if version := run.data.get("version"):
-        yield "Version", version
+
+
+def _origin(runs: Sequence[Run]) -> Iterator[tuple[str, str]]:
+    """Yields when and by which version these runs were simulated; runs of before don't say it."""
+    dates = sorted({run.data["date"][:10] for run in runs if "date" in run.data})
+    if dates:
+        days = [date.fromisoformat(one).strftime("%-d %B %Y") for one in dates]
+        yield "Date", days[0] if len(days) == 1 else f"{days[0]} to {days[-1]}"
+    versions = sorted({run.data["version"] for run in runs if run.data.get("version")})
+    if versions:
+        yield "Version", ", ".join(versions)
 
 
 def _big(group: Group) -> Iterator[tuple[str, str, str]]:

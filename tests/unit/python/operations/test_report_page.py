@@ -6,21 +6,18 @@ import io
 import re
 import shutil
 import subprocess
-import sys
 import zipfile
 
+import axe
 import paths
+import pictures
 import pytest
+from browser import browser
 from instance_file import write_instance
 
-sys.path.append(str(paths.ROOT / "tests" / "rostest"))
-
-import axe  # noqa: E402
-from browser import browser  # noqa: E402
-
-from warehouse_operations import report  # noqa: E402
-from warehouse_operations.document import canvas, inter, page, sheets, tokens  # noqa: E402
-from warehouse_operations.simulation import Description, simulate  # noqa: E402
+from warehouse_operations import report
+from warehouse_operations.document import canvas, inter, page, sheets, tokens
+from warehouse_operations.simulation import Description, simulate
 
 DESIGN = paths.ROOT / "src" / "warehouse_viewer" / "web" / "design.css"
 PATIENCE = 60.0  # with a machine that has much to do [s]
@@ -64,9 +61,10 @@ def printed(chromium, path):
     return text.stdout.decode().split("\f")[:-1]
 
 
-def test_reports_are_for_all(chromium, file):
+def test_reports_are_for_all_and_look_as_they_did(chromium, file):
     chromium.open(file.as_uri())
     assert axe.findings(chromium) == []
+    pictures.compare(chromium, f"report-{file.stem}", "dark")
     for width in (1440, 1024, 390):
         chromium.be_phone(width)
         assert chromium.read("document.documentElement.scrollWidth") <= width

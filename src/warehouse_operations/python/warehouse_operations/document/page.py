@@ -62,7 +62,7 @@ def facts(pairs: Iterable[tuple[str, str]]) -> str:
 
 def _fact(term: str, fact: str) -> str:
     long = ' class="long"' if len(fact) > LONG else ""
-    return f"<dt>{escape(term)}</dt><dd{long}>{escape(fact)}</dd>"
+    return f"<dt{long}>{escape(term)}</dt><dd{long}>{escape(fact)}</dd>"
 
 
 def sentences(texts: Iterable[str]) -> str:

@@ -51,26 +51,30 @@ svg text {{ paint-order: stroke; stroke: var(--panel); stroke-width: 3px;
 .facts {{ display: grid; grid-template-columns: max-content 1fr max-content 1fr; gap: 3px 14px;
   font-size: .8125rem; line-height: 1.4; }}
 .facts dt {{ color: var(--dim); }}
-.facts .long {{ grid-column: 2 / -1; }}
+.facts dt.long {{ grid-column: 1; }}
+.facts dd.long {{ grid-column: 2 / -1; }}
 .scroll {{ overflow-x: auto; }}
 .scroll:focus-visible, summary:focus-visible {{ outline: 2px solid var(--accent); }}
 table {{ border-collapse: collapse; font-size: .8125rem; line-height: 1.4; min-width: 60%; }}
-th, td {{ padding: 4px 0 4px 20px; text-align: right; vertical-align: baseline;
+th, td {{ padding: 4px 0 4px 15px; text-align: right; vertical-align: baseline;
   border-bottom: 1px solid var(--line); white-space: nowrap; }}
 th:first-child, td:first-child {{ text-align: left; padding-left: 0; }}
 th {{ font-weight: 550; color: var(--dim); vertical-align: bottom; white-space: normal; }}
-tbody th {{ color: var(--text); font-weight: 400; }}
+tbody th {{ color: var(--text); font-weight: 400; white-space: nowrap; }}
 tr {{ break-inside: avoid; }}
 thead {{ display: table-header-group; }}
 details {{ margin-top: 4px; font-size: .8125rem; color: var(--dim); }}
 summary {{ cursor: pointer; width: max-content; padding: 4px 0; }}
 details table {{ color: var(--text); }}
+.scroll + .scroll {{ margin-top: 20px; }}
+.export {{ margin-top: 8px; }}
 .export a {{ margin-right: 14px; }}
 @media screen and (max-width: 840px) {{ main {{ margin: 0; border: 0; border-radius: 0;
   padding: 24px; }} }}
 @media screen and (max-width: {NARROW}px) {{
   main {{ padding: 16px 20px 32px; }} .wide {{ display: none; }} .narrow {{ display: block; }}
-  .facts {{ grid-template-columns: max-content 1fr; }} .facts .long {{ grid-column: auto; }}
+  .facts {{ grid-template-columns: max-content 1fr; }} .facts .long {{ grid-column: auto
+  !important; }}
   .answer {{ font-size: 1.125rem; }} .big dd {{ font-size: 1.375rem; }}
   summary {{ padding: 12px 0; }} .export a {{ display: inline-block; padding: 12px 0; }}
 }}

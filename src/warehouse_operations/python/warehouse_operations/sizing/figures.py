@@ -26,12 +26,10 @@ Chosen = tuple[int, int] | None  # robots and stations of the answer
 def throughput(study: Study, chosen: Chosen) -> Chart:
     """Returns orders an hour over robots, a line for each number of stations with its knee."""
     asked = study.wish.orders_per_hour
-    title = "Orders completed an hour"
-    if chosen:
-        title = f"{chosen[0]} robots and {chosen[1]} stations do {asked:,.0f} orders an hour"
+    title = f"Orders completed an hour, where {asked:,.0f} are asked"
     return Chart(
         title,
-        "Orders completed an hour, over robots",
+        "Means over robots, a line for each number of open picking stations",
         lambda drawn: _draw_throughput(drawn, study, chosen),
         HEIGHT,
         MARGINS,

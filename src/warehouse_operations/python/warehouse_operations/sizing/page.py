@@ -76,10 +76,11 @@ def _first(study: Study, answer: Answer | None, why: str, prices: Prices | None)
     asked = f"How many robots does {wish.file.title} need for {orders}?"
     told = answer.headline() if answer else f"It can't be done: {why}."
     is_bad = not answer or not answer.confirmed
+    curve = figures.throughput(study, _chosen(answer)).html()
     parts = [
         document.opening(asked, told, is_bad),
         document.big(_big(study, answer, prices)) if answer else "",
-        figures.throughput(study, _chosen(answer)).html(),
+        document.section("How orders grow with robots", curve),
         document.section(f"What limits it: {answer.limit}", document.sentences(answer.reasons()))
         if answer
         else "",
