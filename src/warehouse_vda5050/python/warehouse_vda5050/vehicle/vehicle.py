@@ -247,6 +247,11 @@ class Vehicle:
         raise MessageError(text, type.value, refer)
 
     @property
+    def is_taken(self) -> bool:
+        """Whether an order has the robot, or had it just now."""
+        return self._taken
+
+    @property
     def is_free(self) -> bool:
         """Whether no order is under way: nodes and actions are over, or there never was one."""
         return self.order is None or (
@@ -267,6 +272,14 @@ class Vehicle:
         self.hands.give_up()
         self.wheels.cancel(now)
         return True
+
+    def abandon(self) -> None:
+        """Ends driving at the next grid point: the program that drives the robot ends."""
+        self.wheels.cancel(0.0)
+
+    def set_grid(self, grid: Grid) -> None:
+        """Takes over a floor of the same cells, on which other things stand."""
+        self.grid = self.wheels.grid = grid
 
     def set_paused(self, paused: bool) -> None:
         """Stops the robot, or lets it go on."""
