@@ -71,10 +71,8 @@ class PathFollower:
 
     def command(self, pose: Pose, dt: float, stopped: bool = False) -> tuple[float, float]:
         """Returns the speeds ahead [m/s] and counterclockwise [rad/s] for the next `dt` [s]."""
-        if stopped or self.reached >= self._released:
-            wanted = 0.0, 0.0
-        else:
-            wanted = self._go(pose)
+        stands = stopped or self.reached >= self._released
+        wanted = (0.0, 0.0) if stands else self._go(pose)
         limits = self.limits
         self._speed = _approach(self._speed, wanted[0], 2 * limits.acceleration * dt)
         self._rate = _approach(self._rate, wanted[1], 2 * limits.turn_acceleration * dt)
@@ -93,13 +91,14 @@ class PathFollower:
 
     def _turn(self, error: float) -> float:
         limits = self.limits
-        rate = min(limits.turn_rate, math.sqrt(2 * limits.turn_acceleration * abs(error)), 3 * abs(error))
+        braked = math.sqrt(2 * limits.turn_acceleration * abs(error))
+        rate = min(limits.turn_rate, braked, 3 * abs(error))
         return math.copysign(rate, error)
 
     def _drive(self, pose: Pose, start: Point, heading: float, error: float) -> tuple[float, float]:
         limits = self.limits
         along, across = _in_line(pose, start, heading)
-        left = self._run_length(heading) - along
+        left = max(0.0, self._run_length(heading) - along)
         while self.reached < self._released and along >= self._leg() - limits.near:
             along -= self._leg()
             self.reached += 1
@@ -109,7 +108,7 @@ class PathFollower:
             if self.reached >= self._released:
                 return 0.0, 0.0
         self._ahead = self._leg() - along
-        speed = min(limits.speed, math.sqrt(2 * limits.acceleration * max(left, 0.0)), 3 * max(left, 0.0))
+        speed = min(limits.speed, math.sqrt(2 * limits.acceleration * left), 3 * left)
         steer = 3.0 * error - 6.0 * across * min(1.0, speed / 0.1)
         return max(speed, 0.02), max(-limits.turn_rate, min(limits.turn_rate, steer))
 

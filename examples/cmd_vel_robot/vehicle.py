@@ -64,7 +64,11 @@ def grid() -> Grid:
 def main() -> None:
     rospy.init_node("cmd_vel_vehicle")
     host = Host()
-    who = Identity(rospy.get_param("~manufacturer", "example"), str(rospy.get_param("~serial", "1")))
+    manufacturer, serial = (
+        rospy.get_param("~manufacturer", "example"),
+        rospy.get_param("~serial", 1),
+    )
+    who = Identity(manufacturer, str(serial))
     broker = read_settings(rospy.get_param("~broker", "localhost:1883"))
     topics = Topics(rospy.get_param("~prefix", "uagv/v2"))
     vehicle = Vehicle(host.driver, grid())

@@ -121,9 +121,7 @@ class Master(unittest.TestCase):
         file.write_text(f"{NUMBER}: {{manufacturer: acme, serial: '7'}}\n")
         rospy.set_param("/vda5050_master/robots", str(file))
         rospy.set_param("/vda5050_master/broker", f"localhost:{cls.broker.port}")
-        cls.node = os.spawnlp(
-            os.P_NOWAIT, "rosrun", "rosrun", "warehouse_vda5050", "master"
-        )
+        cls.node = os.spawnlp(os.P_NOWAIT, "rosrun", "rosrun", "warehouse_vda5050", "master")
 
     def row(self):
         """What the fleet tells of the vehicle last, as {field: value}; {} if it is not there."""

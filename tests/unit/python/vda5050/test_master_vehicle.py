@@ -69,7 +69,8 @@ class Bench:
 
     def take(self, order, at=0):
         """The vehicle has an order, and is at the node of that sequence number."""
-        nodes = tuple(NodeState(n.id, n.sequence, n.released) for n in order.nodes if n.sequence > at)
+        left = [node for node in order.nodes if node.sequence > at]
+        nodes = tuple(NodeState(n.id, n.sequence, n.released) for n in left)
         self.tell(order_id=order.id, order_update=order.update, nodes=nodes, last_node_sequence=at)
 
     def follow(self, released=2):

@@ -14,7 +14,8 @@ def written(tmp_path, text):
 
 
 def test_robots_are_read(tmp_path):
-    text = "22: {manufacturer: acme, serial: '8'}\n21: {manufacturer: acme, serial: '7', origin: [4, 2, 1.5]}\n"
+    text = "22: {manufacturer: acme, serial: '8'}\n"
+    text += "21: {manufacturer: acme, serial: '7', origin: [4, 2, 1.5]}\n"
     first, second = read(written(tmp_path, text))
     assert (first.number, first.identity.serial, first.frame) == (21, "7", Frame(4, 2, 1.5))
     assert (second.number, second.frame) == (22, Frame())

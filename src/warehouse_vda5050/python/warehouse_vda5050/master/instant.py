@@ -44,7 +44,7 @@ class InstantRequests:
         return name in self._pending
 
     def take(self, state: State) -> dict[str, ActionStatus]:
-        """Takes in a state; returns the ids of the actions that it answers, and how far they are."""
+        """Takes in a state; returns the ids of the actions that it answers, and their status."""
         told = {one.id: one.status for one in state.actions if one.id in self._pending}
         for name in told:
             del self._pending[name]

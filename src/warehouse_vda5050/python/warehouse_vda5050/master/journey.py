@@ -8,7 +8,7 @@ from warehouse_vda5050.driver import Point
 from warehouse_vda5050.master.commands import Follow, RefusedError
 from warehouse_vda5050.model import Action, Edge, Node, Order, Position
 
-PlaceNode = Callable[[Point], tuple[str, Position]]  # a point's node id, and where its vehicle has it
+PlaceNode = Callable[[Point], tuple[str, Position]]  # node id, and where the vehicle has it
 
 
 @dataclass
@@ -100,8 +100,6 @@ def begin(command: Follow, order_id: str, actions: Sequence[Action] = ()) -> Jou
     if command.first != 0 or not command.points:
         raise RefusedError("a new path begins with point 0, where the robot stands")
     if not 1 <= command.released <= len(command.points):
-        raise RefusedError(
-            f"{command.released} of {len(command.points)} points can't be released"
-        )
+        raise RefusedError(f"{command.released} of {len(command.points)} points can't be released")
     points, released = list(command.points), command.released
     return Journey(command.path_id, order_id, points, released, actions=tuple(actions))

@@ -30,7 +30,7 @@ ASKS_AFTER = 3  # orders sent again: the state that answers may be lost
 NEAR = 0.5  # of a cell: so near to its point 0 a robot must stand
 
 
-class EventKind(str, Enum):
+class EventKind(Enum):
     """What became of a command, as in warehouse_msgs/Event."""
 
     ACCEPTED = "ACCEPTED"
@@ -144,7 +144,8 @@ class RemoteVehicle:
         if way and not self._lift and command.path_id == way.path_id:
             if self._cancelling:
                 raise RefusedError("its path is being cancelled")
-            return way.change(command)
+            way.change(command)
+            return
         self._check_ready()
         if command.path_id == 0:
             raise RefusedError("path_id must not be 0")
@@ -152,7 +153,6 @@ class RemoteVehicle:
         self._check_start(way.points[0])
         self._begin(way, None, f"follow path {way.path_id}")
         self.path_id, self.reached = way.path_id, 1
-        return None
 
     def _begin_lift(self, command: Lift) -> None:
         self._check_ready()
@@ -171,7 +171,8 @@ class RemoteVehicle:
     def _action(self, kind: str, unit: int) -> Action:
         told = {"stationType": "floor", "loadType": "unit", "loadId": f"storage_unit{unit}"}
         parameters = tuple({**told, **self.robot.action_parameters}.items())
-        return Action(kind, f"{self._run}-{self.robot.number}-a{self._count}", parameters=parameters)
+        name = f"{self._run}-{self.robot.number}-a{self._count}"
+        return Action(kind, name, parameters=parameters)
 
     def _begin(self, way: Journey, lift: Lift | None, text: str) -> None:
         self._journey, self._lift, self._times = way, lift, 0
@@ -188,7 +189,8 @@ class RemoteVehicle:
         x, y, _ = self.view.pose
         if max(abs(start[0] - x), abs(start[1] - y)) > NEAR * self._grid.spacing:
             raise RefusedError(
-                f"its path begins at {start[0]:g}, {start[1]:g} m, and it stands at {x:.2f}, {y:.2f}"
+                f"its path begins at {start[0]:g}, {start[1]:g} m,"
+                f" and it stands at {x:.2f}, {y:.2f}"
             )
 
     def _cancel(self) -> None:
@@ -262,17 +264,17 @@ class RemoteVehicle:
     def _settle(self, way: Journey, state: State) -> None:
         """Ends the command where nothing of it is left to be done."""
         if self._cancelling and self._is_cancelled(state):
-            return self._end(EventKind.DONE, "cancelled")
+            self._end(EventKind.DONE, "cancelled")
+            return
         mine = {action.id for action in way.actions}
         told = {one.id: one for one in state.actions if one.id in mine}
         failed = [one for one in told.values() if one.status == ActionStatus.FAILED]
         if failed:
-            return self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
-        if not way.is_whole or not all(name in told for name in mine):
-            return None
-        if all(one.status.is_over for one in told.values()):
+            self._end(EventKind.BLOCKED, failed[0].result or f"{failed[0].type} failed")
+            return
+        is_told = way.is_whole and all(name in told for name in mine)
+        if is_told and all(one.status.is_over for one in told.values()):
             self._finish(way)
-        return None
 
     def _finish(self, way: Journey) -> None:
         lift = self._lift
@@ -296,7 +298,8 @@ class RemoteVehicle:
             told = dict(error.references)
             update = told.get("orderUpdateId", str(way.update))
             if told.get("orderId") == way.order_id and update == str(way.update):
-                return self._give_up(way, f"{error.type}: {error.description}")
+                self._give_up(way, f"{error.type}: {error.description}")
+                return
 
     # --- what others did
 

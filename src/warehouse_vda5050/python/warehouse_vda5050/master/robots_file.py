@@ -44,7 +44,9 @@ def read(path: Path) -> list[RemoteRobot]:
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         raise RobotsFileError(f"{path}: {error}") from error
     if not isinstance(told, dict) or not told:
-        raise RobotsFileError(f"{path}: robots were expected, number: {{manufacturer: …, serial: …}}")
+        raise RobotsFileError(
+            f"{path}: robots were expected, number: {{manufacturer: …, serial: …}}"
+        )
     robots = [_robot(f"{path}: robot {number}", number, one) for number, one in told.items()]
     _check_distinct(path, robots)
     return sorted(robots, key=lambda robot: robot.number)
