@@ -102,7 +102,8 @@ class WorldLink:
         x, y = motion[0], motion[1]
         at_charger = bool(self.grid and self.grid.cell_at(x, y) in self.chargers)
         lost = one in self._lost and not self._was_moved(one, x, y, work[0] == 0)
-        return Sighting(*motion, *work, *health, one in self._people, at_charger, lost)
+        told = [*motion, *work, *health, one in self._people, at_charger, lost]
+        return Sighting(*told)
 
     def _was_moved(self, one: int, x: float, y: float, idle: bool) -> bool:
         """Returns whether a lost robot was moved by others, and knows its place since then."""

@@ -68,7 +68,9 @@ class Line:
 
     def _arrived(self, line):
         """Most of what is on its way; the rest comes later."""
-        count = len(line) if self.random.random() > self.faults else self.random.randint(0, len(line))
+        count = (
+            len(line) if self.random.random() > self.faults else self.random.randint(0, len(line))
+        )
         arrived = line[:count]
         del line[:count]
         return arrived
@@ -134,7 +136,9 @@ def test_a_unit_is_fetched_and_put_down_once(faults):
         drive(line, 2, (8, 4))
         lift(line, up=False)
         handled = [e for e in line.vehicle.robot.events if e[0] != "at"]
-        assert handled == [("pick", "storage_unit7", (3, 2)), ("drop", "storage_unit7", (8, 4))], seed
+        assert handled == [("pick", "storage_unit7", (3, 2)), ("drop", "storage_unit7", (8, 4))], (
+            seed
+        )
 
 
 def test_a_path_is_cancelled_at_a_grid_point():

@@ -52,9 +52,7 @@ class Site:
     def add(self, k):
         robot = GridRobot((0, k))
         vehicle = Vehicle(robot, GRID)
-        link = VehicleLink(
-            vehicle, Identity("kiva", str(k + 1)), CODEC, TOPICS, self.settings
-        )
+        link = VehicleLink(vehicle, Identity("kiva", str(k + 1)), CODEC, TOPICS, self.settings)
         self.robots.append(robot)
         self.vehicles.append(link)
         self.loop.add(link.link)
@@ -77,7 +75,11 @@ class Site:
     def begin(self):
         """Waits until the master hears all vehicles."""
         self.until(self.connected)
-        self.until(lambda: len({s for s, kind, *_ in self.told if kind is Kind.FACTSHEET}) >= len(self.robots))
+        self.until(
+            lambda: (
+                len({s for s, kind, *_ in self.told if kind is Kind.FACTSHEET}) >= len(self.robots)
+            )
+        )
         for vehicle in self.vehicles:
             vehicle.vehicle.request_state()
 

@@ -38,9 +38,7 @@ class VehicleLink:
         self._now = 0.0
         name = f"{identity.manufacturer}.{identity.serial}.vehicle"
         wanted = [(topics.of(identity, kind), kind.qos) for kind in TO_VEHICLE]
-        self.link = Link(
-            name, broker, wanted, self._on_message, self._on_connect, self._make_will
-        )
+        self.link = Link(name, broker, wanted, self._on_message, self._on_connect, self._make_will)
 
     def tick(self, now: float) -> None:
         """Lets the vehicle go on, and sends what it has to tell. now: any clock [s]."""
