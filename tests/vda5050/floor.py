@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints what a master has to know of the running warehouse, as JSON: cells, robots, units and a
-trip for each of several robots that is in nobody else's way."""
+trip for each of several robots that is in no other's way."""
 
 import json
 
@@ -40,9 +40,14 @@ def trips(state, grid, robots, units):
                     back = route(loaded, goal, place)
                 except NoRouteError:
                     continue
-                yield dict(
-                    robot=kiva, unit=unit, station=station, there=there, onward=onward, back=back
-                )
+                yield {
+                    "robot": kiva,
+                    "unit": unit,
+                    "station": station,
+                    "there": there,
+                    "onward": onward,
+                    "back": back,
+                }
                 break
             else:
                 continue
@@ -73,8 +78,9 @@ def main() -> None:
         chosen.append(trip)
         if len(chosen) == 3:
             break
-    floor = dict(x=grid.x, y=grid.y, spacing=grid.spacing, columns=grid.columns, rows=grid.rows)
-    print(json.dumps(dict(floor=floor, robots=robots, trips=chosen, steps=straights(grid, robots))))
+    floor = {key: getattr(grid, key) for key in ("x", "y", "spacing", "columns", "rows")}
+    steps = straights(grid, robots)
+    print(json.dumps({"floor": floor, "robots": robots, "trips": chosen, "steps": steps}))
 
 
 def _far(a, b):

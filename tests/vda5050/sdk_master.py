@@ -36,7 +36,7 @@ def action(kind, **parameters):
 
 def position(cell):
     x, y = FLOOR["x"] + cell[0] * FLOOR["spacing"], FLOOR["y"] + cell[1] * FLOOR["spacing"]
-    return dict(x=x, y=y, map_id=MAP)
+    return {"x": x, "y": y, "map_id": MAP}
 
 
 def name(cell):
@@ -70,7 +70,7 @@ class Peer:
         self.speeds = []
         self.client.on_state(self._on_state)
         self.client.on_vehicle_error(lambda event, key: self.errors.append((str(key), event)))
-        self.client.on_error(lambda event: self.faults.append(event))
+        self.client.on_error(self.faults.append)
 
     def _on_state(self, state, key):
         self.states[key.serial_number] = state
@@ -111,8 +111,10 @@ async def fetches_carries_drops(peer, trip):
     assert [load.load_id for load in peer.states[robot].loads] == [str(trip["unit"])]
     await peer.drive(robot, trip["onward"], last=action("drop", stationType="floor"))
     assert not peer.states[robot].loads
-    say(f"robot {robot} brought unit {trip['unit']} to {trip['station']} in "
-        f"{time.monotonic() - start:.1f} s")
+    say(
+        f"robot {robot} brought unit {trip['unit']} to {trip['station']} in "
+        f"{time.monotonic() - start:.1f} s"
+    )
     await peer.drive(robot, [trip["onward"][-1]], last=action("pick", loadId=trip["unit"]))
     await peer.drive(robot, trip["back"], last=action("drop"))
     say("and back")
@@ -144,7 +146,7 @@ async def extends_without_a_dip(peer, trip):
         for k, edge in enumerate(edges):
             edge.released = index + k < released
         message = sent.model_copy(
-            update=dict(order_update_id=update, nodes=list(nodes), edges=list(edges))
+            update={"order_update_id": update, "nodes": list(nodes), "edges": list(edges)}
         )
         await peer.client._publish_order(key_of(robot), message)
     await peer.until(lambda: peer.over(robot, sent.order_id), what="the end")
@@ -208,17 +210,23 @@ async def refuses(peer, trip):
     for what, (cells, text) in bad.items():
         sent = order(robot, cells)
         await peer.client._publish_order(key_of(robot), sent)
-        told = lambda text=text: any(text in (e.error_description or "") for e in peer.states[robot].errors)
+
+        def told(text=text):
+            return any(text in (e.error_description or "") for e in peer.states[robot].errors)
+
         await peer.until(told, what=what)
         (error,) = [e for e in peer.states[robot].errors if text in e.error_description]
         say(f"{what}: {error.error_type}: {error.error_description}")
         assert error.error_type in ("orderError", "noRouteError")
     sent = order(robot, [here])
-    sent = sent.model_copy(update=dict(order_update_id=3))
+    sent = sent.model_copy(update={"order_update_id": 3})
     await peer.client._publish_order(key_of(robot), sent)
     await peer.until(lambda: peer.states[robot].order_update_id == 3, what="update 3")
-    await peer.client._publish_order(key_of(robot), sent.model_copy(update=dict(order_update_id=2)))
-    is_old = lambda: [e for e in peer.states[robot].errors if e.error_type == "orderUpdateError"]
+    await peer.client._publish_order(key_of(robot), sent.model_copy(update={"order_update_id": 2}))
+
+    def is_old():
+        return [e for e in peer.states[robot].errors if e.error_type == "orderUpdateError"]
+
     await peer.until(is_old, what="a lower update")
     say(f"lower update: {is_old()[0].error_description}")
 

@@ -217,8 +217,8 @@ class World {
   /// Puts a robot where another one is that it is the shadow of: in a hall, behind a broker. From
   /// the first report on it takes no commands, since others answer them: lasers see it, its load
   /// goes with it, and it tells what it is told. Ends when the robot is removed. Throws
-  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit, another
-  /// robot carries the unit, or a number is not finite.
+  /// std::invalid_argument, with nothing changed, if there is no such robot or storage unit,
+  /// another robot carries the unit, or a number is not finite.
   void shadow(int kiva_id, const ShadowReport& report);
   bool isShadow(int kiva_id) const;
 

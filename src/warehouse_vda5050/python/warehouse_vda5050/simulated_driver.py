@@ -201,5 +201,3 @@ def _errors(seen: Sighting) -> tuple[Error, ...]:
         if seen.failures & 1 << kind
     ]
     return (*errors, LOST) if seen.lost else tuple(errors)
-
-

@@ -15,9 +15,7 @@ class VehiclesTopic:
     def __init__(self, broker: str) -> None:
         self._broker = broker
         self._told: Any = None
-        self._publisher = rospy.Publisher(
-            "/warehouse/vda5050", Vda5050, latch=True, queue_size=1
-        )
+        self._publisher = rospy.Publisher("/warehouse/vda5050", Vda5050, latch=True, queue_size=1)
 
     def tell(self, vehicles: Vehicles) -> None:
         """Publishes if something changed."""

@@ -21,6 +21,7 @@ class VehiclesNode:
         arguments: BrokerArguments = read_arguments(rospy.get_param)
         interval = float(rospy.get_param("~interval", 1.0))
         self._stack = contextlib.ExitStack()
+        self._stopping = False
         broker, self._address = own_broker(arguments, self._stack)
         settings = SiteSettings(
             str(rospy.get_param("~manufacturer", "kiva")),
@@ -34,12 +35,16 @@ class VehiclesNode:
         self._vehicles = Vehicles(self._world, settings, rospy.loginfo)
         self._topic = VehiclesTopic(self._address)
 
+    def stop(self, *_: object) -> None:
+        """Lets run() end; a handler of signals."""
+        self._stopping = True
+
     def run(self) -> None:
-        """Goes on until the node is shut down."""
+        """Goes on until stop(), or until the node is shut down; then gives all robots back."""
         with self._stack:
             self._stack.callback(self._vehicles.close)
             told = 0.0
-            while not rospy.is_shutdown():
+            while not (self._stopping or rospy.is_shutdown()):
                 self._vehicles.loop.poll(PERIOD)
                 self._update()
                 if time.monotonic() - told > 0.5:

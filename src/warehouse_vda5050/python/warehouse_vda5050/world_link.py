@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The running warehouse as its topics and services offer it to drivers of its robots."""
 
+import contextlib
 import threading
 from collections import deque
 from collections.abc import Sequence
@@ -102,7 +103,8 @@ class WorldLink:
         x, y = motion[0], motion[1]
         at_charger = bool(self.grid and self.grid.cell_at(x, y) in self.chargers)
         lost = one in self._lost and not self._was_moved(one, x, y, work[0] == 0)
-        return Sighting(*motion, *work, *health, one in self._people, at_charger, lost)
+        told = [*motion, *work, *health, one in self._people, at_charger, lost]
+        return Sighting(*told)
 
     def _was_moved(self, one: int, x: float, y: float, idle: bool) -> bool:
         """Returns whether a lost robot was moved by others, and knows its place since then."""
@@ -152,25 +154,29 @@ class WorldLink:
         """Publishes on /warehouse/follow."""
         x, y = zip(*points)
         message = FleetFollow([kiva_id], [path_id], [first], [len(x)], x, y, [released])
-        self._topics["/warehouse/follow"].publish(message)
+        self._publish("/warehouse/follow", message)
 
     def lift(self, kiva_id: int, shelf_id: int, up: bool) -> None:
         """Publishes on /lift."""
-        self._topics["/lift"].publish(Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
+        self._publish("/lift", Lift.CARRY if up else Lift.DROP, kiva_id, shelf_id)
 
     def cancel(self, kiva_id: int) -> None:
         """Publishes on /cancel."""
-        self._topics["/cancel"].publish(kiva_id)
+        self._publish("/cancel", kiva_id)
 
     def stop(self, kiva_id: int, stopped: bool) -> None:
         """Publishes on /stop."""
-        self._topics["/stop"].publish(kiva_id, stopped)
+        self._publish("/stop", kiva_id, stopped)
+
+    def _publish(self, topic: str, *fields: Any) -> None:
+        with contextlib.suppress(rospy.ROSException):  # the node is being shut down
+            self._topics[topic].publish(*fields)
 
     def set_mode(self, kiva_id: int, mode: int) -> str:
         """Calls /warehouse/set_robot_mode; returns why not, '' if so or there is no coordinator."""
         try:
             answer = self._mode(kiva_id, mode)
-        except rospy.ServiceException:
+        except (rospy.ServiceException, rospy.ROSException):
             return ""
         return "" if answer.success else f"the coordinator keeps the robot: {answer.message}"
 

@@ -99,7 +99,7 @@ export class Details {
     out.push(['load', load < 0 ? 'none' : link(scene.units[load])]);
     if (limit > 0) out.push(['deceleration', `${limit.toFixed(1)} m/s² at most, so that the load does not tip`]);
     if (load >= 0) out.push(['items', String(world.itemsOf[load].length)]);
-    return out;
+    return [...out, ...vda5050Of(scene.robots[index])];
   }
 
   factsOfUnit(index) {

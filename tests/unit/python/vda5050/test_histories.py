@@ -12,7 +12,7 @@ from grid_robot import GRID, Bench, drop, is_over, order, pick, row
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-HISTORIES = int(os.environ.get("VDA5050_HISTORIES", "60"))
+HISTORIES = int(os.environ.get("VDA5050_HISTORIES", "25"))
 TRIPS = [row(0, 6), [(6, 0), (6, 1), (6, 2), (5, 2)], [(5, 2), (4, 2), (4, 1), (4, 0)]]
 FATES = st.lists(st.sampled_from(["arrives", "lost", "doubled", "late"]), min_size=4, max_size=40)
 

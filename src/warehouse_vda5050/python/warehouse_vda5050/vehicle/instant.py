@@ -24,8 +24,8 @@ class ActionError(Exception):
 class InstantDesk:
     """Begins instant actions of one vehicle, and tells how far each has come.
 
-    Masters repeat what they don't find in the state, so an actionId that is known is not done again;
-    others name all their pauses "pause", so some time later it is.
+    Masters repeat what they don't find in the state, so an actionId that is known is not done
+    again; others name all their pauses "pause", so some time later it is.
     """
 
     def __init__(self, vehicle: Vehicle) -> None:
