@@ -18,14 +18,12 @@ async function showPages() {
 
 /** A page's link tells how many things wait there for a person. */
 async function followCount(link, title, address) {
-  if (link.hasAttribute('aria-current')) { // that page knows it sooner
-    on(window, 'count', ({ detail }) => showCount(link, title, detail));
-    return;
-  }
+  const isHere = link.hasAttribute('aria-current');
+  if (isHere) on(window, 'count', ({ detail }) => showCount(link, title, detail)); // sooner than others
   const answer = await fetch(address).catch(() => null);
   const { total = 0 } = answer?.ok ? await answer.json() : {};
   showCount(link, title, total);
-  setTimeout(() => followCount(link, title, address), COUNT_PERIOD);
+  if (!isHere) setTimeout(() => followCount(link, title, address), COUNT_PERIOD);
 }
 
 function showCount(link, title, total) {
