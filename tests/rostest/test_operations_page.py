@@ -194,7 +194,21 @@ class OperationsPage(WorkPageTest):
         self.assertEqual((status, sheet.decode("utf-8-sig").count("up-2")), (200, 1))
         self.assertEqual(fetch("api/v1/orders.xlsx?search=up-2")[1][:2], b"PK")
 
-    def test_7_prometheus_gets_the_same_figures(self):
+    def test_7_the_last_hour_is_read_by_keys_and_alarms_are_told(self):
+        self.page.read("page.gantt.box.focus()")
+        told = "document.getElementById('gantt-told').textContent"
+        self.page.until(f"{told}.startsWith('pick1: ')")
+        self.page.type("\ue015")  # arrow down
+        self.page.until(f"{told}.startsWith('pick2: ')")
+        self.page.type("+")
+        self.page.until("!page.gantt.view.isWhole")
+        self.page.type("0")
+        self.page.until("page.gantt.view.isWhole")
+        self.assertIn("ROBOT_BROKEN", ask("/alarms")[1]["kinds"])
+        self.assertEqual(ask("/alarms/999999/seen", {"by": "Anna"})[0], 404)
+        self.assertEqual(ask("/alarms/1/seen", {"by": "x" * 61})[0], 422)
+
+    def test_8_prometheus_gets_the_same_figures(self):
         status, text = fetch("metrics")
         families = text_string_to_metric_families(text.decode())
         told = {(s.name, *s.labels.values()): s.value for f in families for s in f.samples}

@@ -11,7 +11,7 @@ import { lateness } from '../../../src/warehouse_viewer/web/js/order_row.js';
 import { sizeOf } from '../../../src/warehouse_viewer/web/js/order_upload.js';
 import { waitingOf, waitsOf } from '../../../src/warehouse_viewer/web/js/stations.js';
 import { pointsOf, ratesOf, smoothed } from '../../../src/warehouse_viewer/web/js/throughput.js';
-import { clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
+import { before, clock, lasting } from '../../../src/warehouse_viewer/web/js/time.js';
 import { piecesByUnit, skuIn } from '../../../src/warehouse_viewer/web/js/where.js';
 
 test('rates are of the time that an interval really had', () => {
@@ -40,6 +40,7 @@ test('a figure is judged by its target', () => {
 test('spans of time are told in words', () => {
   assert.deepEqual([40, 99.6, 720, 3900].map(lasting), ['40 s', '2 min', '12 min', '1 h 5 min']);
   assert.equal(clock(3723), '1:02:03');
+  assert.deepEqual([30, 225, 240].map(before), ['30 s', '3:45', '4 min']);
 });
 
 test('a row of a station tells who waits for whom', () => {

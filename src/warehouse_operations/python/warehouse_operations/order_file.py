@@ -162,6 +162,6 @@ def _field(
     if value is None or not least <= value <= most:
         what = "a whole number" if kind is int else "a number"
         raise _FieldError(
-            name, f"{name} is '{shown(text)}'; {what} from {least} to {most:g} was expected"
+            name, f"{name} is '{shown(text)}'; {what} from {least} to {most:.10g} was expected"
         )
     return value

@@ -84,7 +84,7 @@ def find_stock(
 
 
 def matching(names: Iterable[str], search: str) -> list[str]:
-    """Returns the names with a text in them: those that begin with it first, sku-2 before sku-10."""
+    """Returns the names that have a text in them: first those that begin with it, by number."""
     text = search.casefold()
     found = [name for name in names if text in name.casefold()]
     return sorted(found, key=lambda name: (not name.casefold().startswith(text), _natural(name)))

@@ -54,6 +54,7 @@ export class Alarms {
     const unseen = all.filter(({ seen_by: by }) => !by).length;
     $('no-alarms').hidden = all.length > 0;
     $('alarm-count').textContent = all.length ? `${all.length}, ${unseen} not seen` : '';
+    dispatchEvent(new CustomEvent('count', { detail: all.length })); // for the page's link
     document.title = all.length ? `(${all.length}) ${TITLE}` : TITLE;
   }
 

@@ -34,7 +34,7 @@ export function verdict({ value, target }, most = false) {
   if (!target) return ['', ''];
   const miss = most ? value - target : (target - value) / target;
   if (miss <= (most ? 0 : EXACT)) return ['good', 'on target'];
-  return miss <= (most ? target : NEAR) ? ['near', 'just below target'] : ['missed', most ? 'above target' : 'below target'];
+  return miss <= (most ? target : NEAR) ? ['near', most ? 'just above target' : 'just below target'] : ['missed', most ? 'above target' : 'below target'];
 }
 
 const COLOURS = { good: 'working', near: 'waiting', missed: 'needs-help', '': 'moving' };

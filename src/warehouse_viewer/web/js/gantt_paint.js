@@ -2,7 +2,7 @@
 // Draws the rows of a Gantt that are in sight, in the five colours of activities.
 
 import { font, token } from './charts.js';
-import { lasting } from './time.js';
+import { before } from './time.js';
 import { ACTIVITY_CLASS } from './words.js';
 
 export const AXIS = 24; // its height [px]
@@ -85,7 +85,7 @@ function axis(context, view, colours, width) {
   for (const { time, ago } of view.ticks(view.width / 90)) {
     const x = view.x(time);
     context.textAlign = x > width - 30 ? 'right' : x < view.left + 24 ? 'left' : 'center';
-    context.fillText(ago ? `${lasting(ago)} ago` : 'now', x, AXIS / 2);
+    context.fillText(ago ? `${before(ago)} ago` : 'now', x, AXIS / 2);
   }
   context.fillStyle = colours.line;
   context.fillRect(0, AXIS - 1, width, 1);

@@ -5,6 +5,7 @@ import { post } from './api.js';
 import { $, make, on } from './dom.js';
 
 const MOST = 4_000_000; // characters
+const MOST_FAULTS = 20; // that the server tells
 const SAVE_AS = "save it as CSV in UTF-8 (in spreadsheets: 'CSV UTF-8')";
 
 const counted = (n, word) => `${n.toLocaleString('en')} ${word}${n === 1 ? '' : 's'}`;
@@ -64,8 +65,8 @@ export class OrderUpload {
 
   show(answer) {
     if (!answer.accepted) {
-      const some = answer.faults.length >= 20 ? 'the first ones are' : answer.faults.length === 1 ? 'what is wrong is' : 'these are';
-      this.say(`${this.name} is not accepted`, `No order of it is in the list; ${some}:`, answer.faults);
+      const some = answer.faults.length < MOST_FAULTS ? 'What is wrong' : 'The first of what is wrong';
+      this.say(`${this.name} is not accepted`, `None of its orders is in the list. ${some}:`, answer.faults);
       return;
     }
     this.say(this.name, `${sizeOf(answer)}. Nothing is wrong with them.`);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way from page to page: the server tells which pages it has.
 
-import { make } from './dom.js';
+import { make, on } from './dom.js';
 
 const COUNT_PERIOD = 10000; // [ms]
 
@@ -18,12 +18,18 @@ async function showPages() {
 
 /** A page's link tells how many things wait there for a person. */
 async function followCount(link, title, address) {
+  const isHere = link.hasAttribute('aria-current');
+  if (isHere) on(window, 'count', ({ detail }) => showCount(link, title, detail)); // sooner than others
   const answer = await fetch(address).catch(() => null);
   const { total = 0 } = answer?.ok ? await answer.json() : {};
+  showCount(link, title, total);
+  if (!isHere) setTimeout(() => followCount(link, title, address), COUNT_PERIOD);
+}
+
+function showCount(link, title, total) {
   const badge = make('span', { className: 'badge needs-help count', textContent: total, ariaLabel: `${total} alarms`, title: `${total} alarms` });
   badge.setAttribute('role', 'img');
   link.replaceChildren(title, ...(total ? [badge] : []));
-  setTimeout(() => followCount(link, title, address), COUNT_PERIOD);
 }
 
 showPages();

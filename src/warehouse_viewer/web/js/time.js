@@ -15,3 +15,10 @@ export function lasting(seconds) {
   const minutes = Math.round(s / 60);
   return minutes < 60 ? `${minutes} min` : `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
+
+/** A span [s] on an axis: '12 min', or '3:45' where it is no whole number of minutes. */
+export function before(seconds) {
+  const s = Math.round(seconds);
+  if (s < 60) return `${s} s`;
+  return s % 60 ? `${Math.floor(s / 60)}:${pad(s % 60)}` : `${s / 60} min`;
+}

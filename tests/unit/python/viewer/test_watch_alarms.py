@@ -83,7 +83,9 @@ def test_the_coordinators_sentences_are_understood(text, kind, subject):
 
 def test_a_robot_that_waits_for_long_is_told_with_its_reason():
     state = CoordinatorState(
-        waiting_kiva=[1, 2], waiting_since=[0.0, 190.0], waiting_text=["behind kiva9", "…"]
+        waiting_kiva=[1, 2, 3],
+        waiting_since=[0.0, 190.0, 0.0],
+        waiting_text=["behind kiva9", "…", "in the queue of pick1 behind kiva4"],
     )
     state.header.stamp.secs = 200
     assert list(troubles.of_coordinator(state)) == [

@@ -2,8 +2,8 @@
 """The four figures by which a shift is led, with their last hour and their targets.
 
 Pieces per hour: nine tenths of what the open stations can do at most. Orders per hour: as many as
-come in. Late orders: one in fifty at most. Robots available, that is, neither waiting for too long
-nor in need of help nor out of service: nineteen in twenty.
+come in. Late orders: one in fifty at most. Robots available, that is, neither in need of help nor
+commanded by a person nor out of service: nineteen in twenty.
 """
 
 from collections import deque

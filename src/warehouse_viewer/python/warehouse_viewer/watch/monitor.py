@@ -18,7 +18,6 @@ from warehouse_viewer.watch.span_log import SpanLog
 from warehouse_viewer.watch.station_watch import StationWatch
 
 PERIOD = 0.5  # between two looks [s, wall]
-HINDERED = (Activity.WAITING, Activity.NEEDS_HELP)
 LOG = logging.getLogger(__name__)
 
 
@@ -131,9 +130,9 @@ class Monitor:
 
 def _available(does: np.ndarray, coordinator: Any) -> tuple[float, int]:
     """Returns the share of robots that can work, and how many robots there are."""
-    hindered = int(np.isin(does, HINDERED).sum())
-    away = coordinator.out_of_service if coordinator else 0
-    return max(0.0, 1 - (hindered + away) / max(len(does), 1)), len(does)
+    away = coordinator.out_of_service + coordinator.manual if coordinator else 0
+    helpless = int((does == Activity.NEEDS_HELP).sum())
+    return max(0.0, 1 - (helpless + away) / max(len(does), 1)), len(does)
 
 
 def _without(found: Any, has_stations: bool) -> list[Trouble]:

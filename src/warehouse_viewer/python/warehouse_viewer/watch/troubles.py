@@ -14,6 +14,7 @@ from warehouse_viewer.watch.alarm_book import Trouble
 UNATTENDED = 60.0  # that a station waits for a person [s, simulated]
 STARVED = 180.0  # that a station with orders waits for a storage unit [s, simulated]
 HELD_UP = 120.0  # that a robot waits [s, simulated]
+QUEUED = 600.0  # the same in the queue of a station, where waiting is as it should be
 LASTING = 600.0  # for which what happened in a moment is told [s, simulated]
 
 # By what the coordinator's sentences are like; the first group is whom they concern.
@@ -35,7 +36,7 @@ def of_coordinator(state: Any) -> Iterator[Trouble]:
     now = state.header.stamp.to_sec()
     waits = zip(state.waiting_kiva, state.waiting_since, state.waiting_text)
     for robot, since, why in waits:
-        if now - since >= HELD_UP:
+        if now - since >= (QUEUED if why.startswith("in the queue of ") else HELD_UP):
             yield Trouble("ROBOT_WAITS", f"kiva{robot}", f"kiva{robot} waits {why}", since)
 
 
