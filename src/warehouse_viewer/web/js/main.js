@@ -23,6 +23,8 @@ import { Pointer } from './pointer.js';
 import { VERSION } from './protocol.js';
 import { momentOf } from './replay/link.js';
 import { Timeline } from './replay/timeline.js';
+import { SceneKeys, speak } from './scene_keys.js';
+import { Signs } from './signs.js';
 import { Stage } from './stage.js';
 import { Tip } from './tip.js';
 import { skuIn, Where } from './where.js';
@@ -39,7 +41,7 @@ class Page {
     const select = (name) => this.select(name);
     const say = (text, kind, at) => this.tip.say(text, kind, at);
     this.bar = new Bar(say, (...offer) => this.tip.offer(...offer));
-    this.list = new RobotList(this.world, select, (text) => this.lookFor(text));
+    this.list = new RobotList(this.world, select, (name) => this.find(name), (text) => this.lookFor(text));
     this.log = new EventLog(select);
     this.ways = new Map(); // of robots, by id, as the coordinator plans them
     this.fleet = new FleetPanel(select);
@@ -65,7 +67,7 @@ class Page {
       state: (live, reason) => this.bar.showLink(live, reason),
       scene: (scene) => this.takeScene(scene),
       update: (update) => this.takeUpdate(update),
-      status: (status) => this.bar.showStatus(status),
+      status: (status) => this.takeStatus(status),
       events: ({ events }) => this.takeEvents(events),
       paths: ({ paths }) => this.takePaths(paths),
       scan: (scan) => this.takeScan(scan),
@@ -88,9 +90,11 @@ class Page {
     this.labels = new Labels(this.stage, this.world, $('labels'));
     this.overlays = new Overlays(this.stage, this.world);
     this.heat = new HeatMap(this.stage);
+    this.signs = new Signs(this.stage, this.world);
     this.picker = new Picker(this.stage, this.actors);
     this.navigator = new Navigator(this.stage);
     this.pointer = new Pointer(this, this.picker, this.overlays);
+    this.sceneKeys = new SceneKeys(this);
     on(window, 'resize', () => this.drawers.fit());
     this.fitPanels();
   }
@@ -124,10 +128,12 @@ class Page {
     this.list.search($('search').value);
   }
 
-  buildPicture({ floor, grid, paint }) {
+  buildPicture(scene) {
+    const { floor, grid } = scene;
     if (!this.stage) return;
     this.actors.build();
-    this.stage.setPaint(paint);
+    this.stage.setPaint(scene);
+    this.signs.build(document.documentElement.dataset.theme);
     this.overlays.trails.clear();
     if (String(floor) === this.floor) return;
     this.floor = String(floor);
@@ -150,6 +156,11 @@ class Page {
     this.stage.invalidate();
   }
 
+  takeStatus(status) {
+    this.bar.showStatus(status);
+    if (!status.away) this.stage?.pace.yieldTo(status.paused ? 1 : status.factor, status.paused ? 1 : status.target_factor);
+  }
+
   takeEvents(events) {
     this.log.add(events);
     if (events.some((e) => [e.model, e.other].includes(this.selected))) {
@@ -166,6 +177,7 @@ class Page {
     const came = Boolean(fleet) !== this.fleet.runs;
     this.isNews = true;
     this.fleet.take(fleet);
+    this.signs?.take(fleet);
     if (!came) return;
     if (!fleet) this.takeWays(new Map());
     this.list.search($('search').value);
@@ -188,7 +200,7 @@ class Page {
   beforeDraw(now) {
     const moved = this.world.advance(now + this.stage.pace.gap);
     this.actors.placeRobots(moved);
-    this.navigator.advance();
+    const flies = this.navigator.advance(now);
     if (moved.length) {
       this.actors.belts.run(Math.min(0.1, (now - (this.drawn ?? now)) / 1000));
       this.showExtras();
@@ -196,8 +208,9 @@ class Page {
     }
     this.drawn = now;
     this.actors.fill(this.stage.camera, innerHeight);
-    this.labels.draw(this.actors.view, this.named(), [...this.where.draw(), ...this.fallen.labels()]);
-    return this.world.moving.size > 0;
+    this.labels.draw(this.actors.view, this.named(), [
+      ...this.signs.labels(this.actors.view), ...this.where.draw(), ...this.fallen.labels()]);
+    return flies || this.world.moving.size > 0;
   }
 
   /** Indices of the robots that are named in the picture: the selected, and that under the pointer. */
@@ -248,6 +261,13 @@ class Page {
     this.showExtras();
     this.showDetails(name, isAnother);
     this.stage?.invalidate();
+  }
+
+  /** Selects what was searched, and flies there. */
+  find(name) {
+    this.select(name);
+    const { thing } = this.details;
+    if (thing) this.navigator?.visit(this.world.placeOf(thing), true);
   }
 
   /** The drawer of the selection opens with another one; it may have been closed since. */
@@ -320,6 +340,12 @@ class Page {
     if (!rows.length) return;
     const at = rows.findIndex((i) => this.list.nameOf(i) === this.selected);
     this.select(this.list.nameOf(rows[(at + step + rows.length) % rows.length]));
+    this.speak();
+  }
+
+  /** For who does not see the mark. */
+  speak() {
+    if (this.details.selectedRobot >= 0) speak(this.world, this.details.selectedRobot);
   }
 
   follow(wanted) {
@@ -365,6 +391,7 @@ class Page {
     this.stage?.setTheme(theme);
     this.overlays?.setTheme(theme);
     this.actors?.setTheme(theme);
+    this.signs?.setTheme(theme);
   }
 
   refreshPanels() {
