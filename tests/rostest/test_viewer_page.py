@@ -246,7 +246,9 @@ class ViewerPage(PageTest):
         self.page.read(f"(location.hash = 't={then}', 1)")
         self.page.until(f"Math.abs(page.world.shown[3] - {before[0]}) < 0.01")
         self.assertEqual(self.page.read("page.timeline.player.time"), then)
-        self.assertIn("back to Live first", self.page.read("document.getElementById('pause').title"))
+        self.assertIn(
+            "back to Live first", self.page.read("document.getElementById('pause').title")
+        )
         self.assertAlmostEqual(place("kiva2")[0], before[0] - 1, places=3)
         self.page.click_on("replay-play")
         self.page.until(f"page.world.stamp > {then} + 0.5")

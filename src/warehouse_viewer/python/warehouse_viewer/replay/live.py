@@ -12,7 +12,7 @@ from warehouse_viewer.replay.memory import SECONDS, MemoryStore
 from warehouse_viewer.replay.recorder import INTERVAL, Recorder
 from warehouse_viewer.replay.routes import RecordingRoutes
 
-LEAST_GAP, MOST_GAP = 0.08, 0.5  # between two looks at the model [s, wall]
+LEAST_GAP, MOST_GAP = 0.08, 0.2  # between two looks at the model [s, wall]
 
 
 class LiveRecording:
@@ -39,4 +39,4 @@ class LiveRecording:
     @staticmethod
     def gap(factor: float) -> float:
         """Returns how long to wait between two looks [s, wall], at a real-time factor."""
-        return min(MOST_GAP, max(LEAST_GAP, INTERVAL / max(factor, 1e-3)))
+        return min(MOST_GAP, max(LEAST_GAP, 0.4 * INTERVAL / max(factor, 1e-3)))
