@@ -152,6 +152,7 @@ class ViewerPage(PageTest):
         self.page.type(Keys.SPACE)
         self.until_link("paused")
         self.assertTrue(self.page.read("page.overlays.trails.object.visible"))
+        self.page.read("page.drawers.open('log-panel')")
         self.page.click_on("trouble")
         self.page.type(Keys.SPACE)
         self.until_link("live")
@@ -319,6 +320,7 @@ class ViewerPage(PageTest):
         with tempfile.TemporaryDirectory() as folder:
             where = {"behavior": "allow", "downloadPath": folder}
             self.page.driver.execute_cdp_cmd("Page.setDownloadBehavior", where)
+            self.page.read("page.drawers.open('log-panel')")
             for link in self.page.driver.find_elements("css selector", "a[download]"):
                 link.click()
             files = [os.path.join(folder, f"events.{kind}") for kind in ("csv", "json")]
@@ -345,10 +347,10 @@ class Phone(PageTest):
 
     def test_everything_is_as_large_as_a_finger_and_has_a_name(self):
         self.page.read("page.select('kiva1')")
-        for sheet in ("details-panel", "list-panel", "log-panel", "view-panel"):
-            self.page.read(f"page.sheets.show('{sheet}')")
+        for drawer in ("details-panel", "list-panel", "log-panel", "view-panel"):
+            self.page.read(f"page.drawers.open('{drawer}') ?? true")
             small = self.page.read(SMALL)
-            self.assertEqual(small, [], sheet)
+            self.assertEqual(small, [], drawer)
         self.page.read("page.select(null)")
 
     def test_reset_lies_apart_from_undo(self):

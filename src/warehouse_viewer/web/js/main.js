@@ -7,6 +7,7 @@ import { Builder } from './builder.js';
 import { Connection } from './connection.js';
 import { Details } from './details.js';
 import { $, isPressed, on, press } from './dom.js';
+import { Drawers, marginsOf } from './drawers.js';
 import { FallenItems } from './fallen.js';
 import { FleetPanel } from './fleet.js';
 import { HeatMap } from './heat.js';
@@ -14,7 +15,6 @@ import { Keys } from './keys.js';
 import { Labels } from './labels.js';
 import { RobotList } from './list.js';
 import { EventLog } from './log.js';
-import { marginsOf, Sheets } from './sheets.js';
 import { Navigator } from './navigator.js';
 import { Overlays } from './overlays.js';
 import { isPerson, People } from './people.js';
@@ -48,7 +48,7 @@ class Page {
       (request) => this.builder.attempt(request));
     this.details = new Details(this.world, select, say, { isPaused: () => this.bar.paused,
       fleet: this.fleet, fallen: this.fallen, wayOf: (id) => this.ways.get(id) });
-    this.sheets = new Sheets(() => this.fitPanels());
+    this.drawers = new Drawers(() => this.fitPanels());
     this.selected = null;
     this.isNews = false; // that the panels don't show yet
     this.floor = '';
@@ -57,7 +57,7 @@ class Page {
     this.openStage();
     this.where = new Where(this.stage, this.world, (...found) => this.list.showPieces(...found), (text) => this.tip.say(text, 'refused'));
     this.addButtons();
-    this.keys = new Keys((step) => this.next(step), () => this.leave());
+    this.keys = new Keys((step) => this.next(step), () => this.leave(), () => this.goToSearch());
     setInterval(() => this.isNews && this.soon(() => this.refreshPanels()), PANELS_EVERY);
     this.connection = new Connection({
       state: (live, reason) => this.bar.showLink(live, reason),
@@ -88,7 +88,7 @@ class Page {
     this.picker = new Picker(this.stage, this.actors);
     this.navigator = new Navigator(this.stage);
     this.pointer = new Pointer(this, this.picker, this.overlays);
-    on(window, 'resize', () => this.fitPanels());
+    on(window, 'resize', () => this.drawers.fit());
     this.fitPanels();
   }
 
@@ -233,6 +233,7 @@ class Page {
 
   // --- the person
   select(name) {
+    const isAnother = name !== this.selected;
     this.selected = name;
     this.details.show(name);
     this.list.choose(name);
@@ -241,8 +242,15 @@ class Page {
     this.follow(isPressed($('follow')));
     this.showWays();
     this.showExtras();
-    this.sheets.show(name ? 'details-panel' : null);
+    this.showDetails(name, isAnother);
     this.stage?.invalidate();
+  }
+
+  /** The drawer of the selection opens with another one; it may have been closed since. */
+  showDetails(name, isAnother) {
+    $('details-tab').hidden = !name;
+    if (name && isAnother) this.drawers.open('details-panel');
+    else if (!name) this.drawers.close('details-panel');
   }
 
   /** What waits for a cell to put something there. */
@@ -277,6 +285,11 @@ class Page {
     const sku = skuIn(text);
     if (sku && !this.fleet.runs) return; // the stock is known only while a coordinator runs
     this.typing = setTimeout(() => this.where.ask(sku), sku ? TYPING : 0);
+  }
+
+  goToSearch() {
+    this.drawers.open('list-panel');
+    $('search').focus();
   }
 
   leave() {
@@ -347,6 +360,7 @@ class Page {
     localStorage.setItem('theme', theme);
     this.stage?.setTheme(theme);
     this.overlays?.setTheme(theme);
+    this.actors?.setTheme(theme);
   }
 
   refreshPanels() {

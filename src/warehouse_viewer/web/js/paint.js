@@ -5,10 +5,10 @@ import * as THREE from '/three/build/three.module.js';
 
 const HEIGHT = -0.005; // between the floor and the borders of its cells [m]
 const COLOURS = {
-  dark: { storage: 0x343b46, parking: 0x2e3d39, charging: 0x2c5138, keep_out: 0x24272c, exits: 0x2d333c,
-    queue: 0x5a5030, service: 0x8a6a2a, exit: 0x47432f },
-  light: { storage: 0xc3cad4, parking: 0xc2d2cb, charging: 0xa4d2ae, keep_out: 0xcac8c4, exits: 0xd0d5dc,
-    queue: 0xe2d6a8, service: 0xd9ae5b, exit: 0xdcd8bd },
+  dark: { storage: 0x2c333e, parking: 0x26332f, charging: 0x21402d, keep_out: 0x1c2026, exits: 0x29303a,
+    queue: 0x39352a, service: 0x6b5526, exit: 0x2f2e28, arrows: 0x56616f },
+  light: { storage: 0xd6dce4, parking: 0xd3e2da, charging: 0xb9dfc4, keep_out: 0xd2d5d9, exits: 0xdde2e8,
+    queue: 0xeee4c4, service: 0xe9c67d, exit: 0xe9e6d6, arrows: 0xaab4c0 },
 };
 
 export class Paint {

@@ -9,8 +9,8 @@ import { Paint, behind } from './paint.js';
 import { drawsInSoftware } from './software.js';
 
 const COLOURS = {
-  dark: { page: 0x14171c, floor: 0x2a2f37, grid: 0x414955, sky: 0xffffff, ground: 0x565b66 },
-  light: { page: 0xeef1f4, floor: 0xd5dae0, grid: 0xb4bcc6, sky: 0xffffff, ground: 0x9a9a9a },
+  dark: { page: 0x0f1216, floor: 0x262c35, grid: 0x2f3640, sky: 0xffffff, ground: 0x565b66 },
+  light: { page: 0xeef1f5, floor: 0xe2e6eb, grid: 0xd3d9e0, sky: 0xffffff, ground: 0x9a9a9a },
 };
 const MOST_LINES = 600; // of the grid, along each axis
 

@@ -13,8 +13,9 @@ from urllib.parse import parse_qs, urlsplit
 from warehouse_viewer.server import token_page
 
 MOST_BODY = 64 * 1024  # [bytes]
-MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts are sent
-LAYOUT_FOLDERS, LAYOUT_PATHS = ("/layout/", "/whatif/"), ("/api/v1/warehouse",)
+MOST_LAYOUT = 8 * 1024 * 1024  # the same where layouts and tables of orders are sent
+LAYOUT_FOLDERS = ("/layout/", "/whatif/")
+LAYOUT_PATHS = ("/api/v1/warehouse", "/api/v1/orders/table")
 COOKIE = "warehouse_token"
 CONTENT = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'"
 HEADERS = [
