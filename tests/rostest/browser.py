@@ -23,6 +23,9 @@ OPTIONS = (
     "--disable-sync",
     "--hide-scrollbars",
 )
+# Pages that let a person choose name the theme; others follow the system's.
+THEME = """const { dataset } = document.documentElement;
+if (dataset.theme) dataset.theme = arguments[0];"""
 
 
 class Browser:
@@ -44,6 +47,13 @@ class Browser:
         """Takes be_phone() back."""
         self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         self.driver.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+    def wear(self, theme):
+        """Dresses the page in "dark" or "light", as the system or a person would, at once."""
+        wanted = {"prefers-color-scheme": theme, "prefers-reduced-motion": "reduce"}
+        features = [{"name": name, "value": value} for name, value in wanted.items()]
+        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+        self.driver.execute_script(THEME, theme)
 
     def read(self, expression):
         """The value of a JavaScript expression, in which `page` is the page's object."""

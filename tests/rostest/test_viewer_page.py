@@ -236,6 +236,27 @@ class ViewerPage(PageTest):
     def until_link(self, state):
         self.page.until(f"document.getElementById('link').dataset.state === '{state}'")
 
+    def test_the_past_is_seen_while_the_simulation_goes_on(self):
+        self.page.until("!document.getElementById('timeline').hidden")
+        then, before = self.page.read("page.world.stamp"), self.drawn(2)
+        Robot(2).do("/movx", distance=-1.0)
+        self.page.until(f"Math.abs(page.world.shown[3] - {before[0] - 1}) < 0.01")
+        # Back by the keyboard, as far as the moment before.
+        self.page.driver.find_element("id", "replay-track").send_keys(Keys.ARROW_LEFT)
+        self.page.until("document.body.classList.contains('replaying')")
+        self.page.read(f"(location.hash = 't={then}', 1)")
+        self.page.until(f"Math.abs(page.world.shown[3] - {before[0]}) < 0.01")
+        self.assertEqual(self.page.read("page.timeline.player.time"), then)
+        self.assertIn("back to Live first", self.page.read("document.getElementById('pause').title"))
+        self.assertAlmostEqual(place("kiva2")[0], before[0] - 1, places=3)
+        self.page.click_on("replay-play")
+        self.page.until(f"page.world.stamp > {then} + 0.5")
+        self.page.click_on("replay-live")
+        self.until_link("live")
+        self.page.until(f"Math.abs(page.world.shown[3] - {before[0] - 1}) < 0.01")
+        self.page.until("!document.getElementById('pause').disabled")
+        Robot(2).do("/movx", distance=1.0)
+
     def test_pauses(self):
         self.page.click_on("pause")
         self.until_link("paused")

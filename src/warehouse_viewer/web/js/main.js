@@ -21,6 +21,8 @@ import { isPerson, People } from './people.js';
 import { Picker } from './picker.js';
 import { Pointer } from './pointer.js';
 import { VERSION } from './protocol.js';
+import { momentOf } from './replay/link.js';
+import { Timeline } from './replay/timeline.js';
 import { SceneKeys, speak } from './scene_keys.js';
 import { Signs } from './signs.js';
 import { Stage } from './stage.js';
@@ -72,6 +74,7 @@ class Page {
       fleet: ({ fleet }) => this.takeFleet(fleet),
       ways: ({ ways }) => this.takeWays(ways),
     }, (act) => this.soon(act));
+    this.timeline = new Timeline(this);
   }
 
   /** Without WebGL list and commands work all the same. */
@@ -143,6 +146,7 @@ class Page {
     const changed = this.world.apply(update, performance.now());
     this.isNews = true;
     this.bar.showTime(update.stamp);
+    this.timeline.note(update.stamp);
     if (!this.stage) return;
     this.actors.robots.paint(changed.robots);
     this.actors.placeUnits(changed.units);
@@ -412,7 +416,7 @@ function halfOf({ min, max }) {
 }
 
 window.page = new Page(); // for a look from the console
-// /#sku-17 asks at once where that is.
-const askHash = () => window.page.list.ask(location.hash.slice(1));
+// /#sku-17 asks at once where that is; /#t=630 is a moment.
+const askHash = () => momentOf(location.hash) || window.page.list.ask(location.hash.slice(1));
 on(window, 'hashchange', askHash);
 askHash();

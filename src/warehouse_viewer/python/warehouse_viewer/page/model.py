@@ -138,10 +138,14 @@ class Model:
         return speeds[:, robots].max(axis=0, initial=0) < STANDS
 
     # --- out to pages
+    @property
+    def tables(self) -> tuple[Table, Table, Table, Table]:
+        """The tables in the order of an update."""
+        return self.robots, self.units, self.loose, self.scenery
+
     def encode_update(self, since: int) -> bytes:
         """Returns the message for a page that has shown the tick `since`; see protocol.py."""
-        tables = (self.robots, self.units, self.loose, self.scenery)
-        rows = [table.since(since) for table in tables]
+        rows = [table.since(since) for table in self.tables]
         return protocol.update(self.tick, self.stamp, self.revision, rows)
 
     def scene_text(self) -> str:
