@@ -10,6 +10,7 @@ import os
 import tempfile
 import time
 
+import axe
 import rospy
 import rostest
 from node_test import PATIENCE, Robot, wait_until
@@ -206,6 +207,10 @@ class ViewerPage(PageTest):
         self.page.type("14")
         self.page.until("page.drawers.isOpen('list-panel') && !page.drawers.isOpen('log-panel')")
 
+    def test_axe_finds_nothing(self):
+        self.page.read("[page.select('kiva1'), page.drawers.open('log-panel')]")
+        self.assertEqual(axe.findings(self.page), [])
+
     # --- clicks
     def test_an_aisle_behind_units_can_be_clicked(self):
         # Straight behind a row of units, as seen from the default view.
@@ -247,7 +252,9 @@ class ViewerPage(PageTest):
         self.page.read(f"(location.hash = 't={then}', 1)")
         self.page.until(f"Math.abs(page.world.shown[3] - {before[0]}) < 0.01")
         self.assertEqual(self.page.read("page.timeline.player.time"), then)
-        self.assertIn("back to Live first", self.page.read("document.getElementById('pause').title"))
+        self.assertIn(
+            "back to Live first", self.page.read("document.getElementById('pause').title")
+        )
         self.assertAlmostEqual(place("kiva2")[0], before[0] - 1, places=3)
         self.page.click_on("replay-play")
         self.page.until(f"page.world.stamp > {then} + 0.5")
