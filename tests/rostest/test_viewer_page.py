@@ -10,6 +10,7 @@ import os
 import tempfile
 import time
 
+import axe
 import rospy
 import rostest
 from node_test import PATIENCE, Robot, wait_until
@@ -60,7 +61,8 @@ class ViewerPage(PageTest):
     ready = f"page.world.scene.robots.length === {ROBOTS} && page.stage.frames > 2"
 
     def tearDown(self):
-        self.page.read("page.select(null)")
+        # A search flies to what it finds: the next test clicks where all is seen.
+        self.page.read("[page.select(null), page.showAll(false)]")
         super().tearDown()
 
     def drawn(self, robot):
@@ -204,6 +206,10 @@ class ViewerPage(PageTest):
         self.assertFalse(self.page.read("page.drawers.isOpen('list-panel')"))
         self.page.type("14")
         self.page.until("page.drawers.isOpen('list-panel') && !page.drawers.isOpen('log-panel')")
+
+    def test_axe_finds_nothing(self):
+        self.page.read("[page.select('kiva1'), page.drawers.open('log-panel')]")
+        self.assertEqual(axe.findings(self.page), [])
 
     # --- clicks
     def test_an_aisle_behind_units_can_be_clicked(self):

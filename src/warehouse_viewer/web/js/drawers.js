@@ -6,7 +6,8 @@ import { $, on } from './dom.js';
 
 const NARROW = matchMedia('(max-width: 760px)'); // as in floor.css: one place for all
 const GAP = 8; // [px]
-const OPEN_AT_FIRST = { wide: ['list-panel', 'view-panel'], narrow: [] };
+const ROOMY = 1200; // a window in which the list leaves the floor enough [px]
+const OPEN_AT_FIRST = { wide: innerWidth < ROOMY ? ['view-panel'] : ['list-panel', 'view-panel'], narrow: [] };
 const PASSING = 'details-panel'; // it comes and goes with what is selected
 
 const all = () => [...document.querySelectorAll('.drawer')];
